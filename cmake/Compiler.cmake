@@ -1,0 +1,34 @@
+# Language level, warnings, sanitizers and machine flags, the same for every target.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+add_library(asperity_options INTERFACE)
+target_include_directories(asperity_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(asperity_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                       -Wno-sign-conversion -Wnon-virtual-dtor)
+# GCC 12 sees an overlap in `"text" + std::string` that is not there (GCC bug 105651).
+target_compile_options(asperity_options INTERFACE
+                       $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+# Contraction of a*b+c would make debug, release and clang builds disagree in the last bit.
+target_compile_options(asperity_options INTERFACE -ffp-contract=off)
+target_compile_definitions(asperity_options INTERFACE EIGEN_DONT_PARALLELIZE)
+if(ASPERITY_WARNINGS_AS_ERRORS)
+  target_compile_options(asperity_options INTERFACE -Werror)
+endif()
+if(ASPERITY_NATIVE AND NOT ASPERITY_SANITIZE)
+  target_compile_options(asperity_options INTERFACE -march=native)
+endif()
+if(ASPERITY_SANITIZE)
+  target_compile_options(asperity_options INTERFACE -fsanitize=address,undefined
+                         -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(asperity_options INTERFACE -fsanitize=address,undefined)
+endif()

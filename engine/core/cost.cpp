@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/cost.hpp"
+
+#include <algorithm>
+
+namespace asperity {
+
+namespace {
+thread_local double thread_transforms = 0;
+thread_local std::int64_t thread_held = 0;
+thread_local std::int64_t thread_peak = 0;
+}  // namespace
+
+namespace cost {
+void count_transforms(double weighted) { thread_transforms += weighted; }
+void count_bytes(std::int64_t change) noexcept {
+  thread_held += change;
+  thread_peak = std::max(thread_peak, thread_held);
+}
+double transforms() { return thread_transforms; }
+}  // namespace cost
+
+Cost& Cost::operator+=(const Cost& other) {
+  seconds += other.seconds;
+  transforms += other.transforms;
+  bytes = std::max(bytes, other.bytes);
+  return *this;
+}
+
+CostScope::CostScope()
+    : start_(std::chrono::steady_clock::now()),
+      transforms_(thread_transforms),
+      held_(thread_held),
+      outer_peak_(thread_peak) {
+  thread_peak = thread_held;
+}
+
+CostScope::~CostScope() { thread_peak = std::max(thread_peak, outer_peak_); }
+
+Cost CostScope::so_far() const {
+  Cost result;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  result.transforms = thread_transforms - transforms_;
+  result.bytes = thread_peak - held_;
+  return result;
+}
+
+}  // namespace asperity

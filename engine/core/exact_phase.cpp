@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/exact_phase.hpp"
+
+#include <mpfr.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "engine/core/error.hpp"
+#include "engine/core/grid.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+// A number of fixed precision, freed with its scope.
+class Real {
+ public:
+  explicit Real(mpfr_prec_t bits) { mpfr_init2(value_, bits); }
+  ~Real() { mpfr_clear(value_); }
+  Real(const Real&) = delete;
+  Real& operator=(const Real&) = delete;
+  operator mpfr_ptr() { return value_; }
+
+ private:
+  mpfr_t value_;
+};
+
+// MPFR keeps π per thread; a thread that ends would leave it behind.
+struct CacheGuard {
+  ~CacheGuard() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
+};
+
+class Integer {
+ public:
+  Integer() { mpz_init(value_); }
+  ~Integer() { mpz_clear(value_); }
+  Integer(const Integer&) = delete;
+  Integer& operator=(const Integer&) = delete;
+  operator mpz_ptr() { return value_; }
+
+ private:
+  mpz_t value_;
+};
+
+// cos(π·part/whole) for 0 ≤ part ≤ whole. Its only rational values (Niven) are taken exactly, and
+// the second quadrant is the mirror image of the first to the last bit.
+void set_cosine(mpfr_ptr result, long part, long whole) {
+  if (2 * part > whole) {
+    set_cosine(result, whole - part, whole);
+    mpfr_neg(result, result, MPFR_RNDN);
+  } else if (part == 0) {
+    mpfr_set_ui(result, 1, MPFR_RNDN);
+  } else if (2 * part == whole) {
+    mpfr_set_ui(result, 0, MPFR_RNDN);
+  } else if (3 * part == whole) {
+    mpfr_set_d(result, 0.5, MPFR_RNDN);
+  } else {
+    mpfr_const_pi(result, MPFR_RNDN);
+    mpfr_mul_si(result, result, part, MPFR_RNDN);
+    mpfr_div_si(result, result, whole, MPFR_RNDN);
+    mpfr_cos(result, result, MPFR_RNDN);
+  }
+}
+
+// floor(2⁶⁴·turns + ½) modulo 2⁶⁴; `turns` is used up.
+std::uint64_t fraction_of_turn(mpfr_ptr turns, mpz_ptr whole) {
+  mpfr_mul_2ui(turns, turns, 64, MPFR_RNDN);
+  mpfr_add_d(turns, turns, 0.5, MPFR_RNDN);
+  mpfr_get_z(whole, turns, MPFR_RNDD);
+  // GMP hands out the low word of the magnitude, whatever the sign.
+  static_assert(sizeof(unsigned long) == sizeof(std::uint64_t));
+  const std::uint64_t low = mpz_get_ui(whole);
+  return mpz_sgn(whole) < 0 ? 0 - low : low;
+}
+
+void check(double gamma, double span, int cells, int directions, int n_max) {
+  if (!(std::isfinite(gamma) && gamma > 1))
+    throw Error(ErrorCode::bad_value, "`gamma` is " + format_exact(gamma), "give a finite number above 1");
+  if (!(std::isfinite(span) && span > 0))
+    throw Error(ErrorCode::bad_value, "`span` is " + format_exact(span), "give a finite number above 0");
+  if (cells < 1 || cells > max_cells)
+    throw Error(ErrorCode::bad_value, "`cells` is " + std::to_string(cells) + " a side",
+                "give a whole number from 1 to " + std::to_string(max_cells));
+  if (const int greatest = greatest_wave_order(gamma); n_max < 0 || n_max > greatest)
+    throw Error(ErrorCode::bad_value, "`n_max` is " + std::to_string(n_max),
+                "with gamma = " + format_exact(gamma) + " give a whole number from 0 to " +
+                    std::to_string(greatest) + ": n_max*log2(gamma) may not exceed 2048, nor n_max 4096");
+  if (directions < 1 || directions > max_wave_directions)
+    throw Error(ErrorCode::bad_value, "`M` is " + std::to_string(directions),
+                "give a whole number from 1 to " + std::to_string(max_wave_directions));
+  if (const std::int64_t waves = std::int64_t{directions} * (n_max + 1); waves > max_waves)
+    throw Error(ErrorCode::bad_value,
+                "`M` of " + std::to_string(directions) + " and `n_max` of " + std::to_string(n_max) +
+                    " make " + std::to_string(waves) + " waves",
+                "M*(n_max + 1) may be " + std::to_string(max_waves) + " at most");
+}
+
+// Turns per grid step under which the 64-bit fractions would show their own grain in the heights.
+constexpr double smallest_step = 0x1p-32;
+
+mpfr_prec_t precision(double gamma, double span, int n_max) {
+  constexpr mpfr_prec_t result_bits = 64, guard_bits = 64, least = 384;
+  const auto whole_bits = static_cast<mpfr_prec_t>(std::ceil(n_max * std::log2(gamma)));
+  const mpfr_prec_t span_bits = std::max(std::ilogb(span) + 1, 0);
+  return std::max(whole_bits + span_bits + result_bits + guard_bits, least);
+}
+
+}  // namespace
+
+UnitPhase unit_phase(std::uint64_t turns) {
+  // Within an eighth of a turn of the nearest quarter the angle is as exact as a double can be, and
+  // quarters only swap and negate.
+  const std::uint64_t quarter = (turns + (std::uint64_t{1} << 61)) >> 62;
+  const auto rest = static_cast<std::int64_t>(turns - (quarter << 62));
+  const double angle = static_cast<double>(rest) * (2.0 * std::numbers::pi * 0x1p-64);
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  switch (quarter) {
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
+  }
+}
+
+int greatest_wave_order(double gamma) {
+  const double octaves = std::log2(gamma);
+  if (!(octaves * max_wave_order > max_wave_octaves)) return max_wave_order;
+  int order = static_cast<int>(max_wave_octaves / octaves);
+  // The quotient may round either way across a whole number; the product decides.
+  while ((order + 1) * octaves <= max_wave_octaves) ++order;
+  while (order * octaves > max_wave_octaves) --order;
+  return order;
+}
+
+PhaseIncrements phase_increments(double gamma, double span, int cells, int directions, int n_max) {
+  check(gamma, span, cells, directions, n_max);
+  const CacheGuard guard;
+  const mpfr_prec_t bits = precision(gamma, span, n_max);
+
+  // Direction m's sine is the cosine of |M − 2m| / 2M of a half turn. Only m ≤ M/2 is computed.
+  const int half = directions / 2;
+  std::vector<std::unique_ptr<Real>> cosines, sines;
+  auto add_direction = [&](long m) {
+    cosines.push_back(std::make_unique<Real>(bits));
+    sines.push_back(std::make_unique<Real>(bits));
+    set_cosine(*cosines.back(), m, directions);
+    set_cosine(*sines.back(), std::labs(directions - 2 * m), 2L * directions);
+  };
+  for (int m = 0; m <= half; ++m) {
+    stop_flag().check();
+    add_direction(m);
+  }
+
+  PhaseIncrements table;
+  table.directions = directions;
+  table.n_max = n_max;
+  const std::size_t waves = static_cast<std::size_t>(directions) * static_cast<std::size_t>(n_max + 1);
+  table.x.resize(waves);
+  table.y.resize(waves);
+
+  Real step(bits), ratio(bits), turns(bits);
+  Integer whole;
+  mpfr_set_d(step, span, MPFR_RNDN);
+  mpfr_div_si(step, step, cells, MPFR_RNDN);
+  mpfr_set_d(ratio, gamma, MPFR_RNDN);
+  for (int n = 0; n <= n_max; ++n) {
+    stop_flag().check();
+    if (mpfr_cmp_d(step, 0.5) <= 0) table.last_resolved = n;
+    for (int m = 1; m <= directions; ++m) {
+      const bool mirrored = m > half;
+      const auto source = static_cast<std::size_t>(mirrored ? directions - m : m);
+      const std::size_t k = table.index(m, n);
+      mpfr_mul(turns, step, *cosines[source], MPFR_RNDN);
+      if (mirrored) mpfr_neg(turns, turns, MPFR_RNDN);
+      table.x[k] = fraction_of_turn(turns, whole);
+      mpfr_mul(turns, step, *sines[source], MPFR_RNDN);
+      table.y[k] = fraction_of_turn(turns, whole);
+    }
+    if (n == n_max && mpfr_cmp_d(step, smallest_step) < 0)
+      throw Error(
+          ErrorCode::bad_value,
+          "`span` is " + format_exact(span) + ": even the shortest wave turns less than 2^-32 times a cell",
+          "give a longer span or a larger n_max");
+    mpfr_mul(step, step, ratio, MPFR_RNDN);
+  }
+  return table;
+}
+
+}  // namespace asperity

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/memory.hpp"
+
+#include <atomic>
+#include <cstdlib>
+#include <string>
+
+#include "engine/core/cost.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::memory {
+
+namespace {
+std::atomic<std::int64_t> held_bytes{0};
+std::atomic<std::int64_t> limit_bytes{0};
+
+constexpr std::size_t alignment = 64;
+constexpr double mebibyte = 1024.0 * 1024.0;
+
+[[noreturn]] void refuse(std::size_t bytes) {
+  const std::int64_t cap = limit_bytes.load();
+  std::string sentence = "out of memory: asked for " +
+                         format_short(static_cast<double>(bytes) / mebibyte, 4) + " MiB with " +
+                         format_short(static_cast<double>(held_bytes.load()) / mebibyte, 4) + " MiB in use";
+  if (cap > 0) sentence += " of a limit of " + format_short(static_cast<double>(cap) / mebibyte, 4) + " MiB";
+  throw Error(ErrorCode::out_of_memory, sentence, "fewer cells need less");
+}
+}  // namespace
+
+std::int64_t held() { return held_bytes.load(); }
+void set_limit(std::int64_t bytes) { limit_bytes.store(bytes); }
+std::int64_t limit() { return limit_bytes.load(); }
+
+bool account(std::int64_t change) noexcept {
+  const std::int64_t now = held_bytes.fetch_add(change) + change;
+  const std::int64_t cap = limit_bytes.load();
+  if (change > 0 && cap > 0 && now > cap) {
+    held_bytes.fetch_sub(change);
+    return false;
+  }
+  return true;
+}
+
+void* acquire(std::size_t bytes) {
+  constexpr std::size_t largest = std::size_t{1} << 62;
+  if (bytes > largest) refuse(bytes);
+  const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
+  if (!account(static_cast<std::int64_t>(bytes))) refuse(bytes);
+  void* pointer = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
+  if (pointer == nullptr) {
+    account(-static_cast<std::int64_t>(bytes));
+    refuse(bytes);
+  }
+  cost::count_bytes(static_cast<std::int64_t>(bytes));
+  return pointer;
+}
+
+void release(void* pointer, std::size_t bytes) noexcept {
+  if (pointer == nullptr) return;
+  std::free(pointer);
+  account(-static_cast<std::int64_t>(bytes));
+  cost::count_bytes(-static_cast<std::int64_t>(bytes));
+}
+
+}  // namespace asperity::memory

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Counted, aligned memory for grids and tables. Every buffer of the engine that grows with the
+// number of cells comes from here, so that a call can state its peak, a run can be held to a limit
+// before the machine is, and a test can assert that an effect that is off allocated nothing.
+// Thread-safe.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace asperity {
+
+namespace memory {
+
+// Bytes now held through this file by the whole process.
+std::int64_t held();
+// The limit on held() in bytes; 0 means none. Exceeding it throws Error{out_of_memory}.
+void set_limit(std::int64_t bytes);
+std::int64_t limit();
+
+// 64-byte aligned. Throws Error{out_of_memory} naming the size asked for and what is held.
+void* acquire(std::size_t bytes);
+void release(void* pointer, std::size_t bytes) noexcept;
+
+// For memory that comes from elsewhere (Lua's heap) but falls under the same limit: moves the
+// count by `change` bytes; returns false, changing nothing, if the limit would be exceeded.
+bool account(std::int64_t change) noexcept;
+
+}  // namespace memory
+
+template <class T>
+struct Allocator {
+  using value_type = T;
+  Allocator() = default;
+  template <class U>
+  Allocator(const Allocator<U>&) noexcept {}
+  T* allocate(std::size_t n) {
+    if (n > std::numeric_limits<std::size_t>::max() / sizeof(T))
+      n = std::numeric_limits<std::size_t>::max() / sizeof(T);
+    return static_cast<T*>(memory::acquire(n * sizeof(T)));
+  }
+  void deallocate(T* p, std::size_t n) noexcept { memory::release(p, n * sizeof(T)); }
+  template <class U>
+  bool operator==(const Allocator<U>&) const noexcept {
+    return true;
+  }
+};
+
+// A std::vector whose storage is counted.
+template <class T>
+using Array = std::vector<T, Allocator<T>>;
+
+}  // namespace asperity

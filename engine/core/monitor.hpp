@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How long work talks to the outside: it reports progress, gives warnings, and asks whether it
+// should stop. The engine never prints; whoever runs it decides what becomes of the messages.
+// stop_requested may be called from any thread; progress and warn from the calling thread only.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string_view>
+
+#include "engine/core/error.hpp"
+
+namespace asperity {
+
+// Why a run should stop, raised from signal handlers and watchdogs.
+enum class StopReason : int { none = 0, interrupt, time_limit, memory_limit };
+
+// One flag for the process. Lock-free and async-signal-safe.
+class StopFlag {
+ public:
+  void raise(StopReason reason) noexcept {
+    int expected = 0;
+    reason_.compare_exchange_strong(expected, static_cast<int>(reason));
+  }
+  void clear() noexcept { reason_.store(0); }
+  StopReason reason() const noexcept {
+    return static_cast<StopReason>(reason_.load(std::memory_order_relaxed));
+  }
+  // Throws Error{interrupted | time_limit | out_of_memory} when raised.
+  void check() const;
+
+ private:
+  std::atomic<int> reason_{0};
+};
+
+StopFlag& stop_flag();
+
+class Monitor {
+ public:
+  virtual ~Monitor() = default;
+  // `done` in [0, 1] of the work called `what`.
+  virtual void progress(std::string_view what, double done) = 0;
+  // A sentence the experimenter should see; shown once, kept in the journal.
+  virtual void warn(std::string_view sentence) = 0;
+
+  // Neither shows nor keeps anything.
+  static Monitor& silent();
+};
+
+// One piece of work of `total` steps. advance() checks for a stop and reports at most ten times a
+// second, so it may stand in a loop whose turns take microseconds.
+class Task {
+ public:
+  Task(Monitor& monitor, std::string_view what, std::int64_t total);
+  // Throws Error when a stop was asked for.
+  void advance(std::int64_t steps = 1);
+
+ private:
+  Monitor& monitor_;
+  std::string_view what_;
+  std::int64_t total_;
+  std::int64_t done_ = 0;
+  std::int64_t next_look_ = 0;
+  double last_report_;
+};
+
+}  // namespace asperity

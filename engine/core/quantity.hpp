@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Physical quantities as text: "250 um", "152.78 MPa", "37 deg", "80 MPa/um". A dimension is the
+// exponents of metre, kilogram, second and radian; angles are kept apart from plain numbers so that
+// a length is never taken for one. What comes out is always SI (m, kg, s, rad, Pa, N, …).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace asperity {
+
+struct Dimension {
+  std::int8_t length = 0, mass = 0, time = 0, angle = 0;
+  bool operator==(const Dimension&) const = default;
+};
+
+namespace dimension {
+inline constexpr Dimension number{};
+inline constexpr Dimension length{1, 0, 0, 0};
+inline constexpr Dimension area{2, 0, 0, 0};
+inline constexpr Dimension volume{3, 0, 0, 0};
+inline constexpr Dimension mass{0, 1, 0, 0};
+inline constexpr Dimension time{0, 0, 1, 0};
+inline constexpr Dimension angle{0, 0, 0, 1};
+inline constexpr Dimension force{1, 1, -2, 0};
+inline constexpr Dimension pressure{-1, 1, -2, 0};
+inline constexpr Dimension stiffness{-2, 1, -2, 0};  // Pa/m, of a surface
+inline constexpr Dimension energy{2, 1, -2, 0};
+inline constexpr Dimension energy_per_area{0, 1, -2, 0};
+inline constexpr Dimension density{-3, 1, 0, 0};
+inline constexpr Dimension speed{1, 0, -1, 0};
+inline constexpr Dimension acceleration{1, 0, -2, 0};
+inline constexpr Dimension frequency{0, 0, -1, 0};
+}  // namespace dimension
+
+// What an experimenter calls it ("a length"), and a quantity that would be accepted ("250 um").
+std::string describe(Dimension dimension);
+std::string example_quantity(Dimension dimension);
+// The SI unit as text: "m", "Pa", "J/m^2"; "" for a plain number.
+std::string si_unit(Dimension dimension);
+
+struct Quantity {
+  double value = 0;  // SI
+  Dimension dimension;
+};
+
+// "<number> [unit]", unit a product such as "MPa/um", "kg m^-3", "um²", "N*m"; a stroke divides by the
+// one unit after it. A missing unit means a plain number. "inf" and "nan" are not numbers here.
+// Decimal units round once: "250 um" is the double nearest to 250e-6.
+// Throws Error{bad_unit} naming the text, the part not understood and the nearest unit.
+Quantity parse_quantity(std::string_view text);
+
+// The value of a unit alone ("um" -> 1e-6 m), as in a table header "time [s]".
+Quantity parse_unit(std::string_view text);
+
+// The text read as a quantity of one dimension, in SI. Throws Error{bad_unit} that names both
+// dimensions and gives an example that would be accepted.
+double parse_quantity_as(std::string_view text, Dimension wanted);
+
+// A value with the SI prefix that makes it readable: 2.5e-4 m -> "250 um", 1.1e9 Pa -> "1.1 GPa".
+std::string format_quantity(double value, Dimension dimension, int digits = 4);
+
+// The prefix unit in which the largest of some values reads best; used for axes.
+struct DisplayUnit {
+  std::string name;   // "um"
+  double factor = 1;  // SI value of one unit
+};
+DisplayUnit display_unit(double largest_magnitude, Dimension dimension);
+
+}  // namespace asperity

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Small helpers for the sentences of errors and reports: numbers as a person writes them, quoted
+// names, and the nearest legal name for "did you mean".
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace asperity {
+
+// Shortest text that reads back as the same double ("0.1", "1e-06", "inf", "nan").
+std::string format_exact(double value);
+// At most `digits` significant digits, no trailing zeros ("0.0412", "1.23e+09").
+std::string format_short(double value, int digits = 6);
+// "`name`".
+std::string quoted(std::string_view name);
+// The same; without it std::quoted would be found for a std::string wherever <iomanip> is included.
+std::string quoted(const std::string& name);
+inline std::string quoted(const char* name) { return quoted(std::string_view(name)); }
+// "a", "a or b", "a, b or c".
+std::string joined(std::span<const std::string> items, std::string_view last = " or ");
+
+// The candidate nearest to `name` by edit distance (a transposition counts one, case does not
+// count), if it is near enough to be a likely slip; otherwise empty.
+std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
+// " (did you mean `x`?)" or empty.
+std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
+
+}  // namespace asperity
