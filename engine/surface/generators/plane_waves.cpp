@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/surface/generators/plane_waves.hpp"
+
+// GCC 12 takes the deliberately undefined registers of its own AVX-512 header for a mistake (GCC bug 105593).
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+#include <Eigen/Core>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <tuple>
+
+#include "engine/core/exact_phase.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/parallel.hpp"
+
+namespace asperity {
+
+namespace {
+
+// All waves of one pair of steps, up to the signs of the steps:
+// cc·cosα·cosβ + cs·cosα·sinβ + sc·sinα·cosβ + ss·sinα·sinβ with α along x and β along y.
+struct Standing {
+  std::uint64_t step_x = 0, step_y = 0;  // at most half a turn
+  double cc = 0, cs = 0, sc = 0, ss = 0;
+};
+
+Standing standing(const PlaneWave& wave) {
+  constexpr std::uint64_t half_turn = std::uint64_t{1} << 63;
+  const double c = wave.amplitude * std::cos(wave.phase);
+  const double s = wave.amplitude * std::sin(wave.phase);
+  Standing w{wave.step_x, wave.step_y, c, -s, -s, -c};
+  if (w.step_x > half_turn) {
+    w.step_x = 0 - w.step_x;
+    w.sc = -w.sc;
+    w.ss = -w.ss;
+  }
+  if (w.step_y > half_turn) {
+    w.step_y = 0 - w.step_y;
+    w.cs = -w.cs;
+    w.ss = -w.ss;
+  }
+  return w;
+}
+
+// Sorted by steps, equal steps added: waves along y first, then along x, then the others.
+Array<Standing> standing_waves(std::span<const PlaneWave> waves) {
+  Array<Standing> sorted;
+  sorted.reserve(waves.size());
+  for (const PlaneWave& wave : waves) sorted.push_back(standing(wave));
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Standing& a, const Standing& b) {
+    return std::tuple(a.step_x != 0, a.step_y != 0, a.step_x, a.step_y) <
+           std::tuple(b.step_x != 0, b.step_y != 0, b.step_x, b.step_y);
+  });
+  std::size_t kept = 0;
+  for (const Standing& w : sorted) {
+    if (kept > 0 && sorted[kept - 1].step_x == w.step_x && sorted[kept - 1].step_y == w.step_y) {
+      Standing& same = sorted[kept - 1];
+      same.cc += w.cc;
+      same.cs += w.cs;
+      same.sc += w.sc;
+      same.ss += w.ss;
+    } else {
+      sorted[kept++] = w;
+    }
+  }
+  sorted.resize(kept);
+  return sorted;
+}
+
+// One row of a table: `of_cosine`·cos + `of_sine`·sin of the phase.
+struct Mix {
+  double of_cosine = 0, of_sine = 0;
+};
+
+// Fills both rows with their mixes at the phases 0, step, 2·step … Index i = coarse + fine: the
+// phases of both are exact, and the sum costs one addition theorem instead of a sine and a cosine.
+void fill_rows(std::uint64_t step, int count, Mix first, double* first_row, Mix second, double* second_row) {
+  constexpr int longest = 256;
+  static_assert(longest * longest >= max_cells);
+  const int block = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::sqrt(count))));
+  std::array<double, longest> cosine, sine;
+  const int fine = std::min(block, count);
+  for (int b = 0; b < fine; ++b) {
+    const UnitPhase p = unit_phase(step * static_cast<std::uint64_t>(b));
+    cosine[b] = p.cosine;
+    sine[b] = p.sine;
+  }
+  for (int start = 0; start < count; start += block) {
+    const UnitPhase p = unit_phase(step * static_cast<std::uint64_t>(start));
+    const double a1 = first.of_cosine * p.cosine + first.of_sine * p.sine;
+    const double b1 = first.of_sine * p.cosine - first.of_cosine * p.sine;
+    const double a2 = second.of_cosine * p.cosine + second.of_sine * p.sine;
+    const double b2 = second.of_sine * p.cosine - second.of_cosine * p.sine;
+    const int here = std::min(block, count - start);
+    for (int b = 0; b < here; ++b) {
+      first_row[start + b] = a1 * cosine[b] + b1 * sine[b];
+      second_row[start + b] = a2 * cosine[b] + b2 * sine[b];
+    }
+  }
+}
+
+void add(Array<double>& sum, const Array<double>& row) {
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += row[k];
+}
+
+// Waves along the axes, which are a function of i or of j alone; returns how many there are.
+std::size_t sum_axis_waves(std::span<const Standing> waves, Array<double>& along_x, Array<double>& along_y) {
+  const std::size_t longer = std::max(along_x.size(), along_y.size());
+  Array<double> row(longer), unused(longer);
+  std::size_t k = 0;
+  for (; k < waves.size() && (waves[k].step_x == 0 || waves[k].step_y == 0); ++k) {
+    const Standing& w = waves[k];
+    const bool is_y = w.step_x == 0;
+    Array<double>& sum = is_y ? along_y : along_x;
+    fill_rows(is_y ? w.step_y : w.step_x, static_cast<int>(sum.size()), {w.cc, is_y ? w.cs : w.sc},
+              row.data(), {}, unused.data());
+    add(sum, row);
+  }
+  return k;
+}
+
+constexpr int tile = 256;  // nodes a side
+constexpr std::int64_t tiles_between_looks = 64;
+
+// Waves whose tables are held at a time.
+std::int64_t waves_at_once(int nx, int ny) {
+  constexpr std::int64_t table_doubles = std::int64_t{1} << 22;
+  constexpr std::int64_t most = 256, fewest = 32;
+  return std::clamp(table_doubles / (2 * (std::int64_t{nx} + ny)), fewest, most);
+}
+
+using ColumnTable = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor>>;
+using RowTable = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+using Heights = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor>>;
+
+}  // namespace
+
+Field sum_of_plane_waves(int nx, int ny, std::span<const PlaneWave> waves, Monitor& monitor,
+                         std::string_view what) {
+  const Array<Standing> all = standing_waves(waves);
+  Array<double> along_x(static_cast<std::size_t>(nx)), along_y(static_cast<std::size_t>(ny));
+  const std::size_t axis_waves = sum_axis_waves(all, along_x, along_y);
+  const std::span<const Standing> oblique = std::span(all).subspan(axis_waves);
+
+  // Equal passes, so that the last is not a sliver.
+  const auto count = static_cast<std::int64_t>(oblique.size());
+  const std::int64_t most = waves_at_once(nx, ny);
+  const std::int64_t passes = std::max<std::int64_t>((count + most - 1) / most, 1);
+  const std::int64_t width = (count + passes - 1) / passes;
+
+  Field field(nx, ny);
+  Heights heights(field.data(), nx, ny);  // column j of the map is row j of the field
+  Array<double> table_x(static_cast<std::size_t>(2 * width * nx)),
+      table_y(static_cast<std::size_t>(2 * width * ny));
+  const std::int64_t tiles_x = (nx + tile - 1) / tile, tiles_y = (ny + tile - 1) / tile;
+  const std::int64_t tiles = tiles_x * tiles_y;
+  Task task(monitor, what, passes * tiles);
+
+  for (std::int64_t pass = 0; pass < passes; ++pass) {
+    const std::int64_t first = pass * width, here = std::min(width, count - first);
+    parallel_for(here, [&](std::int64_t k) {
+      const Standing& w = oblique[static_cast<std::size_t>(first + k)];
+      double* x = table_x.data() + 2 * k * nx;
+      double* y = table_y.data() + 2 * k * ny;
+      fill_rows(w.step_x, nx, {1, 0}, x, {0, 1}, x + nx);
+      fill_rows(w.step_y, ny, {w.cc, w.cs}, y, {w.sc, w.ss}, y + ny);
+    });
+    const ColumnTable left(table_x.data(), nx, 2 * here);
+    const RowTable right(table_y.data(), 2 * here, ny);
+    for (std::int64_t band = 0; band < tiles; band += tiles_between_looks) {
+      const std::int64_t in_band = std::min(tiles_between_looks, tiles - band);
+      parallel_for(in_band, [&](std::int64_t t) {
+        const std::int64_t i = (band + t) % tiles_x * tile, j = (band + t) / tiles_x * tile;
+        const std::int64_t ni = std::min<std::int64_t>(tile, nx - i),
+                           nj = std::min<std::int64_t>(tile, ny - j);
+        auto block = heights.block(i, j, ni, nj);
+        if (pass == 0) {
+          const Eigen::Map<const Eigen::ArrayXd> x(along_x.data() + i, ni);
+          for (std::int64_t b = 0; b < nj; ++b)
+            block.col(b).array() = x + along_y[static_cast<std::size_t>(j + b)];
+        }
+        if (here > 0) block.noalias() += left.middleRows(i, ni) * right.middleCols(j, nj);
+      });
+      task.advance(in_band);
+    }
+  }
+  return field;
+}
+
+}  // namespace asperity

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/surface/generators/sine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+// cos(2π turns) for turns in [0, 1/2], exact at every eighth where the cosine is.
+double cosine_of_turns(double turns) {
+  constexpr double two_pi = 2 * std::numbers::pi;
+  if (turns > 0.25) return -cosine_of_turns(0.5 - turns);
+  return turns > 0.125 ? std::sin(two_pi * (0.25 - turns)) : std::cos(two_pi * turns);
+}
+
+struct Waves {
+  double count;  // wavelengths in the size
+  bool whole;
+};
+
+Waves waves_in(double size, double wavelength) {
+  constexpr double whole_to = 1e-12;
+  const double count = size / wavelength;
+  const double nearest = std::round(count);
+  const bool whole = nearest >= 1 && std::abs(count - nearest) <= whole_to * nearest;
+  return {whole ? nearest : count, whole};
+}
+
+Array<double> wave(int n, Waves waves) {
+  Array<double> values(static_cast<std::size_t>(n));
+  const auto turns = static_cast<std::int64_t>(waves.whole ? waves.count : 0);
+  for (int i = 0; i < n; ++i) {
+    if (waves.whole) {
+      const std::int64_t step = turns * i % n;
+      values[i] = cosine_of_turns(static_cast<double>(std::min(step, n - step)) / n);
+    } else {
+      values[i] = cosine_of_turns(std::abs(std::remainder(i * waves.count, n)) / n);
+    }
+  }
+  return values;
+}
+
+void check_resolved(double wavelength, double cell, const char* direction) {
+  constexpr double rounding = 1e-12;
+  if (wavelength >= 2 * cell * (1 - rounding)) return;
+  throw Error(ErrorCode::bad_value,
+              "`wavelength` is " + format_quantity(wavelength, dimension::length) + ", under two cells of " +
+                  format_quantity(cell, dimension::length) + " along " + direction,
+              "give at least " + format_quantity(2 * cell, dimension::length) + ", or more `cells`");
+}
+
+}  // namespace
+
+Surface sine_surface(const SineOptions& options, Monitor&) {
+  const Grid grid = make_grid(options.grid.nx, options.grid.ny, options.grid.size_x, options.grid.size_y);
+  const double amplitude = options.amplitude;
+  if (!(std::isfinite(amplitude) && amplitude >= 0))
+    throw Error(ErrorCode::bad_value, "`amplitude` is " + format_short(amplitude) + " m",
+                "give a finite length, zero or above");
+  const double wavelength = options.wavelength.value_or(grid.size_x);
+  if (!(std::isfinite(wavelength) && wavelength > 0))
+    throw Error(ErrorCode::bad_value, "`wavelength` is " + format_short(wavelength) + " m",
+                "give a finite length above zero");
+  if (options.directions != 1 && options.directions != 2)
+    throw Error(ErrorCode::bad_value, "`directions` is " + std::to_string(options.directions),
+                "give 1 for waves along x, or 2 for their product with waves along y");
+  const bool both = options.directions == 2;
+  check_resolved(wavelength, grid.hx(), "x");
+  if (both) check_resolved(wavelength, grid.hy(), "y");
+
+  const Waves along_x = waves_in(grid.size_x, wavelength);
+  const Waves along_y = waves_in(grid.size_y, wavelength);
+  const Array<double> x = wave(grid.nx, along_x);
+  const Array<double> y =
+      both ? wave(grid.ny, along_y) : Array<double>(static_cast<std::size_t>(grid.ny), 1.0);
+  Field heights(grid.nx, grid.ny);
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) heights(i, j) = amplitude * (x[i] * y[j]);
+  SurfaceTraits traits;
+  traits.periodic = along_x.whole && (!both || along_y.whole);
+  return Surface(grid, std::move(heights), std::move(traits));
+}
+
+}  // namespace asperity

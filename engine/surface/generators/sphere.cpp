@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/surface/generators/sphere.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+Surface sphere_surface(const SphereOptions& options, Monitor&) {
+  const Grid grid = make_grid(options.grid.nx, options.grid.ny, options.grid.size_x, options.grid.size_y);
+  const double radius = options.radius;
+  if (!(std::isfinite(radius) && radius > 0))
+    throw Error(ErrorCode::bad_value, "`radius` is " + format_short(radius) + " m",
+                "give a finite length above zero");
+  const int apex_i = grid.nx / 2;
+  const int apex_j = grid.ny / 2;
+  const bool cap = options.shape == SphereShape::sphere;
+  const double corner = std::hypot(apex_i * grid.hx(), apex_j * grid.hy());
+  constexpr double rounding = 1e-12;
+  if (cap && corner > radius * (1 + rounding))
+    throw Error(ErrorCode::bad_value,
+                "`radius` is " + format_quantity(radius, dimension::length) +
+                    ", but the corner of the grid is " + format_quantity(corner, dimension::length) +
+                    " from the apex",
+                "give a larger radius, a smaller `size`, or shape = \"paraboloid\"");
+
+  Field heights(grid.nx, grid.ny);
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) {
+      const double r = std::hypot((i - apex_i) * grid.hx(), (j - apex_j) * grid.hy());
+      const double s = cap ? std::min(r / radius, 1.0) : r / radius;
+      // r²/(R + √(R² - r²)) keeps the digits that √(R² - r²) - R loses near the apex.
+      heights(i, j) = cap ? -r * s / (1 + std::sqrt((1 - s) * (1 + s))) : -r * s / 2;
+    }
+  return Surface(grid, std::move(heights));
+}
+
+}  // namespace asperity

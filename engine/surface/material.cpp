@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/surface/material.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+std::span<const Material> named_materials() {
+  // Representative engineering values; a script that needs better gives its own.
+  static const std::vector<Material> materials = {
+      {"Al-2011", 70e9, 0.33, 1.1e9, 2830.0,
+       "the alloy of the source paper; hardness from its Brinell number"},
+      {"quartz", 95e9, 0.08, {}, 2650.0, "alpha quartz, average of directions; touched elastically"},
+      {"steel", 210e9, 0.30, 2.0e9, 7850.0, "mild to medium carbon steel"},
+      {"copper", 120e9, 0.34, 0.9e9, 8960.0, "half-hard copper"},
+      {"gold", 79e9, 0.42, 0.6e9, 19300.0, "soft bulk gold"},
+      {"silicon", 160e9, 0.22, 12.0e9, 2330.0, "single crystal, average of directions"},
+      {"glass", 70e9, 0.22, 5.5e9, 2500.0, "soda-lime glass"},
+      {"PMMA", 3.0e9, 0.37, 0.25e9, 1180.0, "acrylic at room temperature"},
+      {"rubber", 3.0e6, 0.49, {}, 1100.0, "filled elastomer, small strain"},
+  };
+  return materials;
+}
+
+const Material& named_material(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Material& material : named_materials()) {
+    if (material.name == name) return material;
+    names.push_back(material.name);
+  }
+  throw Error(
+      ErrorCode::unknown_name, "there is no material " + quoted(name) + did_you_mean(name, names),
+      "named materials are " + joined(names, " and ") + "; or give a table with `young` and `poisson`");
+}
+
+const Material& rigid_material() {
+  static const Material rigid = [] {
+    Material m;
+    m.name = "rigid";
+    m.rigid = true;
+    return m;
+  }();
+  return rigid;
+}
+
+void check(const Material& m) {
+  auto positive = [](const std::optional<double>& value, const char* key) {
+    if (value && !(*value > 0 && std::isfinite(*value)))
+      throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(*value),
+                  "give a finite value above zero");
+  };
+  positive(m.young, "young");
+  positive(m.density, "density");
+  if (m.hardness && !(*m.hardness > 0))
+    throw Error(ErrorCode::bad_value, "`hardness` is " + format_short(*m.hardness),
+                "give a value above zero");
+  if (m.poisson && !(*m.poisson > -1 && *m.poisson <= 0.5))
+    throw Error(ErrorCode::bad_value, "`poisson` is " + format_short(*m.poisson),
+                "Poisson's ratio lies above -1 and at most at 0.5");
+}
+
+double plane_strain_modulus(const Material& m) {
+  if (m.rigid) return std::numeric_limits<double>::infinity();
+  for (const auto& [value, key] : {std::pair{m.young, "young"}, std::pair{m.poisson, "poisson"}})
+    if (!value)
+      throw Error(ErrorCode::bad_state,
+                  "the material " + (m.name.empty() ? std::string("given") : quoted(m.name)) + " has no " +
+                      quoted(key),
+                  "give it in lab.material{...}");
+  return *m.young / (1.0 - *m.poisson * *m.poisson);
+}
+
+double contact_modulus(const Material& a, const Material& b) {
+  return 1.0 / (1.0 / plane_strain_modulus(a) + 1.0 / plane_strain_modulus(b));
+}
+
+}  // namespace asperity

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A rough surface: heights in metres on a regular grid, z pointing up out of the body. An immutable
+// value, cheap to copy: copies share the heights. What a generator or a file knows beyond the
+// heights (material, periodicity, variance past Nyquist) travels with it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/core/grid.hpp"
+#include "engine/surface/material.hpp"
+
+namespace asperity {
+
+struct SurfaceTraits {
+  std::optional<Material> material;
+  bool periodic = false;                // the heights continue smoothly across the rim by construction
+  std::optional<double> aliased_share;  // share of the variance that lies past Nyquist, 0 … 1
+};
+
+class Surface {
+ public:
+  // Throws Error{bad_value} naming the first node whose height is not finite, or when the field does
+  // not fit the grid.
+  Surface(const Grid& grid, Field heights, SurfaceTraits traits = {});
+
+  const Grid& grid() const;
+  const Field& heights() const;
+  const SurfaceTraits& traits() const { return traits_; }
+  const std::optional<Material>& material() const { return traits_.material; }
+
+  // Height of node (i, j), m. Throws Error{bad_value} outside the grid.
+  double height(double i, double j) const;
+  Range height_range() const;  // m; computed once
+  double peak_to_valley() const { return height_range().span(); }
+
+  // The same heights with another material.
+  Surface with_material(Material material) const;
+
+  // Digest of grid and heights; material and traits do not enter. Computed once, thread-safe.
+  const std::string& digest() const;
+
+ private:
+  struct Heights;  // grid, field and the facts computed once from them
+  Surface(std::shared_ptr<const Heights> heights, SurfaceTraits traits);
+
+  std::shared_ptr<const Heights> data_;
+  SurfaceTraits traits_;
+};
+
+}  // namespace asperity
