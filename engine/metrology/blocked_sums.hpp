@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sums of several functions of an index at once, in fixed blocks of 1024 that are added pairwise:
+// the same bits for any number of threads. And powers of two by which heights are scaled before
+// they are squared, so that neither 1e-160 m nor 1e160 m under- or overflows on the way.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "engine/core/grid.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/parallel.hpp"
+
+namespace asperity {
+
+// Σ terms(k) for k in [0, n); `terms` returns an array of K doubles and must be callable from any
+// thread. Takes K·n/1024 doubles.
+template <std::size_t K, class Terms>
+std::array<double, K> blocked_sums(std::size_t n, const Terms& terms) {
+  constexpr std::size_t block = 1024, blocks_per_turn = 64;
+  const std::size_t blocks = (n + block - 1) / block;
+  Array<double> partial(K * blocks);
+  parallel_for(static_cast<std::int64_t>((blocks + blocks_per_turn - 1) / blocks_per_turn),
+               [&](std::int64_t turn) {
+                 const std::size_t first = static_cast<std::size_t>(turn) * blocks_per_turn;
+                 for (std::size_t b = first; b < std::min(blocks, first + blocks_per_turn); ++b) {
+                   std::array<double, K> sum{};
+                   for (std::size_t k = b * block; k < std::min(n, (b + 1) * block); ++k) {
+                     const std::array<double, K> term = terms(k);
+                     for (std::size_t q = 0; q < K; ++q) sum[q] += term[q];
+                   }
+                   for (std::size_t q = 0; q < K; ++q) partial[q * blocks + b] = sum[q];
+                 }
+               });
+  std::array<double, K> total{};
+  for (std::size_t q = 0; q < K; ++q)
+    total[q] = block_sum(std::span<const double>(partial).subspan(q * blocks, blocks));
+  return total;
+}
+
+// The exponent e for which value·2^-e lies in [1/2, 1); kept where 2^±e is a finite double. 0 for 0.
+inline int scale_exponent(double value) {
+  int e = 0;
+  std::frexp(value, &e);
+  return std::clamp(e, -1000, 1024);
+}
+
+// The greatest magnitude within a range.
+inline double magnitude(const Range& r) { return std::max(std::abs(r.min), std::abs(r.max)); }
+
+// The mean in two passes: the second adds the mean of what the first left over, so that an offset
+// that dwarfs the roughness costs no digits. Exact for equal values, and never overflows.
+double exact_mean(std::span<const double> values, const Range& values_range);
+
+}  // namespace asperity

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/metrology/fractal_dimension.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/text.hpp"
+#include "engine/metrology/length_ratio.hpp"
+#include "engine/metrology/line_fit.hpp"
+#include "engine/metrology/profile_statistics.hpp"
+
+namespace asperity {
+
+namespace {
+
+// Default steps double from 1 to this.
+constexpr int longest_default_step = 16;
+
+// Profiles that lie in memory in whatever way; `read` fills `into` and is called from any thread.
+struct ProfileSet {
+  std::int64_t count = 0;
+  int shortest = 0, longest = 0;
+  bool wrap = false;
+  double range = 0, magnitude = 0;  // m, the greatest of all
+  struct One {
+    Array<double> heights;
+    double spacing = 0;
+  };
+  std::function<void(std::int64_t, One&)> read;
+};
+
+std::vector<int> chosen_steps(const FractalDimensionOptions& options, int samples, bool wrap) {
+  if (options.method == DimensionMethod::psd) {
+    if (!options.steps.empty())
+      throw Error(ErrorCode::bad_value, "`steps` were given for the method `psd`",
+                  "it fits bands of wavelengths of its own; leave `steps` out");
+    return {};
+  }
+  const int longest = wrap ? samples : samples - 1;
+  if (options.steps.empty()) {
+    // Boxes need every size there is: those of a few samples alone are filled by the samples.
+    std::vector<int> steps;
+    const bool is_box = options.method == DimensionMethod::box;
+    for (int s = 1; s <= (is_box ? longest / 4 : std::min(longest / 2, longest_default_step)); s *= 2)
+      steps.push_back(s);
+    return steps;
+  }
+  for (const int s : options.steps) {
+    if (s < 1 || s >= samples)
+      throw Error(
+          ErrorCode::bad_value,
+          "`steps` holds " + std::to_string(s) + " for profiles of " + std::to_string(samples) + " samples",
+          "a step is a whole number of samples from 1 to " + std::to_string(std::max(samples - 1, 1)));
+    if (std::count(options.steps.begin(), options.steps.end(), s) > 1)
+      throw Error(ErrorCode::bad_value, "`steps` holds " + std::to_string(s) + " more than once",
+                  "give each step once");
+  }
+  if (options.steps.size() < 2)
+    throw Error(ErrorCode::bad_value, "`steps` holds one step", "a slope needs two steps or more");
+  return options.steps;
+}
+
+// One ordinate of the log-log line from one statistic.
+double log_ordinate(DimensionMethod method, double statistic) {
+  switch (method) {
+    case DimensionMethod::length:
+      return std::log1p(statistic);
+    case DimensionMethod::psd:
+      return statistic;
+    default:
+      return std::log(statistic);
+  }
+}
+
+// D = at_zero + per_slope · slope.
+struct Relation {
+  double at_zero, per_slope;
+};
+
+Relation relation(DimensionMethod method) {
+  switch (method) {
+    case DimensionMethod::length:
+      return {1, -1};
+    case DimensionMethod::structure:
+      return {2, -0.5};
+    case DimensionMethod::madogram:
+      return {2, -1};
+    case DimensionMethod::psd:
+      return {2.5, -0.5};
+    case DimensionMethod::box:
+      return {0, -1};
+  }
+  return {1, 0};
+}
+
+// A statistic of zero (equal heights at every step of that length) has no logarithm.
+bool has_logarithm(DimensionMethod method, double statistic) {
+  return method == DimensionMethod::length || method == DimensionMethod::psd || statistic > 0;
+}
+
+// A statistic as it is handed out, in metres where it has a unit.
+double reported(DimensionMethod method, double statistic, double unit) {
+  switch (method) {
+    case DimensionMethod::length:
+      return 1 + statistic;
+    case DimensionMethod::psd:
+      return std::exp(statistic) * unit * unit;
+    case DimensionMethod::structure:
+      return statistic * unit * unit;
+    case DimensionMethod::madogram:
+      return statistic * unit;
+    case DimensionMethod::box:
+      return statistic;
+  }
+  return statistic;
+}
+
+struct Fitted {
+  bool any = false;
+  double D = 1, error = 0, r_squared = 0;
+};
+
+Fitted fit_dimension(DimensionMethod method, std::span<const double> log_steps,
+                     std::span<const double> statistics) {
+  std::vector<double> x, y;
+  for (std::size_t k = 0; k < log_steps.size(); ++k)
+    if (has_logarithm(method, statistics[k])) {
+      x.push_back(log_steps[k]);
+      y.push_back(log_ordinate(method, statistics[k]));
+    }
+  Fitted result;
+  if (x.size() < 2) return result;
+  const LineFit line = fit_line(x, y);
+  const auto [at_zero, per_slope] = relation(method);
+  result.any = true;
+  result.D = at_zero + per_slope * line.slope;
+  result.error = std::abs(per_slope) * line.slope_error;
+  result.r_squared = line.r_squared;
+  return result;
+}
+
+// The tables of all profiles: `steps` numbers each.
+struct Tables {
+  Array<double> statistics, mean_square_slopes;
+  Array<double> D, error;  // NaN inside this file where a profile gave none
+};
+
+Tables tabulate(const ProfileSet& set, DimensionMethod method, const Stepping& stepping,
+                std::span<const double> log_steps) {
+  const std::size_t width = log_steps.size(), count = static_cast<std::size_t>(set.count);
+  Tables tables;
+  tables.statistics.resize(width * count);
+  if (method == DimensionMethod::length) tables.mean_square_slopes.resize(width * count);
+  tables.D.assign(count, std::numeric_limits<double>::quiet_NaN());
+  tables.error.assign(count, 0.0);
+  constexpr std::int64_t profiles_per_turn = 16;
+  parallel_for((set.count + profiles_per_turn - 1) / profiles_per_turn, [&](std::int64_t turn) {
+    ProfileSet::One one;
+    for (std::int64_t p = turn * profiles_per_turn; p < std::min(set.count, (turn + 1) * profiles_per_turn);
+         ++p) {
+      set.read(p, one);
+      const auto k = static_cast<std::size_t>(p);
+      const auto statistics = std::span(tables.statistics).subspan(k * width, width);
+      const bool flat = !(range(one.heights).span() > 0);
+      if (method == DimensionMethod::length) {
+        step_statistics(one.heights, one.spacing, 1, stepping, statistics,
+                        std::span(tables.mean_square_slopes).subspan(k * width, width));
+      } else if (flat) {
+        continue;
+      } else if (method == DimensionMethod::psd) {
+        // Traces of other lengths than the shortest have other bands: cut to it.
+        const auto n = static_cast<std::size_t>(set.shortest);
+        band_log_powers(std::span<const double>(one.heights).first(n), set.range, stepping.wrap, statistics);
+      } else {
+        // The unit square of a profile is its own; what is averaged over profiles needs a common unit.
+        const double unit = method == DimensionMethod::box ? range(one.heights).span() : set.range;
+        step_statistics(one.heights, one.spacing, unit, stepping, statistics, {});
+      }
+      const Fitted fitted = fit_dimension(method, log_steps, statistics);
+      if (!fitted.any) continue;
+      tables.D[k] = fitted.D;
+      tables.error[k] = fitted.error;
+    }
+  });
+  return tables;
+}
+
+// Mean of column `k` over the profiles that gave a D.
+double column_mean(const Tables& tables, std::span<const double> table, std::size_t width, std::size_t k) {
+  Array<double> column;
+  for (std::size_t p = 0; p < tables.D.size(); ++p)
+    if (!std::isnan(tables.D[p])) column.push_back(table[p * width + k]);
+  return mean(column);
+}
+
+// Why the length method would be believed no further; empty where it may be.
+std::string too_flat(std::span<const double> mean_square_slopes, std::span<const int> steps) {
+  double share = 0;
+  for (const double s2 : mean_square_slopes) share += length_sensitivity(std::sqrt(s2));
+  share /= static_cast<double>(mean_square_slopes.size());
+  if (share >= length_share_wanted) return {};
+  const auto shortest = std::min_element(steps.begin(), steps.end()) - steps.begin();
+  const auto longest = std::max_element(steps.begin(), steps.end()) - steps.begin();
+  const auto slope = [&](std::ptrdiff_t k) {
+    return format_short(std::sqrt(mean_square_slopes[static_cast<std::size_t>(k)]), 3);
+  };
+  return "heights are too small for the length method: rms slopes run from " + slope(shortest) + " at step " +
+         std::to_string(steps[static_cast<std::size_t>(shortest)]) + " to " + slope(longest) + " at step " +
+         std::to_string(steps[static_cast<std::size_t>(longest)]) + ", where a Gaussian profile shows " +
+         format_short(100 * share, 2) +
+         " % of D - 1; slopes above about 5 are needed, or the method `structure`";
+}
+
+FractalDimension unresolved(std::string reason) {
+  FractalDimension result;
+  result.reason = std::move(reason);
+  return result;
+}
+
+std::string count_text(std::size_t n, const std::string& what) {
+  return (n == 0 ? "no " : std::to_string(n) + " ") + what + (n == 1 ? "" : "s");
+}
+
+FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& options) {
+  const DimensionMethod method = options.method;
+  const bool is_psd = method == DimensionMethod::psd;
+  const std::vector<int> steps = chosen_steps(options, set.shortest, set.wrap);
+  // A profile cut to the shortest has lost its periodicity.
+  const bool wrap = set.wrap && !(is_psd && set.shortest < set.longest);
+  const std::vector<double> step_values =
+      is_psd ? band_wavelengths(set.shortest, wrap) : std::vector<double>(steps.begin(), steps.end());
+  const std::size_t width = step_values.size();
+  if (width < 2)
+    return unresolved("profiles of " + count_text(static_cast<std::size_t>(set.shortest), "sample") +
+                      " are too short: " + count_text(width, is_psd ? "band" : "step") +
+                      " of at least 3 fits");
+  if (set.range <= 64 * std::numeric_limits<double>::epsilon() * set.magnitude)
+    return unresolved("all heights of a profile are equal");
+
+  std::vector<double> log_steps(width);
+  std::transform(step_values.begin(), step_values.end(), log_steps.begin(),
+                 [](double s) { return std::log(s); });
+  const Tables tables = tabulate(set, method, {method, steps, wrap, options.offsets}, log_steps);
+
+  FractalDimension result;
+  result.steps = step_values;
+  Array<double> D;
+  for (const double one : tables.D)
+    if (!std::isnan(one)) D.push_back(one);
+  result.profiles = static_cast<int>(D.size());
+  if (D.empty()) return unresolved("all heights of a profile are equal");
+
+  std::vector<double> statistics(width);
+  for (std::size_t k = 0; k < width; ++k) {
+    statistics[k] = column_mean(tables, tables.statistics, width, k);
+    result.lengths.push_back(reported(method, statistics[k], set.range));
+  }
+  const Fitted pooled = fit_dimension(method, log_steps, statistics);
+  result.r_squared = pooled.r_squared;
+  result.D = options.pooled ? pooled.D : mean(D);
+  if (D.size() == 1) {
+    result.error = pooled.error;
+  } else {
+    const double centre = mean(D);
+    for (double& one : D) one = (one - centre) * (one - centre);
+    result.error = std::sqrt(block_sum(D) / static_cast<double>(D.size() - 1));
+  }
+
+  if (D.size() < tables.D.size())
+    result.reason = std::to_string(tables.D.size() - D.size()) + " of " +
+                    count_text(tables.D.size(), "profile") + " have equal heights";
+  else if (width < 3)
+    result.reason =
+        "2 " + std::string(is_psd ? "bands" : "steps") + " always lie on a line; 3 or more are needed";
+  else if (method == DimensionMethod::length) {
+    std::vector<double> squares(width);
+    for (std::size_t k = 0; k < width; ++k)
+      squares[k] = column_mean(tables, tables.mean_square_slopes, width, k);
+    result.reason = too_flat(squares, steps);
+  }
+  for (std::size_t k = 0; k < width && result.reason.empty(); ++k)
+    if (!has_logarithm(method, statistics[k]))
+      result.reason =
+          "heights a step of " + format_short(step_values[k]) + " apart never differ: they repeat";
+  if (result.reason.empty() && (result.D < 1 - result.error || result.D > 2 + result.error))
+    result.reason = "D = " + format_short(result.D, 4) +
+                    " is outside 1 … 2: the heights do not scale over these " + (is_psd ? "bands" : "steps");
+  result.resolved = result.reason.empty();
+  return result;
+}
+
+}  // namespace
+
+FractalDimension fractal_dimension(const Surface& surface, const FractalDimensionOptions& options) {
+  const Field& z = surface.heights();
+  const Grid& grid = surface.grid();
+  const bool along_x = options.along != Along::y, along_y = options.along != Along::x;
+  if (along_x && along_y && options.pooled && std::abs(grid.hx() - grid.hy()) > 1e-9 * grid.hx())
+    throw Error(
+        ErrorCode::bad_value,
+        "`pooled` over both directions of cells of " + format_short(grid.hx()) + " m x " +
+            format_short(grid.hy()) + " m",
+        "one step must be one length in both; use `along=\"x\"`, `along=\"y\"` or leave `pooled` out");
+  ProfileSet set;
+  const std::int64_t rows = along_x ? grid.ny : 0;
+  set.count = rows + (along_y ? grid.nx : 0);
+  set.shortest = along_x && along_y ? std::min(grid.nx, grid.ny) : (along_x ? grid.nx : grid.ny);
+  set.longest = along_x && along_y ? std::max(grid.nx, grid.ny) : set.shortest;
+  set.wrap = options.wrap.value_or(false);
+  const Range r = surface.height_range();
+  set.range = r.span();
+  set.magnitude = std::max(std::abs(r.min), std::abs(r.max));
+  set.read = [&z, &grid, rows](std::int64_t p, ProfileSet::One& one) {
+    if (p < rows) {
+      const std::span<const double> row = z.row(static_cast<int>(p));
+      one.heights.assign(row.begin(), row.end());
+      one.spacing = grid.hx();
+      return;
+    }
+    one.heights.resize(static_cast<std::size_t>(grid.ny));
+    for (int j = 0; j < grid.ny; ++j)
+      one.heights[static_cast<std::size_t>(j)] = z(static_cast<int>(p - rows), j);
+    one.spacing = grid.hy();
+  };
+  return measure(set, options);
+}
+
+FractalDimension fractal_dimension(const Profile& profile, const FractalDimensionOptions& options) {
+  return fractal_dimension(std::span(&profile, 1), options);
+}
+
+FractalDimension fractal_dimension(std::span<const Profile> profiles,
+                                   const FractalDimensionOptions& options) {
+  if (profiles.empty())
+    throw Error(ErrorCode::bad_value, "the fractal dimension of no profiles was asked for",
+                "give one profile or more");
+  ProfileSet set;
+  set.count = static_cast<std::int64_t>(profiles.size());
+  set.shortest = profiles.front().size();
+  bool closed = true;
+  for (const Profile& profile : profiles) {
+    set.shortest = std::min(set.shortest, profile.size());
+    set.longest = std::max(set.longest, profile.size());
+    const Range r = profile.height_range();
+    set.range = std::max(set.range, r.span());
+    set.magnitude = std::max({set.magnitude, std::abs(r.min), std::abs(r.max)});
+    closed = closed && profile.closed();
+  }
+  set.wrap = options.wrap.value_or(closed);
+  set.read = [profiles](std::int64_t p, ProfileSet::One& one) {
+    const Profile& profile = profiles[static_cast<std::size_t>(p)];
+    one.heights.assign(profile.heights().begin(), profile.heights().end());
+    one.spacing = profile.spacing();
+  };
+  return measure(set, options);
+}
+
+std::vector<int> geometric_steps(int first, int last, int count) {
+  if (first < 1 || last < first || count < 1)
+    throw Error(ErrorCode::bad_value,
+                std::to_string(count) + " steps from " + std::to_string(first) + " to " +
+                    std::to_string(last) + " samples were asked for",
+                "steps rise from 1 or more, and there is at least one");
+  std::vector<int> steps;
+  const double ratio = static_cast<double>(last) / first;
+  for (int k = 0; k < count; ++k) {
+    const double place = count > 1 ? static_cast<double>(k) / (count - 1) : 0;
+    const int step = static_cast<int>(std::lround(first * std::pow(ratio, place)));
+    if (steps.empty() || step > steps.back()) steps.push_back(step);
+  }
+  return steps;
+}
+
+}  // namespace asperity

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Gaussian filters of ISO 16610-21 (profiles) and ISO 16610-61 (surfaces): waves shorter than
+// `short_wave` (the nesting index S, λs) and longer than `long_wave` (L, λc) are attenuated, each by
+// half at its cut-off. The mean line of cut-off λc keeps the share
+//
+//   exp(-π (α λc/λ)²) = 2^-(λc/λ)²,  α = √(ln 2 / π),
+//
+// of a wave of length λ in any direction; long_wave subtracts that mean line, short_wave keeps it.
+// The filter is linear and not robust; it does not remove form (see levelling.hpp).
+//
+// Periodic surfaces and closed outlines are filtered by that transfer function itself, two
+// transforms in all. Elsewhere heights are convolved with the sampled Gaussian, and at the rim the
+// part of it that lies outside is left out and the rest scaled to unit weight: a constant stays what
+// it is, a slope bends within half a cut-off of the rim. The kernel is cut where it has fallen under
+// 1e-16. Sampled, a cut-off under about two cells passes more of the shortest waves than the standard
+// says.
+#pragma once
+
+#include <optional>
+
+#include "engine/surface/profile.hpp"
+#include "engine/surface/surface.hpp"
+
+namespace asperity {
+
+struct GaussianFilter {
+  std::optional<double> short_wave;  // m, > 0
+  std::optional<double> long_wave;   // m, > short_wave; infinite means none
+};
+
+// The share 2^-(cut_off/wavelength)² of a wave that the mean line keeps.
+double gaussian_transmission(double cut_off, double wavelength);
+
+// Cost O(nodes · log n) for any cut-offs, by zero-padded transforms of rows, then columns; two copies
+// of the grid. Material and periodicity stay. With a long_wave the mean of a periodic result is 0;
+// elsewhere about 0. Same bits for any number of threads; thread-safe.
+// Throws Error{bad_value} naming `short_wave` or `long_wave` when neither is given, one is not
+// positive, or short_wave is not below long_wave.
+Surface gaussian_filtered(const Surface& surface, const GaussianFilter& filter);
+Profile gaussian_filtered(const Profile& profile, const GaussianFilter& filter);
+
+}  // namespace asperity

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/metrology/length_ratio.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace asperity {
+
+namespace {
+
+// √(2x/π) eˣ times K0(x) and K1(x): of order one for large x, where the functions themselves vanish.
+struct ScaledBessel {
+  double k0, k1;
+};
+
+// Hankel's asymptotic series, Σ Π (4ν² - (2m-1)²)/(8x m), to its least term.
+double hankel_series(double four_nu_squared, double x) {
+  double sum = 1, term = 1;
+  for (int m = 1; m < 60; ++m) {
+    const double odd = 2 * m - 1;
+    const double next = term * (four_nu_squared - odd * odd) / (8 * x * m);
+    if (std::abs(next) >= std::abs(term) || std::abs(next) < 1e-18) break;
+    sum += term = next;
+  }
+  return sum;
+}
+
+ScaledBessel scaled_bessel(double x) {
+  if (x > 25) return {hankel_series(0, x), hankel_series(4, x)};
+  const double scale = std::sqrt(2 * x / std::numbers::pi) * std::exp(x);
+  return {scale * std::cyl_bessel_k(0.0, x), scale * std::cyl_bessel_k(1.0, x)};
+}
+
+// Beyond it the profile is all slope: E√(1 + s²g²) = s E|g| to the last digit.
+constexpr double very_steep = 1e9;
+// Under it 1/s² is not a number.
+constexpr double very_flat = 1e-150;
+
+}  // namespace
+
+double expected_length_ratio(double rms_slope) {
+  const double s = std::abs(rms_slope);
+  if (s < very_flat) return 1;
+  if (s > very_steep) return s * std::sqrt(2 / std::numbers::pi);
+  const ScaledBessel k = scaled_bessel(1 / (4 * s * s));
+  return (k.k0 + k.k1) / 2;
+}
+
+double length_sensitivity(double rms_slope) {
+  const double s = std::abs(rms_slope);
+  if (s < 1e-3) return s * s * (1 - 2 * s * s);
+  if (s > very_steep) return 1;
+  const ScaledBessel k = scaled_bessel(1 / (4 * s * s));
+  return (k.k1 - k.k0) / (k.k1 + k.k0);
+}
+
+}  // namespace asperity

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/metrology/profile_statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/core/fourier.hpp"
+
+namespace asperity {
+
+namespace {
+
+// Calls pair(i, j) with the ends of every step of `s` samples.
+template <class Pair>
+int for_each_step(int n, int s, bool wrap, bool every_offset, const Pair& pair) {
+  const int stride = every_offset ? 1 : s;
+  const int steps = every_offset ? (wrap ? n : n - s) : (wrap ? n : n - 1) / s;
+  for (int k = 0; k < steps; ++k) {
+    const int i = k * stride, j = i + s;
+    pair(static_cast<std::size_t>(i), static_cast<std::size_t>(j < n ? j : j - n));
+  }
+  return steps;
+}
+
+struct Length {
+  double excess, mean_square_slope;
+};
+
+Length length_at(std::span<const double> z, double spacing, int s, const Stepping& stepping) {
+  double excess = 0, squares = 0;
+  const double run = s * spacing;
+  const int steps = for_each_step(
+      static_cast<int>(z.size()), s, stepping.wrap, stepping.offsets, [&](std::size_t i, std::size_t j) {
+        const double slope = std::abs(z[j] - z[i]) / run;
+        // √(1 + slope²) - 1 without cancellation, and without overflow where slope² would.
+        excess += slope < 1e150 ? slope * slope / (1 + std::sqrt(1 + slope * slope)) : slope;
+        squares += std::min(slope, 1e150) * std::min(slope, 1e150);
+      });
+  return {excess / steps, squares / steps};
+}
+
+double difference_at(std::span<const double> z, double unit, int s, bool wrap, bool squared) {
+  double sum = 0;
+  const int steps =
+      for_each_step(static_cast<int>(z.size()), s, wrap, true, [&](std::size_t i, std::size_t j) {
+        const double d = (z[j] - z[i]) / unit;
+        sum += squared ? d * d : std::abs(d);
+      });
+  return sum / steps;
+}
+
+// Boxes are stacked on the lowest point and lined up on the first; the count over whole columns of
+// boxes is scaled up to the length that the last incomplete one would have had its part of.
+double boxes_at(std::span<const double> z, double unit, int s, bool wrap) {
+  const auto n = z.size();
+  const std::size_t intervals = wrap ? n : n - 1;
+  const auto width = static_cast<std::size_t>(s);
+  const std::size_t columns = intervals / width;
+  const double low = range(z).min;
+  const double per_box = static_cast<double>(intervals) / s;
+  const double top = std::ceil(per_box) - 1;
+  double count = 0;
+  for (std::size_t c = 0; c < columns; ++c) {
+    double least = z[c * width], most = least;
+    for (std::size_t k = c * width + 1; k <= (c + 1) * width; ++k) {
+      const double height = z[k < n ? k : k - n];
+      least = std::min(least, height);
+      most = std::max(most, height);
+    }
+    count += std::min(std::floor((most - low) / unit * per_box), top) -
+             std::min(std::floor((least - low) / unit * per_box), top) + 1;
+  }
+  return count * (per_box / static_cast<double>(columns));
+}
+
+// Ordinates first … last of a periodogram.
+struct Band {
+  int first, last;
+};
+
+// From half the length, as the Hann window leaks the mean into the ordinate before (a periodic profile
+// needs none and starts at its length), down to three samples, as what aliases fills up the rest.
+std::vector<Band> bands(int n, bool wrap) {
+  std::vector<Band> result;
+  if (n < 16) return result;
+  const int end = (n + 2) / 3;
+  for (double low = wrap ? 1 : 2; low < end; low *= std::numbers::sqrt2) {
+    const int first = static_cast<int>(std::ceil(low));
+    const int last = std::min(static_cast<int>(std::ceil(low * std::numbers::sqrt2)), end) - 1;
+    if (first <= last) result.push_back({first, last});
+  }
+  return result;
+}
+
+}  // namespace
+
+void step_statistics(std::span<const double> heights, double spacing, double unit, const Stepping& stepping,
+                     std::span<double> statistics, std::span<double> mean_square_slopes) {
+  for (std::size_t k = 0; k < stepping.steps.size(); ++k) {
+    const int s = stepping.steps[k];
+    switch (stepping.method) {
+      case DimensionMethod::length: {
+        const Length length = length_at(heights, spacing, s, stepping);
+        statistics[k] = length.excess;
+        if (!mean_square_slopes.empty()) mean_square_slopes[k] = length.mean_square_slope;
+        break;
+      }
+      case DimensionMethod::structure:
+        statistics[k] = difference_at(heights, unit, s, stepping.wrap, true);
+        break;
+      case DimensionMethod::madogram:
+        statistics[k] = difference_at(heights, unit, s, stepping.wrap, false);
+        break;
+      case DimensionMethod::box:
+        statistics[k] = boxes_at(heights, unit, s, stepping.wrap);
+        break;
+      case DimensionMethod::psd:
+        break;
+    }
+  }
+}
+
+std::vector<double> band_wavelengths(int n, bool wrap) {
+  std::vector<double> result;
+  for (const Band& band : bands(n, wrap)) {
+    double sum = 0;
+    for (int k = band.first; k <= band.last; ++k) sum += std::log(static_cast<double>(k));
+    result.push_back(n / std::exp(sum / (band.last - band.first + 1)));
+  }
+  return result;
+}
+
+void band_log_powers(std::span<const double> heights, double unit, bool wrap, std::span<double> log_powers) {
+  const auto n = static_cast<int>(heights.size());
+  Array<double> samples(heights.begin(), heights.end());
+  const double centre = mean(samples);
+  double total = 0;
+  for (int i = 0; i < n; ++i) {
+    double& value = samples[static_cast<std::size_t>(i)];
+    const double s = std::sin(std::numbers::pi * (i + 0.5) / n);
+    value = (value - centre) / unit * (wrap ? 1 : s * s);
+    total += value * value;
+  }
+  const Array<std::complex<double>> waves = fourier_forward(samples);
+  // What rounding leaves of an ordinate that is zero.
+  const double floor = 1e-32 * total * n;
+  const std::vector<Band> all = bands(n, wrap);
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    double sum = 0;
+    for (int k = all[b].first; k <= all[b].last; ++k)
+      sum += std::log(std::max(std::norm(waves[static_cast<std::size_t>(k)]), floor));
+    log_powers[b] = sum / (all[b].last - all[b].first + 1);
+  }
+}
+
+}  // namespace asperity

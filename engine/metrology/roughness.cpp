@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/metrology/roughness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/metrology/blocked_sums.hpp"
+
+namespace asperity {
+
+namespace {
+
+// Heights as (z·down - mean - rest)·up, of order one; both factors are powers of two, and `rest` is
+// what the mean loses by being rounded to a double.
+struct Normalised {
+  int exponent = 0;  // one unit is 2^exponent metres
+  double down = 1, mean = 0, rest = 0, up = 1;
+  double operator()(double z) const { return ((z * down - mean) - rest) * up; }
+};
+
+Normalised normalise(std::span<const double> heights, const Range& r, double mean) {
+  Normalised n;
+  const int coarse = scale_exponent(magnitude(r));
+  n.down = std::ldexp(1.0, -coarse);
+  n.mean = mean * n.down;
+  const int fine = scale_exponent(std::max(r.max * n.down - n.mean, n.mean - r.min * n.down));
+  n.up = std::ldexp(1.0, -fine);
+  n.exponent = coarse + fine;
+  n.rest = blocked_sums<1>(heights.size(),
+                           [&](std::size_t k) { return std::array{heights[k] * n.down - n.mean}; })[0] /
+           static_cast<double>(heights.size());
+  return n;
+}
+
+Roughness amplitudes(std::span<const double> heights, const Range& r, const Normalised& unit, double mean) {
+  const auto n = static_cast<double>(heights.size());
+  const auto [first, second, third, fourth] = blocked_sums<4>(heights.size(), [&](std::size_t k) {
+    const double u = unit(heights[k]), u2 = u * u;
+    return std::array{std::abs(u), u2, u2 * u, u2 * u2};
+  });
+  const double variance = second / n;
+  Roughness result;
+  result.Ra = std::ldexp(first / n, unit.exponent);
+  result.Rq = std::ldexp(std::sqrt(variance), unit.exponent);
+  result.skewness = third / n / (variance * std::sqrt(variance));
+  result.kurtosis = fourth / n / (variance * variance);
+  result.amplitude = r.span();
+  result.peak = r.max;
+  result.valley = r.min;
+  result.mean = mean;
+  return result;
+}
+
+Roughness flat(const Range& r) {
+  Roughness result;
+  result.peak = result.valley = result.mean = r.max;
+  return result;
+}
+
+// The root of the mean of (dx/hx)² + (dy/hy)², with the squares taken of numbers of order one.
+double rms_slope(const Field& z, const Grid& grid, const Normalised& unit) {
+  const bool along_x = grid.nx > 1, along_y = grid.ny > 1;
+  const int columns = along_x ? grid.nx - 1 : 1, rows = along_y ? grid.ny - 1 : 1;
+  const double h = along_x && along_y ? std::min(grid.hx(), grid.hy()) : (along_x ? grid.hx() : grid.hy());
+  const double to_x = along_x ? h / grid.hx() : 0, to_y = along_y ? h / grid.hy() : 0;
+  Array<double> row_sums(static_cast<std::size_t>(rows));
+  constexpr int rows_per_turn = 16;
+  parallel_for((rows + rows_per_turn - 1) / rows_per_turn, [&](std::int64_t turn) {
+    Array<double> squares(static_cast<std::size_t>(columns));
+    const int first = static_cast<int>(turn) * rows_per_turn;
+    for (int j = first; j < std::min(rows, first + rows_per_turn); ++j) {
+      const std::span<const double> here = z.row(j), above = z.row(along_y ? j + 1 : j);
+      const std::size_t right = along_x ? 1 : 0;
+      for (std::size_t i = 0; i < squares.size(); ++i) {
+        const double u = unit(here[i]);
+        const double dx = (unit(here[i + right]) - u) * to_x, dy = (unit(above[i]) - u) * to_y;
+        squares[i] = dx * dx + dy * dy;
+      }
+      row_sums[static_cast<std::size_t>(j)] = block_sum(squares);
+    }
+  });
+  const double mean_square = block_sum(row_sums) / (static_cast<double>(rows) * columns);
+  return std::ldexp(std::sqrt(mean_square) / h, unit.exponent);
+}
+
+}  // namespace
+
+Roughness roughness(const Surface& surface) {
+  const Field& z = surface.heights();
+  const Range r = surface.height_range();
+  if (r.min == r.max) return flat(r);
+  const double mean = exact_mean(z.values(), r);
+  const Normalised unit = normalise(z.values(), r, mean);
+  Roughness result = amplitudes(z.values(), r, unit, mean);
+  result.rms_slope = rms_slope(z, surface.grid(), unit);
+  return result;
+}
+
+Roughness roughness(const Profile& profile) {
+  const std::span<const double> z = profile.heights();
+  const Range r = profile.height_range();
+  if (r.min == r.max) return flat(r);
+  const double mean = exact_mean(z, r);
+  const Normalised unit = normalise(z, r, mean);
+  Roughness result = amplitudes(z, r, unit, mean);
+  const double squares = blocked_sums<1>(z.size() - 1, [&](std::size_t k) {
+    const double d = unit(z[k + 1]) - unit(z[k]);
+    return std::array{d * d};
+  })[0];
+  result.rms_slope =
+      std::ldexp(std::sqrt(squares / static_cast<double>(z.size() - 1)) / profile.spacing(), unit.exponent);
+  return result;
+}
+
+}  // namespace asperity

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces and profiles with known answers, for the tests of this folder, and a way to read the text
+// of an expected Error.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "engine/core/error.hpp"
+#include "engine/core/fourier.hpp"
+#include "engine/core/random.hpp"
+#include "engine/surface/profile.hpp"
+#include "engine/surface/surface.hpp"
+
+namespace asperity::testing {
+
+inline constexpr double pi = std::numbers::pi;
+
+// height(i, j) on nx x ny cells.
+template <class Height>
+Surface make_surface(int nx, int ny, double size_x, double size_y, const Height& height,
+                     SurfaceTraits traits = {}) {
+  Field z(nx, ny);
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) z(i, j) = height(i, j);
+  return Surface(make_grid(nx, ny, size_x, size_y), std::move(z), std::move(traits));
+}
+
+inline SurfaceTraits periodic() {
+  SurfaceTraits traits;
+  traits.periodic = true;
+  return traits;
+}
+
+template <class Height>
+Profile make_profile(int n, double spacing, const Height& height) {
+  Array<double> z(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) z[static_cast<std::size_t>(i)] = height(i);
+  return Profile(spacing, std::move(z));
+}
+
+// Independent normal heights.
+inline Surface white_noise(int nx, int ny, double size_x, double size_y, std::uint64_t seed) {
+  const Stream stream(seed, "white noise");
+  return make_surface(nx, ny, size_x, size_y, [&](int i, int j) {
+    return stream.normal(static_cast<std::uint64_t>(j) * 100000 + i);
+  });
+}
+
+// n samples of exact fractional Brownian motion of Hurst exponent H, increments of variance 1:
+// circulant embedding of the increments (Davies & Harte 1987).
+inline Array<double> fractional_brownian(int n, double H, std::uint64_t seed) {
+  const int m = 2 * n;
+  const auto covariance = [H](double k) {
+    const double p = 2 * H;
+    return 0.5 * (std::pow(std::abs(k + 1), p) - 2 * std::pow(std::abs(k), p) + std::pow(std::abs(k - 1), p));
+  };
+  Array<double> row(static_cast<std::size_t>(m));
+  for (int k = 0; k < m; ++k) row[static_cast<std::size_t>(k)] = covariance(k <= n ? k : m - k);
+  const Array<std::complex<double>> eigenvalues = fourier_forward(row);
+  const Stream stream(seed, "fractional brownian");
+  Array<std::complex<double>> waves(eigenvalues.size());
+  for (std::size_t k = 0; k < waves.size(); ++k) {
+    const double size = std::sqrt(std::max(0.0, eigenvalues[k].real()) * m);
+    const bool own_twin = k == 0 || 2 * k == static_cast<std::size_t>(m);
+    waves[k] = own_twin ? std::complex<double>(size * stream.normal(2 * k))
+                        : size * std::sqrt(0.5) *
+                              std::complex<double>(stream.normal(2 * k), stream.normal(2 * k + 1));
+  }
+  const Array<double> increments = fourier_inverse(waves, m);
+  Array<double> heights(static_cast<std::size_t>(n));
+  double sum = 0;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    heights[i] = sum;
+    sum += increments[i];
+  }
+  return heights;
+}
+
+// The text of the Error that the call throws.
+template <class Call>
+std::string error_text(const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace asperity::testing
