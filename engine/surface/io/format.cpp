@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list of formats and the choice among them. A new format is one source file, one declaration
+// and one line here.
+#include "engine/surface/io/format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+std::span<const Format* const> formats() {
+  static const std::array<const Format*, 5> all{&npy_format(), &x3p_format(), &stylus_csv_format(),
+                                                &xyz_format(), &text_format()};
+  return all;
+}
+
+const Format& choose_format(const SourceFile& file, const std::string& forced) {
+  std::vector<std::string> names;
+  std::vector<std::string> marks;
+  for (const Format* format : formats()) {
+    names.push_back(quoted(format->name));
+    marks.push_back(std::string(format->name) + " (" + std::string(format->marks) + ")");
+  }
+  if (!forced.empty()) {
+    std::vector<std::string> plain;
+    for (const Format* format : formats()) {
+      if (format->name == forced) return *format;
+      plain.emplace_back(format->name);
+    }
+    throw Error(ErrorCode::unknown_name, "`format` is \"" + forced + "\"" + did_you_mean(forced, plain),
+                "known formats are " + joined(names, " and "));
+  }
+  for (const Format* format : formats())
+    if (format->recognises(file)) return *format;
+  for (const Format* format : formats()) {
+    const auto& endings = format->extensions;
+    if (std::find(endings.begin(), endings.end(), file.extension()) != endings.end()) return *format;
+  }
+  refuse_file(file, "is of no known format; looked for " + joined(marks, " and "),
+              "if it is one of them, name it with `format`");
+}
+
+}  // namespace asperity

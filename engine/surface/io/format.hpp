@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The formats of measured topographies: one record a format, one source file a record. A reader
+// recognises a file by its content and takes its numbers out as they stand; what they mean in
+// metres, and what becomes of holes, is decided in one place for all formats (read.cpp).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/core/grid.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/surface/io/source_file.hpp"
+
+namespace asperity {
+
+// What stands in a file.
+struct HeightMap {
+  Field heights;                         // the numbers of the file; NaN where a point is missing
+  std::optional<double> unit;            // m per number, if the file says
+  std::optional<double> size_x, size_y;  // nodes times spacing; m, or numbers if size_in_units
+  bool size_in_units = false;            // lengths share the unit of the heights
+  bool trace = false;                    // one line of samples: ny = 1, and no size_y of its own
+  std::optional<double> spacing;         // m between the samples of a trace, where a file states it
+  std::optional<double> closed_radius;   // m, of a closed outline
+};
+
+struct Format {
+  std::string_view name;                         // as in `format = "npy"`
+  std::string_view marks;                        // what it is known by, for errors
+  std::span<const std::string_view> extensions;  // lower case, without dots
+  bool (*recognises)(const SourceFile& file);    // by content alone; never throws but for a stop
+  // Throws Error{bad_file} for whatever is not as the format wants it. Allocates no more than a
+  // fixed multiple of the file's size.
+  HeightMap (*read)(const SourceFile& file, Monitor& monitor);
+};
+
+const Format& npy_format();
+const Format& x3p_format();
+const Format& stylus_csv_format();
+const Format& xyz_format();
+const Format& text_format();
+
+// All of them, in the order in which they are tried: the most particular marks first.
+std::span<const Format* const> formats();
+
+// The format called `forced`, or else the first that recognises the content, or else the one of the
+// extension. Throws Error{unknown_name} for a `format` that does not exist and Error{bad_file} when
+// nothing fits, naming what was looked for.
+const Format& choose_format(const SourceFile& file, const std::string& forced);
+
+}  // namespace asperity

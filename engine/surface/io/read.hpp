@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Measured topographies from files: text matrices, x y z triples, NPY, X3P (ISO 25178-72) and the
+// CSV of stylus profilers. A file is known by its content, then by its extension, unless `format`
+// names it. A file that does not say its size or unit needs them in the call; the call wins over the
+// file, with a warning. A file that is damaged, or not what it claims to be, is an Error{bad_file},
+// and memory stays within a fixed multiple of the file's size.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/core/monitor.hpp"
+#include "engine/surface/material.hpp"
+#include "engine/surface/profile.hpp"
+#include "engine/surface/surface.hpp"
+
+namespace asperity {
+
+// What to do with missing points.
+struct HoleFill {
+  enum class Kind { none, interpolate, value };  // an error, harmonic from the neighbours, one height
+  Kind kind = Kind::none;
+  double height = 0;  // m, for Kind::value
+
+  static HoleFill interpolate() { return {Kind::interpolate, 0}; }
+  static HoleFill with(double height) { return {Kind::value, height}; }
+};
+
+struct ReadOptions {
+  std::optional<double> size_x, size_y;  // m, nodes times spacing
+  std::optional<double> unit;            // m per number of the file; of x, y and z alike in triples
+  HoleFill fill;
+  std::string format;  // "text", "xyz", "npy", "x3p", "stylus-csv"; empty: found out
+  std::optional<Material> material;
+};
+
+struct ReadProfileOptions {
+  std::optional<double> spacing;  // m between samples
+  std::optional<double> unit;     // m per number of the file; of positions too, where there are some
+  HoleFill fill;
+  std::string format;
+};
+
+// First line of a text matrix, row 0 of an array: j = 0. A trace (stylus CSV, one-dimensional array)
+// becomes one row, ny = 1, whose size_y is one cell unless given. Traits: the material, nothing else.
+// Errors: bad_file; bad_value for holes without `fill` (how many, and the first), for a missing
+// `size` or `unit`, or for more than 65536 cells a side; unknown_name for `format`.
+Surface read_surface(const std::string& path, const ReadOptions& options = {},
+                     Monitor& monitor = Monitor::silent());
+
+// A trace, a single row or a single column of heights, or two columns of text: position and height.
+// A map of several rows is an error that points to reading it as a surface.
+Profile read_profile(const std::string& path, const ReadProfileOptions& options = {},
+                     Monitor& monitor = Monitor::silent());
+
+}  // namespace asperity

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads a file in pieces so that a stop flag is seen and no size field of the file system is
+// trusted for more than a first guess.
+#include "engine/surface/io/source_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "engine/core/error.hpp"
+
+namespace asperity {
+
+namespace {
+constexpr std::size_t piece = std::size_t{1} << 20;
+}
+
+std::string file_extension(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  if (!ending.empty()) ending.erase(0, 1);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+std::string file_name(const std::string& path) { return "\"" + path + "\""; }
+
+void refuse_file(const SourceFile& file, const std::string& finding, const std::string& hint) {
+  throw Error(ErrorCode::bad_file, file_name(file.path()) + " " + finding, hint);
+}
+
+SourceFile::SourceFile(std::string path, Monitor& monitor)
+    : path_(std::move(path)), extension_(file_extension(path_)) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  const fs::file_status status = fs::status(path_, failure);
+  if (status.type() == fs::file_type::not_found || path_.empty())
+    throw Error(ErrorCode::bad_file, "there is no file " + file_name(path_),
+                "check the path and its spelling");
+  if (status.type() == fs::file_type::directory)
+    throw Error(ErrorCode::bad_file, file_name(path_) + " is a directory", "give the path of a file in it");
+  if (status.type() != fs::file_type::regular)
+    throw Error(ErrorCode::bad_file, file_name(path_) + " is not a plain file",
+                "give the path of a measured file");
+  std::ifstream stream(path_, std::ios::binary);
+  if (!stream)
+    throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be opened", "check that it may be read");
+  const std::uintmax_t expected = fs::file_size(path_, failure);
+  if (failure) throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be read");
+  bytes_.reserve(static_cast<std::size_t>(expected));
+  Task task(monitor, "reading", static_cast<std::int64_t>(expected));
+  while (stream) {
+    const std::size_t held = bytes_.size();
+    const std::size_t wanted =
+        std::max<std::size_t>(1, std::min(piece, static_cast<std::size_t>(expected) -
+                                                     std::min(static_cast<std::size_t>(expected), held)));
+    bytes_.resize(held + wanted);
+    stream.read(bytes_.data() + held, static_cast<std::streamsize>(wanted));
+    bytes_.resize(held + static_cast<std::size_t>(stream.gcount()));
+    task.advance(stream.gcount());
+  }
+  if (stream.bad()) throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be read to its end");
+  if (bytes_.empty()) throw Error(ErrorCode::bad_file, file_name(path_) + " is empty", "write it again");
+}
+
+std::string_view SourceFile::text() const {
+  std::string_view view = bytes();
+  if (view.starts_with("\xEF\xBB\xBF")) view.remove_prefix(3);
+  return view;
+}
+
+bool SourceFile::looks_like_text() const {
+  return bytes().substr(0, 4096).find('\0') == std::string_view::npos;
+}
+
+}  // namespace asperity

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A measured file held in memory while a reader takes it apart. The whole file is read once into
+// counted memory, so every later allocation can be bounded by its size and no reader touches the
+// disk. Not for files larger than memory.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/core/memory.hpp"
+#include "engine/core/monitor.hpp"
+
+namespace asperity {
+
+class SourceFile {
+ public:
+  // Throws Error{bad_file} for a path that is missing, a directory, not a plain file, not readable
+  // or empty; Error{out_of_memory} when it does not fit.
+  SourceFile(std::string path, Monitor& monitor);
+
+  const std::string& path() const { return path_; }
+  // The ending of the name in lower case without the dot: "x3p"; empty if there is none.
+  const std::string& extension() const { return extension_; }
+  std::string_view bytes() const { return {bytes_.data(), bytes_.size()}; }
+  // The bytes without a UTF-8 byte-order mark.
+  std::string_view text() const;
+  // False for bytes that no text holds: a zero byte among the first few thousand.
+  bool looks_like_text() const;
+
+ private:
+  std::string path_;
+  std::string extension_;
+  Array<char> bytes_;
+};
+
+// Lower-case ending of a path without the dot.
+std::string file_extension(const std::string& path);
+// "\"path\"", as errors name files.
+std::string file_name(const std::string& path);
+// Throws Error{bad_file}: the file's name, a blank, `finding`; then the hint.
+[[noreturn]] void refuse_file(const SourceFile& file, const std::string& finding,
+                              const std::string& hint = {});
+
+}  // namespace asperity

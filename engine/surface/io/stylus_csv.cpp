@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Traces of stylus profilers as CSV: a header of `key,value` lines, a line `Scan Data`, a line that
+// names columns and units (`Lateral um,Raw Micrometer`), then one line a sample. Positions are
+// written rounded (0.1 um for a spacing of 0.156 um), and so is the `Resolution` of the header;
+// the spacing is therefore the least-squares slope of position against sample number, which is
+// good to about rounding / n^1.5. Unevenly spaced samples are an error.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/format.hpp"
+#include "engine/surface/io/text_table.hpp"
+
+namespace asperity {
+
+namespace {
+
+// Metres in the unit that ends a column title: "Lateral um", "Raw Micrometer", "Height (nm)".
+std::optional<double> unit_of(std::string_view title) {
+  std::string text = lower_case(trimmed(title));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == '[' || c == ']'; }, ' ');
+  const std::vector<std::string_view> words = cells_of(text, Separator::blank);
+  if (words.empty()) return {};
+  std::string_view last = words.back();
+  if (last.size() > 2 && last.ends_with('s')) last.remove_suffix(1);
+  if (last == "micrometer" || last == "micrometre" || last == "micron" || last == "\xB5m") return 1e-6;
+  if (last == "nanometer" || last == "nanometre") return 1e-9;
+  if (last == "millimeter" || last == "millimetre") return 1e-3;
+  if (last == "meter" || last == "metre") return 1.0;
+  if (last == "angstrom" || last == "\xC5" || last == "a") return 1e-10;
+  try {
+    const Quantity unit = parse_unit(last);
+    if (unit.dimension == dimension::length) return unit.value;
+  } catch (const Error&) {  // no unit that is known
+  }
+  return {};
+}
+
+bool is_scan_mark(std::string_view line) {
+  std::string text = lower_case(trimmed(line));
+  while (!text.empty() && text.back() == ',') text.pop_back();
+  return text == "scan data";
+}
+
+bool recognises(const SourceFile& file) {
+  if (!file.looks_like_text()) return false;
+  LineReader lines(file.text());
+  std::string_view line;
+  for (int count = 0; count < 500 && lines.next(line); ++count)
+    if (is_scan_mark(line)) return true;
+  return false;
+}
+
+// Decimals with which a number is written.
+int decimals(std::string_view text) {
+  const std::size_t point = text.find_first_of(".,");
+  return point == std::string_view::npos
+             ? 0
+             : static_cast<int>(std::min<std::size_t>(text.size() - point - 1, 17));
+}
+
+struct Line {
+  double spacing = 0, first = 0;
+};
+
+// Least squares of position against number, by centred sums.
+Line fitted(std::span<const double> positions) {
+  const auto n = static_cast<double>(positions.size());
+  const double middle = 0.5 * (n - 1), average = mean(positions);
+  Array<double> products(positions.size());
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    products[k] = (static_cast<double>(k) - middle) * (positions[k] - average);
+  const double spacing = block_sum(products) * 12 / (n * (n * n - 1));
+  return {spacing, average - spacing * middle};
+}
+
+HeightMap read(const SourceFile& file, Monitor& monitor) {
+  if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
+  LineReader lines(file.text());
+  std::string_view line;
+  bool found = false;
+  std::optional<double> length;  // m, as the header says
+  while (!found && lines.next(line)) {
+    found = is_scan_mark(line);
+    const std::vector<std::string_view> cells = cells_of(line, Separator::comma);
+    if (cells.size() >= 2 && lower_case(cells[0]) == "length" && !length) {
+      try {
+        length = parse_quantity_as(cells[1], dimension::length);
+      } catch (const Error&) {  // only used for a check
+      }
+    }
+  }
+  if (!found)
+    refuse_file(file, "has no line \"Scan Data\"", "if it is another format, name it with `format`");
+  do {
+    if (!lines.next(line)) refuse_file(file, "ends after \"Scan Data\"", "the file is cut short");
+  } while (trimmed(line).empty());
+  const std::vector<std::string_view> titles = cells_of(line, separator_of(line));
+  if (titles.size() < 2) refuse_file(file, "names no columns after \"Scan Data\": " + shown(line));
+  const std::optional<double> lateral_unit = unit_of(titles[0]);
+  if (!lateral_unit)
+    refuse_file(file, "gives no known unit of length for its positions: " + shown(titles[0]));
+
+  Array<double> positions, heights;
+  int places = 0;
+  Task task(monitor, "reading", static_cast<std::int64_t>(file.bytes().size()));
+  std::size_t before = 0;
+  while (lines.next(line)) {
+    task.advance(static_cast<std::int64_t>(lines.position() - before));
+    before = lines.position();
+    line = trimmed(line);
+    if (line.find_first_not_of(",; \t") == std::string_view::npos) continue;
+    const Separator separator = separator_of(line);
+    const std::vector<std::string_view> cells = cells_of(line, separator);
+    const std::string where = " in line " + std::to_string(lines.number());
+    if (cells.size() < 2) refuse_file(file, "has no height" + where, "the file is cut short");
+    const Cell position = read_cell(cells[0], separator), height = read_cell(cells[1], separator);
+    if (position.kind != CellKind::number)
+      refuse_file(file, "has no position" + where + ": " + shown(cells[0]));
+    if (height.kind != CellKind::number && height.kind != CellKind::hole)
+      refuse_file(file, "has no height" + where + ": " + shown(cells[1]));
+    places = std::max(places, decimals(cells[0]));
+    positions.push_back(position.value);
+    heights.push_back(height.value);
+  }
+  if (positions.size() < 2) refuse_file(file, "has fewer than two samples", "the file is cut short");
+  if (positions.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    refuse_file(file, "has too many samples");
+  const Line fit = fitted(positions);
+  // Rounding moves a position by half of its last digit at most.
+  const double allowed = std::max(0.5 * fit.spacing, 0.6 * std::pow(10.0, -places));
+  if (!(fit.spacing > 0) || !std::isfinite(fit.spacing))
+    refuse_file(file, "has positions that do not increase");
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    if (!(std::abs(positions[k] - (fit.first + fit.spacing * static_cast<double>(k))) <= allowed))
+      refuse_file(file, "is not evenly spaced: sample " + std::to_string(k + 1) + " stands at " +
+                            format_short(positions[k]) + " instead of " +
+                            format_short(fit.first + fit.spacing * static_cast<double>(k)));
+
+  HeightMap map;
+  const auto n = static_cast<int>(heights.size());
+  map.heights = Field(n, 1);
+  std::copy(heights.begin(), heights.end(), map.heights.values().begin());
+  map.unit = unit_of(titles[1]);
+  map.size_x = fit.spacing * *lateral_unit * n;
+  map.trace = true;
+  if (length && std::abs(*map.size_x - *length) > 0.01 * *length)
+    monitor.warn(file_name(file.path()) + " says it is " + format_quantity(*length, dimension::length) +
+                 " long but its samples span " + format_quantity(*map.size_x, dimension::length));
+  return map;
+}
+
+}  // namespace
+
+const Format& stylus_csv_format() {
+  static const Format format{"stylus-csv", "a line \"Scan Data\"", {}, recognises, read};
+  return format;
+}
+
+}  // namespace asperity

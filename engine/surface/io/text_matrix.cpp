@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Text matrices: one line of numbers is one y, the first line is j = 0. Beside bare tables it knows
+// three headers: the one this program writes (`# asperity surface`, `# asperity profile`), the
+// instrument form `h= w= pixel size= height conversion factor=`, and comment lines `Width:`,
+// `Height:`, `Value units:`. A header that lies about the number of cells is an error. A profile of
+// this program's own is two columns, position and height; any other table is taken as heights.
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/surface/io/format.hpp"
+#include "engine/surface/io/text_table.hpp"
+
+namespace asperity {
+
+namespace {
+
+struct Header {
+  bool own_profile = false;
+  std::optional<double> columns, rows;
+  std::optional<double> size_x, size_y, unit, pixel, closed_radius;
+};
+
+std::optional<double> plain_number(std::string_view text) {
+  const Cell cell = read_cell(trimmed(text), Separator::blank);
+  if (cell.kind != CellKind::number) return {};
+  return cell.value;
+}
+
+// "3.7e-007 m", "10 um" or a plain number of metres.
+std::optional<double> length_of(std::string_view text) {
+  if (const auto number = plain_number(text)) return number;
+  try {
+    return parse_quantity_as(trimmed(text), dimension::length);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+double needed(const std::optional<double>& value, const SourceFile& file, std::string_view key,
+              std::string_view text) {
+  if (!value || !(*value > 0))
+    refuse_file(file, "has a header whose `" + std::string(key) + "` is " + shown(trimmed(text)),
+                "it must be a number above zero, with or without a unit of length");
+  return *value;
+}
+
+// Takes one `key = value` of a header in; keys that say nothing about the grid are passed over.
+void take_in(Header& header, const SourceFile& file, std::string_view key_text, std::string_view value) {
+  const std::string key = lower_case(trimmed(key_text));
+  if (key == "h") {
+    header.rows = needed(plain_number(value), file, key, value);
+  } else if (key == "w") {
+    header.columns = needed(plain_number(value), file, key, value);
+  } else if (key == "pixel size") {
+    header.pixel = needed(length_of(value), file, key, value);
+  } else if (key.starts_with("height conversion factor") || key == "unit [m]") {
+    header.unit = needed(plain_number(value), file, key, value);
+  } else if (key == "cells" || key == "size [m]") {
+    const std::string_view both = trimmed(value);
+    const std::size_t gap = both.find(' ');
+    const std::string_view second = gap == std::string_view::npos ? std::string_view() : both.substr(gap);
+    (key == "cells" ? header.columns : header.size_x) =
+        needed(plain_number(both.substr(0, gap)), file, key, value);
+    (key == "cells" ? header.rows : header.size_y) = needed(plain_number(second), file, key, value);
+  } else if (key == "samples") {
+    header.rows = needed(plain_number(value), file, key, value);
+  } else if (key == "spacing [m]") {
+    header.pixel = needed(plain_number(value), file, key, value);
+  } else if (key == "closed radius [m]") {
+    header.closed_radius = needed(plain_number(value), file, key, value);
+  } else if (key == "width") {
+    header.size_x = needed(length_of(value), file, key, value);
+  } else if (key == "height") {
+    header.size_y = needed(length_of(value), file, key, value);
+  } else if (key == "value units") {
+    try {
+      const Quantity unit = parse_unit(trimmed(value));
+      if (unit.dimension == dimension::length) header.unit = unit.value;
+    } catch (const Error&) {  // heights in an unknown unit: the call has to say
+    }
+  }
+}
+
+// "h=305 w=75" holds two settings, "height conversion factor (-> m)=3e-8" one.
+void take_in_line(Header& header, const SourceFile& file, std::string_view line) {
+  const std::size_t first = line.find('=');
+  if (first == std::string_view::npos) {
+    const std::size_t colon = line.find(':');
+    if (colon != std::string_view::npos) take_in(header, file, line.substr(0, colon), line.substr(colon + 1));
+    return;
+  }
+  if (line.find('=', first + 1) == std::string_view::npos) {
+    take_in(header, file, line.substr(0, first), line.substr(first + 1));
+    return;
+  }
+  for (const std::string_view setting : cells_of(line, Separator::blank)) {
+    const std::size_t equals = setting.find('=');
+    if (equals != std::string_view::npos)
+      take_in(header, file, setting.substr(0, equals), setting.substr(equals + 1));
+  }
+}
+
+// Reads to the first row of numbers, which the reader gives next.
+Header read_header(LineReader& lines, const SourceFile& file) {
+  Header header;
+  std::string_view line;
+  for (LineReader ahead = lines; ahead.next(line); lines = ahead) {
+    line = trimmed(line);
+    if (line.empty()) continue;
+    if (line.front() == '#' || line.front() == '%') {
+      line = trimmed(line.substr(line.find_first_not_of("#%") == std::string_view::npos
+                                     ? line.size()
+                                     : line.find_first_not_of("#%")));
+      if (line == "asperity profile") header.own_profile = true;
+      take_in_line(header, file, line);
+      continue;
+    }
+    if (is_row_of_numbers(line)) return header;
+    if (line.find('=') == std::string_view::npos)
+      refuse_file(
+          file,
+          "holds no table of numbers: line " + std::to_string(ahead.number()) + " starts with " + shown(line),
+          "a text matrix has one line of numbers for each y, comments start with #");
+    take_in_line(header, file, line);
+  }
+  return header;
+}
+
+bool recognises(const SourceFile& file) {
+  if (!file.looks_like_text()) return false;
+  LineReader lines(file.text());
+  std::string_view line;
+  while (lines.next(line)) {
+    const std::string_view text = trimmed(line);
+    if (is_skipped(text)) continue;
+    return is_row_of_numbers(text) || (text.starts_with("h=") && text.find("w=") != std::string_view::npos);
+  }
+  return false;
+}
+
+void check_count(const SourceFile& file, const std::optional<double>& said, int found,
+                 std::string_view what) {
+  if (said && *said != found)
+    refuse_file(file,
+                "says in its header that it has " +
+                    std::to_string(static_cast<long long>(std::min(*said, 1e15))) + " " + std::string(what) +
+                    " but holds " + std::to_string(found),
+                "the file is cut short or its header is wrong");
+}
+
+HeightMap read(const SourceFile& file, Monitor& monitor) {
+  if (file.bytes().starts_with("\xFF\xFE") || file.bytes().starts_with("\xFE\xFF"))
+    refuse_file(file, "is UTF-16 text", "save it as UTF-8");
+  if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
+  LineReader lines(file.text());
+  const Header header = read_header(lines, file);
+  TextTable table = read_table(lines, file, monitor);
+  HeightMap map;
+  map.unit = header.unit;
+  if (header.own_profile) {
+    check_count(file, header.rows, table.rows, "samples");
+    if (table.columns != 2)
+      refuse_file(file, "has " + std::to_string(table.columns) + " columns",
+                  "a profile has two, position and height");
+    map.heights = Field(table.rows, 1);
+    for (std::size_t k = 0; k < map.heights.size(); ++k) map.heights[k] = table.values[2 * k + 1];
+    if (header.pixel) map.size_x = *header.pixel * table.rows;
+    map.spacing = header.pixel;
+    map.unit = 1.0;
+    map.trace = true;
+    map.closed_radius = header.closed_radius;
+    return map;
+  }
+  check_count(file, header.columns, table.columns, "columns");
+  check_count(file, header.rows, table.rows, "rows");
+  map.heights = Field(table.columns, table.rows);
+  std::copy(table.values.begin(), table.values.end(), map.heights.values().begin());
+  map.size_x = header.size_x;
+  map.size_y = header.size_y;
+  if (header.pixel) {
+    map.size_x = *header.pixel * table.columns;
+    map.size_y = *header.pixel * table.rows;
+  }
+  return map;
+}
+
+}  // namespace
+
+const Format& text_format() {
+  static constexpr std::array<std::string_view, 5> endings{"txt", "csv", "asc", "dat", "tsv"};
+  static const Format format{"text", "a line of numbers first", endings, recognises, read};
+  return format;
+}
+
+}  // namespace asperity

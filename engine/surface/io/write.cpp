@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Text and NPY; X3P has its own file. Numbers are written in the shortest form that reads back as
+// the same double.
+#include "engine/surface/io/write.hpp"
+
+#include <bit>
+#include <cstring>
+#include <string_view>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/source_file.hpp"
+#include "engine/surface/io/staged_file.hpp"
+#include "engine/surface/io/x3p_writer.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t piece = std::size_t{1} << 16;
+
+[[noreturn]] void refuse_extension(const std::string& path, const std::string& known) {
+  const std::string extension = file_extension(path);
+  throw Error(ErrorCode::bad_file,
+              extension.empty()
+                  ? file_name(path) + " has no extension, which says what to write"
+                  : "cannot write " + file_name(path) + ": no format has the extension ." + extension,
+              "use " + known);
+}
+
+// NPY version 1; the header is padded so that the data start at a multiple of 64 bytes.
+void write_npy(const std::string& path, const std::string& shape, std::span<const double> values, int rows,
+               Monitor& monitor) {
+  static_assert(std::endian::native == std::endian::little, "NPY data are written as they lie in memory");
+  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + shape + "), }";
+  constexpr std::size_t before = 10, alignment = 64;
+  header.append(alignment - (before + header.size() + 1) % alignment, ' ');
+  header += '\n';
+  std::string start("\x93NUMPY\x01\x00", 8);
+  start += static_cast<char>(header.size() & 0xFF);
+  start += static_cast<char>(header.size() >> 8);
+  StagedFile file(path);
+  file.write(start + header);
+  Task task(monitor, "writing", rows);
+  const std::size_t row = values.size() / static_cast<std::size_t>(rows);
+  for (int j = 0; j < rows; ++j) {
+    const auto part = values.subspan(static_cast<std::size_t>(j) * row, row);
+    file.write({reinterpret_cast<const char*>(part.data()), part.size_bytes()});
+    task.advance();
+  }
+  file.commit();
+}
+
+void write_matrix(const Surface& surface, const std::string& path, char separator, Monitor& monitor) {
+  const Grid& grid = surface.grid();
+  StagedFile file(path);
+  std::string text = "# asperity surface\n# cells = " + std::to_string(grid.nx) + " " +
+                     std::to_string(grid.ny) + "\n# size [m] = " + format_exact(grid.size_x) + " " +
+                     format_exact(grid.size_y) + "\n# unit [m] = 1\n";
+  Task task(monitor, "writing", grid.ny);
+  for (int j = 0; j < grid.ny; ++j) {
+    for (int i = 0; i < grid.nx; ++i) {
+      if (i > 0) text += separator;
+      text += format_exact(surface.heights()(i, j));
+    }
+    text += '\n';
+    if (text.size() >= piece || j + 1 == grid.ny) {
+      file.write(text);
+      text.clear();
+    }
+    task.advance();
+  }
+  file.commit();
+}
+
+void write_trace(const Profile& profile, const std::string& path, char separator, Monitor& monitor) {
+  StagedFile file(path);
+  std::string text = "# asperity profile\n# samples = " + std::to_string(profile.size()) +
+                     "\n# spacing [m] = " + format_exact(profile.spacing()) + "\n";
+  if (profile.closed_radius())
+    text += "# closed radius [m] = " + format_exact(*profile.closed_radius()) + "\n";
+  text += "# position [m], height [m]\n";
+  const auto heights = profile.heights();
+  Task task(monitor, "writing", profile.size());
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    text += format_exact(static_cast<double>(k) * profile.spacing()) + separator + format_exact(heights[k]) +
+            '\n';
+    if (text.size() >= piece || k + 1 == heights.size()) {
+      file.write(text);
+      text.clear();
+    }
+    task.advance();
+  }
+  file.commit();
+}
+
+}  // namespace
+
+void write_surface(const Surface& surface, const std::string& path, Monitor& monitor) {
+  const std::string extension = file_extension(path);
+  const Grid& grid = surface.grid();
+  if (extension == "npy") {
+    write_npy(path, std::to_string(grid.ny) + ", " + std::to_string(grid.nx), surface.heights().values(),
+              grid.ny, monitor);
+  } else if (extension == "x3p") {
+    write_x3p(surface, path);
+  } else if (extension == "txt" || extension == "asc") {
+    write_matrix(surface, path, ' ', monitor);
+  } else if (extension == "csv") {
+    write_matrix(surface, path, ',', monitor);
+  } else {
+    refuse_extension(path, ".npy, .x3p, .txt, .asc or .csv");
+  }
+}
+
+void write_profile(const Profile& profile, const std::string& path, Monitor& monitor) {
+  const std::string extension = file_extension(path);
+  if (extension == "npy") {
+    write_npy(path, std::to_string(profile.size()) + ",", profile.heights(), 1, monitor);
+  } else if (extension == "txt") {
+    write_trace(profile, path, ' ', monitor);
+  } else if (extension == "csv") {
+    write_trace(profile, path, ',', monitor);
+  } else {
+    refuse_extension(path, ".csv, .txt or .npy");
+  }
+}
+
+}  // namespace asperity

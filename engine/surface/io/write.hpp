@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces and profiles to files, by the extension of the path: .npy (float64, shape (ny, nx)), .x3p
+// (ISO 25178-72, double, with MD5), .txt .asc (blanks) and .csv (commas) with a header of size and
+// unit. All read back bit for bit; NPY carries no size or unit, so reading it needs both. Material
+// and periodicity are not written. Files appear whole or not at all.
+#pragma once
+
+#include <string>
+
+#include "engine/core/monitor.hpp"
+#include "engine/surface/profile.hpp"
+#include "engine/surface/surface.hpp"
+
+namespace asperity {
+
+// Throws Error{bad_file} for an unknown extension, naming the known ones, a missing directory, or a
+// disk that refuses. The same surface gives the same bytes every time.
+void write_surface(const Surface& surface, const std::string& path, Monitor& monitor = Monitor::silent());
+
+// .csv and .txt (position and height, with a header of spacing and radius) or .npy (heights).
+void write_profile(const Profile& profile, const std::string& path, Monitor& monitor = Monitor::silent());
+
+}  // namespace asperity

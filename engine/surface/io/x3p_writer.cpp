@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The archive is built by libzip from the heights where they lie; nothing is copied but the packed
+// bytes.
+#include "engine/surface/io/x3p_writer.hpp"
+
+#include <zip.h>
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <span>
+
+#include "engine/core/error.hpp"
+#include "engine/surface/io/archive.hpp"
+#include "engine/surface/io/source_file.hpp"
+#include "engine/surface/io/staged_file.hpp"
+
+namespace asperity {
+
+namespace {
+
+// size / count, to 21 digits.
+std::string increment(double size, int count) {
+  std::array<char, 64> buffer;
+  const auto [end, failure] = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
+                                            static_cast<long double>(size) / static_cast<long double>(count),
+                                            std::chars_format::scientific, 20);
+  if (failure != std::errc{}) throw Error(ErrorCode::internal, "an increment was not written");
+  return {buffer.data(), end};
+}
+
+std::string main_xml(const Grid& grid, const std::string& md5) {
+  return R"(<?xml version="1.0" encoding="UTF-8" standalone="no"?>
+<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:schemaLocation="http://www.opengps.eu/2008/ISO5436_2 http://www.opengps.eu/2008/ISO5436_2/ISO5436_2.xsd">
+  <Record1>
+    <Revision>ISO5436 - 2000</Revision>
+    <FeatureType>SUR</FeatureType>
+    <Axes>
+      <CX><AxisType>I</AxisType><DataType>D</DataType><Increment>)" +
+         increment(grid.size_x, grid.nx) + R"(</Increment><Offset>0</Offset></CX>
+      <CY><AxisType>I</AxisType><DataType>D</DataType><Increment>)" +
+         increment(grid.size_y, grid.ny) + R"(</Increment><Offset>0</Offset></CY>
+      <CZ><AxisType>A</AxisType><DataType>D</DataType></CZ>
+    </Axes>
+  </Record1>
+  <Record2>
+    <Date>1970-01-01T00:00:00</Date>
+    <Instrument>
+      <Manufacturer>Asperity</Manufacturer>
+      <Model>Asperity</Model>
+      <Serial>not available</Serial>
+      <Version>1</Version>
+    </Instrument>
+    <CalibrationDate>1970-01-01T00:00:00</CalibrationDate>
+    <ProbingSystem><Type>Software</Type><Identification>not available</Identification></ProbingSystem>
+  </Record2>
+  <Record3>
+    <MatrixDimension><SizeX>)" +
+         std::to_string(grid.nx) + "</SizeX><SizeY>" + std::to_string(grid.ny) +
+         R"(</SizeY><SizeZ>1</SizeZ></MatrixDimension>
+    <DataLink>
+      <PointDataLink>bindata/data.bin</PointDataLink>
+      <MD5ChecksumPointData>)" +
+         md5 + R"(</MD5ChecksumPointData>
+    </DataLink>
+  </Record3>
+  <Record4>
+    <ChecksumFile>md5checksum.hex</ChecksumFile>
+  </Record4>
+</p:ISO5436_2>
+)";
+}
+
+std::string md5_of(std::span<const char> bytes) {
+  Md5 md5;
+  md5.add(bytes);
+  return md5.hex();
+}
+
+}  // namespace
+
+void write_x3p(const Surface& surface, const std::string& path) {
+  static_assert(std::endian::native == std::endian::little, "X3P data are written as they lie in memory");
+  const auto heights = surface.heights().values();
+  const std::span<const char> data{reinterpret_cast<const char*>(heights.data()), heights.size_bytes()};
+  const std::string xml = main_xml(surface.grid(), md5_of(data));
+  const std::string checksum = md5_of(xml) + " *main.xml\n";
+
+  StagedFile file(path);
+  int code = 0;
+  zip_t* zip = zip_open(file.aside().c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
+  const auto refuse = [&](const std::string& reason) {
+    if (zip != nullptr) zip_discard(zip);
+    throw Error(ErrorCode::bad_file, file_name(path) + " cannot be written: " + reason,
+                "check permission and space on the disk");
+  };
+  if (zip == nullptr) {
+    zip_error_t error;
+    zip_error_init_with_code(&error, code);
+    const std::string reason = zip_error_strerror(&error);
+    zip_error_fini(&error);
+    refuse(reason);
+  }
+  const auto add = [&](const char* name, std::span<const char> bytes) {
+    zip_source_t* source = zip_source_buffer(zip, bytes.data(), bytes.size(), 0);
+    const zip_int64_t index = source == nullptr ? -1 : zip_file_add(zip, name, source, ZIP_FL_ENC_UTF_8);
+    if (index < 0) {
+      if (source != nullptr) zip_source_free(source);
+      refuse(zip_strerror(zip));
+    }
+    constexpr zip_uint16_t first_of_january_1980 = (1 << 5) | 1;
+    if (zip_file_set_dostime(zip, static_cast<zip_uint64_t>(index), 0, first_of_january_1980, 0) != 0)
+      refuse(zip_strerror(zip));
+  };
+  add("main.xml", xml);
+  add("bindata/data.bin", data);
+  add("md5checksum.hex", checksum);
+  if (zip_close(zip) != 0) refuse(zip_strerror(zip));
+  file.commit();
+}
+
+}  // namespace asperity

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// x y z triples of a regular grid, in any order: one point a line. The distinct x and y give the
+// lattice; spacing is (last - first)/(n - 1), and every coordinate must lie within a quarter of a
+// cell of its lattice line. A point given twice is an error, one left out is a hole. x, y and z are
+// in the same unit. Scattered points are not gridded here.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/format.hpp"
+#include "engine/surface/io/text_table.hpp"
+
+namespace asperity {
+
+namespace {
+
+struct Axis {
+  double first = 0, spacing = 0;
+  int lines = 0;      // distinct coordinates
+  bool even = false;  // each within a quarter of the spacing of its place
+  double odd = 0;     // a coordinate that is not
+  int place(double coordinate) const {
+    if (lines == 1) return 0;
+    const double nearest = std::round((coordinate - first) / spacing);
+    return static_cast<int>(std::clamp(nearest, 0.0, static_cast<double>(lines - 1)));
+  }
+};
+
+Axis axis_of(const TextTable& table, std::size_t column) {
+  Array<double> values(static_cast<std::size_t>(table.rows));
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = table.values[3 * k + column];
+  std::sort(values.begin(), values.end());
+  const double same = 1e-6 * (values.back() - values.front());
+  Array<double> distinct;
+  for (const double value : values)
+    if (distinct.empty() || value - distinct.back() > same) distinct.push_back(value);
+  Axis axis;
+  axis.first = distinct.front();
+  axis.lines = static_cast<int>(distinct.size());
+  axis.even = true;
+  if (axis.lines == 1) return axis;
+  axis.spacing = (distinct.back() - distinct.front()) / (axis.lines - 1);
+  for (std::size_t k = 0; k < distinct.size() && axis.even; ++k) {
+    axis.even =
+        std::abs(distinct[k] - (axis.first + static_cast<double>(k) * axis.spacing)) <= 0.25 * axis.spacing;
+    axis.odd = distinct[k];
+  }
+  return axis;
+}
+
+bool coordinates_present(const TextTable& table) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(table.rows); ++k)
+    if (!std::isfinite(table.values[3 * k]) || !std::isfinite(table.values[3 * k + 1])) return false;
+  return true;
+}
+
+// One line of names may stand before the numbers: "x y z", "x [um],y [um],z [um]".
+bool is_line_of_names(std::string_view line) {
+  const std::string text = lower_case(trimmed(line));
+  const std::size_t x = text.find('x'), y = text.find('y'), z = text.find('z');
+  return x != std::string::npos && y != std::string::npos && z != std::string::npos && x < 2 && x < y &&
+         y < z && text.size() < 64;
+}
+
+void skip_names(LineReader& lines) {
+  std::string_view line;
+  for (LineReader ahead = lines; ahead.next(line); lines = ahead) {
+    if (is_skipped(line)) continue;
+    if (is_line_of_names(line)) lines = ahead;
+    return;
+  }
+}
+
+// Three columns whose first two form a lattice. A full lattice of 2 x 2 or more is never by chance;
+// with points missing only a larger one is believed.
+bool recognises(const SourceFile& file) {
+  if (!file.looks_like_text()) return false;
+  if (file.text().starts_with("# asperity")) return false;  // a table of this program's own
+  LineReader lines(file.text());
+  skip_names(lines);
+  std::string_view line;
+  for (LineReader ahead = lines; ahead.next(line);) {
+    if (is_skipped(line)) continue;
+    if (!is_row_of_numbers(line)) return false;
+    const std::string_view text = trimmed(line.substr(0, line.find('#')));
+    if (cells_of(text, separator_of(text)).size() != 3) return false;
+    break;
+  }
+  try {
+    const TextTable table = read_table(lines, file, Monitor::silent());
+    if (table.columns != 3 || table.rows < 4 || !coordinates_present(table)) return false;
+    const Axis x = axis_of(table, 0), y = axis_of(table, 1);
+    if (!x.even || !y.even || x.lines < 2 || y.lines < 2) return false;
+    const double places = static_cast<double>(x.lines) * y.lines;
+    return places == table.rows || (table.rows >= 16 && places > table.rows && places < 2.0 * table.rows);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_file) throw;
+    return false;
+  }
+}
+
+HeightMap read(const SourceFile& file, Monitor& monitor) {
+  if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
+  LineReader lines(file.text());
+  skip_names(lines);
+  const TextTable table = read_table(lines, file, monitor);
+  if (table.columns != 3)
+    refuse_file(file, "has " + std::to_string(table.columns) + " numbers a line", "x y z triples have three");
+  if (!coordinates_present(table)) refuse_file(file, "has a point without x or y");
+  const Axis x = axis_of(table, 0), y = axis_of(table, 1);
+  for (const auto& [axis, name] : {std::pair{x, "x"}, std::pair{y, "y"}})
+    if (!axis.even)
+      refuse_file(file,
+                  std::string("is not on a regular grid: its ") + std::to_string(axis.lines) + " values of " +
+                      name + " are not evenly spaced (" + name + " = " + format_short(axis.odd) + ")",
+                  "grid the points evenly first");
+  if (x.lines < 2)
+    refuse_file(file, "has only one value of x, so its cells have no width",
+                "x y z triples need a grid of points");
+  const double places = static_cast<double>(x.lines) * y.lines;
+  if (places > 4.0 * table.rows + 16)
+    refuse_file(file,
+                "is not on a regular grid: " + std::to_string(table.rows) + " points for " +
+                    std::to_string(x.lines) + " x " + std::to_string(y.lines) + " places",
+                "grid the points evenly first");
+  HeightMap map;
+  map.heights = Field(x.lines, y.lines, std::numeric_limits<double>::quiet_NaN());
+  Array<char> taken(map.heights.size(), 0);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(table.rows); ++k) {
+    const int i = x.place(table.values[3 * k]), j = y.place(table.values[3 * k + 1]);
+    char& mark =
+        taken[static_cast<std::size_t>(j) * static_cast<std::size_t>(x.lines) + static_cast<std::size_t>(i)];
+    if (mark != 0)
+      refuse_file(file, "gives the point x = " + format_short(table.values[3 * k]) +
+                            ", y = " + format_short(table.values[3 * k + 1]) + " twice");
+    mark = 1;
+    map.heights(i, j) = table.values[3 * k + 2];
+  }
+  map.size_in_units = true;
+  map.size_x = x.spacing * x.lines;
+  if (y.lines > 1) map.size_y = y.spacing * y.lines;
+  map.trace = y.lines == 1;
+  return map;
+}
+
+}  // namespace
+
+const Format& xyz_format() {
+  static constexpr std::array<std::string_view, 1> endings{"xyz"};
+  static const Format format{"xyz", "x y z triples on a lattice", endings, recognises, read};
+  return format;
+}
+
+}  // namespace asperity

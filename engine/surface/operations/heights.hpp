@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Operations that change heights and leave the grid: scaling to a given amplitude, sums, and the
+// cutting off of peaks. Pure; O(n); throw nothing but Error.
+#pragma once
+
+#include "engine/surface/profile.hpp"
+#include "engine/surface/surface.hpp"
+
+namespace asperity {
+
+enum class ScaleTo {
+  amplitude,  // peak to valley
+  rms,        // root mean square deviation from the mean (Rq)
+  ra,         // mean absolute deviation from the mean (Ra)
+};
+enum class ScaleAbout {
+  mean,  // deviations from the mean are scaled, the mean stays
+  base,  // heights above the lowest point are scaled, the lowest point stays
+};
+
+// The surface stretched so that `measure` becomes `target` (m, >= 0; 0 gives a flat). Periodicity,
+// material and the aliased share stay. Throws Error{bad_value} for a target below zero or not
+// finite, and for a flat surface unless the target is 0.
+Surface scaled(const Surface& surface, ScaleTo measure, double target, ScaleAbout about = ScaleAbout::mean);
+
+// Heights added node by node. Material of the first; periodic if both are. Throws Error{bad_value}
+// unless cells and sizes are equal (sizes to 1e-9), proposing `resampled` or `cropped`.
+Surface plus(const Surface& first, const Surface& second);
+
+// min(height, max - fraction * peak to valley); 0 changes nothing, 1 leaves a flat at the lowest
+// point. Throws Error{bad_value} for a fraction outside [0, 1].
+Surface cut(const Surface& surface, double fraction);
+Profile cut(const Profile& profile, double fraction);
+
+}  // namespace asperity

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whole-cell moves copy rows; fractional shifts multiply the spectrum by a phase, with the Nyquist
+// bins taking its real part so that the result stays real and unshifting undoes shifting for all
+// other waves.
+#include "engine/surface/operations/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+
+#include "engine/core/error.hpp"
+#include "engine/core/fourier.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/operations/interpolation.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double whole_cell = 1e-9;
+
+bool is_whole(double cells) { return std::abs(cells - std::round(cells)) <= whole_cell; }
+
+int wrapped(double cells, int n) {
+  return static_cast<int>(std::fmod(std::fmod(std::round(cells), n) + n, n));
+}
+
+Field shifted_by_cells(const Field& heights, int right, int up) {
+  const int nx = heights.nx(), ny = heights.ny();
+  Field result(nx, ny);
+  for (int j = 0; j < ny; ++j) {
+    const auto from = heights.row(j);
+    const auto to = result.row((j + up) % ny);
+    std::rotate_copy(from.begin(), from.end() - right, from.end(), to.begin());
+  }
+  return result;
+}
+
+std::complex<double> phase(double cells, int wave, int n) {
+  const double turns = cells * wave / n;
+  const double angle = -2 * std::numbers::pi * (turns - std::round(turns));
+  if (2 * wave == n || 2 * wave == -n) return std::cos(angle);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+Field shifted_by_waves(const Field& heights, double right, double up) {
+  HalfSpectrum spectrum = fourier_forward(heights);
+  const int nx = heights.nx(), ny = heights.ny();
+  Array<std::complex<double>> along_x(static_cast<std::size_t>(spectrum.bins_x()));
+  for (int a = 0; a < spectrum.bins_x(); ++a) along_x[static_cast<std::size_t>(a)] = phase(right, a, nx);
+  for (int b = 0; b < ny; ++b) {
+    const std::complex<double> along_y = phase(up, spectrum.wave_y(b), ny);
+    for (int a = 0; a < spectrum.bins_x(); ++a)
+      spectrum(a, b) *= along_x[static_cast<std::size_t>(a)] * along_y;
+  }
+  return fourier_inverse(std::move(spectrum));
+}
+
+Surface quarter_turned(const Surface& surface, int quarters) {
+  const Grid& g = surface.grid();
+  const Field& h = surface.heights();
+  const bool odd = quarters % 2 != 0;
+  const Grid grid = odd ? Grid{g.ny, g.nx, g.size_y, g.size_x} : g;
+  Field result(grid.nx, grid.ny);
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i)
+      result(i, j) = quarters == 1   ? h(j, g.ny - 1 - i)
+                     : quarters == 2 ? h(g.nx - 1 - i, g.ny - 1 - j)
+                                     : h(g.nx - 1 - j, i);
+  return Surface(grid, std::move(result), surface.traits());
+}
+
+}  // namespace
+
+Surface shifted(const Surface& surface, double x, double y) {
+  const Grid& grid = surface.grid();
+  for (const double shift : {x, y})
+    if (!std::isfinite(shift))
+      throw Error(ErrorCode::bad_value, "a shift is " + format_short(shift) + " m",
+                  "give finite lengths `x` and `y`");
+  const double right = x / grid.hx(), up = y / grid.hy();
+  if (is_whole(right) && is_whole(up))
+    return Surface(grid, shifted_by_cells(surface.heights(), wrapped(right, grid.nx), wrapped(up, grid.ny)),
+                   surface.traits());
+  if (!surface.traits().periodic) {
+    const bool along_x = !is_whole(right);
+    const double cells = along_x ? right : up, cell = along_x ? grid.hx() : grid.hy();
+    throw Error(
+        ErrorCode::bad_value,
+        std::string("a shift of `") + (along_x ? "x` = " : "y` = ") + format_short(along_x ? x : y) +
+            " m is " + format_short(cells) + " cells, and this surface is not periodic",
+        "shift it by whole cells; the nearest is " + format_short(std::round(cells) * cell, 12) + " m");
+  }
+  // Whole turns of the tile are taken off first: phases of large shifts would lose digits.
+  return Surface(grid, shifted_by_waves(surface.heights(), std::fmod(right, grid.nx), std::fmod(up, grid.ny)),
+                 surface.traits());
+}
+
+Surface rotated(const Surface& surface, double angle) {
+  if (!std::isfinite(angle))
+    throw Error(ErrorCode::bad_value, "the angle of a rotation is " + format_short(angle),
+                "give a finite angle");
+  const double quarters = angle / (std::numbers::pi / 2);
+  if (is_whole(quarters)) {
+    const int turn = wrapped(quarters, 4);
+    return turn == 0 ? surface : quarter_turned(surface, turn);
+  }
+  const Grid& g = surface.grid();
+  const double c = std::cos(angle), s = std::sin(angle);
+  const bool periodic = surface.traits().periodic;
+  const double width = (g.nx - 1) * g.hx(), height = (g.ny - 1) * g.hy();
+  int nx = g.nx, ny = g.ny;
+  if (!periodic) {
+    // The share of the node rectangle whose corners, turned back, lie in it.
+    const double share = std::min(width / (width * std::abs(c) + height * std::abs(s)),
+                                  height / (width * std::abs(s) + height * std::abs(c)));
+    const double kept = share > 0 ? share : 0.0;  // a single node has no rectangle
+    nx = static_cast<int>(kept * (g.nx - 1) + whole_cell) + 1;
+    ny = static_cast<int>(kept * (g.ny - 1) + whole_cell) + 1;
+    if (nx < 2 || ny < 2)
+      throw Error(ErrorCode::bad_value,
+                  "nothing of a surface of " + std::to_string(g.nx) + " x " + std::to_string(g.ny) +
+                      " cells remains after a turn of " + format_short(angle) + " rad",
+                  "turn it by a multiple of a quarter turn, or use more cells");
+  }
+  Field result(nx, ny);
+  const Field& h = surface.heights();
+  constexpr int rows = 16;
+  parallel_for((ny + rows - 1) / rows, [&](std::int64_t block) {
+    const int first = static_cast<int>(block) * rows;
+    for (int j = first; j < std::min(ny, first + rows); ++j) {
+      for (int i = 0; i < nx; ++i) {
+        const double x = (i - 0.5 * (nx - 1)) * g.hx(), y = (j - 0.5 * (ny - 1)) * g.hy();
+        double u = (c * x + s * y) / g.hx() + 0.5 * (g.nx - 1);
+        double v = (c * y - s * x) / g.hy() + 0.5 * (g.ny - 1);
+        if (!periodic) {
+          u = std::clamp(u, 0.0, g.nx - 1.0);
+          v = std::clamp(v, 0.0, g.ny - 1.0);
+        }
+        const CubicWeights wx = cubic_weights(u, g.nx, periodic), wy = cubic_weights(v, g.ny, periodic);
+        double sum = 0;
+        for (std::size_t b = 0; b < 4; ++b) {
+          double line = 0;
+          for (std::size_t a = 0; a < 4; ++a) line += wx.weight[a] * h(wx.node[a], wy.node[b]);
+          sum += wy.weight[b] * line;
+        }
+        result(i, j) = sum;
+      }
+    }
+  });
+  const Grid grid = periodic ? g : make_grid(nx, ny, nx * g.hx(), ny * g.hy());
+  return Surface(grid, std::move(result),
+                 {.material = surface.material(), .periodic = false, .aliased_share = {}});
+}
+
+Surface mirrored(const Surface& surface) {
+  const Field& h = surface.heights();
+  Field result(h.nx(), h.ny());
+  for (int j = 0; j < h.ny(); ++j) std::reverse_copy(h.row(j).begin(), h.row(j).end(), result.row(j).begin());
+  return Surface(surface.grid(), std::move(result), surface.traits());
+}
+
+Surface cropped(const Surface& surface, double i, double j, double nx, double ny) {
+  const Grid& g = surface.grid();
+  const auto check = [](double first, double count, int all, const char* along) {
+    const bool whole = first == std::floor(first) && count == std::floor(count);
+    if (!(whole && first >= 0 && count >= 1 && first + count <= all))
+      throw Error(
+          ErrorCode::bad_value,
+          "a crop of " + format_short(count) + " cells from node " + format_short(first) + " along " + along +
+              " does not lie in a surface of " + std::to_string(all) + " cells",
+          "a part starts at node 0 or later and ends at the rim or before; a surface never wraps here");
+  };
+  check(i, nx, g.nx, "x");
+  check(j, ny, g.ny, "y");
+  const int left = static_cast<int>(i), low = static_cast<int>(j);
+  const int columns = static_cast<int>(nx), rows = static_cast<int>(ny);
+  if (columns == g.nx && rows == g.ny) return surface;
+  Field result(columns, rows);
+  for (int row = 0; row < rows; ++row) {
+    const auto from = surface.heights().row(low + row).subspan(static_cast<std::size_t>(left),
+                                                               static_cast<std::size_t>(columns));
+    std::copy(from.begin(), from.end(), result.row(row).begin());
+  }
+  const Grid grid{columns, rows, columns == g.nx ? g.size_x : columns * g.hx(),
+                  rows == g.ny ? g.size_y : rows * g.hy()};
+  return Surface(grid, std::move(result),
+                 {.material = surface.material(), .periodic = false, .aliased_share = {}});
+}
+
+Surface cropped_to(const Surface& surface, double x, double y, double size_x, double size_y) {
+  const Grid& g = surface.grid();
+  for (const double length : {x, y, size_x, size_y})
+    if (!std::isfinite(length))
+      throw Error(ErrorCode::bad_value, "a length of a crop is " + format_short(length) + " m",
+                  "give finite lengths");
+  return cropped(surface, std::round(x / g.hx()), std::round(y / g.hy()), std::round(size_x / g.hx()),
+                 std::round(size_y / g.hy()));
+}
+
+}  // namespace asperity

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The same surface on other cells. Size, material and the place of node (0, 0) stay. A periodic
+// surface goes through its spectrum: more cells add waves of height zero and pass exactly through
+// the old nodes where they coincide; fewer drop the waves that the new grid cannot carry. Any other
+// surface is interpolated (Keys' cubic) along an axis that gets more cells and averaged over one new
+// cell about each new node along an axis that gets fewer; in the last cell, past the last node, the
+// line through the last two nodes goes on.
+#pragma once
+
+#include "engine/surface/surface.hpp"
+
+namespace asperity {
+
+// O(n log n) periodic, O(n) otherwise; peak three grids of the larger kind. Deterministic. The aliased
+// share is dropped unless nothing changes. Throws Error{bad_value} for `cells` outside 1 … 65536.
+Surface resampled(const Surface& surface, double nx, double ny);
+
+}  // namespace asperity

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bilinear rather than smoother interpolation on lines: a stylus or a section should never find a
+// peak higher than the highest node.
+#include "engine/surface/operations/sections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double most_points = 16777216;
+
+int line_number(double wanted, int count, const char* key) {
+  if (!(wanted >= 0 && wanted < count && wanted == std::floor(wanted)))
+    throw Error(ErrorCode::bad_value, "there is no " + std::string(key) + " " + format_short(wanted, 17),
+                quoted(key) + " runs from 0 to " + std::to_string(count - 1));
+  return static_cast<int>(wanted);
+}
+
+Profile column(const Surface& surface, int i) {
+  const Field& h = surface.heights();
+  Array<double> heights(static_cast<std::size_t>(h.ny()));
+  for (int j = 0; j < h.ny(); ++j) heights[static_cast<std::size_t>(j)] = h(i, j);
+  return Profile(surface.grid().hy(), std::move(heights));
+}
+
+Profile row(const Surface& surface, int j) {
+  const auto values = surface.heights().row(j);
+  return Profile(surface.grid().hx(), Array<double>(values.begin(), values.end()));
+}
+
+// Node below a place along one axis, the next one, and the share of the next.
+struct Between {
+  int below = 0, above = 0;
+  double share = 0;
+};
+
+Between between(double place, int n, bool wraps) {
+  if (!wraps) {
+    place = std::clamp(place, 0.0, n - 1.0);
+    const int below = std::min(static_cast<int>(place), std::max(0, n - 2));
+    return {below, std::min(below + 1, n - 1), place - below};
+  }
+  place -= std::floor(place / n) * n;
+  const int below = static_cast<int>(place) % n;
+  return {below, (below + 1) % n, place - std::floor(place)};
+}
+
+}  // namespace
+
+Profile profile_row(const Surface& surface, double j) {
+  return row(surface, line_number(j, surface.grid().ny, "row"));
+}
+
+Profile profile_column(const Surface& surface, double i) {
+  return column(surface, line_number(i, surface.grid().nx, "column"));
+}
+
+std::vector<Profile> profiles(const Surface& surface, LineDirection along) {
+  std::vector<Profile> result;
+  const int count = along == LineDirection::x ? surface.grid().ny : surface.grid().nx;
+  result.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k)
+    result.push_back(along == LineDirection::x ? row(surface, k) : column(surface, k));
+  return result;
+}
+
+double height_between(const Surface& surface, Point point) {
+  const Grid& g = surface.grid();
+  const bool wraps = surface.traits().periodic;
+  const Between x = between(point.x / g.hx(), g.nx, wraps), y = between(point.y / g.hy(), g.ny, wraps);
+  const Field& h = surface.heights();
+  const double low = (1 - x.share) * h(x.below, y.below) + x.share * h(x.above, y.below);
+  const double high = (1 - x.share) * h(x.below, y.above) + x.share * h(x.above, y.above);
+  return (1 - y.share) * low + y.share * high;
+}
+
+Profile profile_between(const Surface& surface, Point from, Point to, std::optional<double> points) {
+  const Grid& g = surface.grid();
+  for (const double coordinate : {from.x, from.y, to.x, to.y})
+    if (!std::isfinite(coordinate))
+      throw Error(ErrorCode::bad_value, "an end of the line is at " + format_short(coordinate) + " m",
+                  "give finite coordinates in `from` and `to`");
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  if (!(length > 0))
+    throw Error(ErrorCode::bad_value, "`from` and `to` are the same point", "give the two ends of a line");
+  // The slack keeps a line of exactly n cells from becoming n + 1 through rounding.
+  const double count = points.value_or(std::ceil(length / std::min(g.hx(), g.hy()) - 1e-9) + 1);
+  if (!(count >= 2 && count <= most_points && count == std::floor(count)))
+    throw Error(ErrorCode::bad_value, "`points` is " + format_short(count, 10),
+                "give a whole number from 2 to " + format_short(most_points, 10));
+  if (!surface.traits().periodic) {
+    const double slack = 1e-9;
+    for (const Point& end : {from, to}) {
+      const double u = end.x / g.hx(), v = end.y / g.hy();
+      if (u < -slack || u > g.nx - 1 + slack || v < -slack || v > g.ny - 1 + slack)
+        throw Error(ErrorCode::bad_value,
+                    "the line ends at (" + format_short(end.x) + ", " + format_short(end.y) +
+                        ") m, outside a surface that is not periodic",
+                    "its nodes reach from (0, 0) to (" + format_short((g.nx - 1) * g.hx()) + ", " +
+                        format_short((g.ny - 1) * g.hy()) + ") m");
+    }
+  }
+  const auto n = static_cast<std::size_t>(count);
+  Array<double> heights(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double t = static_cast<double>(k) / static_cast<double>(n - 1);
+    heights[k] = height_between(surface, {(1 - t) * from.x + t * to.x, (1 - t) * from.y + t * to.y});
+  }
+  return Profile(length / static_cast<double>(n - 1), std::move(heights));
+}
+
+}  // namespace asperity

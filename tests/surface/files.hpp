@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the tests of readers and writers share: a directory that goes away, files from bytes, zip
+// archives without compression, measured files where there are some, and errors as values.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/core/error.hpp"
+#include "engine/core/random.hpp"
+
+namespace asperity::testing {
+
+class Scratch {
+ public:
+  Scratch() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "asperity-test-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch directory");
+    directory_ = pattern;
+  }
+  ~Scratch() { std::filesystem::remove_all(directory_); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::string write(const std::string& name, std::string_view bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+  }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(directory_), {}));
+  }
+
+ private:
+  std::filesystem::path directory_;
+};
+
+inline std::string bytes_of(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// A small file kept beside the tests.
+inline std::string sample(const std::string& name) {
+  return std::string(ASPERITY_TEST_DATA) + "/../data/" + name;
+}
+
+// A file of the directory that ASPERITY_MEASURED names; empty if there is none.
+inline std::string measured(const std::string& name) {
+  const char* const directory = std::getenv("ASPERITY_MEASURED");
+  return directory == nullptr || *directory == '\0' ? std::string() : std::string(directory) + "/" + name;
+}
+
+template <class Call>
+std::optional<Error> error_of(Call&& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error;
+  }
+  return {};
+}
+
+template <class Call>
+std::string message_of(Call&& call) {
+  const std::optional<Error> error = error_of(call);
+  return error ? std::string(error->what()) : "no error";
+}
+
+inline std::string little(std::uint64_t value, int bytes) {
+  std::string text;
+  for (int k = 0; k < bytes; ++k) text += static_cast<char>(value >> (8 * k) & 0xFF);
+  return text;
+}
+
+// The bytes of numbers as they lie in memory.
+template <class T>
+std::string raw(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+inline std::uint32_t crc32(std::string_view bytes) {
+  std::uint32_t crc = 0xFFFFFFFF;
+  for (const char c : bytes) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ ((crc & 1) != 0 ? 0xEDB88320U : 0U);
+  }
+  return ~crc;
+}
+
+// A zip archive of stored entries. `claimed` overrides the size that entry 1 says it has.
+inline std::string zip_of(const std::vector<std::pair<std::string, std::string>>& entries,
+                          std::optional<std::uint64_t> claimed = {}, int method = 0) {
+  std::string body, directory;
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const auto& [name, bytes] = entries[k];
+    const std::uint64_t size = k == 1 && claimed ? *claimed : bytes.size();
+    const int packed = k == 1 ? method : 0;
+    const std::string common = little(20, 2) + little(0, 2) + little(static_cast<std::uint64_t>(packed), 2) +
+                               little(0, 2) + little(33, 2) + little(crc32(bytes), 4) +
+                               little(bytes.size(), 4) + little(size, 4) + little(name.size(), 2) +
+                               little(0, 2);
+    directory += "PK\x01\x02" + little(20, 2) + common + little(0, 2) + little(0, 2) + little(0, 2) +
+                 little(0, 4) + little(body.size(), 4) + name;
+    body += "PK\x03\x04" + common + name + bytes;
+  }
+  return body + directory + "PK\x05\x06" + little(0, 4) + little(entries.size(), 2) +
+         little(entries.size(), 2) + little(directory.size(), 4) + little(body.size(), 4) + little(0, 2);
+}
+
+// Cuts `whole` at many lengths and flips bytes of it, keyed by `seed`, and hands each to `attempt`,
+// which must return or throw Error; anything else fails the test.
+template <class Attempt>
+void damage(const std::string& whole, std::uint64_t seed, int flips, Attempt&& attempt) {
+  const auto harmless = [&](const std::string& bytes, const std::string& what) {
+    try {
+      attempt(bytes);
+    } catch (const Error& error) {
+      EXPECT_NE(error.code(), ErrorCode::internal) << what << ": " << error.what();
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << what << " gave " << error.what();
+    }
+  };
+  const std::size_t step = whole.size() / 64 + 1;
+  for (std::size_t length = 0; length < whole.size(); length += step)
+    harmless(whole.substr(0, length), "cut at " + std::to_string(length));
+  const Stream stream(seed, "damage");
+  for (int k = 0; k < flips; ++k) {
+    std::string bytes = whole;
+    const auto key = static_cast<std::uint64_t>(k) * 8;
+    const std::uint64_t changes = 1 + stream.below(key, 3);
+    for (std::uint64_t c = 0; c < changes; ++c)
+      bytes[stream.below(key + 1 + 2 * c, bytes.size())] =
+          static_cast<char>(stream.below(key + 2 + 2 * c, 256));
+    harmless(bytes, "flip " + std::to_string(k));
+  }
+}
+
+}  // namespace asperity::testing

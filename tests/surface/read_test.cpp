@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reading as a whole: which format a file is, what is missing, what becomes of holes, what is wrong
+// with a path. Each format has its own test beside this one.
+#include "engine/surface/io/read.hpp"
+
+#include <cmath>
+
+#include "tests/surface/files.hpp"
+
+namespace asperity {
+namespace {
+
+using testing::error_of;
+using testing::measured;
+using testing::message_of;
+using testing::sample;
+using testing::Scratch;
+
+class Listener : public Monitor {
+ public:
+  void progress(std::string_view, double) override {}
+  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
+  std::vector<std::string> warnings;
+};
+
+ReadOptions square(double size, double unit) {
+  ReadOptions options;
+  options.size_x = options.size_y = size;
+  options.unit = unit;
+  return options;
+}
+
+TEST(Read, PathsThatHoldNoFile) {
+  const Scratch scratch;
+  const auto missing = error_of([&] { read_surface(scratch.path("no.x3p")); });
+  ASSERT_TRUE(missing);
+  EXPECT_EQ(missing->code(), ErrorCode::bad_file);
+  EXPECT_EQ(missing->sentence(), "there is no file \"" + scratch.path("no.x3p") + "\"");
+  EXPECT_NE(message_of([] { read_surface(""); }).find("there is no file"), std::string::npos);
+  EXPECT_NE(message_of([&] { read_surface(scratch.path("")); }).find("is a directory"), std::string::npos);
+  EXPECT_NE(message_of([] { read_surface("/dev/null"); }).find("is not a plain file"), std::string::npos);
+  scratch.write("empty.txt", "");
+  EXPECT_NE(message_of([&] { read_surface(scratch.path("empty.txt")); }).find("is empty"), std::string::npos);
+}
+
+TEST(Read, UnknownFormatSaysWhatWasLookedFor) {
+  const Scratch scratch;
+  scratch.write("map.sdf", "aISO-1.0\nNumPoints = 7\n");
+  const auto error = error_of([&] { read_surface(scratch.path("map.sdf")); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code(), ErrorCode::bad_file);
+  for (const char* name : {"npy", "x3p", "stylus-csv", "xyz", "text"})
+    EXPECT_NE(error->sentence().find(name), std::string::npos) << name;
+}
+
+TEST(Read, ContentComesBeforeExtension) {
+  const Scratch scratch;
+  scratch.write("really.txt", testing::bytes_of(sample("ramp.npy")));
+  const Surface surface = read_surface(scratch.path("really.txt"), square(1e-3, 1e-6));
+  EXPECT_EQ(surface.grid().nx, 3);
+  EXPECT_DOUBLE_EQ(surface.height(2, 1), 5e-6);
+}
+
+TEST(Read, ForcedFormat) {
+  ReadOptions options = square(1e-3, 1e-6);
+  options.format = "text";
+  const Surface matrix = read_surface(sample("points.xyz"), options);
+  EXPECT_EQ(matrix.grid().nx, 3);
+  EXPECT_EQ(matrix.grid().ny, 12);
+  options.format = "npi";
+  EXPECT_EQ(
+      message_of([&] { read_surface(sample("points.xyz"), options); }),
+      "`format` is \"npi\" (did you mean `npy`?); known formats are `npy`, `x3p`, `stylus-csv`, `xyz` and "
+      "`text`");
+  options.format = "npy";
+  EXPECT_NE(message_of([&] { read_surface(sample("points.xyz"), options); }).find("is not a NPY file"),
+            std::string::npos);
+}
+
+TEST(Read, MissingSizeAndUnitAreNamed) {
+  const Scratch scratch;
+  const std::string path = scratch.write("bare.txt", "1 2\n3 4\n");
+  EXPECT_EQ(message_of([&] { read_surface(path); }),
+            "\"" + path +
+                "\" does not say its size and unit; give `size` and `unit` in the call: `unit` is the "
+                "length of one number, such as \"um\"");
+  ReadOptions options;
+  options.unit = 1e-6;
+  EXPECT_EQ(message_of([&] { read_surface(path, options); }),
+            "\"" + path + "\" does not say its size; give `size` in the call");
+  options = square(1e-3, 1e-6);
+  options.unit.reset();
+  const auto error = error_of([&] { read_surface(path, options); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code(), ErrorCode::bad_value);
+  EXPECT_NE(error->sentence().find("does not say its unit"), std::string::npos);
+  for (const double wrong : {0.0, -1.0, double(INFINITY), double(NAN)}) {
+    EXPECT_NE(message_of([&] { read_surface(path, square(wrong, 1)); }).find("`size` is"), std::string::npos);
+    EXPECT_NE(message_of([&] { read_surface(path, square(1, wrong)); }).find("`unit` is"), std::string::npos);
+  }
+}
+
+TEST(Read, CallWinsOverFileAndSaysSo) {
+  Listener listener;
+  ReadOptions options = square(4e-6, 1e-9);
+  const Surface surface = read_surface(sample("instrument.txt"), options, listener);
+  EXPECT_EQ(surface.grid().size_x, 4e-6);
+  EXPECT_EQ(surface.height(0, 0), -1e-9);
+  EXPECT_EQ(listener.warnings.size(), 3U);
+  Listener quiet;
+  read_surface(sample("instrument.txt"), {}, quiet);
+  EXPECT_TRUE(quiet.warnings.empty());
+}
+
+TEST(Read, MaterialTravelsAndIsChecked) {
+  ReadOptions options;
+  options.material = named_material("Al-2011");
+  EXPECT_EQ(read_surface(sample("instrument.txt"), options).material()->name, "Al-2011");
+  options.material->poisson = 2.0;
+  EXPECT_TRUE(error_of([&] { read_surface(sample("instrument.txt"), options); }));
+}
+
+TEST(Read, HolesAreAnErrorUnlessFilled) {
+  const Scratch scratch;
+  const std::string path = scratch.write("holes.txt", "1 2 3\n4 nan 6\n7 8 bad\n");
+  ReadOptions options = square(3e-6, 1e-6);
+  const auto error = error_of([&] { read_surface(path, options); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code(), ErrorCode::bad_value);
+  EXPECT_EQ(error->sentence(), "\"" + path + "\" has 2 missing heights of 9, the first at node (1, 1)");
+  EXPECT_NE(error->hint().find("`fill` = \"interpolate\""), std::string::npos);
+  options.fill = HoleFill::with(0.25);
+  EXPECT_EQ(read_surface(path, options).height(1, 1), 0.25);
+  options.fill = HoleFill::interpolate();
+  const Surface filled = read_surface(path, options);
+  EXPECT_NEAR(filled.height(1, 1), 5e-6, 1e-16);  // the mean of 2, 4, 6 and 8
+  EXPECT_NEAR(filled.height(2, 2), 7e-6, 1e-16);  // the mean of 6 and 8: no slope across the rim
+  options.fill = HoleFill::with(NAN);
+  EXPECT_NE(message_of([&] { read_surface(path, options); }).find("`fill` is nan"), std::string::npos);
+}
+
+TEST(Read, InterpolationContinuesPlanesThroughHoles) {
+  // A plane is harmonic, on cells that are not square too; every hole is inside.
+  const Scratch scratch;
+  std::string text;
+  for (int j = 0; j < 30; ++j) {
+    for (int i = 0; i < 40; ++i) {
+      const bool hole = i > 4 && i < 33 && j > 3 && j < 25 && (i * 7 + j * 3) % 11 != 0;
+      text += hole ? "nan " : std::to_string(2 * i - 3 * j) + " ";
+    }
+    text += "\n";
+  }
+  const std::string path = scratch.write("plane.txt", text);
+  ReadOptions options;
+  options.size_x = 40e-6;
+  options.size_y = 90e-6;
+  options.unit = 1e-9;
+  options.fill = HoleFill::interpolate();
+  const Surface surface = read_surface(path, options);
+  for (int j = 0; j < 30; ++j)
+    for (int i = 0; i < 40; ++i)
+      ASSERT_NEAR(surface.height(i, j), (2 * i - 3 * j) * 1e-9, 1e-17) << i << " " << j;
+  EXPECT_EQ(surface.digest(), read_surface(path, options).digest());
+}
+
+TEST(Read, NothingButHoles) {
+  const Scratch scratch;
+  ReadOptions options = square(1, 1);
+  options.fill = HoleFill::interpolate();
+  const std::string path = scratch.write("void.txt", "nan nan\nnan nan\n");
+  EXPECT_NE(message_of([&] { read_surface(path, options); }).find("holds no height"), std::string::npos);
+}
+
+TEST(Read, ProfileFromEveryShape) {
+  const Scratch scratch;
+  ReadProfileOptions options;
+  options.spacing = 2e-6;
+  options.unit = 1e-6;
+  const std::string row = scratch.write("row.txt", "1 2 3 4\n"),
+                    column = scratch.write("column.txt", "1\n2\n3\n4\n");
+  EXPECT_EQ(read_profile(row, options).digest(), read_profile(column, options).digest());
+  ReadProfileOptions only_unit;
+  only_unit.unit = 1e-6;
+  const Profile pairs = read_profile(scratch.write("pairs.csv", "0,1\n2,2\n4,3\n6,4\n"), only_unit);
+  EXPECT_NEAR(pairs.spacing(), 2e-6, 1e-21);
+  EXPECT_EQ(pairs.heights()[3], 4e-6);
+  EXPECT_NE(message_of([&] { read_profile(row, only_unit); }).find("does not say its spacing"),
+            std::string::npos);
+  EXPECT_NE(message_of([&] {
+              read_profile(scratch.write("uneven.csv", "0,1\n2,2\n9,3\n"), only_unit);
+            }).find("not evenly spaced at sample"),
+            std::string::npos);
+  EXPECT_NE(
+      message_of([&] { read_profile(sample("instrument.txt")); }).find("holds a surface of 4 x 3 heights"),
+      std::string::npos);
+  options.fill = HoleFill::interpolate();
+  const Profile filled = read_profile(scratch.write("gap.txt", "1 nan nan 4\n"), options);
+  EXPECT_NEAR(filled.heights()[1], 2e-6, 1e-17);
+  EXPECT_NEAR(filled.heights()[2], 3e-6, 1e-17);
+}
+
+TEST(Read, LimitOfCells) {
+  const Scratch scratch;
+  std::string line;
+  for (int i = 0; i < 65537; ++i) line += "0 ";
+  const std::string path = scratch.write("wide.txt", line + "\n");
+  EXPECT_NE(message_of([&] { read_surface(path, square(1, 1)); }).find("`cells` is 65537"),
+            std::string::npos);
+  ReadProfileOptions options;
+  options.spacing = options.unit = 1;
+  EXPECT_EQ(read_profile(path, options).size(), 65537);  // a trace may be longer than a map
+}
+
+TEST(Read, MeasuredFilesThatAreNotWhatTheyClaim) {
+  if (measured("").empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
+  EXPECT_NE(message_of([] {
+              read_surface(measured("nonsense_txt_file.txt"));
+            }).find("holds no table of numbers: line 1 starts with \"This is nonsense."),
+            std::string::npos);
+  EXPECT_NE(message_of([] { read_surface(measured("wrongnpyfile.npy")); }).find("is not a NPY file"),
+            std::string::npos);
+  for (const char* name : {"sdf-1.sdf", "sur-2.sur"})
+    EXPECT_NE(message_of([&] { read_surface(measured(name)); }).find("is of no known format"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace asperity

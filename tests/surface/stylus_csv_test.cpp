@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "engine/surface/io/read.hpp"
+#include "tests/surface/files.hpp"
+
+namespace asperity {
+namespace {
+
+using testing::measured;
+using testing::message_of;
+using testing::sample;
+using testing::Scratch;
+
+TEST(StylusCsv, SpacingComesFromAllRoundedPositions) {
+  const Profile profile = read_profile(sample("trace.csv"));
+  EXPECT_EQ(profile.size(), 20);
+  EXPECT_NEAR(profile.spacing(), 0.156e-6, 0.002e-6);
+  EXPECT_NEAR(profile.heights()[1], 0.003e-6, 1e-18);
+  EXPECT_NEAR(profile.heights()[0], -0.004e-6, 1e-18);
+}
+
+TEST(StylusCsv, SurfaceOfOneRow) {
+  const Surface surface = read_surface(sample("trace.csv"));
+  EXPECT_EQ(surface.grid().nx, 20);
+  EXPECT_EQ(surface.grid().ny, 1);
+  EXPECT_DOUBLE_EQ(surface.grid().hx(), surface.grid().hy());
+  ReadOptions options;
+  options.size_y = 1e-4;
+  EXPECT_EQ(read_surface(sample("trace.csv"), options).grid().size_y, 1e-4);
+}
+
+TEST(StylusCsv, UnitsOfTheTitles) {
+  const Scratch scratch;
+  const auto spacing_and_height = [&](const std::string& titles) {
+    const Profile p = read_profile(scratch.write("t.csv", "Scan Data\n" + titles + "\n0,1\n1,2\n2,3\n"));
+    return std::pair(p.spacing(), p.heights()[0]);
+  };
+  EXPECT_EQ(spacing_and_height("Lateral um,Raw Micrometer,"), std::pair(1e-6, 1e-6));
+  EXPECT_EQ(spacing_and_height("Lateral(\xB5m),Total Profile(\xC5)"), std::pair(1e-6, 1e-10));
+  EXPECT_EQ(spacing_and_height("Lateral mm,Height [nm]"), std::pair(1e-3, 1e-9));
+  EXPECT_NE(
+      message_of([&] { spacing_and_height("Lateral parsnips,Raw um"); }).find("no known unit of length"),
+      std::string::npos);
+  EXPECT_NE(message_of([&] { spacing_and_height("Lateral um,Raw"); }).find("does not say its unit"),
+            std::string::npos);
+}
+
+TEST(StylusCsv, UnevenOrCutShort) {
+  const Scratch scratch;
+  const auto refusal = [&](const std::string& data) {
+    return message_of([&] { read_profile(scratch.write("t.csv", "Scan Data\nLateral um,Raw um\n" + data)); });
+  };
+  EXPECT_NE(refusal("0,1\n1,2\n2,3\n9,4\n10,5\n").find("is not evenly spaced"), std::string::npos);
+  EXPECT_NE(refusal("0,1\n").find("fewer than two samples"), std::string::npos);
+  EXPECT_NE(refusal("0,1\n1").find("has no height in line 4"), std::string::npos);
+  EXPECT_NE(refusal("2,1\n1,1\n").find("do not increase"), std::string::npos);
+  EXPECT_NE(refusal("0,1\nx,1\n").find("has no position in line 4: \"x\""), std::string::npos);
+  EXPECT_NE(refusal("0,1\n1,\n2,3\n").find("1 missing height of 3"), std::string::npos);
+  EXPECT_NE(message_of([&] { read_profile(scratch.write("t.csv", "Scan Data\n\n")); }).find("ends after"),
+            std::string::npos);
+}
+
+TEST(StylusCsv, DamagedBytesGiveErrors) {
+  const Scratch scratch;
+  int read = 0;
+  testing::damage(testing::bytes_of(sample("trace.csv")), 13, 200, [&](const std::string& bytes) {
+    ReadProfileOptions options;
+    options.fill = HoleFill::interpolate();
+    read_profile(scratch.write("damaged.csv", bytes), options);
+    ++read;
+  });
+  EXPECT_GT(read, 0);
+}
+
+TEST(StylusCsv, MeasuredFile) {
+  if (measured("").empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
+  const Profile profile = read_profile(measured("dektak-1.csv"));
+  EXPECT_NEAR(profile.length(), 1500e-6, 1e-10);  // the length that the header states
+  EXPECT_NEAR(profile.spacing(), 0.156e-6, 0.0005e-6);
+  EXPECT_NEAR(profile.heights()[0], -0.00933e-6, 1e-18);
+  EXPECT_NEAR(profile.heights()[1], -0.00760e-6, 1e-18);
+  EXPECT_NEAR(profile.heights().back(), 16.58112e-6, 1e-16);
+  EXPECT_EQ(read_surface(measured("dektak-1.csv")).grid().nx, profile.size());
+}
+
+}  // namespace
+}  // namespace asperity

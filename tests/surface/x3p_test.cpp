@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+
+#include "engine/core/memory.hpp"
+#include "engine/surface/io/archive.hpp"
+#include "engine/surface/io/read.hpp"
+#include "engine/surface/io/write.hpp"
+#include "tests/surface/files.hpp"
+
+namespace asperity {
+namespace {
+
+using testing::measured;
+using testing::message_of;
+using testing::raw;
+using testing::Scratch;
+using testing::zip_of;
+
+std::string incremental(const std::string& increment) {
+  return "<AxisType>I</AxisType><Increment>" + increment + "</Increment>";
+}
+
+struct Recipe {
+  std::string x = incremental("2e-6"), y = incremental("5e-7");
+  std::string z = "<AxisType>A</AxisType><DataType>D</DataType>";
+  std::string columns = "3", rows = "2", layers = "1", feature = "SUR";
+  std::string content = "<DataLink><PointDataLink>bindata/data.bin</PointDataLink></DataLink>";
+  std::string prefix;  // of the inner elements, such as "p:"
+
+  std::string xml() const {
+    std::string text = "<?xml version=\"1.0\"?><p:ISO5436_2 xmlns:p=\"x\"><@Record1><@FeatureType>" +
+                       feature + "</@FeatureType><@Axes><@CX>" + x + "</@CX><@CY>" + y + "</@CY><@CZ>" + z +
+                       "</@CZ></@Axes></@Record1><@Record3><@MatrixDimension><@SizeX>" + columns +
+                       "</@SizeX><@SizeY>" + rows + "</@SizeY><@SizeZ>" + layers +
+                       "</@SizeZ></@MatrixDimension>" + content + "</@Record3></p:ISO5436_2>";
+    for (std::size_t at = text.find('@'); at != std::string::npos; at = text.find('@'))
+      text.replace(at, 1, prefix);
+    return text;
+  }
+};
+
+const std::string six = raw(std::vector<double>{0, 1, 2, 3, 4, 5});
+
+Surface read_x3p(const std::string& bytes) {
+  const Scratch scratch;
+  return read_surface(scratch.write("map.x3p", bytes));
+}
+
+Surface read_with(const Recipe& recipe, const std::string& data) {
+  return read_x3p(zip_of({{"main.xml", recipe.xml()}, {"bindata/data.bin", data}}));
+}
+
+void expect_ramp(const Surface& surface, double step = 1) {
+  ASSERT_EQ(surface.grid().nx, 3);
+  ASSERT_EQ(surface.grid().ny, 2);
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(surface.height(i, j), step * (i + 3 * j));
+}
+
+TEST(X3p, DoublesXFastest) {
+  const Surface surface = read_with({}, six);
+  expect_ramp(surface);
+  EXPECT_DOUBLE_EQ(surface.grid().size_x, 6e-6);
+  EXPECT_DOUBLE_EQ(surface.grid().size_y, 1e-6);
+}
+
+TEST(X3p, NamespacedElements) {
+  Recipe recipe;
+  recipe.prefix = "p:";
+  expect_ramp(read_with(recipe, six));
+}
+
+TEST(X3p, DataTypesIncrementAndOffset) {
+  Recipe recipe;
+  recipe.z = "<AxisType>A</AxisType><DataType>F</DataType>";
+  expect_ramp(read_with(recipe, raw(std::vector<float>{0, 1, 2, 3, 4, 5})));
+  recipe.z = "<AxisType>A</AxisType><DataType>I</DataType><Increment>1e-9</Increment><Offset>2e-9</Offset>";
+  expect_ramp(read_with(recipe, raw(std::vector<std::int16_t>{-2, -1, 0, 1, 2, 3})), 1e-9);
+  recipe.z = "<AxisType>A</AxisType><DataType>L</DataType><Increment>5e-10</Increment>";
+  expect_ramp(read_with(recipe, raw(std::vector<std::int32_t>{0, 2, 4, 6, 8, 10})), 1e-9);
+}
+
+TEST(X3p, AbsoluteAxesStandWithEveryPoint) {
+  Recipe recipe;
+  recipe.x = recipe.y = "<AxisType>A</AxisType><DataType>D</DataType>";
+  std::vector<double> points;
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 3; ++i)
+      points.insert(points.end(), {1e-3 + i * 1e-6, j * 2e-6, static_cast<double>(i + 3 * j)});
+  const Surface surface = read_with(recipe, raw(points));
+  expect_ramp(surface);
+  EXPECT_NEAR(surface.grid().size_x, 3e-6, 1e-15);
+  EXPECT_NEAR(surface.grid().size_y, 4e-6, 1e-15);
+  points[3] = 1e-3 + 1.7e-6;
+  EXPECT_NE(
+      message_of([&] { read_with(recipe, raw(points)); }).find("its x coordinates are not evenly spaced"),
+      std::string::npos);
+}
+
+TEST(X3p, HeightsInTheXml) {
+  Recipe recipe;
+  recipe.content =
+      "<DataList><Datum>0</Datum><Datum>1</Datum><Datum>2</Datum><Datum>3</Datum><Datum>4</Datum>"
+      "<Datum>5</Datum></DataList>";
+  expect_ramp(read_x3p(zip_of({{"main.xml", recipe.xml()}})));
+  recipe.content =
+      "<DataList><Datum>0</Datum><Datum/><Datum>2</Datum><Datum>3</Datum><Datum>4</Datum><Datum>5</Datum>"
+      "</DataList>";
+  EXPECT_NE(message_of([&] {
+              read_x3p(zip_of({{"main.xml", recipe.xml()}}));
+            }).find("the first at node (1, 0)"),
+            std::string::npos);
+  recipe.columns = "4";
+  EXPECT_NE(message_of([&] {
+              read_x3p(zip_of({{"main.xml", recipe.xml()}}));
+            }).find("has a matrix of 4 x 2 points but 6 in its list"),
+            std::string::npos);
+}
+
+TEST(X3p, HolesByNanAndByMask) {
+  EXPECT_NE(message_of([] {
+              read_with({}, raw(std::vector<double>{0, 1, 2, 3, NAN, 5}));
+            }).find("1 missing height of 6, the first at node (1, 1)"),
+            std::string::npos);
+  Recipe recipe;
+  recipe.content =
+      "<DataLink><PointDataLink>bindata/data.bin</PointDataLink><ValidPointsLink>bindata/valid.bin"
+      "</ValidPointsLink></DataLink>";
+  EXPECT_NE(message_of([&] {
+              read_x3p(zip_of(
+                  {{"main.xml", recipe.xml()}, {"bindata/data.bin", six}, {"bindata/valid.bin", "\x3B"}}));
+            }).find("1 missing height of 6, the first at node (2, 0)"),
+            std::string::npos);
+}
+
+TEST(X3p, Md5IsCompared) {
+  Md5 md5;
+  md5.add(six);
+  const std::string right = md5.hex();
+  Recipe recipe;
+  const std::string link = "<DataLink><PointDataLink>bindata/data.bin</PointDataLink><MD5ChecksumPointData>";
+  recipe.content = link + right + "</MD5ChecksumPointData></DataLink>";
+  expect_ramp(read_with(recipe, six));
+  std::string wrong = right;
+  wrong[0] = wrong[0] == '0' ? '1' : '0';
+  recipe.content = link + wrong + "</MD5ChecksumPointData></DataLink>";
+  EXPECT_NE(message_of([&] { read_with(recipe, six); }).find("is damaged: the MD5 of its data is " + right),
+            std::string::npos);
+}
+
+TEST(X3p, MatrixAndDataDisagree) {
+  for (const char* columns : {"4", "2", "60000"}) {
+    Recipe recipe;
+    recipe.columns = columns;
+    EXPECT_NE(message_of([&] { read_with(recipe, six); }).find("bytes, but holds 48"), std::string::npos)
+        << columns;
+  }
+  for (const char* columns : {"0", "-3", "65537", "3.5", "99999999999999999999999", "", "three"}) {
+    Recipe recipe;
+    recipe.columns = columns;
+    EXPECT_NE(message_of([&] { read_with(recipe, six); }).find("has a matrix whose SizeX is"),
+              std::string::npos)
+        << columns;
+  }
+}
+
+TEST(X3p, SizesThatAreLiesAreRefusedBeforeAllocating) {
+  Recipe recipe;
+  recipe.columns = recipe.rows = "16384";
+  const std::uint64_t claimed = std::uint64_t{16384} * 16384 * 8;
+  memory::set_limit(memory::held() + 1000000);
+  const std::string message = message_of([&] {
+    read_x3p(zip_of({{"main.xml", recipe.xml()}, {"bindata/data.bin", six}}, claimed, 8));
+  });
+  memory::set_limit(0);
+  EXPECT_NE(message.find("which cannot be"), std::string::npos) << message;
+}
+
+TEST(X3p, WhatIsNotRead) {
+  const auto refusal = [](void (*change)(Recipe&)) {
+    Recipe recipe;
+    change(recipe);
+    return message_of([&] { read_with(recipe, six); });
+  };
+  EXPECT_NE(refusal([](Recipe& r) { r.feature = "PCL"; }).find("holds a point cloud"), std::string::npos);
+  EXPECT_NE(refusal([](Recipe& r) { r.layers = "2"; }).find("holds 2 layers"), std::string::npos);
+  EXPECT_NE(refusal([](Recipe& r) { r.x = "<AxisType>Q</AxisType>"; }).find("has an axis CX of type \"Q\""),
+            std::string::npos);
+  EXPECT_NE(refusal([](Recipe& r) {
+              r.x = "<AxisType>I</AxisType>";
+            }).find("no Increment above zero on its axis CX"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal([](Recipe& r) { r.y = incremental("-1e-6"); }).find("no Increment above zero on its axis CY"),
+      std::string::npos);
+  EXPECT_NE(refusal([](Recipe& r) {
+              r.z = "<AxisType>A</AxisType><DataType>X</DataType>";
+            }).find("has data of type \"X\" on axis CZ"),
+            std::string::npos);
+  EXPECT_NE(refusal([](Recipe& r) { r.content = ""; }).find("neither a DataLink nor a DataList"),
+            std::string::npos);
+  EXPECT_NE(refusal([](Recipe& r) {
+              r.content = "<DataLink><PointDataLink>gone</PointDataLink></DataLink>";
+            }).find("has no entry \"gone\""),
+            std::string::npos);
+  EXPECT_NE(message_of([] {
+              read_x3p(zip_of({{"other.txt", "1"}}));
+            }).find("a zip archive without main.xml"),
+            std::string::npos);
+  EXPECT_NE(message_of([] {
+              read_x3p(zip_of({{"main.xml", "<a><b></a>"}}));
+            }).find("has a damaged main.xml"),
+            std::string::npos);
+}
+
+TEST(X3p, CutShortSaysSo) {
+  const std::string whole = zip_of({{"main.xml", Recipe{}.xml()}, {"bindata/data.bin", six}});
+  EXPECT_NE(
+      message_of([&] { read_x3p(whole.substr(0, whole.size() / 2)); }).find("is not a whole zip archive"),
+      std::string::npos);
+}
+
+TEST(X3p, DamagedBytesGiveErrors) {
+  const Scratch scratch;
+  Field heights(40, 30);
+  for (std::size_t k = 0; k < heights.size(); ++k) heights[k] = 1e-9 * static_cast<double>(k % 97);
+  write_surface(Surface(make_grid(40, 30, 1e-5, 1e-5), heights), scratch.path("whole.x3p"));
+  const std::string packed = testing::bytes_of(scratch.path("whole.x3p"));
+  const std::string stored = zip_of({{"main.xml", Recipe{}.xml()}, {"bindata/data.bin", six}});
+  for (const std::string& whole : {packed, stored}) {
+    int read = 0;
+    testing::damage(whole, 11, 200, [&](const std::string& bytes) {
+      ReadOptions options;
+      options.fill = HoleFill::interpolate();
+      read_surface(scratch.write("damaged.x3p", bytes), options);
+      ++read;
+    });
+    EXPECT_GT(read, 0);
+  }
+}
+
+TEST(X3p, MeasuredFile) {
+  if (measured("").empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
+  const Surface surface = read_surface(measured("x3p-2.x3p"));
+  const Grid& grid = surface.grid();
+  EXPECT_EQ(grid.nx, 650);
+  EXPECT_EQ(grid.ny, 650);
+  EXPECT_DOUBLE_EQ(grid.size_x, 8.29767313942749e-05);
+  EXPECT_DOUBLE_EQ(grid.size_y, 2.044783737930349e-04);
+  EXPECT_DOUBLE_EQ(surface.height(0, 0), 6.579781341223288e-08);
+  EXPECT_DOUBLE_EQ(surface.height(1, 0), 7.419121341223288e-08);
+  const auto values = surface.heights().values();
+  const double average = mean(values);
+  EXPECT_NEAR(average, -2.491824169e-09, 1e-18);
+  EXPECT_NEAR(surface.height_range().min, -3.144206866e-07, 1e-16);
+  EXPECT_NEAR(surface.height_range().max, 2.399155134e-07, 1e-16);
+  double square = 0, slopes = 0;
+  for (const double h : values) square += (h - average) * (h - average);
+  EXPECT_NEAR(std::sqrt(square / static_cast<double>(values.size())), 7.728033274e-08, 1e-16);
+  for (int j = 0; j + 1 < grid.ny; ++j)
+    for (int i = 0; i + 1 < grid.nx; ++i) {
+      const double h = surface.height(i, j);
+      slopes += std::pow((surface.height(i + 1, j) - h) / grid.hx(), 2) +
+                std::pow((surface.height(i, j + 1) - h) / grid.hy(), 2);
+    }
+  EXPECT_NEAR(std::sqrt(slopes / (649.0 * 649.0)), 0.062070074, 1e-9);
+}
+
+TEST(X3p, MeasuredFileCutShort) {
+  if (measured("").empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
+  const std::string whole = testing::bytes_of(measured("x3p-2.x3p"));
+  for (const std::size_t length : {std::size_t{10}, whole.size() / 2, whole.size() - 1}) {
+    const Scratch scratch;
+    const auto error =
+        testing::error_of([&] { read_surface(scratch.write("cut.x3p", whole.substr(0, length))); });
+    ASSERT_TRUE(error) << length;
+    EXPECT_EQ(error->code(), ErrorCode::bad_file);
+  }
+}
+
+}  // namespace
+}  // namespace asperity
