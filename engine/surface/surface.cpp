@@ -7,6 +7,7 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/node_value.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -45,14 +46,7 @@ Surface::Surface(std::shared_ptr<const Heights> heights, SurfaceTraits traits)
 const Grid& Surface::grid() const { return data_->grid; }
 const Field& Surface::heights() const { return data_->field; }
 
-double Surface::height(double i, double j) const {
-  const Grid& g = grid();
-  if (!(i >= 0 && i < g.nx && i == std::floor(i) && j >= 0 && j < g.ny && j == std::floor(j)))
-    throw Error(ErrorCode::bad_value,
-                "there is no node (" + format_short(i, 17) + ", " + format_short(j, 17) + ")",
-                "i runs from 0 to " + std::to_string(g.nx - 1) + ", j from 0 to " + std::to_string(g.ny - 1));
-  return heights()(static_cast<int>(i), static_cast<int>(j));
-}
+double Surface::height(double i, double j) const { return node_value(heights(), i, j); }
 
 Range Surface::height_range() const {
   std::call_once(data_->range_once, [&] { data_->range = range(data_->field.values()); });

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/geometry.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+Field combine(const Field& lower, const Field& upper, const LatticeIsometry& placement) {
+  Field sum(lower.nx(), lower.ny());
+  // Rows are grouped so that small grids stay on one thread.
+  constexpr std::int64_t nodes_per_block = 1 << 16;
+  const std::int64_t rows_per_block = std::max<std::int64_t>(1, nodes_per_block / lower.nx());
+  const std::int64_t blocks = (lower.ny() + rows_per_block - 1) / rows_per_block;
+  parallel_for(blocks, [&](std::int64_t block) {
+    const auto end = static_cast<int>(std::min<std::int64_t>(lower.ny(), (block + 1) * rows_per_block));
+    for (auto j = static_cast<int>(block * rows_per_block); j < end; ++j)
+      for (int i = 0; i < lower.nx(); ++i) {
+        const auto node = placement.to_upper(LatticeIsometry::Node{i, j});
+        sum(i, j) = lower(i, j) + upper(node.i, node.j);
+      }
+  });
+  return sum;
+}
+
+}  // namespace
+
+ContactGeometry::ContactGeometry(const Scene& scene, const LatticeIsometry& placement)
+    : lower_(scene.lower), upper_(scene.upper), boundary_(scene.boundary), placement_(placement) {
+  if (const auto* rough = std::get_if<Surface>(&upper_)) {
+    combined_ = std::make_shared<const Field>(combine(lower_.heights(), rough->heights(), placement_));
+    range_ = range(combined_->values());
+  } else {
+    range_ = lower_.height_range();
+  }
+  if (!std::isfinite(range_.min) || !std::isfinite(range_.max) || !std::isfinite(range_.span()))
+    throw Error(ErrorCode::bad_value,
+                "the combined heights run from " + format_short(range_.min) + " m to " +
+                    format_short(range_.max) + " m",
+                "heights this large leave the range of a double; check the unit of the surfaces");
+}
+
+const Material* lower_material(const Surface& lower) {
+  return lower.material() ? &*lower.material() : nullptr;
+}
+
+const Material* upper_material(const UpperBody& upper) {
+  if (const auto* flat = std::get_if<Material>(&upper)) return flat;
+  const Surface& rough = std::get<Surface>(upper);
+  return rough.material() ? &*rough.material() : nullptr;
+}
+
+}  // namespace asperity

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/plan.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/contact/effects/catalogue.hpp"
+#include "engine/contact/elasticity/box_plan.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+std::string bytes_text(std::int64_t bytes) {
+  constexpr std::array units = {"B", "KiB", "MiB", "GiB", "TiB"};
+  auto value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  while (value >= 1024 && unit + 1 < units.size()) {
+    value /= 1024;
+    ++unit;
+  }
+  return format_short(value, 4) + " " + units[unit];
+}
+
+std::string tile_text(const Grid& grid, Boundary boundary) {
+  return std::to_string(grid.nx) + " x " + std::to_string(grid.ny) + " cells, " +
+         format_quantity(grid.size_x, dimension::length) + " x " +
+         format_quantity(grid.size_y, dimension::length) + ", " + std::string(name(boundary)) + " boundary";
+}
+
+void line(std::string& text, std::string_view label, const std::string& content) {
+  constexpr std::size_t width = 14;
+  text += "  ";
+  text += label;
+  text.append(label.size() < width ? width - label.size() : 1, ' ');
+  text += content + "\n";
+}
+
+}  // namespace
+
+std::int64_t Plan::bytes_kept() const {
+  std::int64_t sum = 0;
+  for (const PlannedBuffer& buffer : buffers) sum += buffer.kept ? buffer.bytes : 0;
+  return sum;
+}
+
+std::int64_t Plan::bytes_peak() const {
+  std::int64_t sum = 0;
+  for (const PlannedBuffer& buffer : buffers) sum += buffer.bytes;
+  return sum;
+}
+
+std::string Plan::text() const {
+  std::string result = "contact of " + title + "\n";
+  for (const PlannedTerm& term : terms) line(result, term.effect, term.sentence);
+  line(result, "solver", solver + ", tolerance " + format_short(accuracy.tolerance));
+  line(result, "transforms", format_short(transforms) + " expected");
+  for (const PlannedBuffer& buffer : buffers)
+    line(result, "memory",
+         bytes_text(buffer.bytes) + " " + buffer.name + (buffer.kept ? "" : ", for a moment"));
+  line(result, "memory", bytes_text(bytes_kept()) + " kept, " + bytes_text(bytes_peak()) + " at most");
+  line(result, "time", "about " + format_quantity(seconds, dimension::time, 3) + " for the first press");
+  if (!effects_off.empty()) line(result, "off", joined(effects_off, ", ") + " (not named in the scene)");
+  return result;
+}
+
+Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
+  Plan plan;
+  plan.title = tile_text(geometry.grid(), scene.boundary);
+  plan.accuracy = scene.accuracy;
+  if (!geometry.upper_is_flat())
+    plan.buffers.push_back(
+        {"combined heights", static_cast<std::int64_t>(geometry.grid().nodes() * sizeof(double))});
+  std::visit([&](const BoxOptions& options) { plan_box(options, geometry, plan); }, scene.elasticity);
+  for (const PlannedTerm& term : plan.terms)
+    if (std::find(plan.effects_run.begin(), plan.effects_run.end(), term.effect) == plan.effects_run.end())
+      plan.effects_run.push_back(term.effect);
+  plan.effects_off = effects_not_in(plan.effects_run);
+  return plan;
+}
+
+}  // namespace asperity

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a scene needs and nothing more: the operator, the terms, the buffers and the expected
+// transforms, worked out before anything is solved. A solver reads its numbers from here and knows
+// no effect by name. The plan explains itself: explain() and any table made of it render this struct.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/contact/geometry.hpp"
+#include "engine/contact/scene.hpp"
+
+namespace asperity {
+
+// A term of the convex problem, or its operator, and the effect that brought it.
+struct PlannedTerm {
+  std::string effect;    // catalogue name
+  std::string sentence;  // what it is here, with its numbers
+};
+
+struct PlannedBuffer {
+  std::string name;
+  std::int64_t bytes = 0;
+  bool kept = true;  // for as long as the bodies lie like this, or only for a moment
+};
+
+// Box elements: u = p / stiffness, node by node.
+struct BoxOperator {
+  double stiffness = 0;           // Pa/m
+  double reference_pressure = 0;  // Pa; loads far below it are refused
+  double lower_share = 1;         // of the shortening that the lower body takes, 0 … 1
+};
+
+using PlannedOperator = std::variant<BoxOperator>;
+
+struct Plan {
+  std::string title;  // tile and boundary
+  std::string solver;
+  PlannedOperator elasticity;
+  std::vector<PlannedTerm> terms;
+  std::vector<PlannedBuffer> buffers;
+  double transforms = 0;  // expected for a press, equivalents of the finest grid
+  double seconds = 0;     // expected for the first press, a rough guess
+  Accuracy accuracy;
+  std::vector<std::string> effects_run;
+  std::vector<std::string> effects_off;
+
+  std::int64_t bytes_kept() const;
+  std::int64_t bytes_peak() const;  // with the momentary ones
+  std::string text() const;         // several lines, each ended
+};
+
+// Throws Error that names effect and body when an effect lacks a property of a material, or a default
+// cannot be formed (a flat has no peak-to-valley to set the stiffness by). O(1).
+Plan make_plan(const Scene& scene, const ContactGeometry& geometry);
+
+}  // namespace asperity

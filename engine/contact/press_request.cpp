@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/press_request.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+std::string_view name(PressBy by) {
+  switch (by) {
+    case PressBy::pressure:
+      return "pressure";
+    case PressBy::load:
+      return "load";
+    case PressBy::approach:
+      return "approach";
+    case PressBy::indentation:
+      return "indentation";
+    case PressBy::flatten:
+      return "flatten";
+  }
+  return {};
+}
+
+void check(const PressRequest& request) {
+  if (!(request.value >= 0 && std::isfinite(request.value)))
+    throw Error(ErrorCode::bad_value, quoted(name(request.by)) + " is " + format_short(request.value),
+                "a contact without adhesion takes a finite value from zero up");
+  if (request.by == PressBy::flatten && request.value > 1)
+    throw Error(ErrorCode::bad_value, "`flatten` is " + format_short(request.value),
+                "it is a fraction of the peak-to-valley: give a number from 0 to 1");
+  if (request.dwell && !(*request.dwell >= 0))
+    throw Error(ErrorCode::bad_value, "`dwell` is " + format_short(*request.dwell) + " s",
+                "give a time from zero up");
+}
+
+}  // namespace asperity

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+std::string tile(const Grid& g) {
+  return std::to_string(g.nx) + " x " + std::to_string(g.ny) + " cells on " +
+         format_quantity(g.size_x, dimension::length, 6) + " x " +
+         format_quantity(g.size_y, dimension::length, 6);
+}
+
+// Sizes that differ by the rounding of a product (3 · 50 against 150) are the same size.
+bool same_length(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(a, b); }
+
+void check_tiles(const Grid& lower, const Grid& upper) {
+  if (lower.nx == upper.nx && lower.ny == upper.ny && same_length(lower.size_x, upper.size_x) &&
+      same_length(lower.size_y, upper.size_y))
+    return;
+  throw Error(ErrorCode::bad_value, "the lower body has " + tile(lower) + ", the upper body " + tile(upper),
+              "both need the same `cells` and `size`: bring one to the other with `:resampled{cells=}` or "
+              "`:cropped{...}`");
+}
+
+}  // namespace
+
+std::string_view name(Boundary boundary) { return boundary == Boundary::periodic ? "periodic" : "free"; }
+
+void check(const Scene& scene) {
+  if (const auto* rough = std::get_if<Surface>(&scene.upper)) check_tiles(scene.lower.grid(), rough->grid());
+  if (const auto* flat = std::get_if<Material>(&scene.upper)) check(*flat);
+  const double tolerance = scene.accuracy.tolerance;
+  if (!(tolerance >= 1e-15 && tolerance < 1))
+    throw Error(ErrorCode::bad_value, "`tolerance` is " + format_short(tolerance),
+                "give a number from 1e-15 to below 1");
+  if (const auto* box = std::get_if<BoxOptions>(&scene.elasticity)) {
+    if (box->stiffness && !(*box->stiffness > 0 && std::isfinite(*box->stiffness)))
+      throw Error(ErrorCode::bad_value, "`stiffness` is " + format_short(*box->stiffness) + " Pa/m",
+                  "give a finite value above zero, such as \"80 MPa/um\"");
+    if (scene.accuracy.precision == Accuracy::Precision::single)
+      throw Error(ErrorCode::bad_value, "`precision` is \"single\" for box elements",
+                  "their solution is a closed form in double precision; leave `precision` out");
+  }
+}
+
+}  // namespace asperity

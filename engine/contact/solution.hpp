@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a solver hands to a State: the few numbers it had to find, and ways to work out the rest when
+// somebody asks. One class per way of solving; a State knows no other difference between them.
+// Implementations are immutable: every member may be called from any number of threads at once, and
+// gives the same bits each time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/contact/certificate.hpp"
+#include "engine/contact/geometry.hpp"
+
+namespace asperity {
+
+// The nodes in contact parted at a pressure.
+struct PressureSplit {
+  std::int64_t above = 0;  // nodes with p >= the threshold
+  std::int64_t below = 0;  // nodes with 0 < p < the threshold
+  double sum_below = 0;    // Σ p over the latter, Pa
+};
+
+class Solution {
+ public:
+  virtual ~Solution() = default;
+
+  virtual const ContactGeometry& geometry() const = 0;
+
+  // Known when the solve ends; each O(1).
+  virtual double load() const = 0;            // N on the tile
+  virtual double pressure() const = 0;        // Pa, load over nominal area
+  virtual double approach() const = 0;        // m
+  virtual std::int64_t contacts() const = 0;  // nodes with p > 0
+  virtual double peak_pressure() const = 0;   // Pa
+  virtual double stiffness() const = 0;       // Pa/m, d pressure / d approach at this contact set
+  virtual int iterations() const = 0;
+  virtual std::string_view solver() const = 0;
+
+  // Worked out when asked.
+  virtual double mean_gap() const = 0;  // m
+  virtual double energy() const = 0;    // J in the tile, elastic
+  virtual Certificate certificate() const = 0;
+  virtual PressureSplit split(double threshold) const = 0;
+  virtual Array<std::uint8_t> contact_mask() const = 0;  // 1 where p > 0, row by row
+  virtual Field pressure_field() const = 0;              // Pa
+  virtual Field gap_field() const = 0;                   // m, 0 in contact
+  virtual Field displacement_field() const = 0;          // m, of both bodies together, positive into them
+  virtual Field lower_under_load() const = 0;            // m, heights in the lower body's own frame
+  virtual Field upper_under_load() const = 0;            // m, heights in the upper body's own frame
+};
+
+}  // namespace asperity

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A contact made ready to be pressed: the bodies as they lie, the plan carried out as far as it does
+// not depend on the load. Which solver it is follows from the plan alone. Immutable, so many threads
+// may press at once, and each press depends on nothing but its request.
+#pragma once
+
+#include <memory>
+
+#include "engine/contact/geometry.hpp"
+#include "engine/contact/plan.hpp"
+#include "engine/contact/press_request.hpp"
+#include "engine/contact/state.hpp"
+#include "engine/core/monitor.hpp"
+
+namespace asperity {
+
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  // The state under this load. Throws Error{bad_value} for a request that makes no sense (negative, not
+  // finite, too small to mean anything), Error{infeasible} for one that has no solution, and
+  // Error{not_converged} when the certificate misses the tolerance and the scene did not ask for the
+  // best there is.
+  virtual State press(const PressRequest& request, Monitor& monitor) const = 0;
+  State press(const PressRequest& request) const { return press(request, Monitor::silent()); }
+  virtual const ContactGeometry& geometry() const = 0;
+  // What making it ready cost, once for all presses.
+  virtual const StateCost& preparation() const = 0;
+};
+
+// Does what is done once for all loads (for box elements: the sort, O(n)).
+std::shared_ptr<const Solver> make_solver(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry);
+
+}  // namespace asperity

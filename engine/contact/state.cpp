@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <mutex>
+#include <numbers>
+
+#include "engine/contact/plan.hpp"
+#include "engine/contact/regions.hpp"
+#include "engine/core/digest.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+// A value worked out when first asked for. A failure is not kept: the next asker tries again.
+template <class T>
+class Lazy {
+ public:
+  template <class Make>
+  const T& get(Make make) {
+    std::call_once(once_, [&] { value_ = make(); });
+    return value_;
+  }
+
+ private:
+  std::once_flag once_;
+  T value_{};
+};
+
+const std::array<std::string, 5> names_of_fields = {"pressure", "gap", "contact", "displacement", "plastic"};
+
+}  // namespace
+
+StateCost& StateCost::operator+=(const StateCost& other) {
+  total += other.total;
+  for (const auto& entry : other.by_effect) {
+    const auto mine = std::find_if(by_effect.begin(), by_effect.end(),
+                                   [&](const auto& e) { return e.first == entry.first; });
+    if (mine == by_effect.end())
+      by_effect.push_back(entry);
+    else
+      mine->second += entry.second;
+  }
+  return *this;
+}
+
+struct State::Shared {
+  std::shared_ptr<const Solution> solution;
+  double tolerance;
+  std::vector<std::string> effects_run, effects_off;
+
+  Lazy<double> mean_gap, energy, corrected;
+  Lazy<Certificate> certificate;
+  Lazy<std::vector<std::int64_t>> spot_sizes;
+  Lazy<std::int64_t> spots8;
+  Lazy<std::string> digest;
+  std::array<Lazy<std::shared_ptr<const Field>>, 4> fields;
+
+  bool wraps() const { return solution->geometry().boundary() == Boundary::periodic; }
+  const Grid& grid() const { return solution->geometry().grid(); }
+  Array<std::int64_t> find_regions(Neighbours neighbours) const {
+    return region_sizes(solution->contact_mask(), grid().nx, grid().ny, neighbours, wraps());
+  }
+  // Nodes in each region joined by edges, largest first.
+  const std::vector<std::int64_t>& sizes_of_spots() {
+    return spot_sizes.get([&] {
+      const Array<std::int64_t> sizes = find_regions(Neighbours::four);
+      std::vector<std::int64_t> sorted(sizes.begin(), sizes.end());
+      std::sort(sorted.begin(), sorted.end(), std::greater<>());
+      return sorted;
+    });
+  }
+};
+
+State::State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCost cost)
+    : shared_(std::make_shared<Shared>()), cost_(std::make_shared<const StateCost>(std::move(cost))) {
+  shared_->solution = std::move(solution);
+  shared_->tolerance = plan.accuracy.tolerance;
+  shared_->effects_run = plan.effects_run;
+  shared_->effects_off = plan.effects_off;
+}
+
+State State::costing_also(const StateCost& preparation) const {
+  State result = *this;
+  StateCost sum = *cost_;
+  sum += preparation;
+  result.cost_ = std::make_shared<const StateCost>(std::move(sum));
+  return result;
+}
+
+double State::load() const { return shared_->solution->load(); }
+double State::pressure() const { return shared_->solution->pressure(); }
+double State::approach() const { return shared_->solution->approach(); }
+std::int64_t State::contacts() const { return shared_->solution->contacts(); }
+double State::peak_pressure() const { return shared_->solution->peak_pressure(); }
+double State::stiffness() const { return shared_->solution->stiffness(); }
+int State::iterations() const { return shared_->solution->iterations(); }
+std::string_view State::solver() const { return shared_->solution->solver(); }
+const ContactGeometry& State::geometry() const { return shared_->solution->geometry(); }
+PressureSplit State::split(double threshold) const { return shared_->solution->split(threshold); }
+const std::vector<std::string>& State::effects_run() const { return shared_->effects_run; }
+const std::vector<std::string>& State::effects_off() const { return shared_->effects_off; }
+const StateCost& State::cost() const { return *cost_; }
+bool State::converged() const { return residual() <= shared_->tolerance; }
+
+double State::indentation() const { return approach() > 0 ? approach() / geometry().peak_to_valley() : 0.0; }
+double State::flatten() const { return geometry().peak_to_valley() > 0 ? std::min(1.0, indentation()) : 0.0; }
+double State::secant_stiffness() const { return approach() > 0 ? pressure() / approach() : 0.0; }
+double State::area() const { return static_cast<double>(contacts()) * shared_->grid().cell_area(); }
+
+double State::area_fraction() const {
+  return static_cast<double>(contacts()) / static_cast<double>(shared_->grid().nodes());
+}
+
+double State::mean_gap() const {
+  return shared_->mean_gap.get([&] { return shared_->solution->mean_gap(); });
+}
+
+double State::energy() const {
+  return shared_->energy.get([&] { return shared_->solution->energy(); });
+}
+
+const Certificate& State::certificate() const {
+  return shared_->certificate.get([&] { return shared_->solution->certificate(); });
+}
+
+double State::corrected_area_fraction() const {
+  return shared_->corrected.get([&] {
+    // A node that touches counts as a whole cell though its cell touches in part: on average over the
+    // directions of an outline each edge counts this share of a cell too much. Source: Yastrebov,
+    // Anciaux & Molinari (2017), "On the accurate computation of the true contact-area".
+    constexpr double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
+    const Grid& grid = shared_->grid();
+    const BoundaryEdges edges =
+        boundary_edges(shared_->solution->contact_mask(), grid.nx, grid.ny, shared_->wraps());
+    // An edge between columns is hy long and stands for hx across it, and the other way about.
+    const auto cells = static_cast<double>(edges.between_columns + edges.between_rows);
+    return (static_cast<double>(contacts()) - excess * cells) / static_cast<double>(grid.nodes());
+  });
+}
+
+std::int64_t State::spots() const { return static_cast<std::int64_t>(shared_->sizes_of_spots().size()); }
+
+std::int64_t State::spots8() const {
+  return shared_->spots8.get(
+      [&] { return static_cast<std::int64_t>(shared_->find_regions(Neighbours::eight).size()); });
+}
+
+std::vector<double> State::spot_areas() const {
+  std::vector<double> areas;
+  for (const std::int64_t nodes : shared_->sizes_of_spots())
+    areas.push_back(static_cast<double>(nodes) * shared_->grid().cell_area());
+  return areas;
+}
+
+const std::string& State::digest() const {
+  return shared_->digest.get([&] {
+    Digester digester;
+    digester.add("state").add(load()).add(pressure()).add(approach());
+    digester.add(shared_->solution->pressure_field().values());
+    return digester.hex();
+  });
+}
+
+std::span<const std::string> State::field_names() { return names_of_fields; }
+
+std::shared_ptr<const Field> State::field(std::string_view name) const {
+  const auto found = std::find(names_of_fields.begin(), names_of_fields.end(), name);
+  if (found == names_of_fields.end())
+    throw Error(ErrorCode::unknown_name,
+                "a state has no field " + quoted(name) + did_you_mean(name, names_of_fields),
+                "fields are " + joined(names_of_fields, " and "));
+  if (name == "plastic")
+    throw Error(ErrorCode::bad_state,
+                "the field `plastic` needs the effect `plasticity`, which this scene does not name",
+                "there is no plastic change without it");
+  const auto which = static_cast<std::size_t>(found - names_of_fields.begin());
+  return shared_->fields[which].get([&] {
+    const Solution& solution = *shared_->solution;
+    if (name == "pressure") return std::make_shared<const Field>(solution.pressure_field());
+    if (name == "gap") return std::make_shared<const Field>(solution.gap_field());
+    if (name == "displacement") return std::make_shared<const Field>(solution.displacement_field());
+    Field contact(shared_->grid().nx, shared_->grid().ny);
+    const Array<std::uint8_t> mask = solution.contact_mask();
+    std::copy(mask.begin(), mask.end(), contact.values().begin());
+    return std::make_shared<const Field>(std::move(contact));
+  });
+}
+
+Surface State::deformed(std::string_view body) const {
+  const ContactGeometry& bodies = geometry();
+  SurfaceTraits traits;
+  if (body == "lower") {
+    traits.material = bodies.lower().material();
+    traits.periodic = bodies.lower().traits().periodic;
+    return Surface(bodies.grid(), shared_->solution->lower_under_load(), std::move(traits));
+  }
+  if (body != "upper")
+    throw Error(ErrorCode::unknown_name, "a contact has no body " + quoted(body),
+                "give \"lower\" or \"upper\"");
+  if (const Material* material = upper_material(bodies.upper())) traits.material = *material;
+  const auto* rough = std::get_if<Surface>(&bodies.upper());
+  traits.periodic = rough ? rough->traits().periodic : true;
+  return Surface(bodies.grid(), shared_->solution->upper_under_load(), std::move(traits));
+}
+
+Histogram State::distribution(std::string_view name, const HistogramOptions& options) const {
+  static const std::array<std::string, 3> known = {"pressure", "gap", "spot_area"};
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw Error(ErrorCode::unknown_name,
+                "a state has no distribution " + quoted(name) + did_you_mean(name, known),
+                "distributions are " + joined(known, " and "));
+  if (name == "spot_area") {
+    const std::vector<double> areas = spot_areas();
+    if (areas.empty())
+      throw Error(ErrorCode::bad_state, "no node touches, so there are no spots to distribute");
+    return make_histogram(areas, options);
+  }
+  const std::shared_ptr<const Field> values = field(name);
+  Array<double> positive;
+  std::copy_if(values->values().begin(), values->values().end(), std::back_inserter(positive),
+               [](double value) { return value > 0; });
+  if (positive.empty())
+    throw Error(ErrorCode::bad_state, name == "gap"
+                                          ? "every node touches, so there are no gaps to distribute"
+                                          : "no node touches, so there are no pressures to distribute");
+  return make_histogram(positive, options);
+}
+
+double State::plastic_volume() const {
+  throw Error(ErrorCode::bad_state,
+              "`plastic_volume` needs the effect `plasticity`, which this scene does not name");
+}
+
+double State::plastic_fraction() const {
+  throw Error(ErrorCode::bad_state,
+              "`plastic_fraction` needs the effect `plasticity`, which this scene does not name");
+}
+
+std::string State::text() const {
+  const Cost& total = cost().total;
+  std::string result = "contact under " + format_quantity(pressure(), dimension::pressure) + " (" +
+                       format_quantity(load(), dimension::force) + ")\n";
+  result += "  approach      " + format_quantity(approach(), dimension::length) + ", indentation " +
+            format_short(indentation(), 4) + "\n";
+  result += "  contact       area fraction " + format_short(area_fraction(), 4) + ", " +
+            std::to_string(contacts()) + (contacts() == 1 ? " node\n" : " nodes\n");
+  result += "  solver        " + std::string(solver()) + ", residual " + format_short(residual(), 2) + "\n";
+  result += "  cost          " + format_quantity(total.seconds, dimension::time, 3) + ", " +
+            format_short(total.transforms) + " transforms, " + std::to_string(total.bytes) + " bytes\n";
+  return result;
+}
+
+}  // namespace asperity

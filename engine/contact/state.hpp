@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A contact under load: an immutable value, cheap to copy. It keeps the solution and the bodies it
+// was found for, works out each quantity when it is first asked for and keeps the answer; what nobody
+// reads is never computed. Areas, fractions and spots are of the nominal tile; spots and the outline
+// go round the rim only on a periodic boundary. Thread-safe.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/contact/distribution.hpp"
+#include "engine/contact/solution.hpp"
+#include "engine/core/cost.hpp"
+#include "engine/surface/surface.hpp"
+
+namespace asperity {
+
+struct Plan;
+
+struct StateCost {
+  Cost total;
+  std::vector<std::pair<std::string, Cost>> by_effect;
+
+  StateCost& operator+=(const StateCost& other);
+};
+
+class State {
+ public:
+  State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCost cost);
+
+  double load() const;                     // N on the tile
+  double pressure() const;                 // Pa, load over nominal area
+  double approach() const;                 // m from first touch
+  double indentation() const;              // approach / peak-to-valley of the combined heights
+  double flatten() const;                  // share of that peak-to-valley pressed away, 0 … 1
+  double area() const;                     // m²
+  double area_fraction() const;            // contacts over nodes
+  double corrected_area_fraction() const;  // less (π−1+ln 2)/24 of a cell for every edge of the outline
+  std::int64_t contacts() const;           // nodes with p > 0
+  std::int64_t spots() const;              // regions of contact joined by an edge
+  std::int64_t spots8() const;             // … or by a corner
+  std::vector<double> spot_areas() const;  // m² of each region joined by edges, largest first
+  double peak_pressure() const;            // Pa
+  double mean_gap() const;                 // m, mean over the tile of max(gap, 0)
+  double stiffness() const;                // Pa/m, d pressure / d approach at this contact set
+  double secant_stiffness() const;         // Pa/m, pressure / approach; 0 without approach
+  double energy() const;                   // J in the tile, elastic
+
+  int iterations() const;
+  const Certificate& certificate() const;
+  double residual() const { return certificate().worst(); }
+  bool converged() const;
+  std::string_view solver() const;
+  const std::vector<std::string>& effects_run() const;
+  const std::vector<std::string>& effects_off() const;
+  const StateCost& cost() const;  // of the press, not of what was asked afterwards
+  // The same state, its cost increased by what was done for it beforehand.
+  State costing_also(const StateCost& preparation) const;
+  const std::string& digest() const;  // of pressures, load and approach
+
+  // "pressure" (Pa), "gap" (m), "contact" (1 or 0), "displacement" (m); in the lower body's frame. Throws
+  // Error{unknown_name}, or Error{bad_state} for "plastic" without plasticity.
+  std::shared_ptr<const Field> field(std::string_view name) const;
+  // The body under load, in its own frame: "lower" or "upper". A rigid one comes back as it was.
+  Surface deformed(std::string_view body) const;
+  // "pressure" over the nodes in contact, "gap" over the others, "spot_area" over the spots. Throws
+  // Error{bad_state} when there are none.
+  Histogram distribution(std::string_view name, const HistogramOptions& options = {}) const;
+  // Both throw Error{bad_state}: they need the effect `plasticity`.
+  double plastic_volume() const;
+  double plastic_fraction() const;
+
+  // Nodes in contact at or above a pressure, and the sum of the rest.
+  PressureSplit split(double threshold) const;
+  const ContactGeometry& geometry() const;
+  // Several lines for a reader: load, contact, cost and residual.
+  std::string text() const;
+
+  static std::span<const std::string> field_names();
+
+ private:
+  struct Shared;
+  std::shared_ptr<Shared> shared_;
+  std::shared_ptr<const StateCost> cost_;
+};
+
+}  // namespace asperity

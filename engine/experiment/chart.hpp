@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A chart of lines and points, drawn to print legibly in black and white: lines differ in colour, point
+// shape and dashes; the key stands beside the plot; units carry a readable prefix. Drawn by gnuplot.
+// Values that cannot be drawn (non-finite, or not positive on a logarithmic axis) are left out, and a
+// sentence says how many.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/grid.hpp"
+#include "engine/experiment/chart_axis.hpp"
+#include "engine/experiment/gnuplot.hpp"
+
+namespace asperity {
+
+struct ChartSeries {
+  std::string name;                      // in the key; "" keeps it out
+  std::vector<double> x, y;              // same length
+  std::vector<double> y_error;           // half length of the error bar of each point; or empty
+  std::vector<double> cloud_x, cloud_y;  // faint points behind: the single values a point is the mean of
+  bool line = true;
+  bool points = true;
+};
+
+struct LineChart {
+  std::string title;
+  ChartAxis x, y;
+  std::string key_title;
+  std::vector<ChartSeries> series;
+  bool equal_axes = false;  // one unit of x is as long as one of y
+  int width = 960, height = 640;
+};
+
+// The gnuplot script; `warnings` gets the sentences about what was left out. Throws Error{bad_value}
+// if no point is left or lengths differ. Cost: the number of points.
+std::string chart_script(const LineChart& chart, PictureFormat format, std::vector<std::string>& warnings);
+
+// Draws the chart into `file` (.svg or .png), written aside. Returns the warnings. Throws as
+// chart_script, picture_format, run_gnuplot and write_aside do.
+std::vector<std::string> draw(const LineChart& chart, const std::filesystem::path& file);
+
+}  // namespace asperity

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/experiment/chart_axis.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+std::string superscript(int power) {
+  constexpr std::array<std::string_view, 10> digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = power < 0 ? "⁻" : "";
+  for (const char c : std::to_string(std::abs(power))) text += digits[static_cast<std::size_t>(c - '0')];
+  return text;
+}
+
+struct Scale {
+  std::string unit;  // as printed, "" for none
+  double factor = 1;
+};
+
+Scale scale_for(std::string_view unit, double largest, bool logarithmic) {
+  if (unit.empty()) {
+    // A plain number that would need many zeros takes a power of ten into the label.
+    if (!logarithmic && largest > 0 && std::isfinite(largest) && (largest < 1e-3 || largest >= 1e5)) {
+      const int power = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+      if (power < -300) return {};
+      return {"10" + superscript(power), std::pow(10.0, power)};
+    }
+    return {};
+  }
+  try {
+    const Quantity one = parse_unit(unit);
+    const DisplayUnit display = display_unit(largest * one.value, one.dimension);
+    const double factor = display.factor / one.value;
+    if (std::isfinite(factor) && factor > 0) return {printed_unit(display.name), factor};
+  } catch (const Error&) {
+    // Not a unit of physics ("cells", "trials"): shown as the script wrote it.
+  }
+  return {printed_unit(unit), 1};
+}
+
+// `value` with the digits that a step of `step` needs.
+std::string tic_label(double value, double step) {
+  const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+  if (decimals > 6 || std::abs(value) >= 1e7) {
+    const double ratio = std::abs(value) < step ? 1 : std::abs(value) / step;
+    return format_short(std::abs(value) < step / 2 ? 0.0 : value,
+                        static_cast<int>(std::log10(ratio) + 1e-6) + 2);
+  }
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value == 0 ? 0.0 : value);
+  std::string label = text.data();
+  return label.find_first_of("123456789") == std::string::npos ? label.substr(label[0] == '-') : label;
+}
+
+std::vector<Tic> linear_tics(double low, double high, int wanted) {
+  double step = round_below((high - low) / wanted);
+  // The next round step up, where this one would crowd.
+  if ((high - low) / step > 1.5 * wanted) step = round_below(2.6 * step);
+  std::vector<Tic> tics;
+  const double first = std::ceil(low / step - 1e-9);
+  for (int k = 0; k < 40; ++k) {
+    const double at = (first + k) * step;
+    if (at > high + 1e-9 * step) break;
+    tics.push_back({at, tic_label(at, step)});
+  }
+  return tics;
+}
+
+std::string power_label(int mantissa, int power, bool plain) {
+  if (power == 0 || (plain && power >= -3 && power <= 4))
+    return format_short(mantissa * std::pow(10.0, power), 6);
+  return (mantissa == 1 ? "" : std::to_string(mantissa) + "·") + std::string("10") + superscript(power);
+}
+
+std::vector<Tic> logarithmic_tics(double low, double high) {
+  const double decades = std::log10(high) - std::log10(low);
+  const int first = static_cast<int>(std::floor(std::log10(low))),
+            last = static_cast<int>(std::ceil(std::log10(high)));
+  // Less than two thirds of a decade holds too few of 1, 2, 5.
+  if (decades < 0.67) return linear_tics(low, high, 6);
+  const int every = std::max(1, static_cast<int>(std::ceil(decades / 8)));
+  std::vector<Tic> tics;
+  for (int power = first; power <= last; ++power) {
+    const double decade = std::pow(10.0, power);
+    for (int mantissa = 1; mantissa <= 9; ++mantissa) {
+      const double at = mantissa * decade;
+      if (at < low * (1 - 1e-12) || at > high * (1 + 1e-12) || !std::isfinite(at)) continue;
+      const bool full = mantissa == 1 && power % every == 0;
+      const bool part = decades < 2.2 && (mantissa == 2 || mantissa == 5);
+      if (mantissa > 1 && every > 1) continue;
+      tics.push_back({at, full || part ? power_label(mantissa, power, decades < 6) : std::string()});
+    }
+  }
+  return tics;
+}
+
+}  // namespace
+
+double round_below(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  const double share = value / decade;
+  constexpr double slack = 1e-9;
+  const double mantissa = share >= 5 - slack ? 5 : share >= 2 - slack ? 2 : 1;
+  return (share >= 10 - slack ? 10 : mantissa) * decade;
+}
+
+std::string printed_unit(std::string_view unit) {
+  std::string text;
+  for (std::size_t k = 0; k < unit.size(); ++k) {
+    const bool begins = k == 0 || !std::isalpha(static_cast<unsigned char>(unit[k - 1]));
+    const bool more = k + 1 < unit.size() && std::isalpha(static_cast<unsigned char>(unit[k + 1]));
+    if (unit[k] == 'u' && begins && more) {
+      text += "µ";
+    } else if (unit[k] == '*') {
+      text += "·";
+    } else if (unit[k] == '^') {
+      std::size_t end = k + 1;
+      while (end < unit.size() && (std::isdigit(static_cast<unsigned char>(unit[end])) || unit[end] == '-'))
+        ++end;
+      int power = 0;
+      if (std::sscanf(std::string(unit.substr(k + 1, end - k - 1)).c_str(), "%3d", &power) != 1) {
+        text += unit[k];
+        continue;
+      }
+      text += superscript(power);
+      k = end - 1;
+    } else {
+      text += unit[k];
+    }
+  }
+  return text == "deg" ? "°" : text;
+}
+
+std::string printed_quantity(double value, std::string_view unit, int digits) {
+  const Scale scale = scale_for(unit, std::abs(value), true);
+  const std::string number = format_short(value / scale.factor, digits);
+  return scale.unit.empty() ? number : number + " " + scale.unit;
+}
+
+AxisLayout lay_out(const ChartAxis& axis, std::span<const double> values, double margin) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto take = [&](double value) {
+    if (!std::isfinite(value) || (axis.logarithmic && value <= 0)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  };
+  if (axis.range) {
+    take(axis.range->min);
+    take(axis.range->max);
+  } else {
+    for (const double value : values) take(value);
+  }
+  if (low > high) {
+    low = axis.logarithmic ? 1 : 0;
+    high = axis.logarithmic ? 10 : 1;
+  }
+  // Room for the sums below: no picture tells 1e300 from more.
+  constexpr double largest = 1e300, smallest = 1e-300;
+  low = std::clamp(low, -largest, largest);
+  high = std::clamp(high, -largest, largest);
+  if (axis.logarithmic) {
+    low = std::max(low, smallest);
+    high = std::max(high, smallest);
+  }
+  AxisLayout layout;
+  // Over many decades the middle one should read best, not the last.
+  const double usual =
+      axis.logarithmic ? std::sqrt(low) * std::sqrt(high) : std::max(std::abs(low), std::abs(high));
+  const double magnitude = axis.prefix_for.value_or(usual);
+  const Scale scale = scale_for(axis.unit, magnitude, axis.logarithmic);
+  layout.unit = scale.unit;
+  layout.factor = scale.factor;
+  layout.label = axis.label;
+  if (!scale.unit.empty()) layout.label += (layout.label.empty() ? "(" : " (") + scale.unit + ")";
+  low /= scale.factor;
+  high /= scale.factor;
+  if (axis.logarithmic) {
+    // One value alone gets a third of a decade on each side.
+    if (high < low * (1 + 1e-9)) margin = 0, low /= 2, high *= 2;
+    const double stretch = axis.range ? 1 : std::exp(margin * (std::log(high) - std::log(low)));
+    layout.low = std::max(low / stretch, 1e-305);
+    layout.high = std::min(high * stretch, 1e305);
+    layout.tics = logarithmic_tics(layout.low, layout.high);
+  } else {
+    const double size = std::max(std::abs(low), std::abs(high));
+    if (high - low <= 1e-12 * size || high - low < smallest) {
+      const double half = size > 1e-290 ? 0.1 * size : 1;
+      low -= half;
+      high += half;
+    }
+    const double room = axis.range ? 0 : margin * (high - low);
+    layout.low = low - room;
+    layout.high = high + room;
+    layout.tics = linear_tics(layout.low, layout.high, axis.tics);
+  }
+  return layout;
+}
+
+}  // namespace asperity

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/experiment/gnuplot.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <thread>
+#include <vector>
+
+#include "engine/core/error.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/core/text.hpp"
+#include "engine/experiment/aside_file.hpp"
+
+extern char** environ;
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Length of the UTF-8 character that begins at `k`, or 0 if none does.
+std::size_t character_length(std::string_view text, std::size_t k) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(k);
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xC2 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  if (length == 0 || k + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(k + i) & 0xC0) != 0x80) return 0;
+  return length;
+}
+
+// A directory that is gone, with all in it, when the run of gnuplot is over.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory() {
+    std::error_code ignored;
+    fs::path base = fs::temp_directory_path(ignored);
+    if (base.empty()) base = "/tmp";
+    std::string pattern = (base / "asperity-picture-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) throw_file_error("make a temporary folder in", base, errno);
+    path_ = pattern;
+  }
+  ~TemporaryDirectory() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The environment less what could change the picture: the language and gnuplot's own variables.
+std::vector<char*> plain_environment() {
+  static char language[] = "LC_ALL=C.UTF-8";
+  std::vector<char*> kept;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text(*entry);
+    if (!text.starts_with("LC_") && !text.starts_with("LANG") && !text.starts_with("GNUPLOT") &&
+        !text.starts_with("GNUTERM"))
+      kept.push_back(*entry);
+  }
+  kept.push_back(language);
+  kept.push_back(nullptr);
+  return kept;
+}
+
+pid_t start(const fs::path& folder) {
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawnattr_init(&attributes);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "messages", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  // A group of its own: Ctrl-C is for the run, which decides what becomes of its picture.
+  sigset_t every, none;
+  sigfillset(&every);
+  sigemptyset(&none);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setsigdefault(&attributes, &every);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+  char program[] = "gnuplot", settings[] = "-d", script[] = "script";
+  std::array<char*, 4> arguments = {program, settings, script, nullptr};
+  std::vector<char*> environment = plain_environment();
+  pid_t child = 0;
+  const int reason =
+      posix_spawnp(&child, program, &actions, &attributes, arguments.data(), environment.data());
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (reason == ENOENT || reason == EACCES)
+    throw Error(ErrorCode::bad_state, "charts and pictures are drawn by gnuplot, which is not installed",
+                "install the package gnuplot-nox");
+  if (reason != 0)
+    throw Error(ErrorCode::bad_state, std::string("gnuplot cannot be started: ") + std::strerror(reason));
+  return child;
+}
+
+int wait_for(pid_t child) {
+  using namespace std::chrono_literals;
+  for (auto pause = 500us;; pause = std::min<std::chrono::microseconds>(2 * pause, 10ms)) {
+    int status = 0;
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR)
+      throw Error(ErrorCode::internal, std::string("gnuplot was lost: ") + std::strerror(errno));
+    if (stop_flag().reason() != StopReason::none) {
+      ::kill(child, SIGKILL);
+      ::waitpid(child, &status, 0);
+      stop_flag().check();
+      return status;
+    }
+    std::this_thread::sleep_for(pause);
+  }
+}
+
+std::string trimmed(std::string text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+}  // namespace
+
+std::string gnuplot_text(std::string_view text) {
+  constexpr int longest = 200;
+  std::string literal = "'";
+  int characters = 0;
+  for (std::size_t k = 0; k < text.size();) {
+    if (++characters > longest) {
+      literal += "…";
+      break;
+    }
+    const std::size_t length = character_length(text, k);
+    const auto byte = static_cast<unsigned char>(text[k]);
+    if (length == 0) {
+      literal += '?';
+    } else if (byte < 0x20 || byte == 0x7F) {
+      literal += ' ';
+    } else if (byte == '\'') {
+      literal += "''";
+    } else {
+      literal += text.substr(k, length);
+    }
+    k += length == 0 ? 1 : length;
+  }
+  return literal + "'";
+}
+
+std::string gnuplot_number(double value) { return format_exact(value); }
+
+std::string gnuplot_colour(unsigned rgb) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "rgb '#%06x'", rgb & 0xFFFFFFU);
+  return text.data();
+}
+
+PictureFormat picture_format(const fs::path& file) {
+  const std::string ending = file.extension().string();
+  if (ending == ".svg") return PictureFormat::svg;
+  if (ending == ".png") return PictureFormat::png;
+  throw Error(ErrorCode::bad_value,
+              "the picture " + asperity::quoted(file.string()) +
+                  (ending.empty() ? " has no ending" : " ends in " + ending),
+              "pictures are .svg or .png");
+}
+
+std::string gnuplot_terminal(PictureFormat format, int width, int height, double font_size) {
+  const std::string size = std::to_string(width) + "," + std::to_string(height);
+  const std::string look = " noenhanced font 'DejaVu Sans," + format_short(font_size, 4) + "' linewidth 1";
+  if (format == PictureFormat::png)
+    return "set terminal pngcairo size " + size + look + " background '#ffffff'\n";
+  return "set terminal svg size " + size + " dynamic" + look + " background '#ffffff'\n";
+}
+
+GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> data) {
+  const TemporaryDirectory folder;
+  const std::size_t canvas = script.find('\n') + 1;
+  write_aside(folder.path() / "script", "set encoding utf8\n" + std::string(script.substr(0, canvas)) +
+                                            "set output 'picture'\n" + std::string(script.substr(canvas)) +
+                                            "\nunset output\n");
+  for (const GnuplotData& item : data) write_aside(folder.path() / item.name, item.bytes);
+  const int status = wait_for(start(folder.path()));
+  GnuplotResult result{content_of(folder.path() / "picture"),
+                       trimmed(content_of(folder.path() / "messages"))};
+  const bool failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+  // A shell's convention, for systems where a missing program is found out only by the child.
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && result.messages.empty())
+    throw Error(ErrorCode::bad_state, "charts and pictures are drawn by gnuplot, which is not installed",
+                "install the package gnuplot-nox");
+  if (failed || result.picture.empty())
+    throw Error(ErrorCode::internal, "gnuplot drew no picture" +
+                                         (result.messages.empty() ? std::string() : ": " + result.messages));
+  return result;
+}
+
+}  // namespace asperity

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs gnuplot (a separate program, without a shell) on a script and returns the picture it drew.
+// Text reaches the script only through gnuplot_text, as a single-quoted string in which gnuplot
+// substitutes nothing; numbers only through gnuplot_number. Bulk data go as attached files. The same
+// script and data give the same bytes: no user settings are read, no date is written.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace asperity {
+
+// A literal that means exactly this text on one line: quotes doubled, control characters made spaces,
+// bytes that are not UTF-8 made "?", cut after 200 characters with "…".
+std::string gnuplot_text(std::string_view text);
+// A finite number; exact.
+std::string gnuplot_number(double value);
+// A colour 0xRRGGBB as "rgb '#rrggbb'".
+std::string gnuplot_colour(unsigned rgb);
+
+enum class PictureFormat { svg, png };
+// By the ending of the name. Throws Error{bad_value} for any other ending.
+PictureFormat picture_format(const std::filesystem::path& file);
+
+// The line that opens the canvas, of `width` × `height` pixels, with text of `font_size` points.
+std::string gnuplot_terminal(PictureFormat format, int width, int height, double font_size);
+
+// A file the script reads by its name.
+struct GnuplotData {
+  std::string name;
+  std::string bytes;
+};
+
+struct GnuplotResult {
+  std::string picture;   // the bytes of the file
+  std::string messages;  // what gnuplot said on its standard error; empty when all was well
+};
+
+// Runs the script, whose canvas must be the first line, in a temporary directory of its own. Checks
+// the stop flag while waiting. Thread-safe. Throws Error{bad_state} when gnuplot is not installed,
+// Error{bad_file} when the temporary directory cannot be written, Error{internal} with gnuplot's own
+// words when it fails or draws nothing.
+GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> data = {});
+
+}  // namespace asperity

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/experiment/json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+using Library = nlohmann::ordered_json;
+
+struct JsonCodec {
+  static Library encode(const Json& value) { return std::visit(JsonCodec(), value.value_); }
+  static Json decode(const Library& value);
+
+  // One overload for each thing a value may hold.
+  Library operator()(std::monostate) const { return nullptr; }
+  Library operator()(bool value) const { return value; }
+  Library operator()(std::int64_t value) const { return value; }
+  Library operator()(double value) const {
+    if (!std::isfinite(value)) return format_exact(value);
+    return value;
+  }
+  Library operator()(const std::string& value) const { return value; }
+  Library operator()(const Json::List& items) const {
+    Library list = Library::array();
+    for (const Json& item : items) list.push_back(encode(item));
+    return list;
+  }
+  Library operator()(const Json::Members& members) const {
+    Library object = Library::object();
+    for (const auto& [name, value] : members) object[name] = encode(value);
+    return object;
+  }
+};
+
+Json Json::object(Members members) {
+  Json result;
+  result.value_ = std::move(members);
+  return result;
+}
+
+Json Json::strings(const std::vector<std::string>& items) { return List(items.begin(), items.end()); }
+
+Json& Json::set(std::string_view name, Json value) {
+  if (is_null()) value_ = Members();
+  Members* members = std::get_if<Members>(&value_);
+  if (members == nullptr)
+    throw Error(ErrorCode::internal, "member " + quoted(name) + " set on what is no object");
+  for (Member& member : *members)
+    if (member.first == name) {
+      member.second = std::move(value);
+      return *this;
+    }
+  members->emplace_back(name, std::move(value));
+  return *this;
+}
+
+const Json* Json::find(std::string_view name) const {
+  const Members* members = std::get_if<Members>(&value_);
+  if (members == nullptr) return nullptr;
+  for (const Member& member : *members)
+    if (member.first == name) return &member.second;
+  return nullptr;
+}
+
+namespace {
+[[noreturn]] void wrong_kind(std::string_view wanted, std::size_t found) {
+  constexpr std::array<std::string_view, 7> kinds = {"nothing",  "a boolean", "a whole number", "a number",
+                                                     "a string", "a list",    "an object"};
+  throw Error(
+      ErrorCode::bad_file,
+      "a record holds " + std::string(kinds[found]) + " where " + std::string(wanted) + " should stand",
+      "the file was written by another program or damaged");
+}
+}  // namespace
+
+double Json::number() const {
+  if (const auto* whole = std::get_if<std::int64_t>(&value_)) return static_cast<double>(*whole);
+  if (const auto* real = std::get_if<double>(&value_)) return *real;
+  if (const auto* text = std::get_if<std::string>(&value_)) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (*text == "nan") return std::numeric_limits<double>::quiet_NaN();
+    if (*text == "inf") return infinity;
+    if (*text == "-inf") return -infinity;
+  }
+  wrong_kind("a number", value_.index());
+}
+
+bool Json::boolean() const {
+  if (const auto* value = std::get_if<bool>(&value_)) return *value;
+  wrong_kind("a boolean", value_.index());
+}
+
+const std::string& Json::string() const {
+  if (const auto* value = std::get_if<std::string>(&value_)) return *value;
+  wrong_kind("a string", value_.index());
+}
+
+const Json::List& Json::list() const {
+  if (const auto* value = std::get_if<List>(&value_)) return *value;
+  wrong_kind("a list", value_.index());
+}
+
+const Json::Members& Json::members() const {
+  if (const auto* value = std::get_if<Members>(&value_)) return *value;
+  wrong_kind("an object", value_.index());
+}
+
+std::string Json::text(int indent) const {
+  return JsonCodec::encode(*this).dump(indent, ' ', false, Library::error_handler_t::replace);
+}
+
+Json Json::parse(std::string_view text, std::string_view what) {
+  try {
+    return JsonCodec::decode(Library::parse(text));
+  } catch (const Library::parse_error& error) {
+    throw Error(ErrorCode::bad_file,
+                std::string(what) + " is not JSON past byte " + std::to_string(error.byte),
+                "the file was cut short or damaged");
+  }
+}
+
+Json JsonCodec::decode(const Library& value) {
+  switch (value.type()) {
+    case Library::value_t::boolean:
+      return value.get<bool>();
+    case Library::value_t::number_integer:
+      return value.get<std::int64_t>();
+    case Library::value_t::number_unsigned:
+      return value.get<std::uint64_t>();
+    case Library::value_t::number_float:
+      return value.get<double>();
+    case Library::value_t::string:
+      return value.get<std::string>();
+    case Library::value_t::array: {
+      Json::List items;
+      for (const Library& item : value) items.push_back(decode(item));
+      return items;
+    }
+    case Library::value_t::object: {
+      Json::Members members;
+      for (const auto& [name, item] : value.items()) members.emplace_back(name, decode(item));
+      return Json::object(std::move(members));
+    }
+    default:
+      return {};
+  }
+}
+
+}  // namespace asperity

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/experiment/picture_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "engine/core/error.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr int most_stretches = 2000;  // about two a pixel
+
+void add_trace(const Profile& profile, ChartSeries& series) {
+  const auto heights = profile.heights();
+  const auto at = [&](std::size_t k) { return static_cast<double>(k) * profile.spacing(); };
+  const auto add = [&](std::size_t k) {
+    series.x.push_back(at(k));
+    series.y.push_back(heights[k]);
+  };
+  if (heights.size() <= 2 * most_stretches) {
+    for (std::size_t k = 0; k < heights.size(); ++k) add(k);
+    return;
+  }
+  for (std::size_t stretch = 0; stretch < most_stretches; ++stretch) {
+    const std::size_t from = stretch * heights.size() / most_stretches;
+    const std::size_t to = (stretch + 1) * heights.size() / most_stretches;
+    const auto part = heights.subspan(from, to - from);
+    const auto [low, high] = std::ranges::minmax_element(part);
+    const auto a = from + static_cast<std::size_t>(low - part.begin());
+    const auto b = from + static_cast<std::size_t>(high - part.begin());
+    add(std::min(a, b));
+    if (a != b) add(std::max(a, b));
+  }
+}
+
+void add_outline(const Profile& profile, ChartSeries& series) {
+  const auto heights = profile.heights();
+  const double radius = *profile.closed_radius();
+  // The first point again at the end closes the line.
+  for (std::size_t k = 0; k <= heights.size(); ++k) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(heights.size());
+    const double r = radius + heights[k % heights.size()];
+    series.x.push_back(r * std::cos(angle));
+    series.y.push_back(r * std::sin(angle));
+  }
+}
+
+}  // namespace
+
+LineChart profile_chart(std::span<const NamedProfile> profiles, std::string title) {
+  if (profiles.empty())
+    throw Error(ErrorCode::bad_value, "a picture of profiles has none", "give at least one");
+  const bool closed = profiles.front().profile.closed();
+  LineChart chart;
+  chart.title = std::move(title);
+  chart.x.label = "x";
+  chart.y.label = closed ? "y" : "height";
+  chart.x.unit = chart.y.unit = "m";
+  chart.equal_axes = closed;
+  chart.height = closed ? 860 : 480;
+  for (const NamedProfile& item : profiles) {
+    if (item.profile.closed() != closed)
+      throw Error(ErrorCode::bad_value, "a picture has open traces and closed outlines together",
+                  "draw them apart");
+    ChartSeries series;
+    series.name = item.name;
+    series.points = item.profile.size() == 1;
+    if (closed) {
+      add_outline(item.profile, series);
+    } else {
+      add_trace(item.profile, series);
+    }
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+void draw(const Profile& profile, const std::string& title, const std::filesystem::path& file) {
+  const NamedProfile item{"", profile};
+  draw(profile_chart({&item, 1}, title), file);
+}
+
+}  // namespace asperity

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where a run writes: a directory with script.lua (a copy of the text), manifest.json (what ran, with
+// what, and how it ended), journal.jsonl, one CSV a notebook, and whatever the script writes itself.
+// The manifest is the same bytes for equal runs apart from its member "unhashed" (dates, machine,
+// threads, place). Files are kept inside: a name that leads out is refused unless the run is trusted.
+// A loose run has no directory: names are relative to the working directory and neither manifest nor
+// journal is kept. A dry one (`asperity check`) resolves names and keeps notebooks, and writes nothing.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/experiment/expectation_log.hpp"
+#include "engine/experiment/journal.hpp"
+#include "engine/experiment/json.hpp"
+#include "engine/experiment/notebook.hpp"
+
+namespace asperity {
+
+struct RunSetup {
+  std::string script_name;  // as given: "examples/fig9.lua"
+  std::string script_text;
+  std::optional<std::filesystem::path> out;  // must be missing or empty; default runs/<script>-<n>
+  std::filesystem::path runs = "runs";       // where the default goes
+  bool trusted = false;
+  std::vector<std::string> arguments;
+  std::int64_t seed = 1;
+  int threads = 1;
+  Json versions = Json::object();  // program, libraries, compiler
+};
+
+enum class RunStatus { running, done, failed, interrupted, killed };
+std::string_view name(RunStatus status);
+
+// Thread-safe.
+class RunDirectory {
+ public:
+  // Makes the directory and its first files. Throws Error{bad_value} if `out` is there and not
+  // empty, Error{bad_file} if it cannot be made.
+  explicit RunDirectory(const RunSetup& setup);
+  enum class Without { loose, dry };
+  explicit RunDirectory(Without kind, bool trusted = false);
+  ~RunDirectory();
+  RunDirectory(const RunDirectory&) = delete;
+  RunDirectory& operator=(const RunDirectory&) = delete;
+
+  // Empty for loose and dry runs.
+  const std::filesystem::path& path() const { return root_; }
+  bool trusted() const { return trusted_; }
+  bool dry() const { return kind_ == Kind::dry; }
+
+  // The place of a file that the script is about to write; the folders above it are made. Relative
+  // names go under the directory. Throws Error{not_permitted} for a way out (an absolute path, `..`,
+  // a link) unless trusted, and always for script.lua, manifest.json and journal.jsonl;
+  // Error{bad_value} for an empty name or a folder; Error{bad_file} if a folder cannot be made.
+  // The file is listed among the outputs if it is there when the run ends.
+  std::filesystem::path path_for(std::string_view file);
+
+  Journal& journal() { return *journal_; }
+  // The notebook of that name, the same one each time. Throws Error{bad_value} for an empty name.
+  std::shared_ptr<Notebook> notebook(std::string_view name);
+  ExpectationLog& expectations() { return expectations_; }
+
+  // A member of the manifest; `unhashed` for what may differ between equal runs. Written by finish().
+  void note(std::string_view key, Json value);
+  void note_unhashed(std::string_view key, Json value);
+  // A file that was read, under the name the script gave, with the digest of its content.
+  void note_input(std::string_view file, std::int64_t bytes, std::string_view digest);
+
+  // Ends the run: brings notebooks up to date, closes the journal with an event "end", and writes the
+  // manifest with the status, outputs and verdicts. The first call counts; returns false for later
+  // ones. May be called by a watchdog while another thread is in a write: waits at most `patience`
+  // for each file, then leaves that one as it is on disk, which is whole. `reason` says why a run
+  // did not end as done. Throws Error{bad_file} after having tried everything.
+  bool finish(RunStatus status, std::string_view reason = {},
+              std::chrono::milliseconds patience = std::chrono::seconds(2));
+
+ private:
+  enum class Kind { directory, loose, dry };
+  void begin(const RunSetup& setup);
+  void write_manifest();
+  Json outputs(bool with_digests) const;
+  void keep_inside(const std::filesystem::path& relative, std::string_view file) const;
+
+  Kind kind_ = Kind::directory;
+  bool trusted_ = false;
+  std::filesystem::path root_;
+  std::unique_ptr<Journal> journal_;
+  ExpectationLog expectations_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+
+  mutable std::timed_mutex mutex_;  // of everything below
+  Json manifest_ = Json::object();
+  Json unhashed_ = Json::object();
+  std::set<std::string> outputs_;
+  struct Input {
+    std::string file;
+    std::int64_t bytes;
+    std::string digest;
+    auto operator<=>(const Input&) const = default;
+  };
+  std::set<Input> inputs_;
+  std::vector<std::shared_ptr<Notebook>> notebooks_;
+  std::atomic<bool> finished_{false};
+};
+
+}  // namespace asperity

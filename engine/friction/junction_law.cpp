@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/friction/junction_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+void require_finite(double value, std::string_view key) {
+  if (!(value >= 0 && std::isfinite(value)))
+    throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(value),
+                "give a finite value from zero up");
+}
+
+void require_positive(const std::optional<double>& value, std::string_view key) {
+  if (value && !(*value > 0))
+    throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(*value),
+                "give a pressure above zero; leave it out for no cap");
+}
+
+}  // namespace
+
+JunctionLaw::JunctionLaw(const FrictionOptions& options) : tau0_(options.tau0), alpha_(options.alpha) {
+  require_finite(options.tau0, "tau0");
+  require_finite(options.alpha, "alpha");
+  require_positive(options.tau_max, "tau_max");
+  require_positive(options.yield_pressure, "yield_pressure");
+  if (options.tau_max && options.yield_pressure)
+    throw Error(ErrorCode::bad_value, "`tau_max` and `yield_pressure` are both given",
+                "give one: `yield_pressure` stands for tau_max = tau0 + alpha yield_pressure");
+  std::optional<double> cap = options.tau_max;
+  // α = 0 leaves the strength at τ0 whatever the pressure: no cap can bind, and 0·∞ is avoided.
+  if (options.yield_pressure && alpha_ > 0) cap = tau0_ + alpha_ * *options.yield_pressure;
+  if (cap && std::isfinite(*cap)) tau_max_ = cap;
+}
+
+double JunctionLaw::strength(double pressure) const {
+  const double strength = tau0_ + alpha_ * pressure;
+  return tau_max_ ? std::min(strength, *tau_max_) : strength;
+}
+
+FrictionResult JunctionLaw::on(const State& state) const {
+  FrictionResult result;
+  const double area = state.area(), load = state.load();
+  const double cell = state.geometry().grid().cell_area();
+  result.adhesive_force = strength(0) * area;
+  result.load_force = alpha_ * load;
+  if (tau_max_ && state.contacts() > 0) {
+    const double room = *tau_max_ - tau0_;
+    if (room <= 0) {
+      result.load_force = 0;
+      result.capped_fraction = 1;
+    } else if (alpha_ > 0 && alpha_ * state.peak_pressure() >= room) {
+      const PressureSplit nodes = state.split(room / alpha_);
+      result.load_force = (static_cast<double>(nodes.above) * room + alpha_ * nodes.sum_below) * cell;
+      result.capped_fraction = static_cast<double>(nodes.above) / static_cast<double>(state.contacts());
+    }
+  }
+  result.force = result.adhesive_force + result.load_force;
+  if (load > 0) result.mu = result.force / load;
+  return result;
+}
+
+std::string JunctionLaw::text() const {
+  const std::string line = format_quantity(tau0_, dimension::pressure) + " + " + format_short(alpha_) + " P";
+  if (!tau_max_) return "tau = " + line;
+  return "tau = min(" + line + ", " + format_quantity(*tau_max_, dimension::pressure) + ")";
+}
+
+}  // namespace asperity

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/friction/tilt_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "engine/core/error.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double right_angle = 0.5 * std::numbers::pi;
+
+std::string degrees(double angle) { return format_short(angle * 180 / std::numbers::pi) + " deg"; }
+
+void check_positive(double value, std::string_view key, std::string_view unit) {
+  if (!(value > 0 && std::isfinite(value)))
+    throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(value) + " " + std::string(unit),
+                "give a finite value above zero");
+}
+
+void check_stage(double step, double limit) {
+  check_positive(step, "step", "rad");
+  // Degrees converted one way or another may pass a right angle by an ulp.
+  if (!(limit > 0 && limit <= right_angle * (1 + 1e-12)))
+    throw Error(ErrorCode::bad_value, "`limit` is " + degrees(limit), "a stage is raised to at most 90 deg");
+  constexpr double most_steps = 1e6;
+  if (limit / step > most_steps)
+    throw Error(ErrorCode::bad_value,
+                "`step` is " + degrees(step) + ", over a million steps to the `limit` of " + degrees(limit),
+                "give a coarser step: the exact angle does not depend on it");
+}
+
+}  // namespace
+
+void check(const TiltOptions& options) {
+  check_positive(options.mass, "mass", "kg");
+  check_positive(options.gravity, "gravity", "m/s^2");
+  check_stage(options.step, options.limit);
+}
+
+SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, double limit) {
+  check_positive(weight, "weight", "N");
+  check_stage(step, limit);
+  limit = std::min(limit, right_angle);
+  auto holds = [&](double angle) {
+    const double force = friction(weight * std::cos(angle));
+    if (!(force >= 0 && std::isfinite(force)))
+      throw Error(ErrorCode::bad_value,
+                  "the friction force at " + degrees(angle) + " is " + format_short(force) + " N",
+                  "it must be finite and not negative");
+    return force >= weight * std::sin(angle);
+  };
+
+  double held = 0;
+  // Steps are multiples, not sums, so that their rounding does not pile up; one within rounding of the
+  // limit is the limit.
+  for (std::int64_t k = 0;; ++k) {
+    stop_flag().check();
+    const double reached = static_cast<double>(k) * step;
+    const bool last = reached >= limit * (1 - 1e-12);
+    const double angle = last ? limit : reached;
+    if (!holds(angle)) {
+      double low = held, high = angle;
+      // Down to neighbouring doubles: under sixty halvings.
+      for (;;) {
+        const double middle = low + 0.5 * (high - low);
+        if (!(low < middle && middle < high)) break;
+        (holds(middle) ? low : high) = middle;
+      }
+      return {low, held, true};
+    }
+    held = angle;
+    if (last) return {limit, limit, false};
+  }
+}
+
+SlipAngle slip_angle(const FrictionForce& friction, const TiltOptions& options) {
+  check(options);
+  return slip_angle(friction, options.mass * options.gravity, options.step, options.limit);
+}
+
+}  // namespace asperity

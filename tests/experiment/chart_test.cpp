@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Charts: what is left out and said, what is refused, and files that come out whole.
+#include "engine/experiment/chart.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/experiment/run_fixture.hpp"
+
+namespace asperity {
+namespace {
+
+using ChartTest = InFolder;
+
+LineChart simple() {
+  LineChart chart;
+  chart.x.label = "pressure";
+  chart.x.unit = "Pa";
+  chart.y.label = "mu";
+  ChartSeries series;
+  series.x = {1e6, 2e6, 3e6};
+  series.y = {0.3, 0.4, 0.5};
+  chart.series.push_back(series);
+  return chart;
+}
+
+std::string script_of(const LineChart& chart, std::vector<std::string>* warnings = nullptr) {
+  std::vector<std::string> ignored;
+  return chart_script(chart, PictureFormat::svg, warnings == nullptr ? ignored : *warnings);
+}
+
+TEST(Chart, ShowsUnitsWithPrefix) {
+  const std::string script = script_of(simple());
+  EXPECT_NE(script.find("set xlabel 'pressure (MPa)'"), std::string::npos);
+  EXPECT_NE(script.find("set ylabel 'mu'"), std::string::npos);
+  EXPECT_NE(script.find("\n1 0.3 0.3 0.3\n2 0.4 0.4 0.4\n3 0.5 0.5 0.5\n"), std::string::npos);
+  EXPECT_NE(script.find("set key off"), std::string::npos);
+}
+
+TEST(Chart, LinesDifferInColourShapeAndDashes) {
+  LineChart chart = simple();
+  chart.series.push_back(chart.series[0]);
+  chart.series[0].name = "A";
+  chart.series[1].name = "B";
+  const std::string script = script_of(chart);
+  EXPECT_NE(script.find("linecolor rgb '#0072b2' linewidth 2.2 dashtype 1 pointtype 7"), std::string::npos);
+  EXPECT_NE(script.find("linecolor rgb '#d55e00' linewidth 2.2 dashtype '-' pointtype 5"), std::string::npos);
+  EXPECT_NE(script.find("set key outside"), std::string::npos);
+}
+
+TEST(Chart, SaysWhatIsNotDrawn) {
+  LineChart chart = simple();
+  chart.series[0].x = {1e6, 0, -1, 2e6, 3e6, std::nan("")};
+  chart.series[0].y = {0.1, 0.2, 0.3, 0, std::numeric_limits<double>::infinity(), 1};
+  chart.x.logarithmic = chart.y.logarithmic = true;
+  std::vector<std::string> warnings;
+  script_of(chart, &warnings);
+  EXPECT_EQ(warnings,
+            (std::vector<std::string>{
+                "2 of 6 values are not drawn: not finite",
+                "2 of 6 values are not drawn: `pressure` is not above zero, and its axis is logarithmic",
+                "1 of 6 values are not drawn: `mu` is not above zero, and its axis is logarithmic"}));
+}
+
+TEST(Chart, RefusesToDrawNothing) {
+  LineChart chart = simple();
+  chart.series[0].y = {-1, -1, 0};
+  chart.y.logarithmic = true;
+  EXPECT_EQ(error_of([&] { script_of(chart); }),
+            "bad_value: the chart of `mu` against `pressure` has nothing to draw; 3 of 3 values are not "
+            "drawn: `mu` is "
+            "not above zero, and its axis is logarithmic");
+  chart.series.clear();
+  EXPECT_NE(error_of([&] { script_of(chart); }), "");
+}
+
+TEST(Chart, RefusesLinesOfUnequalLength) {
+  LineChart chart = simple();
+  chart.series[0].y.pop_back();
+  EXPECT_EQ(error_of([&] { script_of(chart); }),
+            "bad_value: the line `` of a chart has 3 x and 2 y values; give as many of one as of the other, "
+            "and as many "
+            "errors or none");
+  chart = simple();
+  chart.series[0].y_error = {0.1};
+  EXPECT_NE(error_of([&] { script_of(chart); }), "");
+}
+
+TEST(Chart, ErrorBarsEndAtTheRimOfALogarithmicAxis) {
+  LineChart chart = simple();
+  chart.y.logarithmic = true;
+  chart.series[0].y_error = {0.5, 0.1, std::nan("")};
+  const std::string script = script_of(chart);
+  EXPECT_NE(script.find("yerrorbars"), std::string::npos);
+  EXPECT_EQ(script.find("-0.2"), std::string::npos);
+  EXPECT_NE(script.find("\n3 0.5 0.5 0.5\n"), std::string::npos);
+}
+
+TEST(Chart, EqualAxesShareOneUnit) {
+  LineChart chart = simple();
+  chart.x.unit = chart.y.unit = "m";
+  chart.series[0].x = {0, 1e-3};
+  chart.series[0].y = {0, 1e-6};
+  chart.equal_axes = true;
+  const std::string script = script_of(chart);
+  EXPECT_NE(script.find("'pressure (mm)'"), std::string::npos);
+  EXPECT_NE(script.find("'mu (mm)'"), std::string::npos);
+  EXPECT_NE(script.find("set size ratio -1"), std::string::npos);
+}
+
+TEST_F(ChartTest, DrawsWithoutAComplaint) {
+  LineChart chart = simple();
+  chart.title = "a'b`touch x` <b>&c";
+  chart.key_title = "D";
+  chart.series[0].name = "2 \"quoted\"";
+  chart.series[0].y_error = {0.01, 0.02, 0.03};
+  chart.series[0].cloud_x = {1e6, 1e6};
+  chart.series[0].cloud_y = {0.29, 0.31};
+  for (const bool logarithmic : {false, true}) {
+    chart.x.logarithmic = chart.y.logarithmic = logarithmic;
+    for (const PictureFormat format : {PictureFormat::svg, PictureFormat::png}) {
+      std::vector<std::string> warnings;
+      EXPECT_EQ(run_gnuplot(chart_script(chart, format, warnings)).messages, "");
+      EXPECT_TRUE(warnings.empty());
+    }
+  }
+  EXPECT_TRUE(draw(chart, folder / "a.svg").empty());
+  const std::string svg = content_of(folder / "a.svg");
+  EXPECT_TRUE(svg.find("</svg>") != std::string::npos) << svg.substr(svg.size() - 40);
+  EXPECT_NE(svg.find("a'b`touch x` &lt;b>&amp;c"), std::string::npos);
+  draw(chart, folder / "a.png");
+  EXPECT_TRUE(content_of(folder / "a.png").starts_with("\x89PNG"));
+  EXPECT_EQ(files_in(folder), 2U);
+}
+
+TEST_F(ChartTest, DrawsExtremesWithoutAComplaint) {
+  for (const double scale : {1e-300, 1e-12, 1.0, 1e12, 1e300})
+    for (const bool logarithmic : {false, true}) {
+      LineChart chart = simple();
+      chart.x.unit = "";
+      chart.series[0].x = {0.1 * scale, 0.5 * scale, scale};
+      chart.series[0].y = {scale, scale, scale};
+      chart.x.logarithmic = chart.y.logarithmic = logarithmic;
+      std::vector<std::string> warnings;
+      EXPECT_EQ(run_gnuplot(chart_script(chart, PictureFormat::png, warnings)).messages, "")
+          << scale << logarithmic;
+      EXPECT_TRUE(warnings.empty());
+    }
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The journal: one whole line an event, numbered, from any thread, until it is closed.
+#include "engine/experiment/journal.hpp"
+
+#include <limits>
+#include <set>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+#include "tests/experiment/run_fixture.hpp"
+
+namespace asperity {
+namespace {
+
+using JournalTest = InFolder;
+using namespace std::chrono_literals;
+
+TEST_F(JournalTest, IsOnDiskAfterEachEvent) {
+  Journal journal(folder / "j.jsonl");
+  EXPECT_EQ(content_of(folder / "j.jsonl"), "");
+  EXPECT_EQ(journal.write("press", Json::object({{"pressure", 0.1}, {"held", true}})), 1);
+  EXPECT_EQ(content_of(folder / "j.jsonl"), "{\"n\":1,\"event\":\"press\",\"pressure\":0.1,\"held\":true}\n");
+  EXPECT_EQ(journal.write("release"), 2);
+  EXPECT_TRUE(content_of(folder / "j.jsonl").ends_with("\n{\"n\":2,\"event\":\"release\"}\n"));
+}
+
+TEST_F(JournalTest, NumbersReadBackExactly) {
+  Journal journal(folder / "j.jsonl");
+  journal.write("x", Json::object({{"v", 1.0 / 3}, {"bad", std::numeric_limits<double>::quiet_NaN()}}));
+  const Json line = Json::parse(content_of(folder / "j.jsonl"), "line");
+  EXPECT_EQ(line.find("v")->number(), 1.0 / 3);
+  EXPECT_EQ(line.find("bad")->string(), "nan");
+}
+
+TEST_F(JournalTest, LinesOfManyThreadsStayWhole) {
+  constexpr int threads = 4, each = 200;
+  {
+    Journal journal(folder / "j.jsonl");
+    std::vector<std::thread> writers;
+    for (int t = 0; t < threads; ++t)
+      writers.emplace_back([&journal, t] {
+        for (int k = 0; k < each; ++k)
+          journal.write("w", Json::object({{"t", t}, {"text", std::string(100, 'a')}}));
+      });
+    for (std::thread& writer : writers) writer.join();
+    EXPECT_EQ(journal.count(), threads * each);
+  }
+  std::istringstream lines(content_of(folder / "j.jsonl"));
+  std::int64_t expected = 0;
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_EQ(Json::parse(line, "line").find("n")->number(), static_cast<double>(++expected));
+  EXPECT_EQ(expected, threads * each);
+}
+
+TEST_F(JournalTest, RefusesEventsAfterTheEnd) {
+  Journal journal(folder / "j.jsonl");
+  EXPECT_TRUE(journal.close("end", Json::object({{"status", "done"}}), 1s));
+  EXPECT_TRUE(journal.close("end", {}, 1s));
+  EXPECT_EQ(content_of(folder / "j.jsonl"), "{\"n\":1,\"event\":\"end\",\"status\":\"done\"}\n");
+  EXPECT_EQ(error_of([&] { journal.write("late"); }),
+            "bad_state: the run is over; its journal takes no more events");
+}
+
+TEST_F(JournalTest, NeverWritesIntoAnother) {
+  std::ofstream(folder / "j.jsonl") << "{}\n";
+  EXPECT_EQ(error_of([&] { Journal again(folder / "j.jsonl"); }),
+            "bad_file: cannot begin `" + (folder / "j.jsonl").string() + "`: file exists");
+}
+
+TEST(Journal, WithoutAFileOnlyCounts) {
+  Journal journal;
+  EXPECT_EQ(journal.write("a"), 1);
+  EXPECT_EQ(journal.count(), 1);
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The JSON value: exact numbers, kept order, and texts that are not JSON.
+#include "engine/experiment/json.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/experiment/run_fixture.hpp"
+
+namespace asperity {
+namespace {
+
+using Limits = std::numeric_limits<double>;
+
+TEST(Json, KeepsTheOrderOfMembers) {
+  Json json;
+  json.set("b", 1).set("a", "x").set("list", Json::List{true, 2.5, Json()});
+  EXPECT_EQ(json.text(), R"({"b":1,"a":"x","list":[true,2.5,null]})");
+  json.set("b", 2);
+  EXPECT_EQ(json.text(), R"({"b":2,"a":"x","list":[true,2.5,null]})");
+}
+
+TEST(Json, NumbersReadBackAsTheSameDouble) {
+  for (const double value :
+       {0.1, 1.0 / 3, 5e-324, Limits::max(), Limits::min(), std::nextafter(1.0, 2.0), -0.0, 3.0}) {
+    const Json back = Json::parse(Json(value).text(), "test");
+    EXPECT_EQ(back.number(), value) << Json(value).text();
+    EXPECT_EQ(std::signbit(back.number()), std::signbit(value));
+  }
+}
+
+TEST(Json, WritesWhatIsNoNumberAsText) {
+  EXPECT_EQ(Json(Limits::quiet_NaN()).text(), "\"nan\"");
+  EXPECT_EQ(Json(-Limits::infinity()).text(), "\"-inf\"");
+  EXPECT_TRUE(std::isnan(Json::parse("\"nan\"", "test").number()));
+  EXPECT_EQ(Json::parse("\"inf\"", "test").number(), Limits::infinity());
+}
+
+TEST(Json, KeepsWholeNumbersPastInt64AsText) {
+  EXPECT_EQ(Json(std::numeric_limits<std::int64_t>::max()).text(), "9223372036854775807");
+  EXPECT_EQ(Json(std::uint64_t{1} << 63).text(), "\"9223372036854775808\"");
+}
+
+TEST(Json, SurvivesBytesThatAreNotText) {
+  EXPECT_EQ(Json(std::string("a\xff\n")).text(), "\"a\xEF\xBF\xBD\\n\"");
+}
+
+TEST(Json, SaysWhereTextStopsBeingJson) {
+  EXPECT_EQ(error_of([] { Json::parse("{\"a\":", "manifest.json"); }),
+            "bad_file: manifest.json is not JSON past byte 6; the file was cut short or damaged");
+}
+
+TEST(Json, SaysWhatItHoldsInsteadOfWhatWasWanted) {
+  EXPECT_EQ(error_of([] { Json(true).number(); }),
+            "bad_file: a record holds a boolean where a number should stand; the file was written by another "
+            "program or damaged");
+  EXPECT_EQ(Json().find("a"), nullptr);
+  EXPECT_NE(error_of([] { Json(1).set("a", 2); }), "");
+}
+
+}  // namespace
+}  // namespace asperity

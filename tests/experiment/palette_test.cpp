@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Palettes: their ends, order of lightness, and line colours that differ.
+#include "engine/experiment/palette.hpp"
+
+#include <set>
+
+#include "tests/experiment/run_fixture.hpp"
+
+namespace asperity {
+namespace {
+
+// Relative luminance of the sRGB colour, roughly what grey print shows.
+double lightness(unsigned rgb) {
+  return 0.2126 * (rgb >> 16 & 255U) + 0.7152 * (rgb >> 8 & 255U) + 0.0722 * (rgb & 255U);
+}
+
+TEST(Palette, EndsAndMiddle) {
+  EXPECT_EQ(palette("grey").colour(0), 0x000000U);
+  EXPECT_EQ(palette("grey").colour(1), 0xffffffU);
+  EXPECT_EQ(palette("grey").colour(0.5), 0x808080U);
+  EXPECT_EQ(palette("viridis").colour(-1), 0x440154U);
+  EXPECT_EQ(palette("viridis").colour(2), 0xfde725U);
+}
+
+TEST(Palette, OrderedOnesAreOrderedInGreyPrint) {
+  for (const std::string name : {"viridis", "cividis", "grey"})
+    for (int k = 0; k < 20; ++k)
+      EXPECT_LT(lightness(palette(name).colour(k / 20.0)), lightness(palette(name).colour((k + 1) / 20.0)))
+          << name << k;
+  for (int k = 0; k < 20; ++k)
+    EXPECT_GT(lightness(palette("heat").colour(k / 20.0)), lightness(palette("heat").colour((k + 1) / 20.0)));
+}
+
+TEST(Palette, NamesTheNearest) {
+  EXPECT_EQ(error_of([] { palette("viridus"); }),
+            "unknown_name: `palette` `viridus` is not known (did you mean `viridis`?); palettes are viridis, "
+            "cividis, "
+            "grey, heat, balance and contact");
+}
+
+TEST(LineColour, DiffersFromLineToLine) {
+  for (const int lines : {1, 2, 7, 8, 30}) {
+    std::set<unsigned> seen;
+    for (int k = 0; k < lines; ++k) seen.insert(line_colour(k, lines));
+    EXPECT_EQ(seen.size(), static_cast<std::size_t>(lines));
+  }
+}
+
+}  // namespace
+}  // namespace asperity

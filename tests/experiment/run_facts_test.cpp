@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Facts about the surroundings of a run.
+#include "engine/experiment/run_facts.hpp"
+
+#include "engine/experiment/aside_file.hpp"
+#include "tests/experiment/run_fixture.hpp"
+
+namespace asperity {
+namespace {
+
+using RunFactsTest = InFolder;
+
+TEST(RunFacts, DateIsIso8601) {
+  std::string pattern = utc_now();
+  for (char& c : pattern)
+    if (c >= '0' && c <= '9') c = '0';
+  EXPECT_EQ(pattern, "0000-00-00T00:00:00Z");
+}
+
+TEST(RunFacts, MachineHasProcessors) {
+  EXPECT_GE(machine_facts().find("processors")->number(), 1);
+  EXPECT_NE(machine_facts().find("system"), nullptr);
+}
+
+TEST_F(RunFactsTest, DigestTellsContentsApart) {
+  const std::string large(3 << 20, 'x');
+  write_aside(folder / "a", large);
+  write_aside(folder / "b", large);
+  write_aside(folder / "c", large.substr(1) + "y");
+  write_aside(folder / "empty", "");
+  EXPECT_EQ(file_digest(folder / "a"), file_digest(folder / "b"));
+  EXPECT_NE(file_digest(folder / "a"), file_digest(folder / "c"));
+  EXPECT_EQ(file_digest(folder / "empty").size(), 32U);
+  EXPECT_NE(error_of([&] { file_digest(folder / "missing"); }).find("bad_file: cannot read"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace asperity

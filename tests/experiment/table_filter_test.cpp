@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which rows a `where` speaks of.
+#include "engine/experiment/table_filter.hpp"
+
+#include "tests/experiment/run_fixture.hpp"
+
+namespace asperity {
+namespace {
+
+Table cases() {
+  Table table;
+  for (const double D : {2.0, 2.5, 2.9})
+    for (const double seed : {1.0, 2.0}) {
+      const std::vector<Entry> row = {{"D", D}, {"seed", seed}, {"preset", D < 2.7 ? "A" : "B"}};
+      table.append(row);
+    }
+  return table;
+}
+
+using Rows = std::vector<std::size_t>;
+
+TEST(TableFilter, TakesEveryRowWhenEmpty) {
+  EXPECT_EQ(TableFilter().rows(cases()), (Rows{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(TableFilter().text(), "");
+}
+
+TEST(TableFilter, TakesRowsThatMatchEveryColumn) {
+  const TableFilter filter({{"D", {2.0, 2.9}}, {"seed", {2.0}}});
+  EXPECT_EQ(filter.rows(cases()), (Rows{1, 5}));
+  EXPECT_EQ(filter.text(), "`D` = 2 or 2.9 and `seed` = 2");
+  EXPECT_EQ(TableFilter({{"preset", {std::string("A")}}}).rows(cases()), (Rows{0, 1, 2, 3}));
+}
+
+TEST(TableFilter, TakesNoRowForNoAcceptedValue) {
+  EXPECT_EQ(TableFilter(std::vector<Condition>{{"D", {}}}).rows(cases()), Rows{});
+  EXPECT_EQ(TableFilter({{"D", {3.0}}}).rows(cases()), Rows{});
+}
+
+TEST(TableFilter, NamesTheNearestColumn) {
+  EXPECT_EQ(error_of([] {
+              TableFilter({{"sed", {1.0}}}).rows(cases());
+            }),
+            "unknown_name: `where` names `sed`, which is no column of the notebook (did you mean `seed`?)");
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table: free columns in order of appearance, units, CSV as in RFC 4180.
+#include "engine/experiment/table.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/experiment/run_fixture.hpp"
+
+namespace asperity {
+namespace {
+
+bool add(Table& table, std::vector<Entry> row) { return table.append(row); }
+
+TEST(Table, ColumnsStandInOrderOfAppearance) {
+  Table table;
+  EXPECT_TRUE(add(table, {{"N", 1.0}, {"Ra", 1e-6, "m"}}));
+  EXPECT_TRUE(add(table, {{"mu", 0.1}, {"N", 2.0}}));
+  EXPECT_FALSE(add(table, {{"N", 3.0}}));
+  EXPECT_EQ(table.csv(), "N,Ra [m],mu\n1,1e-06,\n2,,0.1\n3,,\n");
+  EXPECT_TRUE(is_empty(table.cell(0, 2)));
+  EXPECT_EQ(std::get<double>(table.cell(1, 2)), 0.1);
+}
+
+TEST(Table, QuotesAsRfc4180) {
+  Table table;
+  add(table, {{"a,b", "x"},
+              {"c", std::string("say \"hi\"\nthere")},
+              {"e", std::string()},
+              {"t", true},
+              {"f", false}});
+  EXPECT_EQ(table.csv(), "\"a,b\",c,e,t,f\nx,\"say \"\"hi\"\"\nthere\",\"\",true,false\n");
+}
+
+TEST(Table, NumbersAreExact) {
+  Table table;
+  const double value = std::nextafter(0.1, 1.0);
+  add(table, {{"v", value}, {"inf", -std::numeric_limits<double>::infinity()}, {"nan", std::nan("")}});
+  EXPECT_EQ(table.csv_row(0), "0.10000000000000002,-inf,nan\n");
+  EXPECT_EQ(std::stod(table.csv_row(0)), value);
+}
+
+TEST(Table, TakesAUnitFromTheName) {
+  Table table;
+  add(table, {{"load [N]", 3.0}});
+  EXPECT_EQ(table.columns()[0].name, "load");
+  EXPECT_EQ(table.columns()[0].unit, "N");
+  EXPECT_EQ(table.find_column("load"), 0U);
+  EXPECT_EQ(table.find_column("load [N]"), 0U);
+  EXPECT_EQ(table.find_column("load [Pa]"), std::nullopt);
+  EXPECT_EQ(table.csv_header(), "load [N]\n");
+}
+
+TEST(Table, KeepsTheFirstUnit) {
+  Table table;
+  EXPECT_TRUE(table.declare_unit("Ra", "m"));
+  EXPECT_FALSE(table.declare_unit("Ra", "m"));
+  add(table, {{"Ra", 1e-6}});
+  EXPECT_EQ(error_of([&] {
+              add(table, {{"Ra", 1.0, "um"}});
+            }),
+            "bad_unit: column `Ra` is in m, not in um; a column has one unit; convert the value, or give it "
+            "a column "
+            "of its own");
+  EXPECT_EQ(error_of([&] { table.declare_unit("Ra", "Pa"); }).substr(0, 9), "bad_unit:");
+  EXPECT_EQ(table.rows(), 1U);
+}
+
+TEST(Table, RefusesRowsThatSayNothingOrTwoThings) {
+  Table table;
+  EXPECT_EQ(error_of([&] { add(table, {}); }),
+            "bad_value: a notebook row has no columns; give at least one, as in {mu = 0.4}");
+  EXPECT_EQ(error_of([&] {
+              add(table, {{"", 1.0}});
+            }),
+            "bad_value: a notebook column has an empty name; give every column a name");
+  EXPECT_EQ(error_of([&] {
+              add(table, {{"a", 1.0}, {"b", 1.0}, {"a [m]", 2.0}});
+            }),
+            "bad_value: a notebook row has column `a` twice; give each column one value");
+  EXPECT_EQ(table.rows(), 0U);
+  EXPECT_TRUE(table.columns().empty());
+}
+
+TEST(Table, NamesTheNearestColumn) {
+  Table table;
+  EXPECT_EQ(error_of([&] { table.column("mu", "y"); }),
+            "unknown_name: `y` names `mu`, which is no column of the notebook; nothing is written in the "
+            "notebook yet");
+  add(table, {{"stiffness", 1.0}, {"D", 2.0}});
+  EXPECT_EQ(
+      error_of([&] { table.column("stifness", "y"); }),
+      "unknown_name: `y` names `stifness`, which is no column of the notebook (did you mean `stiffness`?)");
+  EXPECT_EQ(error_of([&] { table.column("pressure", "x"); }),
+            "unknown_name: `x` names `pressure`, which is no column of the notebook; its columns are "
+            "stiffness and D");
+}
+
+TEST(Cell, NumbersAreTheSameWithinARounding) {
+  EXPECT_TRUE(same_cell(0.1 + 0.2, 0.3));
+  EXPECT_TRUE(same_cell(1e-9 * (1 + 0.9e-12), 1e-9));
+  EXPECT_FALSE(same_cell(1e-9 * (1 + 1.1e-12), 1e-9));
+  EXPECT_FALSE(same_cell(0.0, 1e-300));
+  EXPECT_TRUE(same_cell(0.0, -0.0));
+  EXPECT_TRUE(same_cell(std::nan(""), std::nan("")));
+  EXPECT_FALSE(same_cell(1.0, true));
+  EXPECT_FALSE(same_cell(std::string("1"), 1.0));
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(same_cell(infinity, infinity));
+  EXPECT_FALSE(same_cell(infinity, 1.0));
+  EXPECT_FALSE(same_cell(infinity, -infinity));
+}
+
+}  // namespace
+}  // namespace asperity
