@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// asperity: the command line. Each command is a few lines here and a file of its own where it has
+// more to do.
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <string>
+
+#include "bindings/cli/run_command.hpp"
+#include "bindings/lua/help.hpp"
+#include "bindings/lua/version.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/material.hpp"
+
+namespace {
+
+using namespace asperity;
+
+constexpr int bad_usage = 2;
+
+void print_materials() {
+  std::printf("%-9s %-10s %-6s %-10s %-11s %s\n", "name", "E", "nu", "hardness", "density", "source");
+  for (const Material& m : named_materials()) {
+    auto shown = [](const std::optional<double>& value, Dimension dimension) {
+      return value ? format_quantity(*value, dimension) : std::string("-");
+    };
+    std::printf(
+        "%-9s %-10s %-6s %-10s %-11s %s\n", m.name.c_str(), shown(m.young, dimension::pressure).c_str(),
+        m.poisson ? format_short(*m.poisson).c_str() : "-", shown(m.hardness, dimension::pressure).c_str(),
+        m.density ? (format_short(*m.density) + " kg/m3").c_str() : "-", m.source.c_str());
+  }
+}
+
+constexpr const char* usage =
+    "asperity run SCRIPT [options] [-- arguments]   run a script and keep what it finds\n"
+    "asperity check SCRIPT                          look for mistakes without running it\n"
+    "asperity help [TOPIC]                          explain the language\n"
+    "asperity materials                             list the materials known by name\n"
+    "asperity version                               show what this program was built with\n"
+    "\nEach command explains itself with --help.\n\n";
+
+int print_help(const std::string& topic, bool reference, bool types) {
+  if (reference) return std::fputs(lua::reference_page().c_str(), stdout), 0;
+  if (types) return std::fputs(lua::editor_types().c_str(), stdout), 0;
+  if (topic.empty()) std::fputs(usage, stdout);
+  try {
+    std::fputs(lua::help_text(topic).c_str(), stdout);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return bad_usage;
+  }
+  return 0;
+}
+
+void add_script_options(CLI::App& command, cli::RunCommand& run, std::string& limit_time) {
+  command.add_option("script", run.script, "the Lua script")->required();
+  command.add_option("--seed", run.seed, "of math.random (default 1)");
+  command.add_option("--limit-time", limit_time, "end the run after this long, e.g. 60s or \"2 min\"");
+  command.add_option("arguments", run.arguments, "reach the script as ... and arg; put them after --");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Asperity: a laboratory for rough surfaces, scripted in Lua."};
+  app.name("asperity");
+  app.require_subcommand(1);
+  app.set_help_flag("-h,--help", "show this help");
+
+  cli::RunCommand run, check;
+  std::string run_time, check_time, memory, topic;
+  bool reference = false, types = false;
+
+  CLI::App& run_command = *app.add_subcommand("run", "run a script and keep what it finds");
+  add_script_options(run_command, run, run_time);
+  run_command.add_option("--out", run.out,
+                         "the run directory (default runs/<script>-<n>); must be new or empty");
+  run_command.add_option("--threads", run.threads, "threads to use (default: one a processor)")
+      ->check(CLI::Range(1, 4096));
+  run_command.add_option("--limit-memory", memory, "most memory, e.g. 4G");
+  run_command.add_flag("--trust", run.trust, "give the script the whole of Lua, and files anywhere");
+
+  CLI::App& check_command = *app.add_subcommand("check", "look for mistakes in a script without running it");
+  add_script_options(check_command, check, check_time);
+
+  CLI::App& help_command = *app.add_subcommand("help", "explain the language: a module, a function, a value");
+  help_command.add_option("topic", topic, "e.g. lab.surface, sine, State.area");
+  help_command.add_flag("--reference", reference, "the whole reference as Markdown");
+  help_command.add_flag("--types", types, "the types of the language for editors (LuaCATS)");
+
+  CLI::App& materials_command = *app.add_subcommand("materials", "list the materials known by name");
+  CLI::App& version_command = *app.add_subcommand("version", "show what this program is and was built with");
+
+  try {
+    app.parse(argc, argv);
+    auto seconds = [](const std::string& text) -> std::optional<double> {
+      if (text.empty()) return {};
+      const Quantity q = parse_quantity(text);
+      if ((q.dimension != dimension::time && q.dimension != dimension::number) || !(q.value > 0))
+        throw Error(ErrorCode::bad_value, "a time limit is " + quoted(text),
+                    "give a time such as 60s or \"2 min\"");
+      return q.value;
+    };
+    run.limit_time = seconds(run_time);
+    check.limit_time = seconds(check_time);
+    if (!memory.empty()) run.limit_memory = cli::parse_bytes(memory);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return bad_usage;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return bad_usage;
+  }
+
+  if (run_command.parsed()) return cli::run(run);
+  if (check_command.parsed()) return cli::check(check);
+  if (help_command.parsed()) return print_help(topic, reference, types);
+  if (materials_command.parsed()) print_materials();
+  if (version_command.parsed())
+    for (const auto& [name, version] : lua::version_facts())
+      std::printf("%-9s %s\n", name.c_str(), version.c_str());
+  return 0;
+}

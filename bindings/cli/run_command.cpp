@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/cli/run_command.hpp"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "bindings/cli/terminal_monitor.hpp"
+#include "bindings/cli/watchdog.hpp"
+#include "bindings/lua/argument.hpp"
+#include "bindings/lua/placeholder.hpp"
+#include "bindings/lua/state.hpp"
+#include "bindings/lua/version.hpp"
+#include "engine/core/cost.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/text.hpp"
+#include "engine/experiment/run_directory.hpp"
+
+namespace asperity::cli {
+
+namespace {
+
+constexpr int done = 0, failed = 1, bad_usage = 2;
+
+std::string read_script(const std::string& path) {
+  std::error_code problem;
+  if (std::filesystem::is_directory(path, problem))
+    throw Error(ErrorCode::bad_file, quoted(path) + " is a folder", "give the path of a Lua script");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorCode::bad_file, "there is no script " + quoted(path) + " that can be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// A limit that the counters cannot see (a library's own heap) still ends in bad_alloc.
+void limit_address_space(std::int64_t bytes) {
+#if !defined(__SANITIZE_ADDRESS__)
+  constexpr std::int64_t headroom = std::int64_t{512} << 20;  // code, stacks, libraries
+  rlimit limit{};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, static_cast<rlim_t>(bytes + headroom));
+  setrlimit(RLIMIT_DATA, &limit);
+#else
+  (void)bytes;
+#endif
+}
+
+Json version_json() {
+  Json versions = Json::object();
+  for (const auto& [name, version] : lua::version_facts()) versions.set(name, version);
+  return versions;
+}
+
+// Loads and runs the script; leaves LUA_OK and nothing, or an error message with traceback.
+int execute(lua_State* L, const std::string& script, const std::string& text,
+            const std::vector<std::string>& arguments) {
+  auto action = [&](lua_State* state) -> int {
+    lua_pushcfunction(state, lua::traceback_handler);
+    const std::string& name = script;
+    lua_pushfstring(state, "@%s", name.c_str());
+    std::size_t skip = 0;  // a first line "#!..." is for the shell
+    if (!text.empty() && text[0] == '#') skip = std::min(text.find('\n'), text.size());
+    if (luaL_loadbufferx(state, text.data() + skip, text.size() - skip, lua_tostring(state, -1), "t") !=
+        LUA_OK)
+      return 1;
+    lua_remove(state, -2);
+    lua_createtable(state, static_cast<int>(arguments.size()), 1);
+    lua_pushstring(state, name.c_str());
+    lua_rawseti(state, -2, 0);
+    for (std::size_t k = 0; k < arguments.size(); ++k) {
+      lua_pushlstring(state, arguments[k].data(), arguments[k].size());
+      lua_rawseti(state, -2, static_cast<lua_Integer>(k) + 1);
+    }
+    lua_setglobal(state, "arg");
+    luaL_checkstack(state, static_cast<int>(arguments.size()) + 4, "too many arguments");
+    for (const std::string& argument : arguments) lua_pushlstring(state, argument.data(), argument.size());
+    if (lua_pcall(state, static_cast<int>(arguments.size()), 0, 1) != LUA_OK) return 1;
+    return 0;
+  };
+  const int top = lua_gettop(L);
+  const int status = lua::protect(L, 0, LUA_MULTRET, action);
+  return status != LUA_OK || lua_gettop(L) > top ? LUA_ERRRUN : LUA_OK;
+}
+
+std::string reason_text(StopReason reason, const RunCommand& command) {
+  switch (reason) {
+    case StopReason::interrupt:
+      return "interrupted";
+    case StopReason::time_limit:
+      return "the time limit of " + duration_text(command.limit_time.value_or(0)) + " was reached";
+    case StopReason::memory_limit:
+      return "the memory limit was reached";
+    case StopReason::none:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::int64_t parse_bytes(const std::string& text) {
+  std::size_t used = 0;
+  double value = -1;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  std::string unit = text.substr(used);
+  if (unit.ends_with("iB")) unit.resize(unit.size() - 2);
+  if (unit == "B") unit.clear();
+  double factor = unit.empty()                 ? 1
+                  : unit == "K" || unit == "k" ? 0x1p10
+                  : unit == "M"                ? 0x1p20
+                  : unit == "G"                ? 0x1p30
+                  : unit == "T"                ? 0x1p40
+                                               : 0;
+  if (used == 0 || factor == 0 || !(value * factor >= 1 && value * factor < 0x1p62))
+    throw Error(ErrorCode::bad_value, "a memory limit is " + quoted(text), "give bytes such as 512M or 4G");
+  return static_cast<std::int64_t>(value * factor);
+}
+
+int run(const RunCommand& command) {
+  std::string text;
+  std::shared_ptr<RunDirectory> run;
+  set_thread_count(command.threads);
+  try {
+    text = read_script(command.script);
+    RunSetup setup;
+    setup.script_name = command.script;
+    setup.script_text = text;
+    if (command.out) setup.out = *command.out;
+    setup.trusted = command.trust;
+    setup.arguments = command.arguments;
+    setup.seed = static_cast<std::int64_t>(command.seed);
+    setup.threads = thread_count();
+    setup.versions = version_json();
+    run = std::make_shared<RunDirectory>(setup);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return bad_usage;
+  }
+
+  TerminalMonitor monitor;
+  monitor.keep_warnings_in(run.get());
+  const auto summary = [&] {
+    const std::string verdicts = run->expectations().summary();
+    monitor.clear();
+    if (!verdicts.empty()) std::fprintf(stderr, "%s\n", verdicts.c_str());
+    for (const Verdict& verdict : run->expectations().verdicts())
+      if (!verdict.passed) std::fprintf(stderr, "  failed: %s\n", verdict.sentence.c_str());
+    std::fprintf(stderr, "results in %s\n", run->path().c_str());
+  };
+  Watchdog watchdog(command.limit_time, [&](StopReason reason) {
+    const std::string why = reason_text(reason, command);
+    try {
+      run->finish(reason == StopReason::interrupt ? RunStatus::interrupted : RunStatus::killed, why,
+                  std::chrono::milliseconds(500));
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "asperity: %s\n", error.what());
+    }
+    std::fprintf(stderr, "asperity: %s; what was finished is in %s\n", why.c_str(), run->path().c_str());
+  });
+
+  if (command.limit_memory) {
+    memory::set_limit(*command.limit_memory);
+    limit_address_space(*command.limit_memory);
+  }
+
+  int status = done;
+  std::string why;
+  lua::Session session(monitor);
+  session.seed = command.seed;
+  session.trusted = command.trust;
+  session.run = run;
+  session.exit_hook = [&](int code) {
+    if (code == 0 && run->expectations().failed() > 0) code = failed;
+    run->finish(code == 0 ? RunStatus::done : RunStatus::failed, "os.exit(" + std::to_string(code) + ")");
+    summary();
+    std::fflush(nullptr);
+    std::_Exit(code);
+  };
+  try {
+    const std::string folder = std::filesystem::path(command.script).parent_path().string();
+    lua::State state = lua::make_state(session, folder.empty() ? "." : folder);
+    lua_State* L = state.get();
+    if (command.limit_time || command.limit_memory) lua::watch_for_stops(L);
+    watchdog.watch(L);
+    const int result = execute(L, command.script, text, command.arguments);
+    watchdog.watch(nullptr);
+    if (result != LUA_OK) {
+      status = failed;
+      why = lua::error_text(L, -1);
+    }
+  } catch (const std::exception& error) {
+    status = failed;
+    why = error.what();
+  }
+
+  RunStatus ended = status == done ? RunStatus::done : RunStatus::failed;
+  const StopReason stopped = status == done ? StopReason::none : stop_flag().reason();
+  if (stopped != StopReason::none) {
+    status = exit_status(stopped);
+    ended = stopped == StopReason::interrupt ? RunStatus::interrupted : RunStatus::failed;
+    why = reason_text(stopped, command);
+  }
+  monitor.clear();
+  std::fflush(stdout);
+  if (!why.empty()) std::fprintf(stderr, "asperity: %s\n", why.c_str());
+  if (why.find("not enough memory") != std::string::npos && command.limit_memory)
+    std::fprintf(stderr, "asperity: the memory limit is %s MiB (--limit-memory)\n",
+                 format_short(static_cast<double>(*command.limit_memory) / 0x1p20).c_str());
+  try {
+    if (status == done && run->expectations().failed() > 0) {
+      status = failed;
+      ended = RunStatus::failed;
+      why = run->expectations().summary();
+    }
+    run->finish(ended, why);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    if (status == done) status = failed;
+  }
+  summary();
+  return status;
+}
+
+int check(const RunCommand& command) {
+  std::string text;
+  try {
+    text = read_script(command.script);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return bad_usage;
+  }
+  TerminalMonitor monitor;
+  Watchdog watchdog(command.limit_time ? *command.limit_time : 60.0, [&](StopReason) {
+    std::fprintf(stderr, "asperity: %s: the check did not come to an end\n", command.script.c_str());
+  });
+  lua::Session session(monitor);
+  session.seed = command.seed;
+  session.dry_run = true;
+  session.run = std::make_shared<RunDirectory>(RunDirectory::Without::dry);
+  session.exit_hook = [&](int) {
+    std::printf("%s: no problem found up to its os.exit\n", command.script.c_str());
+    std::fflush(nullptr);
+    std::_Exit(done);
+  };
+  try {
+    const std::string folder = std::filesystem::path(command.script).parent_path().string();
+    lua::State state = lua::make_state(session, folder.empty() ? "." : folder);
+    watchdog.watch(state.get());
+    const int result = execute(state.get(), command.script, text, command.arguments);
+    watchdog.watch(nullptr);
+    if (result == LUA_OK) {
+      std::printf("%s: no problem found\n", command.script.c_str());
+      return done;
+    }
+    const std::string message = lua::error_text(state.get(), -1);
+    if (stop_flag().reason() != StopReason::none) {
+      std::fprintf(stderr, "asperity: %s: the check was stopped\n", command.script.c_str());
+      return exit_status(stop_flag().reason());
+    }
+    if (lua::stopped_at_placeholder(message)) {
+      std::printf("%s: no problem found; checked to line %s: %s\n", command.script.c_str(),
+                  lua::line_of(message).c_str(), lua::cannot_follow);
+      return done;
+    }
+    std::fprintf(stderr, "asperity: %s\n", message.c_str());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+  }
+  return failed;
+}
+
+}  // namespace asperity::cli

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/cli/terminal_monitor.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "engine/experiment/run_directory.hpp"
+
+namespace asperity::cli {
+
+namespace {
+constexpr double quiet_seconds = 1.0;   // work shorter than this shows nothing
+constexpr double redraw_seconds = 0.2;  // on a terminal
+constexpr double relist_seconds = 5.0;  // elsewhere
+}  // namespace
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(std::llround(std::fmin(seconds, 1e9)));
+  if (whole < 60) return std::to_string(whole) + " s";
+  if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+  return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
+}
+
+TerminalMonitor::TerminalMonitor() : terminal_(isatty(STDERR_FILENO) != 0) {}
+TerminalMonitor::~TerminalMonitor() { clear(); }
+
+void TerminalMonitor::progress(std::string_view what, double done) {
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  if (what != current_ || done < last_done_) {
+    current_ = what;
+    started_ = now;
+    shown_ = now - std::chrono::hours(1);
+  }
+  last_done_ = done;
+  const double elapsed = std::chrono::duration<double>(now - started_).count();
+  if (elapsed < quiet_seconds) return;
+  if (std::chrono::duration<double>(now - shown_).count() < (terminal_ ? redraw_seconds : relist_seconds))
+    return;
+  shown_ = now;
+  const std::string left = done > 0 ? ", about " + duration_text(elapsed / done * (1 - done)) + " left" : "";
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.0f %%", 100 * done);
+  const std::string line = current_ + ": " + percent + left;
+  if (terminal_) {
+    std::fprintf(stderr, "\r\033[K%s", line.c_str());
+    std::fflush(stderr);
+    line_shown_ = true;
+  } else {
+    std::fprintf(stderr, "%s\n", line.c_str());
+  }
+}
+
+void TerminalMonitor::warn(std::string_view sentence) {
+  const std::lock_guard lock(mutex_);
+  if (!warned_.emplace(sentence).second) return;
+  clear_line();
+  std::fprintf(stderr, "warning: %.*s\n", static_cast<int>(sentence.size()), sentence.data());
+  if (run_ != nullptr) run_->journal().write("warning", Json::object({{"sentence", sentence}}));
+}
+
+void TerminalMonitor::clear() {
+  const std::lock_guard lock(mutex_);
+  clear_line();
+}
+
+void TerminalMonitor::clear_line() {
+  if (!line_shown_) return;
+  std::fputs("\r\033[K", stderr);
+  std::fflush(stderr);
+  line_shown_ = false;
+}
+
+}  // namespace asperity::cli

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Progress and warnings on standard error. Work that takes over a second shows its share done and an
+// estimate of the time left: one line that is written over on a terminal, a line every few seconds
+// elsewhere. Standard output is never touched.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "engine/core/monitor.hpp"
+
+namespace asperity {
+class RunDirectory;
+}
+
+namespace asperity::cli {
+
+class TerminalMonitor final : public Monitor {
+ public:
+  TerminalMonitor();
+  ~TerminalMonitor() override;
+  // Warnings also go to this run's journal.
+  void keep_warnings_in(RunDirectory* run) { run_ = run; }
+
+  void progress(std::string_view what, double done) override;
+  void warn(std::string_view sentence) override;
+  // Takes the progress line away.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void clear_line();
+
+  std::mutex mutex_;
+  RunDirectory* run_ = nullptr;
+  bool terminal_;
+  bool line_shown_ = false;
+  std::string current_;
+  Clock::time_point started_{}, shown_{};
+  double last_done_ = 0;
+  std::set<std::string> warned_;
+};
+
+// "42 s", "3 min 20 s", "2 h 5 min".
+std::string duration_text(double seconds);
+
+}  // namespace asperity::cli

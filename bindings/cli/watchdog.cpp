@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/cli/watchdog.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "bindings/lua/state.hpp"
+
+namespace asperity::cli {
+
+namespace {
+using Clock = std::chrono::steady_clock;
+constexpr auto grace = std::chrono::milliseconds(2000);
+constexpr auto look_every = std::chrono::milliseconds(50);
+
+sigset_t watched_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  return set;
+}
+}  // namespace
+
+int exit_status(StopReason reason) { return reason == StopReason::interrupt ? 130 : 1; }
+
+Watchdog::Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words)
+    : last_words_(std::move(last_words)) {
+  const sigset_t set = watched_signals();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  thread_ = std::thread([this, limit_seconds] { guard(limit_seconds); });
+}
+
+Watchdog::~Watchdog() {
+  done_.store(true);
+  // Wakes the thread out of its wait.
+  pthread_kill(thread_.native_handle(), SIGTERM);
+  thread_.join();
+}
+
+void Watchdog::ask(StopReason reason) {
+  stop_flag().raise(reason);
+  if (lua_State* L = state_.load()) lua::interrupt(L);
+}
+
+void Watchdog::guard(std::optional<double> limit_seconds) {
+  const sigset_t set = watched_signals();
+  const auto start = Clock::now();
+  std::optional<Clock::time_point> patience_ends;
+  for (;;) {
+    // Sleep until the next thing that can happen: a signal, the limit, or the end of patience.
+    auto wait = std::chrono::duration<double>(3600);
+    if (limit_seconds && !patience_ends)
+      wait = std::min(wait, std::chrono::duration<double>(start - Clock::now()) +
+                                std::chrono::duration<double>(*limit_seconds));
+    if (patience_ends) wait = std::min<std::chrono::duration<double>>(wait, look_every);
+    const double seconds = std::max(wait.count(), 0.0);
+    timespec timeout{};
+    timeout.tv_sec = static_cast<time_t>(seconds);
+    timeout.tv_nsec = static_cast<long>((seconds - static_cast<double>(timeout.tv_sec)) * 1e9);
+    const int signal = sigtimedwait(&set, nullptr, &timeout);
+    if (done_.load()) return;
+
+    bool end_now = false;
+    if (signal == SIGINT || signal == SIGTERM) {
+      end_now = patience_ends.has_value();
+      ask(StopReason::interrupt);
+    } else if (limit_seconds && !patience_ends &&
+               std::chrono::duration<double>(Clock::now() - start).count() >= *limit_seconds) {
+      ask(StopReason::time_limit);
+    }
+    if (stop_flag().reason() != StopReason::none && !patience_ends) patience_ends = Clock::now() + grace;
+    if (patience_ends && (end_now || Clock::now() >= *patience_ends)) {
+      const StopReason reason = stop_flag().reason();
+      last_words_(reason);
+      std::fflush(stdout);
+      std::_Exit(exit_status(reason));
+    }
+  }
+}
+
+}  // namespace asperity::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ctrl-C and limits. A thread of its own takes SIGINT and SIGTERM and watches the clock. It asks
+// first: it raises the stop flag, which native work polls, and sets a hook, which Lua code runs into.
+// Work that does neither (a pattern that backtracks for ever) is ended after a grace period: the
+// journal and the notebooks are made safe and the process exits. A second Ctrl-C does not wait.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <thread>
+
+#include "bindings/lua/lua_api.hpp"
+#include "engine/core/monitor.hpp"
+
+namespace asperity::cli {
+
+class Watchdog {
+ public:
+  // Blocks the signals in the calling thread and those it starts: construct it before any other
+  // thread. `last_words` is called from the watchdog's thread before the process is ended.
+  Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words);
+  ~Watchdog();
+  Watchdog(const Watchdog&) = delete;
+  Watchdog& operator=(const Watchdog&) = delete;
+
+  // The Lua state that a stop must reach; null when it is about to close.
+  void watch(lua_State* L) { state_.store(L); }
+
+ private:
+  void guard(std::optional<double> limit_seconds);
+  void ask(StopReason reason);
+
+  std::function<void(StopReason)> last_words_;
+  std::atomic<lua_State*> state_{nullptr};
+  std::atomic<bool> done_{false};
+  std::thread thread_;
+};
+
+// The exit status of a run that was stopped for this reason.
+int exit_status(StopReason reason);
+
+}  // namespace asperity::cli

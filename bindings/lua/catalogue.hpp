@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The modules and classes of the language, each defined in the file of its name.
+#pragma once
+
+#include "bindings/lua/registry.hpp"
+
+namespace asperity::lua {
+
+const Module& lab_module();
+const Module& units_module();
+const Module& surface_module();
+const Module& profile_module();
+
+const Class& state_class();
+const Class& field_class();
+const Class& contact_class();
+const Class& law_class();
+const Class& stage_class();
+const Class& notebook_class();
+const Class& material_class();
+const Class& surface_class();
+const Class& profile_class();
+
+}  // namespace asperity::lua

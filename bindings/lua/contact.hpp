@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lab.contact, and contacts, their states and fields as native values of the language.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bindings/lua/registry.hpp"
+#include "engine/contact/state.hpp"
+#include "engine/core/grid.hpp"
+#include "engine/experiment/specimen_pair.hpp"
+
+namespace asperity::lua {
+
+// A field of a state over the tile, with what it is.
+struct StateField {
+  std::string name;
+  Grid grid;
+  std::shared_ptr<const Field> values;
+  Dimension dimension;
+};
+
+template <>
+const Class& class_of<SpecimenPair>();
+template <>
+const Class& class_of<asperity::State>();
+template <>
+const Class& class_of<StateField>();
+
+Function contact_function();
+
+}  // namespace asperity::lua

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/files.hpp"
+
+#include <filesystem>
+
+#include "bindings/lua/session.hpp"
+#include "engine/experiment/run_directory.hpp"
+#include "engine/experiment/run_facts.hpp"
+
+namespace asperity::lua {
+
+std::string writable_path(const Call& call, const std::string& name) {
+  const Session& session = call.session();
+  if (session.is_case)
+    throw Error(ErrorCode::not_permitted, "a case of an ensemble writes no files",
+                "return what it found, and write after the loop");
+  return session.run == nullptr ? name : session.run->path_for(name).string();
+}
+
+void note_input(const Call& call, const std::string& path) {
+  const Session& session = call.session();
+  std::error_code problem;
+  if (session.run == nullptr || session.is_case || !std::filesystem::is_regular_file(path, problem)) return;
+  const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(path, problem));
+  session.run->note_input(path, bytes, file_digest(path));
+}
+
+void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Problems& problems) {
+  if (value.is_text() && value.text() == "interpolate") {
+    fill = HoleFill::interpolate();
+    return;
+  }
+  OptionInfo length = info;
+  length.dimension = dimension::length;
+  if (!value.is_text() && !value.is_number())
+    return detail::wrong_type(value, info, "\"interpolate\" or a height such as \"0 um\"", problems);
+  if (auto height = detail::read_quantity(value, length, any(), problems)) fill = HoleFill::with(*height);
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files as scripts name them: read from anywhere and noted among the run's inputs, written under the
+// run directory. And the option keys that every reader shares.
+#pragma once
+
+#include <string>
+
+#include "bindings/lua/options.hpp"
+#include "bindings/lua/registry.hpp"
+#include "engine/surface/io/read.hpp"
+
+namespace asperity::lua {
+
+// Where a file that the script writes goes. Throws Error{not_permitted} for a way out of the run
+// directory, and inside a case of an ensemble.
+std::string writable_path(const Call& call, const std::string& name);
+// Enters a file that is about to be read, with its digest, in the run's manifest.
+void note_input(const Call& call, const std::string& path);
+
+template <class O>
+Option<O> unit_key(std::optional<double> O::*member) {
+  return quantity("unit", member, dimension::length, above(0),
+                  "length of one number of the file, where it has no unit");
+}
+void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Problems& problems);
+template <class O>
+Option<O> fill_key(HoleFill O::*member) {
+  return custom<O>("fill", "\"interpolate\"|a length",
+                   "what missing points become; without it they are an error",
+                   [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+                     read_fill(value, info, options.*member, problems);
+                   });
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lab.friction: the junction law. lab.tilt_stage: the angle at which a specimen slips.
+#include "bindings/lua/friction.hpp"
+
+#include <numbers>
+
+#include "bindings/lua/catalogue.hpp"
+#include "bindings/lua/contact.hpp"
+#include "bindings/lua/session.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+// --- the law
+
+const Block<FrictionOptions>& friction_block() {
+  using O = FrictionOptions;
+  static const Block<O> block{
+      "lab.friction",
+      {quantity("tau0", &O::tau0, dimension::pressure, at_least(0), "adhesive shear strength of a junction")
+           .required(),
+       number("alpha", &O::alpha, at_least(0), "growth of the strength with pressure").required(),
+       quantity("tau_max", &O::tau_max, dimension::pressure, above(0).or_never(),
+                "greatest strength of a junction"),
+       quantity("yield_pressure", &O::yield_pressure, dimension::pressure, above(0).or_never(),
+                "sets tau_max = tau0 + alpha * yield_pressure")}};
+  return block;
+}
+
+Values make_law(Call& call) { return {object(JunctionLaw(call.options(friction_block())))}; }
+
+Values law_on(Call& call) {
+  const FrictionResult r = call.self<JunctionLaw>().on(call.object<asperity::State>(1, "st"));
+  Record record;
+  record.name = "friction";
+  record.add("force", r.force, dimension::force)
+      .add("mu", Value(r.mu))
+      .add("adhesive_force", r.adhesive_force, dimension::force)
+      .add("load_force", r.load_force, dimension::force)
+      .add("capped_fraction", r.capped_fraction);
+  return {std::move(record)};
+}
+
+std::string describe_law(const void* self) { return static_cast<const JunctionLaw*>(self)->text(); }
+
+// --- the stage
+
+struct StageKeys : TiltTrialOptions {
+  std::shared_ptr<SpecimenPair> contact;
+  std::shared_ptr<JunctionLaw> law;
+  double mass = 0, gravity = TiltOptions{}.gravity, step = TiltOptions{}.step, limit = TiltOptions{}.limit;
+  bool probe_given = false;
+};
+const Block<StageKeys>& stage_block() {
+  using K = StageKeys;
+  static const Block<K> block{
+      "lab.tilt_stage",
+      {native<SpecimenPair>("contact", &K::contact, "Contact", "a contact, from lab.contact",
+                            "what lies on the stage")
+           .required(),
+       native<JunctionLaw>("friction", &K::law, "Law", "a law, from lab.friction",
+                           "strength of its junctions")
+           .required(),
+       quantity("mass", &K::mass, dimension::mass, above(0), "of the specimen").required(),
+       Option<K>(quantity("specimen_area", &TiltTrialOptions::specimen_area, dimension::area, above(0),
+                          "nominal area over which the weight spreads"))
+           .defaults_to("the tile"),
+       quantity("step", &K::step, dimension::angle, above(0), "the stage is raised in"),
+       quantity("limit", &K::limit, dimension::angle, {0, std::numbers::pi / 2, true, false, false},
+                "greatest angle of the stage"),
+       quantity("gravity", &K::gravity, dimension::acceleration, above(0), "acceleration of free fall"),
+       custom<K>("probe_pressure", "a pressure[]",
+                 "at which a half-space contact is solved; a box contact is solved at its weight",
+                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+                   if (!value.is_table() || value.length() == 0)
+                     return detail::wrong_type(value, info, "a list of pressures", problems);
+                   OptionInfo pressure = info;
+                   pressure.dimension = dimension::pressure;
+                   for (std::int64_t k = 1; k <= value.length(); ++k)
+                     value.element(k, [&](const Argument& part) {
+                       detail::read_quantity(part, pressure, above(0), problems);
+                     });
+                   keys.probe_given = true;
+                 })
+           .defaults_to("{\"1 MPa\", \"3 MPa\"}"),
+       number("scatter", &TiltTrialOptions::scatter, at_least(0),
+              "relative standard deviation of the friction force from trial to trial")}};
+  return block;
+}
+
+Values make_stage(Call& call) {
+  const StageKeys keys = call.options(stage_block());
+  if (keys.probe_given)
+    call.session().monitor().warn(
+        "`probe_pressure` is for half-space contacts; a box contact is solved at its weight");
+  TiltStage stage{keys.contact, keys.law, keys};
+  stage.options.stage = {keys.mass, keys.gravity, keys.step, keys.limit};
+  check(stage.options.stage);
+  return {object(std::move(stage))};
+}
+
+struct RaiseKeys {
+  int repeats = TiltTrialOptions{}.repeats;
+  std::uint64_t seed = 1;
+};
+const Block<RaiseKeys>& raise_block() {
+  static const Block<RaiseKeys> block{
+      "raise",
+      {integer("repeats", &RaiseKeys::repeats, between(1, 100000), "number of trials"),
+       integer("seed", &RaiseKeys::seed, at_least(0), "of placements and scatter")}};
+  return block;
+}
+
+Values raise_stage(Call& call) {
+  const RaiseKeys keys = call.options(raise_block());
+  const TiltStage& stage = call.self<TiltStage>();
+  TiltTrialOptions options = stage.options;
+  options.repeats = keys.repeats;
+  options.seed = keys.seed;
+  const TiltResult result = raise(*stage.contact, *stage.law, options, call.session().monitor());
+  List trials;
+  for (const SlipAngle& trial : result.trials) {
+    Record record;
+    record.name = "trial";
+    record.add("angle", trial.angle, dimension::angle)
+        .add("held", trial.held, dimension::angle)
+        .add("slipped", trial.slipped);
+    trials.items.emplace_back(std::move(record));
+  }
+  Record record;
+  record.name = result.slipped ? "tilt" : "tilt (does not slip)";
+  record.add("angle", result.angle, dimension::angle)
+      .add("held", result.held, dimension::angle)
+      .add("mu", result.mu)
+      .add("spread", result.spread)
+      .add("slipped", result.slipped)
+      .add("trials", std::move(trials))
+      .add("note", result.note);
+  return {std::move(record)};
+}
+
+std::string describe_stage(const void* self) {
+  const auto& stage = *static_cast<const TiltStage*>(self);
+  return "tilt stage: mass " + format_quantity(stage.options.stage.mass, dimension::mass) + ", " +
+         stage.law->text();
+}
+
+}  // namespace
+
+Function friction_function() {
+  return {.name = "friction",
+          .body = make_law,
+          .sentence =
+              "The strength of junctions, tau = min(tau0 + alpha P, tau_max) (Hanaor, Gan and Einav 2013, "
+              "eq. 1).",
+          .options = &friction_block(),
+          .returns = "Law",
+          .example = "local law = lab.friction{ tau0=\"500 MPa\", alpha=0.2 }"};
+}
+
+Function tilt_stage_function() {
+  return {.name = "tilt_stage",
+          .body = make_stage,
+          .sentence = "A stage that is raised until the specimen slides, T(W cos a) = W sin a.",
+          .options = &stage_block(),
+          .returns = "TiltStage",
+          .example = "local stage = lab.tilt_stage{ contact=c, friction=law, mass=\"4.3 g\" }"};
+}
+
+const Class& law_class() {
+  static const Class type = [] {
+    Class c;
+    c.name = "Law";
+    c.article_name = "a law";
+    c.sentence = "A friction law of junctions.";
+    c.describe = describe_law;
+    c.fields = {
+        {"tau0", "number", "adhesive strength", dimension::pressure,
+         [](Call& call) -> Values { return {call.self<JunctionLaw>().tau0()}; }},
+        {"alpha",
+         "number",
+         "growth with pressure",
+         {},
+         [](Call& call) -> Values { return {call.self<JunctionLaw>().alpha()}; }},
+        {"tau_max", "number", "greatest strength; nil without a cap", dimension::pressure,
+         [](Call& call) -> Values { return {Value(call.self<JunctionLaw>().tau_max())}; }},
+    };
+    c.methods = {{.name = "on",
+                  .body = law_on,
+                  .sentence = "The friction of a state: force, mu, its adhesive and load parts, and the "
+                              "share of the area at the cap.",
+                  .parameters = {{"st", "State", "the contact under load"}},
+                  .returns = "table",
+                  .example = "print(law:on(st).mu)"}};
+    return c;
+  }();
+  return type;
+}
+
+const Class& stage_class() {
+  static const Class type = [] {
+    Class c;
+    c.name = "TiltStage";
+    c.article_name = "a tilt stage";
+    c.sentence = "A tilt stage with a specimen on it.";
+    c.shareable = false;
+    c.describe = describe_stage;
+    c.methods = {{.name = "raise",
+                  .body = raise_stage,
+                  .sentence = "Raises the stage until the specimen slides, several times. angle is exact; "
+                              "held is the last step that "
+                              "held, the source paper's measure; mu = tan(held).",
+                  .options = &raise_block(),
+                  .options_optional = true,
+                  .returns = "table",
+                  .example = "local t = stage:raise{ repeats=5, seed=1 }",
+                  .heavy = true}};
+    return c;
+  }();
+  return type;
+}
+
+template <>
+const Class& class_of<JunctionLaw>() {
+  return law_class();
+}
+template <>
+const Class& class_of<TiltStage>() {
+  return stage_class();
+}
+
+}  // namespace asperity::lua

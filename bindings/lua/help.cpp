@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/help.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "bindings/lua/registry.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+std::string signature(const Function& function) {
+  std::string text = qualified_name(function);
+  std::vector<std::string> parts;
+  for (const Parameter& p : function.parameters) {
+    const bool optional = p.type.ends_with("?");
+    parts.push_back(optional ? "[" + p.name + "]" : p.name);
+  }
+  if (function.options != nullptr) {
+    std::string keys;
+    for (const OptionInfo* option : function.options->options())
+      keys += (keys.empty() ? "" : ", ") + option->name + "=" + option->default_text;
+    if (parts.empty()) return text + "{ " + keys + " }";
+    parts.push_back((function.options_optional ? "[{ " : "{ ") + keys +
+                    (function.options_optional ? " }]" : " }"));
+  }
+  return text + "(" + joined(parts, ", ") + ")";
+}
+
+std::string option_line(const OptionInfo& option) {
+  std::string text = option.type;
+  if (!option.range_text.empty()) text += " " + option.range_text;
+  if (option.required)
+    text += ", required";
+  else if (!option.default_text.empty())
+    text += ", default " + option.default_text;
+  return text;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text.size() >= width ? text : text + std::string(width - text.size(), ' ');
+}
+
+std::string function_help(const Function& function) {
+  std::string text = signature(function);
+  if (!function.returns.empty()) text += "  ->  " + function.returns;
+  text += "\n\n" + function.sentence + "\n";
+  std::size_t width = 0;
+  for (const Parameter& p : function.parameters) width = std::max(width, p.name.size());
+  if (function.options != nullptr)
+    for (const OptionInfo* option : function.options->options()) width = std::max(width, option->name.size());
+  if (width > 0) text += "\n";
+  for (const Parameter& p : function.parameters)
+    text += "  " + padded(p.name, width) + "  " + p.sentence + " (" + p.type + ")\n";
+  if (function.options != nullptr)
+    for (const OptionInfo* option : function.options->options())
+      text +=
+          "  " + padded(option->name, width) + "  " + option->sentence + " (" + option_line(*option) + ")\n";
+  if (!function.example.empty()) text += "\nExample:\n  " + function.example + "\n";
+  return text;
+}
+
+std::string getter_type(const Getter& field) {
+  const std::string unit = si_unit(field.dimension);
+  return field.type + (unit.empty() ? "" : ", " + unit);
+}
+
+std::string class_help(const Class& type) {
+  std::string text = type.name + ": " + type.sentence + "\n";
+  std::size_t width = 0;
+  for (const std::string& name : type.names()) width = std::max(width, name.size());
+  if (!type.fields.empty()) text += "\nFields:\n";
+  for (const Getter& field : type.fields)
+    text += "  " + padded(field.name, width) + "  " + field.sentence + " (" + getter_type(field) + ")\n";
+  if (!type.methods.empty()) text += "\nMethods:\n";
+  for (const Function& method : type.methods)
+    text += "  " + padded(method.name, width) + "  " + method.sentence + "\n";
+  return text;
+}
+
+std::string module_help(const Module& module) {
+  std::string text = module.path + ": " + module.sentence + "\n\n";
+  std::size_t width = 0;
+  for (const Function& f : module.functions) width = std::max(width, f.name.size());
+  for (const Constant& c : module.constants) width = std::max(width, c.name.size());
+  if (module.call) text += function_help(*module.call) + "\n";
+  for (const Function& f : module.functions) text += "  " + padded(f.name, width) + "  " + f.sentence + "\n";
+  for (const Constant& c : module.constants) text += "  " + padded(c.name, width) + "  " + c.sentence + "\n";
+  for (const Module* child : modules())
+    if (child->path != module.path && child->path.starts_with(module.path + ".") &&
+        child->path.find('.', module.path.size() + 1) == std::string::npos)
+      text +=
+          "  " + padded(child->path.substr(module.path.size() + 1), width) + "  " + child->sentence + "\n";
+  return text;
+}
+
+std::string topics_help() {
+  std::string text = "Modules:\n";
+  for (const Module* module : modules())
+    text += "  " + padded(module->path, 16) + "  " + module->sentence + "\n";
+  text += "\nValues:\n";
+  for (const Class* type : classes()) text += "  " + padded(type->name, 16) + "  " + type->sentence + "\n";
+  return text +
+         "\nAsk for any of these, or for a function or method by name: help \"surface.sine\", help "
+         "\"press\".\n";
+}
+
+// The last part of "lab.surface.sine" or "surface:scaled".
+std::string last_name(const std::string& path) {
+  const std::size_t at = path.find_last_of(".:");
+  return at == std::string::npos ? path : path.substr(at + 1);
+}
+
+struct Topic {
+  std::string name;
+  std::string text;
+};
+
+std::vector<Topic> all_topics() {
+  std::vector<Topic> topics;
+  for (const Module* module : modules()) {
+    topics.push_back({module->path, module_help(*module)});
+    for (const Function& f : module->functions) topics.push_back({qualified_name(f), function_help(f)});
+    for (const Constant& c : module->constants)
+      topics.push_back({module->path + "." + c.name, module->path + "." + c.name + ": " + c.sentence + "\n"});
+  }
+  for (const Class* type : classes()) {
+    topics.push_back({type->name, class_help(*type)});
+    for (const Function& f : type->methods) topics.push_back({qualified_name(f), function_help(f)});
+    for (const Getter& field : type->fields)
+      topics.push_back({type->name + "." + field.name, type->name + "." + field.name + ": " + field.sentence +
+                                                           " (" + getter_type(field) + ")\n"});
+  }
+  return topics;
+}
+
+bool same(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
+  });
+}
+
+// --- the reference page
+
+std::string cell(std::string text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  return result;
+}
+
+void function_reference(std::string& page, const Function& function) {
+  page += "### `" + qualified_name(function) + "`\n\n" + function.sentence + "\n\n";
+  page += "```lua\n" + signature(function) + (function.returns.empty() ? "" : "  --> " + function.returns) +
+          "\n```\n\n";
+  if (!function.parameters.empty() || function.options != nullptr) {
+    page += "| name | accepts | meaning |\n|---|---|---|\n";
+    for (const Parameter& p : function.parameters)
+      page += "| `" + p.name + "` | " + cell(p.type) + " | " + cell(p.sentence) + " |\n";
+    if (function.options != nullptr)
+      for (const OptionInfo* option : function.options->options())
+        page += "| `" + option->name + "` | " + cell(option_line(*option)) + " | " + cell(option->sentence) +
+                " |\n";
+    page += "\n";
+  }
+  if (!function.example.empty()) page += "```lua\n" + function.example + "\n```\n\n";
+}
+
+// --- editor types
+
+std::string cats_type(const std::string& type) {
+  if (type.ends_with("?")) return cats_type(type.substr(0, type.size() - 1)) + "|nil";
+  if (type.starts_with("iterator<")) return "fun(): " + cats_type(type.substr(9, type.size() - 10));
+  if (type.ends_with("[]")) return cats_type(type.substr(0, type.size() - 2)) + "[]";
+  if (type.starts_with("{") || type.starts_with("\"")) return type.starts_with("{") ? "table" : type;
+  if (const std::size_t bar = type.find('|'); bar != std::string::npos)
+    return cats_type(type.substr(0, bar)) + "|" + cats_type(type.substr(bar + 1));
+  for (const char* known : {"number", "integer", "string", "boolean", "table", "function", "nil", "any"})
+    if (type == known) return type;
+  if (find_class(type) != nullptr) return "asperity." + type;
+  if (type.starts_with("a ") || type.starts_with("an ")) return "number|string";  // a quantity
+  return "any";
+}
+
+std::string block_class(const Function& function) {
+  std::string name = qualified_name(function);
+  std::replace(name.begin(), name.end(), ':', '.');
+  return "asperity.options." + name;
+}
+
+void cats_block(std::string& page, const Function& function) {
+  if (function.options == nullptr) return;
+  page += "---@class " + block_class(function) + "\n";
+  for (const OptionInfo* option : function.options->options())
+    page += "---@field " + option->name + (option->required ? "" : "?") + " " + cats_type(option->type) +
+            " " + option->sentence + " (" + option_line(*option) + ")\n";
+  page += "\n";
+}
+
+void cats_function(std::string& page, const Function& function, const std::string& declared) {
+  page += "---" + function.sentence + "\n";
+  std::vector<std::string> names;
+  for (const Parameter& p : function.parameters) {
+    const bool optional = p.type.ends_with("?");
+    page += "---@param " + p.name + (optional ? "?" : "") + " " +
+            cats_type(optional ? p.type.substr(0, p.type.size() - 1) : p.type) + " " + p.sentence + "\n";
+    names.push_back(p.name);
+  }
+  if (function.options != nullptr) {
+    page += "---@param options" + std::string(function.options_optional ? "?" : "") + " " +
+            block_class(function) + "\n";
+    names.push_back("options");
+  }
+  if (!function.returns.empty()) page += "---@return " + cats_type(function.returns) + "\n";
+  page += "function " + declared + "(" + joined(names, ", ") + ") end\n\n";
+}
+
+}  // namespace
+
+std::string help_text(const std::string& topic) {
+  if (topic.empty()) return topics_help();
+  const std::vector<Topic> topics = all_topics();
+  for (const Topic& t : topics)
+    if (same(t.name, topic) || same(t.name, "lab." + topic)) return t.text;
+  // A bare name may mean several things: `close`, `roughness`. Show them all.
+  std::string found;
+  for (const Topic& t : topics)
+    if (same(last_name(t.name), topic)) found += (found.empty() ? "" : "\n") + t.text;
+  if (!found.empty()) return found;
+  std::vector<std::string> names;
+  for (const Topic& t : topics) {
+    names.push_back(t.name);
+    names.push_back(last_name(t.name));
+  }
+  throw Error(ErrorCode::unknown_name, "there is no help on " + quoted(topic) + did_you_mean(topic, names),
+              "help without a topic lists what there is");
+}
+
+std::string reference_page() {
+  std::string page =
+      "# Reference\n\n<!-- Generated by `asperity help --reference`; do not edit. -->\n\n"
+      "Every function, value and key of the language, from the same entries that drive the program.\n"
+      "A quantity is a plain SI number or a string with a unit, `\"250 um\"`.\n\n";
+  for (const Module* module : modules()) {
+    page += "## `" + module->path + "`\n\n" + module->sentence + "\n\n";
+    if (!module->constants.empty()) {
+      page += "| constant | meaning |\n|---|---|\n";
+      for (const Constant& c : module->constants)
+        page += "| `" + module->path + "." + c.name + "` | " + cell(c.sentence) + " |\n";
+      page += "\n";
+    }
+    if (module->call) function_reference(page, *module->call);
+    for (const Function& f : module->functions) function_reference(page, f);
+  }
+  for (const Class* type : classes()) {
+    page += "## " + type->name + "\n\n" + type->sentence + "\n\n";
+    if (!type->fields.empty()) {
+      page += "| field | type | meaning |\n|---|---|---|\n";
+      for (const Getter& field : type->fields)
+        page +=
+            "| `" + field.name + "` | " + cell(getter_type(field)) + " | " + cell(field.sentence) + " |\n";
+      page += "\n";
+    }
+    for (const Function& f : type->methods) function_reference(page, f);
+  }
+  while (page.ends_with("\n\n")) page.pop_back();
+  return page;
+}
+
+std::string editor_types() {
+  std::string page =
+      "---@meta asperity\n-- Types of the language for editors (LuaCATS).\n"
+      "-- Generated by `asperity help --types`; do not edit.\n\n";
+  for (const Class* type : classes()) {
+    for (const Function& f : type->methods) cats_block(page, f);
+    page += "---" + type->sentence + "\n---@class asperity." + type->name + "\n";
+    for (const Getter& field : type->fields)
+      page += "---@field " + field.name + " " + cats_type(field.type) + " " + field.sentence + "\n";
+    page += "local " + type->name + " = {}\n\n";
+    for (const Function& f : type->methods) cats_function(page, f, type->name + ":" + f.name);
+  }
+  for (const Module* module : modules()) {
+    for (const Function& f : module->functions) cats_block(page, f);
+    if (module->call) cats_block(page, *module->call);
+    page += "---" + module->sentence + "\n---@class asperity." + module->path + "\n";
+    if (module->call)
+      page += "---@overload fun(options: " + block_class(*module->call) +
+              "): " + cats_type(module->call->returns) + "\n";
+    for (const Constant& c : module->constants)
+      page += "---@field " + c.name + " " + cats_type(c.type) + " " + c.sentence + "\n";
+    page += (module->path == "lab" ? "local " : "") + module->path + " = {}\n\n";
+    for (const Function& f : module->functions) cats_function(page, f, module->path + "." + f.name);
+  }
+  return page + "return lab\n";
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The root of the language: lab, and the unit factors of lab.units.
+#include <numbers>
+#include <string>
+
+#include "bindings/lua/catalogue.hpp"
+#include "bindings/lua/contact.hpp"
+#include "bindings/lua/friction.hpp"
+#include "bindings/lua/help.hpp"
+#include "bindings/lua/material.hpp"
+#include "bindings/lua/notebook.hpp"
+#include "bindings/lua/version.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+Values help(Call& call) { return {help_text(call.given(1) ? call.text(1, "topic") : std::string())}; }
+
+template <int numerator, int denominator = 1>
+Value factor() {
+  return static_cast<double>(numerator) / denominator;
+}
+
+}  // namespace
+
+const Module& lab_module() {
+  static const Module module = [] {
+    Module m;
+    m.path = "lab";
+    m.sentence = "The laboratory: surfaces, contacts, friction, and the notebook that keeps what was found.";
+    m.functions = {material_function(), contact_function(), friction_function(), tilt_stage_function(),
+                   notebook_function()};
+    m.functions.push_back(
+        {.name = "help",
+         .body = help,
+         .sentence = "What the laboratory can do, or one function, value or field of it, as text.",
+         .parameters = {{"topic", "string?", "what to explain; nothing lists the topics"}},
+         .returns = "string",
+         .example = "print(lab.help \"surface.sine\")"});
+    m.constants = {
+        {"rigid", "Material", "a body that does not deform", rigid_value},
+        {"materials", "Material[]", "the materials known by name", materials_list},
+        {"sorted", "function", "lab.sorted(t) goes through a table in the order of its keys, for a for loop",
+         [] { return Value(Script{"sorted"}); }},
+        {"version", "string", "the version of the program", [] { return Value(version_text()); }}};
+    return m;
+  }();
+  return module;
+}
+
+const Module& units_module() {
+  static const Module module = {
+      .path = "lab.units",
+      .sentence = "SI values of units, for printing: st.approach / lab.units.um is in micrometres.",
+      .functions = {},
+      .constants = {{"m", "number", "metre", factor<1>},
+                    {"mm", "number", "millimetre", factor<1, 1000>},
+                    {"um", "number", "micrometre", factor<1, 1000000>},
+                    {"nm", "number", "nanometre", factor<1, 1000000000>},
+                    {"kg", "number", "kilogram", factor<1>},
+                    {"g", "number", "gram", factor<1, 1000>},
+                    {"s", "number", "second", factor<1>},
+                    {"min", "number", "minute", factor<60>},
+                    {"h", "number", "hour", factor<3600>},
+                    {"N", "number", "newton", factor<1>},
+                    {"mN", "number", "millinewton", factor<1, 1000>},
+                    {"Pa", "number", "pascal", factor<1>},
+                    {"kPa", "number", "kilopascal", factor<1000>},
+                    {"MPa", "number", "megapascal", factor<1000000>},
+                    {"GPa", "number", "gigapascal", factor<1000000000>},
+                    {"rad", "number", "radian", factor<1>},
+                    {"deg", "number", "degree", [] { return Value(std::numbers::pi / 180.0); }}},
+      .call = {},
+  };
+  return module;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lua's headers, and the one rule for calling them: a Lua function that may raise an error is called
+// only inside protect(), because an error leaves by longjmp in the C build of Lua (no destructor
+// runs) and by an exception of its own in the C++ build (which nobody else may swallow).
+#pragma once
+
+#include <lua.hpp>
+
+#include <type_traits>
+
+namespace asperity::lua {
+
+// Runs action(L) under lua_pcall, with `arguments` values of the stack as its arguments, and leaves
+// its results. Returns a Lua status; if not LUA_OK the error value is on top of the stack. The
+// action must own nothing with a destructor: it is left by longjmp when Lua raises.
+template <class Action>
+int protect(lua_State* L, int arguments, int results, Action& action) {
+  static_assert(!std::is_const_v<Action>);
+  if (lua_checkstack(L, 4) == 0) {
+    lua_settop(L, -1 - arguments);
+    lua_pushliteral(L, "stack overflow");
+    return LUA_ERRMEM;
+  }
+  lua_pushcfunction(L, [](lua_State* state) -> int {
+    Action& inner = *static_cast<Action*>(lua_touserdata(state, 1));
+    lua_remove(state, 1);
+    return inner(state);
+  });
+  lua_pushlightuserdata(L, &action);
+  lua_rotate(L, -2 - arguments, 2);
+  return lua_pcall(L, arguments + 1, results, 0);
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lab.material, lab.materials and lab.rigid.
+#pragma once
+
+#include "bindings/lua/registry.hpp"
+
+namespace asperity::lua {
+
+Function material_function();
+Value materials_list();
+Value rigid_value();
+
+}  // namespace asperity::lua

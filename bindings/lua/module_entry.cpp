@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loadable module: `require "asperity"` from any Lua 5.4. It links no Lua; the interpreter that
+// loads it supplies one. Nothing is recorded here: files go where the script says.
+#include "bindings/lua/registry.hpp"
+#include "bindings/lua/session.hpp"
+#include "engine/experiment/run_directory.hpp"
+
+extern "C" __attribute__((visibility("default"))) int luaopen_asperity(lua_State* L) {
+  using namespace asperity;
+  static lua::Session session(Monitor::silent());
+  session.trusted = true;
+  if (session.run == nullptr)
+    session.run = std::make_shared<RunDirectory>(RunDirectory::Without::loose, true);
+  lua::Session::attach(L, session);
+  lua::push_library(L);
+  return 1;
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lab.notebook: rows of free columns, expectations about them, and charts of them.
+#pragma once
+
+#include "bindings/lua/registry.hpp"
+#include "engine/experiment/notebook.hpp"
+
+namespace asperity::lua {
+
+template <>
+const Class& class_of<Notebook>();
+
+Function notebook_function();
+
+}  // namespace asperity::lua

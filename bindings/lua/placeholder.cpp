@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/placeholder.hpp"
+
+#include "bindings/lua/registry.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+const char unknown_metatable_key = 0;
+
+int again(lua_State* L) {
+  push_unknown(L);
+  return 1;
+}
+
+int compared(lua_State* L) { return luaL_error(L, "%s", cannot_follow); }
+
+int to_string(lua_State* L) {
+  lua_pushliteral(L, "?");
+  return 1;
+}
+
+int ignored(lua_State*) { return 0; }
+
+// Whether any argument is a placeholder.
+bool any_unknown(lua_State* L) {
+  for (int k = 1; k <= lua_gettop(L); ++k)
+    if (Argument(L, k).is_unknown()) return true;
+  return false;
+}
+
+// Calls the original in upvalue 1 unless an argument is a placeholder, which it returns instead.
+int pass_unknown(lua_State* L) {
+  if (any_unknown(L)) return again(L);
+  const int arguments = lua_gettop(L);
+  lua_pushvalue(L, lua_upvalueindex(1));
+  lua_insert(L, 1);
+  lua_call(L, arguments, LUA_MULTRET);
+  return lua_gettop(L);
+}
+
+// A loop over a placeholder runs its body once.
+int unknown_once(lua_State* L) {
+  if (lua_toboolean(L, lua_upvalueindex(1)) != 0) return lua_pushnil(L), 1;
+  lua_pushboolean(L, 1);
+  lua_replace(L, lua_upvalueindex(1));
+  lua_pushinteger(L, 1);
+  push_unknown(L);
+  return 2;
+}
+
+int pairs_or_once(lua_State* L) {
+  if (lua_gettop(L) >= 1 && Argument(L, 1).is_unknown()) {
+    lua_pushboolean(L, 0);
+    lua_pushcclosure(L, unknown_once, 1);
+    return 1;
+  }
+  return pass_unknown(L);
+}
+
+void wrap(lua_State* L, const char* library, const char* name, lua_CFunction wrapper) {
+  lua_getglobal(L, library);
+  lua_getfield(L, -1, name);
+  if (lua_isfunction(L, -1)) {
+    lua_pushcclosure(L, wrapper, 1);
+    lua_setfield(L, -2, name);
+    lua_pop(L, 1);
+  } else {
+    lua_pop(L, 2);
+  }
+}
+
+std::optional<Values> one_placeholder(const std::shared_ptr<bool>& done, const std::string& type) {
+  if (*done) return std::nullopt;
+  *done = true;
+  return Values{placeholder_of(type)};
+}
+
+}  // namespace
+
+const void* unknown_key() { return &unknown_metatable_key; }
+
+void push_unknown(lua_State* L) {
+  lua_newuserdatauv(L, 0, 0);
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &unknown_metatable_key) != LUA_TTABLE) {
+    lua_pop(L, 1);
+    static const luaL_Reg methods[] = {
+        {"__add", again},        {"__sub", again},          {"__mul", again},    {"__div", again},
+        {"__mod", again},        {"__pow", again},          {"__unm", again},    {"__idiv", again},
+        {"__band", again},       {"__bor", again},          {"__bxor", again},   {"__shl", again},
+        {"__shr", again},        {"__bnot", again},         {"__concat", again}, {"__len", again},
+        {"__index", again},      {"__call", again},         {"__lt", compared},  {"__le", compared},
+        {"__newindex", ignored}, {"__tostring", to_string}, {nullptr, nullptr}};
+    lua_newtable(L);
+    luaL_setfuncs(L, methods, 0);
+    lua_pushliteral(L, "placeholder");
+    lua_setfield(L, -2, "__name");
+    lua_pushliteral(L, "placeholder");
+    lua_setfield(L, -2, "__metatable");
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &unknown_metatable_key);
+  }
+  lua_setmetatable(L, -2);
+}
+
+Value placeholder_of(const std::string& type) {
+  if (type.empty() || type == "nil") return {};
+  if (type == "boolean" || type == "string" || type == "number" || type == "integer") return Unknown{};
+  if (type.ends_with("[]")) return List{{placeholder_of(type.substr(0, type.size() - 2))}};
+  if (type.starts_with("iterator<")) {
+    const std::string inner = type.substr(9, type.size() - 10);
+    auto done = std::make_shared<bool>(false);
+    return Iterator{[inner, done](Call&) { return one_placeholder(done, inner); }};
+  }
+  if (const Class* found = find_class(type)) return Object{found, nullptr, false};
+  return Unknown{};
+}
+
+bool stopped_at_placeholder(const std::string& message) {
+  const std::string first = message.substr(0, message.find('\n'));
+  for (const char* sign : {cannot_follow, "placeholder", "'for' initial value must be a number",
+                           "'for' limit must be a number", "'for' step must be a number"})
+    if (first.find(sign) != std::string::npos) return true;
+  return false;
+}
+
+std::string line_of(const std::string& message) {
+  for (std::size_t at = message.find(':'); at != std::string::npos; at = message.find(':', at + 1)) {
+    const std::size_t end = message.find_first_not_of("0123456789", at + 1);
+    if (end != std::string::npos && end > at + 1 && message[end] == ':')
+      return message.substr(at + 1, end - at - 1);
+  }
+  return "?";
+}
+
+void open_dry_run_library(lua_State* L) {
+  for (const char* name :
+       {"abs", "ceil", "cos",  "deg", "exp",       "floor", "fmod", "log",  "max",  "min", "modf",
+        "rad", "sin",  "sqrt", "tan", "tointeger", "type",  "ult",  "asin", "acos", "atan"})
+    wrap(L, "math", name, pass_unknown);
+  for (const char* name : {"format", "rep", "len", "sub", "upper", "lower"})
+    wrap(L, "string", name, pass_unknown);
+  for (const char* name : {"concat", "unpack", "sort", "insert"}) wrap(L, "table", name, pass_unknown);
+  for (const char* name : {"tonumber", "assert", "select"}) wrap(L, "_G", name, pass_unknown);
+  for (const char* name : {"pairs", "ipairs"}) wrap(L, "_G", name, pairs_or_once);
+  // The script's own output belongs to a run.
+  wrap(L, "_G", "print", ignored);
+  wrap(L, "io", "write", ignored);
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Profiles: lab.profile and the methods of a profile.
+#include <cmath>
+#include <numbers>
+
+#include "bindings/lua/catalogue.hpp"
+#include "bindings/lua/files.hpp"
+#include "bindings/lua/measure.hpp"
+#include "bindings/lua/session.hpp"
+#include "bindings/lua/surface.hpp"
+#include "engine/experiment/picture_profile.hpp"
+#include "engine/metrology/levelling.hpp"
+#include "engine/surface/io/read.hpp"
+#include "engine/surface/io/write.hpp"
+#include "engine/surface/operations.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+Value::Numbers numbers(std::span<const double> values) {
+  return std::make_shared<const Array<double>>(values.begin(), values.end());
+}
+
+Values heights(Call& call) { return {numbers(call.self<Profile>().heights())}; }
+
+Values positions(Call& call) {
+  const Profile& p = call.self<Profile>();
+  Array<double> x(static_cast<std::size_t>(p.size()));
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = static_cast<double>(k) * p.spacing();
+  return {numbers(x)};
+}
+
+// x and y of a closed outline about its centre.
+Values outline(Call& call) {
+  const Profile& p = call.self<Profile>();
+  if (!p.closed())
+    throw Error(ErrorCode::bad_state, "the profile is not a closed outline", "grain_profile makes one");
+  const auto h = p.heights();
+  Array<double> x(h.size()), y(h.size());
+  for (std::size_t k = 0; k < h.size(); ++k) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(h.size());
+    x[k] = (*p.closed_radius() + h[k]) * std::cos(angle);
+    y[k] = (*p.closed_radius() + h[k]) * std::sin(angle);
+  }
+  return {numbers(x), numbers(y)};
+}
+
+Values roughness_of(Call& call) { return {roughness_record(roughness(call.self<Profile>()), false)}; }
+Values spectrum_of(Call& call) {
+  return {spectrum_record(spectrum(call.self<Profile>(), call.options(spectrum_block())), false)};
+}
+Values fractal_dimension_of(Call& call) {
+  return {fractal_dimension_record(
+      fractal_dimension(call.self<Profile>(), call.options(fractal_dimension_block(false))))};
+}
+Values filtered(Call& call) {
+  return {object(gaussian_filtered(call.self<Profile>(), call.options(filter_block())))};
+}
+Values level(Call& call) {
+  return {object(levelled(call.self<Profile>(), call.options(level_block()).degree))};
+}
+
+Values cut_off(Call& call) { return {object(cut(call.self<Profile>(), call.options(cut_block()).fraction))}; }
+
+struct ProfilePictureKeys {
+  std::string title;
+};
+const Block<ProfilePictureKeys>& profile_picture_block() {
+  static const Block<ProfilePictureKeys> block{
+      "picture", {text("title", &ProfilePictureKeys::title, "above the picture")}};
+  return block;
+}
+Values picture(Call& call) {
+  const ProfilePictureKeys keys = call.options(profile_picture_block(), 2);
+  const std::string path = writable_path(call, call.text(1, "path"));
+  draw(call.self<Profile>(), keys.title, path);
+  return {path};
+}
+
+Values write(Call& call) {
+  const Profile& profile = call.self<Profile>();
+  const std::string path = writable_path(call, call.text(1, "path"));
+  write_profile(profile, path, call.session().monitor());
+  return {path};
+}
+
+const Block<ReadProfileOptions>& read_block() {
+  using O = ReadProfileOptions;
+  static const Block<O> block{
+      "lab.profile.read",
+      {quantity("spacing", &O::spacing, dimension::length, above(0),
+                "distance between samples, where the file has none"),
+       unit_key(&O::unit), fill_key(&O::fill),
+       text("format", &O::format, "read as this format whatever the file looks like")}};
+  return block;
+}
+
+Values read(Call& call) {
+  const std::string path = call.text(1, "path");
+  const ReadProfileOptions options = call.options(read_block(), 2);
+  note_input(call, path);
+  return {object(read_profile(path, options, call.session().monitor()))};
+}
+
+std::string describe(const void* self) {
+  const auto& p = *static_cast<const Profile*>(self);
+  return (p.closed() ? "closed profile of " : "profile of ") + std::to_string(p.size()) + " samples, " +
+         format_quantity(p.length(), dimension::length) + " long, peak to valley " +
+         format_quantity(p.height_range().span(), dimension::length);
+}
+std::size_t native_bytes(const void* self) {
+  return static_cast<const Profile*>(self)->heights().size_bytes();
+}
+bool equal(const void* a, const void* b) {
+  return static_cast<const Profile*>(a)->digest() == static_cast<const Profile*>(b)->digest();
+}
+std::string digest(const void* self) { return static_cast<const Profile*>(self)->digest(); }
+
+}  // namespace
+
+const Class& profile_class() {
+  static const Class type = [] {
+    Class c;
+    c.name = "Profile";
+    c.article_name = "a profile";
+    c.sentence =
+        "Heights at equal spacing along a line, or once around a closed outline; an immutable value.";
+    c.describe = describe;
+    c.native_bytes = native_bytes;
+    c.equal = equal;
+    c.digest = digest;
+    c.fields = {
+        {"points",
+         "integer",
+         "number of samples",
+         {},
+         [](Call& call) -> Values { return {call.self<Profile>().size()}; }},
+        {"spacing", "number", "distance between samples", dimension::length,
+         [](Call& call) -> Values { return {call.self<Profile>().spacing()}; }},
+        {"length", "number", "samples times spacing", dimension::length,
+         [](Call& call) -> Values { return {call.self<Profile>().length()}; }},
+        {"radius", "number", "of a closed outline, whose heights are r - radius; else nil", dimension::length,
+         [](Call& call) -> Values { return {Value(call.self<Profile>().closed_radius())}; }},
+        {"digest",
+         "string",
+         "equal profiles have equal digests",
+         {},
+         [](Call& call) -> Values { return {call.self<Profile>().digest()}; }},
+    };
+    c.methods = {
+        {.name = "heights",
+         .body = heights,
+         .sentence = "All heights in metres.",
+         .returns = "number[]",
+         .example = "local z = p:heights()"},
+        {.name = "positions",
+         .body = positions,
+         .sentence = "Positions of the samples along the profile in metres.",
+         .returns = "number[]",
+         .example = "local x = p:positions()"},
+        {.name = "outline",
+         .body = outline,
+         .sentence = "x and y of the points of a closed outline: two tables.",
+         .returns = "number[]",
+         .example = "local x, y = grain:outline()"},
+        {.name = "roughness",
+         .body = roughness_of,
+         .sentence = "Amplitude and slope statistics (ISO 21920-2).",
+         .returns = "table",
+         .example = "print(p:roughness().Ra)"},
+        {.name = "spectrum",
+         .body = spectrum_of,
+         .sentence = "Power spectral density along the profile.",
+         .options = &spectrum_block(),
+         .options_optional = true,
+         .returns = "table",
+         .example = "local c = p:spectrum().C"},
+        {.name = "fractal_dimension",
+         .body = fractal_dimension_of,
+         .sentence = "Fractal dimension of the profile.",
+         .options = &fractal_dimension_block(false),
+         .options_optional = true,
+         .returns = "table",
+         .example = "print(p:fractal_dimension{}.D)"},
+        {.name = "filtered",
+         .body = filtered,
+         .sentence = "ISO 16610-21 Gaussian filter.",
+         .options = &filter_block(),
+         .returns = "Profile",
+         .example = "p:filtered{ long_wave=\"0.8 mm\" }"},
+        {.name = "levelled",
+         .body = level,
+         .sentence = "Less the least-squares polynomial of a degree.",
+         .options = &level_block(),
+         .options_optional = true,
+         .returns = "Profile",
+         .example = "p:levelled()"},
+        {.name = "cut",
+         .body = cut_off,
+         .sentence = "Heights above max - fraction * peak-to-valley brought down to it.",
+         .options = &cut_block(),
+         .returns = "Profile",
+         .example = "p:cut{ fraction=0.2 }"},
+        {.name = "picture",
+         .body = picture,
+         .sentence = "A drawing of the profile, or of the shape of a closed outline: .svg or .png.",
+         .parameters = {{"path", "string", "under the run directory"}},
+         .options = &profile_picture_block(),
+         .options_optional = true,
+         .returns = "string",
+         .example = "grain:picture \"grain.svg\"",
+         .heavy = true},
+        {.name = "write",
+         .body = write,
+         .sentence = "Writes the profile: .csv, .txt or .npy by the extension of the path.",
+         .parameters = {{"path", "string", "under the run directory"}},
+         .returns = "string",
+         .heavy = true},
+    };
+    return c;
+  }();
+  return type;
+}
+
+template <>
+const Class& class_of<Profile>() {
+  return profile_class();
+}
+
+const Module& profile_module() {
+  static const Module module = [] {
+    Module m;
+    m.path = "lab.profile";
+    m.sentence = "Profiles: stylus traces from files. Surfaces give others with s:profile and s:profiles.";
+    m.functions = {
+        {.name = "read",
+         .body = read,
+         .sentence = "A stylus trace from a file: a profiler's CSV, NPY, or text of one or two columns.",
+         .parameters = {{"path", "string", "the file"}},
+         .options = &read_block(),
+         .options_optional = true,
+         .returns = "Profile",
+         .example = "local trace = lab.profile.read \"scan.csv\"",
+         .heavy = true}};
+    return m;
+  }();
+  return module;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/state.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "bindings/lua/embedded.hpp"
+#include "bindings/lua/placeholder.hpp"
+#include "bindings/lua/registry.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/text.hpp"
+#include "engine/experiment/run_directory.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+// Lua's heap falls under the same limit as the engine's grids.
+void* allocate(void*, void* block, std::size_t old_size, std::size_t new_size) {
+  const auto held = static_cast<std::int64_t>(block == nullptr ? 0 : old_size);
+  if (new_size == 0) {
+    std::free(block);
+    memory::account(-held);
+    return nullptr;
+  }
+  const std::int64_t change = static_cast<std::int64_t>(new_size) - held;
+  if (!memory::account(change)) return nullptr;
+  void* moved = std::realloc(block, new_size);
+  if (moved == nullptr) memory::account(-change);
+  return moved;
+}
+
+int open_library(lua_State* L) {
+  push_library(L);
+  return 1;
+}
+
+// host.output_path(name) -> path, or nil and why not.
+int output_path_body(lua_State* L) {
+  std::string result;
+  bool good = true;
+  try {
+    const Session& session = Session::of(L);
+    const std::string name(Argument(L, 1).text());
+    if (session.is_case)
+      throw Error(ErrorCode::not_permitted, "a case of an ensemble writes no files",
+                  "return what it found, and write after the loop");
+    result = session.run == nullptr ? name : session.run->path_for(name).string();
+  } catch (const std::exception& error) {
+    result = error.what();
+    good = false;
+  }
+  auto action = [&](lua_State* state) {
+    if (!good) lua_pushnil(state);
+    lua_pushlstring(state, result.data(), result.size());
+    return good ? 1 : 2;
+  };
+  const int results = good ? 1 : 2;
+  return protect(L, 0, results, action) == LUA_OK ? results : -1;
+}
+
+int output_path(lua_State* L) {
+  const int results = output_path_body(L);
+  return results < 0 ? lua_error(L) : results;
+}
+
+// host.unknown_global(name, _G) -> message
+int unknown_global_body(lua_State* L) {
+  std::string message;
+  try {
+    const Argument name(L, 1);
+    std::vector<std::string> names;
+    Argument(L, 2).each([&](const Argument& key, const Argument&) {
+      if (key.is_text()) names.emplace_back(key.text());
+    });
+    const std::string shown(name.is_text() ? name.text().substr(0, 60) : std::string_view("?"));
+    message = "the global " + quoted(shown) + " was never set" + did_you_mean(shown, names);
+  } catch (const std::exception& error) {
+    message = error.what();
+  }
+  auto action = [&](lua_State* state) {
+    lua_pushlstring(state, message.data(), message.size());
+    return 1;
+  };
+  return protect(L, 0, 1, action) == LUA_OK ? 1 : -1;
+}
+
+int unknown_global(lua_State* L) { return unknown_global_body(L) < 0 ? lua_error(L) : 1; }
+
+// os.exit([code]): ends the run properly; true and nothing mean success.
+void exit_body(lua_State* L) {
+  const Session& session = Session::of(L);
+  if (session.is_case) return;
+  int code = 0;
+  if (lua_isboolean(L, 1))
+    code = lua_toboolean(L, 1) != 0 ? 0 : 1;
+  else if (lua_isinteger(L, 1))
+    code = static_cast<int>(lua_tointeger(L, 1));
+  if (session.exit_hook) session.exit_hook(code);
+  std::fflush(nullptr);
+  std::_Exit(code);
+}
+
+int exit_run(lua_State* L) {
+  exit_body(L);
+  return luaL_error(L, "a case of an ensemble cannot end the run");
+}
+
+struct Setup {
+  Session* session;
+  const char* script_folder;
+};
+
+// Raises Lua errors; runs under lua_pcall.
+int set_up(lua_State* L) {
+  const auto& setup = *static_cast<const Setup*>(lua_touserdata(L, 1));
+  Session& session = *setup.session;
+  luaL_openlibs(L);
+  Session::attach(L, session);
+  if (session.dry_run) open_dry_run_library(L);
+
+  lua_getglobal(L, "math");
+  lua_getfield(L, -1, "randomseed");
+  lua_pushinteger(L, static_cast<lua_Integer>(session.seed));
+  lua_pushinteger(L, 0);
+  lua_call(L, 2, 0);
+  lua_pop(L, 1);
+
+  luaL_requiref(L, "asperity", open_library, 0);
+  lua_pop(L, 1);
+  preload_embedded_scripts(L);
+
+  if (setup.script_folder[0] != '\0') {
+    lua_getglobal(L, "package");
+    lua_pushfstring(L, "%s/?.lua;%s/?/init.lua", setup.script_folder, setup.script_folder);
+    lua_setfield(L, -2, "path");
+    lua_pop(L, 1);
+  }
+
+  const std::string_view sandbox = embedded_script("sandbox");
+  if (luaL_loadbufferx(L, sandbox.data(), sandbox.size(), "=sandbox", "t") != LUA_OK) return lua_error(L);
+  lua_createtable(L, 0, 3);
+  lua_pushcfunction(L, exit_run);
+  lua_setfield(L, -2, "exit");
+  lua_pushcfunction(L, output_path);
+  lua_setfield(L, -2, "output_path");
+  lua_pushcfunction(L, unknown_global);
+  lua_setfield(L, -2, "unknown_global");
+  lua_pushboolean(L, session.trusted ? 1 : 0);
+  lua_call(L, 2, 0);
+  return 0;
+}
+
+}  // namespace
+
+State make_state(Session& session, const std::string& script_folder) {
+  State state(lua_newstate(allocate, nullptr));
+  if (state == nullptr) throw Error(ErrorCode::out_of_memory, "there is no memory for a Lua state");
+  lua_State* L = state.get();
+  Setup setup{&session, script_folder.c_str()};
+  lua_pushcfunction(L, set_up);
+  lua_pushlightuserdata(L, &setup);
+  if (lua_pcall(L, 1, 0, 0) != LUA_OK) {
+    const std::string message = error_text(L, -1);
+    throw Error(ErrorCode::internal, "the Lua state could not be set up: " + message);
+  }
+  return state;
+}
+
+namespace {
+void stop_hook(lua_State* L, lua_Debug*) {
+  switch (stop_flag().reason()) {
+    case StopReason::none:
+      return;
+    case StopReason::interrupt:
+      luaL_error(L, "interrupted");
+      return;
+    case StopReason::time_limit:
+      luaL_error(L, "the time limit of the run is reached");
+      return;
+    case StopReason::memory_limit:
+      luaL_error(L, "the memory limit of the run is reached");
+      return;
+  }
+}
+}  // namespace
+
+void interrupt(lua_State* L) {
+  lua_sethook(L, stop_hook, LUA_MASKCALL | LUA_MASKRET | LUA_MASKLINE | LUA_MASKCOUNT, 1);
+}
+
+void watch_for_stops(lua_State* L) {
+  constexpr int instructions = 10000;
+  lua_sethook(L, stop_hook, LUA_MASKCOUNT, instructions);
+}
+
+std::string error_text(lua_State* L, int index) {
+  index = lua_absindex(L, index);
+  if (lua_type(L, index) == LUA_TSTRING) return std::string(Argument(L, index).text());
+  lua_pushvalue(L, index);
+  auto action = [](lua_State* s) {
+    luaL_tolstring(s, 1, nullptr);
+    return 1;
+  };
+  std::string text = "(an error value that cannot be shown)";
+  if (protect(L, 1, 1, action) == LUA_OK && lua_type(L, -1) == LUA_TSTRING) {
+    text = Argument(L, -1).text();
+    if (lua_type(L, index) != LUA_TUSERDATA) text = "(error value: " + text + ")";
+  }
+  lua_pop(L, 1);
+  return text;
+}
+
+int traceback_handler(lua_State* L) {
+  // Raising here is allowed: lua_pcall then reports LUA_ERRERR.
+  if (lua_type(L, 1) != LUA_TSTRING) {
+    luaL_tolstring(L, 1, nullptr);
+    if (lua_type(L, 1) != LUA_TUSERDATA) {
+      lua_pushliteral(L, "(error value: ");
+      lua_insert(L, -2);
+      lua_pushliteral(L, ")");
+      lua_concat(L, 3);
+    }
+    lua_replace(L, 1);
+  }
+  lua_settop(L, 1);
+  luaL_traceback(L, L, lua_tostring(L, 1), 1);
+  return 1;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fields and methods of a state (a contact under load) and of its fields over the tile. A field
+// is worked out when the script reads it, and not before.
+#include "bindings/lua/catalogue.hpp"
+#include "bindings/lua/contact.hpp"
+#include "bindings/lua/files.hpp"
+#include "bindings/lua/picture.hpp"
+#include "bindings/lua/session.hpp"
+#include "bindings/lua/surface.hpp"
+#include "engine/contact/geometry.hpp"
+#include "engine/core/node_value.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+using Contacting = asperity::State;
+
+// A field of a state that is one member function.
+template <auto member>
+Values read(Call& call) {
+  return {Value((call.self<Contacting>().*member)())};
+}
+
+Record cost_record(const Cost& cost, std::string name) {
+  Record record;
+  record.name = std::move(name);
+  record.add("seconds", cost.seconds, dimension::time)
+      .add("transforms", cost.transforms)
+      .add("bytes", cost.bytes);
+  return record;
+}
+
+Values cost_of(Call& call) {
+  const StateCost& cost = call.self<Contacting>().cost();
+  Record record = cost_record(cost.total, "cost");
+  Record by_effect;
+  by_effect.name = "cost by effect";
+  for (const auto& [effect, share] : cost.by_effect) by_effect.add(effect, cost_record(share, effect));
+  record.add("by_effect", std::move(by_effect));
+  return {std::move(record)};
+}
+
+Values certificate_of(Call& call) {
+  const Certificate& c = call.self<Contacting>().certificate();
+  Record record;
+  record.name = "certificate";
+  record.add("penetration", c.penetration)
+      .add("tension", c.tension)
+      .add("complementarity", c.complementarity)
+      .add("load", c.load)
+      .add("cap", c.cap);
+  return {std::move(record)};
+}
+
+List texts(const std::vector<std::string>& items) {
+  List list;
+  for (const std::string& item : items) list.items.emplace_back(item);
+  return list;
+}
+
+Value numbers(const std::vector<double>& values) {
+  return Value::Numbers(std::make_shared<const Array<double>>(values.begin(), values.end()));
+}
+
+Values spot_areas(Call& call) { return {numbers(call.self<Contacting>().spot_areas())}; }
+
+Dimension field_dimension(const std::string& name) {
+  if (name == "pressure") return dimension::pressure;
+  return name == "contact" ? dimension::number : dimension::length;
+}
+
+Values field(Call& call) {
+  const Contacting& state = call.self<Contacting>();
+  const std::string name = call.text(1, "name");
+  return {object(StateField{name, state.geometry().grid(), state.field(name), field_dimension(name)})};
+}
+
+Values deformed(Call& call) { return {object(call.self<Contacting>().deformed(call.text(1, "body")))}; }
+
+const Block<HistogramOptions>& histogram_block() {
+  using O = HistogramOptions;
+  static const Block<O> block{"distribution",
+                              {integer("bins", &O::bins, between(1, 100000), "number of bins"),
+                               flag("log", &O::log, "bins of equal ratio instead of equal width")}};
+  return block;
+}
+
+Values distribution(Call& call) {
+  const HistogramOptions options = call.options(histogram_block(), 2);
+  const Histogram h = call.self<Contacting>().distribution(call.text(1, "name"), options);
+  List counts;
+  for (const std::int64_t n : h.counts) counts.items.emplace_back(n);
+  Record record;
+  record.name = "distribution";
+  record.add("edges", numbers(h.edges))
+      .add("counts", std::move(counts))
+      .add("density", numbers(h.density))
+      .add("values", h.values)
+      .add("mean", h.mean);
+  return {std::move(record)};
+}
+
+std::string describe(const void* self) { return static_cast<const Contacting*>(self)->text(); }
+std::string digest(const void* self) { return static_cast<const Contacting*>(self)->digest(); }
+bool equal(const void* a, const void* b) {
+  return static_cast<const Contacting*>(a)->digest() == static_cast<const Contacting*>(b)->digest();
+}
+
+// --- fields over the tile
+
+Values field_value(Call& call) {
+  return {node_value(*call.self<StateField>().values, call.number(1, "i"), call.number(2, "j"))};
+}
+
+Values field_values(Call& call) { return {Value::Rows(call.self<StateField>().values)}; }
+
+Values field_picture(Call& call) {
+  const StateField& f = call.self<StateField>();
+  PictureOptions options = call.options(picture_block(), 2);
+  if (options.label == PictureOptions{}.label) options.label = f.name;
+  options.unit = si_unit(f.dimension);
+  if (options.palette == PictureOptions{}.palette && f.name == "contact") options.palette = "contact";
+  if (options.palette == PictureOptions{}.palette && f.name == "pressure") options.palette = "heat";
+  const std::string path = writable_path(call, call.text(1, "path"));
+  draw(f.grid, *f.values, options, path);
+  return {path};
+}
+
+std::string describe_field(const void* self) {
+  const auto& f = *static_cast<const StateField*>(self);
+  const Range r = range(f.values->values());
+  return f.name + " field " + std::to_string(f.grid.nx) + " x " + std::to_string(f.grid.ny) + ", from " +
+         format_quantity(r.min, f.dimension) + " to " + format_quantity(r.max, f.dimension);
+}
+
+std::size_t field_bytes(const void* self) {
+  return static_cast<const StateField*>(self)->values->size() * sizeof(double);
+}
+
+}  // namespace
+
+const Class& state_class() {
+  using S = Contacting;
+  static const Class type = [] {
+    Class c;
+    c.name = "State";
+    c.article_name = "a state";
+    c.sentence =
+        "A contact under load: an immutable value whose fields are computed when they are first read.";
+    c.describe = describe;
+    c.digest = digest;
+    c.equal = equal;
+    c.fields = {
+        {"load", "number", "force on the whole tile", dimension::force, read<&S::load>},
+        {"pressure", "number", "load over the nominal area", dimension::pressure, read<&S::pressure>},
+        {"approach", "number", "from first touch", dimension::length, read<&S::approach>},
+        {"indentation",
+         "number",
+         "approach over the peak-to-valley of the combined heights",
+         {},
+         read<&S::indentation>},
+        {"flatten", "number", "share of that peak-to-valley pressed away", {}, read<&S::flatten>},
+        {"area", "number", "real contact area", dimension::area, read<&S::area>},
+        {"area_fraction", "number", "nodes in contact over all nodes", {}, read<&S::area_fraction>},
+        {"corrected_area_fraction",
+         "number",
+         "area fraction less the excess of its stepped outline",
+         {},
+         read<&S::corrected_area_fraction>},
+        {"contacts", "integer", "nodes in contact", {}, read<&S::contacts>},
+        {"spots", "integer", "regions of contact joined by an edge", {}, read<&S::spots>},
+        {"spots8", "integer", "regions of contact joined by an edge or a corner", {}, read<&S::spots8>},
+        {"peak_pressure", "number", "greatest pressure", dimension::pressure, read<&S::peak_pressure>},
+        {"mean_gap", "number", "mean over the tile of the gap where it is open", dimension::length,
+         read<&S::mean_gap>},
+        {"stiffness", "number", "d pressure / d approach at this contact set", dimension::stiffness,
+         read<&S::stiffness>},
+        {"secant_stiffness", "number", "pressure over approach", dimension::stiffness,
+         read<&S::secant_stiffness>},
+        {"energy", "number", "elastic energy in the tile", dimension::energy, read<&S::energy>},
+        {"plastic_volume", "number", "volume this press took from both bodies; needs plasticity",
+         dimension::volume, read<&S::plastic_volume>},
+        {"plastic_fraction",
+         "number",
+         "share of the tile at the cap; needs plasticity",
+         {},
+         read<&S::plastic_fraction>},
+        {"iterations", "integer", "of the solver; 0 for a closed form", {}, read<&S::iterations>},
+        {"residual", "number", "greatest entry of the certificate", {}, read<&S::residual>},
+        {"certificate",
+         "table",
+         "how far the contact conditions are from being met, each relative",
+         {},
+         certificate_of},
+        {"converged",
+         "boolean",
+         "whether every entry of the certificate is within the tolerance",
+         {},
+         read<&S::converged>},
+        {"solver",
+         "string",
+         "what found the solution",
+         {},
+         [](Call& call) -> Values { return {std::string(call.self<S>().solver())}; }},
+        {"effects_run",
+         "string[]",
+         "effects that were computed",
+         {},
+         [](Call& call) -> Values { return {texts(call.self<S>().effects_run())}; }},
+        {"effects_off",
+         "string[]",
+         "effects that the scene does not name",
+         {},
+         [](Call& call) -> Values { return {texts(call.self<S>().effects_off())}; }},
+        {"cost", "table", "seconds, transforms, bytes, and by effect", {}, cost_of},
+        {"digest", "string", "of pressures and approach", {}, read<&S::digest>},
+    };
+    c.methods = {
+        {.name = "spot_areas",
+         .body = spot_areas,
+         .sentence = "Areas of the contact regions in m^2, largest first.",
+         .returns = "number[]",
+         .example = "local areas = st:spot_areas()"},
+        {.name = "field",
+         .body = field,
+         .sentence = "A field over the tile: pressure, gap, contact or displacement.",
+         .parameters = {{"name", "\"pressure\"|\"gap\"|\"contact\"|\"displacement\"|\"plastic\"", "which"}},
+         .returns = "Field",
+         .example = "st:field \"pressure\":picture \"pressure.png\""},
+        {.name = "deformed",
+         .body = deformed,
+         .sentence = "A body under load, in its own frame.",
+         .parameters = {{"body", "\"lower\"|\"upper\"", "which"}},
+         .returns = "Surface",
+         .example = "local flattened = st:deformed \"lower\""},
+        {.name = "distribution",
+         .body = distribution,
+         .sentence =
+             "Probability density of the pressures in contact, of the open gaps or of the spot areas.",
+         .parameters = {{"name", "\"pressure\"|\"gap\"|\"spot_area\"", "of what"}},
+         .options = &histogram_block(),
+         .options_optional = true,
+         .returns = "table",
+         .example = "local d = st:distribution(\"pressure\", { bins=40 })"},
+    };
+    return c;
+  }();
+  return type;
+}
+
+const Class& field_class() {
+  using F = StateField;
+  static const Class type = [] {
+    Class c;
+    c.name = "Field";
+    c.article_name = "a field";
+    c.sentence = "A quantity at every node of the tile.";
+    c.describe = describe_field;
+    c.native_bytes = field_bytes;
+    c.fields = {
+        {"name", "string", "what it is", {}, [](Call& call) -> Values { return {call.self<F>().name}; }},
+        {"unit",
+         "string",
+         "SI unit of its values",
+         {},
+         [](Call& call) -> Values { return {si_unit(call.self<F>().dimension)}; }},
+        {"min",
+         "number",
+         "least value",
+         {},
+         [](Call& call) -> Values { return {range(call.self<F>().values->values()).min}; }},
+        {"max",
+         "number",
+         "greatest value",
+         {},
+         [](Call& call) -> Values { return {range(call.self<F>().values->values()).max}; }},
+        {"mean",
+         "number",
+         "mean over all nodes",
+         {},
+         [](Call& call) -> Values { return {mean(call.self<F>().values->values())}; }},
+    };
+    c.methods = {
+        {.name = "value",
+         .body = field_value,
+         .sentence = "The value at node (i, j), counted from 0.",
+         .parameters = {{"i", "integer", "along x"}, {"j", "integer", "along y"}},
+         .returns = "number"},
+        {.name = "values",
+         .body = field_values,
+         .sentence = "All values as a table of rows, values[j+1][i+1].",
+         .returns = "number[][]"},
+        {.name = "picture",
+         .body = field_picture,
+         .sentence = "A picture of the field as PNG, true to scale.",
+         .parameters = {{"path", "string", "a .png under the run directory"}},
+         .options = &picture_block(),
+         .options_optional = true,
+         .returns = "string",
+         .heavy = true},
+    };
+    return c;
+  }();
+  return type;
+}
+
+template <>
+const Class& class_of<asperity::State>() {
+  return state_class();
+}
+template <>
+const Class& class_of<StateField>() {
+  return field_class();
+}
+
+}  // namespace asperity::lua

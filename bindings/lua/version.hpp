@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The version of the program and of what it is built on.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace asperity::lua {
+
+std::string version_text();  // "0.1.0"
+// Name and version of the program, its compiler, Lua and the libraries it was built with.
+std::vector<std::pair<std::string, std::string>> version_facts();
+
+}  // namespace asperity::lua

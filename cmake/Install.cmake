@@ -1,0 +1,8 @@
+# cmake --install build/release --prefix /usr/local: the program, the module where Debian's lua5.4
+# looks for it, the documents, the editor's types and the examples.
+include(GNUInstallDirs)
+install(TARGETS asperity RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS asperity_module LIBRARY DESTINATION lib/lua/5.4)
+install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})

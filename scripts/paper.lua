@@ -1,0 +1,101 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What the examples of the source paper share: Hanaor, Gan and Einav (2013), "Effects of surface
+-- structure deformation on static friction at fractal interfaces", Geotechnique Letters 3. Its surfaces
+-- of eq. (2), its boxes on a rigid flat, the load, and the averages over seeds. `require "asperity.paper"`.
+-- It measures nothing by itself: what a figure shows is computed in that figure's own script.
+local lab = require "asperity"
+local paper = {}
+
+-- The paper gives L = 50, G = 5 and 150 x 150 cells, but not how far the grid reaches: preset A covers
+-- one sample length L, preset B three (cells one unit wide). Both are shown everywhere.
+paper.presets = { "A", "B" }
+paper.spans = { A = 1, B = 3 }
+paper.dimensions = { 2.0, 2.1, 2.2, 2.3, 2.4, 2.5, 2.6, 2.7, 2.8, 2.9 }
+
+-- Boxes do not shear and do not widen (Poisson's ratio 0). Every ratio below is free of Young's modulus.
+paper.young = 1e9
+paper.box = lab.material{ name = "box elements", young = paper.young, poisson = 0 }
+paper.pressure = 0.01 * paper.young
+
+-- L and G in micrometres, so that lengths read like a specimen's; the peak-to-valley height A is set to a
+-- tenth of the side at every D ("constant amplitude"). `raw` leaves the heights as eq. (2) gives them.
+function paper.surface(given)
+  local cells = given.cells or 150
+  local s = lab.surface.weierstrass_mandelbrot{
+    cells = cells, D = given.D, seed = given.seed, span = paper.spans[given.preset],
+    L = "50 um", G = "5 um", material = paper.box,
+  }
+  return given.raw and s or s:scaled{ amplitude = 0.1 * (cells - 1) * s.size[1] / cells }
+end
+
+-- The contact of such a surface with the rigid flat. A box is as stiff as a column of height A, which is
+-- the surface's own peak-to-valley height unless it is given.
+function paper.contact(surface, A)
+  return lab.contact{
+    lower = surface, upper = lab.rigid,
+    effects = { elasticity = A and { model = "box", stiffness = paper.young / A } or "box" },
+  }
+end
+
+-- Arguments `name=value` of a run, over the defaults, each of the default's own type.
+function paper.arguments(defaults, ...)
+  local options = {}
+  for name, value in pairs(defaults) do options[name] = value end
+  for _, word in ipairs{ ... } do
+    local name, text = word:match "^([%a_]+)=(.+)$"
+    local default = defaults[name]
+    if default == nil then
+      local names = {}
+      for known in lab.sorted(defaults) do names[#names + 1] = known .. "=" end
+      error("`" .. word .. "` is no argument of this script; it takes " .. table.concat(names, ", "), 0)
+    end
+    local value = text
+    if type(default) == "number" then value = math.tointeger(tonumber(text)) or tonumber(text) end
+    if value == nil then error("`" .. name .. "` must be a number, and is `" .. text .. "`", 0) end
+    options[name] = value
+  end
+  return options
+end
+
+function paper.count(n)
+  local list = {}
+  for k = 1, n do list[k] = k end
+  return list
+end
+
+-- One row for each combination of the columns `keys`, in order of first appearance: the mean of every
+-- other column of numbers but the seed, and beside it, as NAME_sd, the standard deviation (n - 1).
+function paper.means(rows, keys)
+  local groups, order, is_key = {}, {}, {}
+  for _, key in ipairs(keys) do is_key[key] = true end
+  for _, row in ipairs(rows) do
+    local parts = {}
+    for k, key in ipairs(keys) do parts[k] = tostring(row[key]) end
+    local name = table.concat(parts, "|")
+    if not groups[name] then
+      groups[name] = {}
+      order[#order + 1] = name
+    end
+    table.insert(groups[name], row)
+  end
+  local result = {}
+  for k, name in ipairs(order) do
+    local group, mean = groups[name], {}
+    for column, value in pairs(group[1]) do
+      if is_key[column] then
+        mean[column] = value
+      elseif type(value) == "number" and column ~= "seed" then
+        local sum, squares = 0, 0
+        for _, row in ipairs(group) do sum = sum + row[column] end
+        local centre = sum / #group
+        for _, row in ipairs(group) do squares = squares + (row[column] - centre) ^ 2 end
+        mean[column] = centre
+        if #group > 1 then mean[column .. "_sd"] = math.sqrt(squares / (#group - 1)) end
+      end
+    end
+    result[k] = mean
+  end
+  return result
+end
+
+return paper

@@ -1,0 +1,96 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What a script may reach. Called once with the host's functions before a script is loaded; leaves
+-- Lua's own libraries less what acts outside the run: no other programs, no C libraries, no bytecode,
+-- no hooks or metatables of native values, and files are written only under the run directory.
+-- With `trusted` nothing is taken away. Globals are strict either way.
+local host, trusted = ...
+
+local error, type, select, rawget, rawset, getmetatable, setmetatable, tostring, pcall =
+  error, type, select, rawget, rawset, getmetatable, setmetatable, tostring, pcall
+local getinfo, open, find = debug.getinfo, io.open, string.find
+
+os.exit = host.exit
+
+if not trusted then
+  local function refused(what, instead)
+    return function()
+      error(what .. " is not available to a script" .. (instead and "; " .. instead or "")
+        .. " (asperity run --trust gives the whole of Lua)", 2)
+    end
+  end
+
+  os.execute = refused("os.execute")
+  os.tmpname = refused("os.tmpname", "give the file a name: it goes to the run directory")
+  os.setlocale = refused("os.setlocale")
+  io.popen = refused("io.popen")
+  io.tmpfile = refused("io.tmpfile", "give the file a name: it goes to the run directory")
+
+  -- Files are read anywhere and written under the run directory only.
+  local function destination(path)
+    if type(path) ~= "string" then error("a file name must be a string, and is a " .. type(path), 3) end
+    local place, message = host.output_path(path)
+    if not place then error(message, 3) end
+    return place
+  end
+  function io.open(path, mode)
+    if mode ~= nil and find(tostring(mode), "[wa+]") then path = destination(path) end
+    return open(path, mode)
+  end
+  local output = io.output
+  function io.output(file)
+    if type(file) == "string" then
+      local handle, message = open(destination(file), "w")
+      if not handle then error(message, 2) end
+      return output(handle)
+    end
+    return output(file)
+  end
+  local remove, rename = os.remove, os.rename
+  function os.remove(path) return remove(destination(path)) end
+  function os.rename(from, to) return rename(destination(from), destination(to)) end
+
+  -- Chunks are text: bytecode can be made to crash the interpreter.
+  local load_any, loadfile_any = load, loadfile
+  function load(chunk, name, _, ...)
+    if select("#", ...) > 0 then return load_any(chunk, name, "t", (...)) end
+    return load_any(chunk, name, "t")
+  end
+  function loadfile(path, _, ...)
+    if select("#", ...) > 0 then return loadfile_any(path, "t", (...)) end
+    return loadfile_any(path, "t")
+  end
+  function dofile(path)
+    local chunk, message = loadfile_any(path, "t")
+    if not chunk then error(message, 0) end
+    return chunk()
+  end
+  local searchpath, path_of = package.searchpath, package
+  package.loadlib, package.cpath = nil, ""
+  package.searchers = {
+    package.searchers[1], -- package.preload
+    function(name)
+      local file, message = searchpath(name, path_of.path)
+      if not file then return message end
+      local chunk, problem = loadfile_any(file, "t")
+      if not chunk then error(problem, 0) end
+      return chunk, file
+    end,
+  }
+
+  debug = { traceback = debug.traceback, getinfo = debug.getinfo }
+  package.loaded.debug = debug
+end
+
+-- Strict globals: a name that was never set is a slip, not nil; a function may not make new ones.
+local meta = getmetatable(_G) or {}
+function meta.__index(_, name)
+  error(host.unknown_global(name, _G), 2)
+end
+function meta.__newindex(globals, name, value)
+  local frame = getinfo(2, "S")
+  if frame and frame.what ~= "main" and frame.what ~= "C" then
+    error("a function sets the global `" .. tostring(name) .. "`; write `local " .. tostring(name) .. "`", 2)
+  end
+  rawset(globals, name, value)
+end
+setmetatable(_G, meta)

@@ -1,0 +1,26 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- lab.sorted(t): goes through a table in the order of its keys, numbers first, then names, so that a
+-- script does the same on every run (pairs() promises no order).
+local function before(a, b)
+  if type(a) == type(b) then return a < b end
+  return type(a) == "number"
+end
+
+return function(t)
+  if type(t) ~= "table" and type(t) ~= "userdata" then
+    error("lab.sorted was given a " .. type(t) .. "; give a table", 2)
+  end
+  local keys = {}
+  for key in pairs(t) do
+    if type(key) ~= "number" and type(key) ~= "string" then
+      error("lab.sorted met a " .. type(key) .. " as a key; keys must be numbers or strings", 2)
+    end
+    keys[#keys + 1] = key
+  end
+  table.sort(keys, before)
+  local k = 0
+  return function()
+    k = k + 1
+    if keys[k] ~= nil then return keys[k], t[keys[k]] end
+  end
+end
