@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a plan holds for a scene of box elements, how it explains itself, and what it refuses.
+#include "engine/contact/plan.hpp"
+
+#include <algorithm>
+
+#include "engine/contact/elasticity/sorted_drops.hpp"
+#include "tests/contact/contacts.hpp"
+
+namespace asperity {
+namespace {
+
+using test::elastic;
+using test::error_of;
+using test::random_surface;
+using test::row_of;
+using test::scene_of;
+
+Plan plan_of(const Scene& scene) {
+  return make_plan(scene,
+                   ContactGeometry(scene, LatticeIsometry(scene.lower.grid().nx, scene.lower.grid().ny)));
+}
+
+const BoxOperator& box_of(const Plan& plan) { return std::get<BoxOperator>(plan.elasticity); }
+
+TEST(Plan, DefaultStiffnessIsModulusOverPeakToValley) {
+  const Surface lower = row_of({0, 1, 3, 8}).with_material(elastic(70e9, 0.33));
+  const double modulus = 70e9 / (1 - 0.33 * 0.33);
+  EXPECT_DOUBLE_EQ(box_of(plan_of(scene_of(lower, rigid_material()))).stiffness, modulus / 8);
+  // Two bodies: 1/E* is the sum of both compliances, and the peak-to-valley is that of both together.
+  const Surface upper = row_of({0, 0, 0, 4}).with_material(elastic(95e9, 0.08));
+  const double both = 1 / (1 / modulus + (1 - 0.08 * 0.08) / 95e9);
+  EXPECT_DOUBLE_EQ(box_of(plan_of(scene_of(lower, upper))).stiffness, both / 7);
+  EXPECT_DOUBLE_EQ(box_of(plan_of(scene_of(lower, elastic(95e9, 0.08)))).stiffness, both / 8);
+}
+
+TEST(Plan, GivenStiffnessNeedsNoMaterial) {
+  EXPECT_EQ(box_of(plan_of(scene_of(row_of({0, 1}), row_of({0, 1}), 5.0))).stiffness, 5);
+}
+
+TEST(Plan, BodiesShareTheShorteningAsTheirCompliances) {
+  const Surface bare = row_of({0, 1}), soft = bare.with_material(elastic(1)),
+                hard = bare.with_material(elastic(3));
+  const Surface rigid = bare.with_material(rigid_material());
+  auto share = [](const Surface& lower, const UpperBody& upper) {
+    return box_of(plan_of(scene_of(lower, upper, 1.0))).lower_share;
+  };
+  EXPECT_DOUBLE_EQ(share(soft, hard), 0.75);
+  EXPECT_DOUBLE_EQ(share(soft, elastic(3)), 0.75);
+  EXPECT_EQ(share(soft, rigid), 1);
+  EXPECT_EQ(share(rigid, soft), 0);
+  EXPECT_EQ(share(soft, rigid_material()), 1);
+  EXPECT_EQ(share(bare, bare), 0.5);
+  EXPECT_EQ(share(bare, Material{}), 1);
+}
+
+TEST(Plan, MissingMaterialNamesEffectBodyAndProperty) {
+  const Surface bare = row_of({0, 1}), soft = bare.with_material(elastic(1));
+  EXPECT_EQ(error_of([&] { plan_of(scene_of(bare, rigid_material())); }),
+            "box elements need `young` and `poisson` of the lower body to set their stiffness (effect "
+            "`elasticity`), "
+            "which has no material; give `material=` to the surface, or `stiffness` to the box elements");
+  EXPECT_NE(error_of([&] { plan_of(scene_of(soft, bare)); }).find("of the upper body"), std::string::npos);
+  Material half;
+  half.name = "cheese";
+  half.young = 1;
+  EXPECT_NE(error_of([&] { plan_of(scene_of(soft, half)); }).find("; `cheese` has no `poisson`; "),
+            std::string::npos);
+  EXPECT_NE(error_of([&] {
+              plan_of(scene_of(bare.with_material(rigid_material()), rigid_material()));
+            }).find("both bodies are rigid"),
+            std::string::npos);
+}
+
+TEST(Plan, EqualHeightsNeedAStiffness) {
+  const Surface plane = row_of({2, 2, 2}).with_material(elastic(1));
+  EXPECT_EQ(error_of([&] { plan_of(scene_of(plane, rigid_material())); }),
+            "all combined heights are equal, so E*/peak-to-valley gives box elements no stiffness; give "
+            "`stiffness` in "
+            "Pa/m");
+  // Two rough bodies that fit into each other are a plane as well.
+  EXPECT_NE(error_of([&] {
+              plan_of(scene_of(row_of({0, 1, 3}).with_material(elastic(1)),
+                               row_of({0, 2, 3}).with_material(elastic(1))));
+            }).find("all combined heights are equal"),
+            std::string::npos);
+}
+
+TEST(Plan, StiffnessOutOfRangeIsRefused) {
+  const Surface low = row_of({0, 1e-300}).with_material(elastic(1e12));
+  EXPECT_NE(error_of([&] { plan_of(scene_of(low, rigid_material())); }).find("comes to inf Pa/m"),
+            std::string::npos);
+}
+
+TEST(Plan, HoldsWhatTheSceneNeedsAndNothingMore) {
+  const Plan one = plan_of(test::boxes(random_surface(50, 40, 1), 1));
+  const std::int64_t nodes = 2000;
+  EXPECT_EQ(one.transforms, 0);
+  EXPECT_EQ(one.bytes_kept(), SortedDrops::bytes(2000));
+  EXPECT_EQ(one.bytes_peak(), one.bytes_kept() + 8 * nodes);
+  EXPECT_EQ(one.effects_run, std::vector<std::string>{"elasticity"});
+  EXPECT_EQ(std::count(one.effects_off.begin(), one.effects_off.end(), "plasticity"), 1);
+  const Plan two = plan_of(scene_of(random_surface(50, 40, 1), random_surface(50, 40, 2), 1.0));
+  EXPECT_EQ(two.bytes_kept(), one.bytes_kept() + 8 * nodes);
+}
+
+TEST(Plan, BytesForecastAreBytesMeasured) {
+  const Scene scene = scene_of(random_surface(200, 300, 1), random_surface(200, 300, 2), 1.0);
+  const Plan plan = plan_of(scene);
+  const std::int64_t before = memory::held();
+  const CostScope scope;
+  const auto solver = test::ready(scene);
+  EXPECT_EQ(memory::held() - before, plan.bytes_kept());
+  EXPECT_LE(scope.so_far().bytes, plan.bytes_peak());
+  EXPECT_GE(scope.so_far().bytes, plan.bytes_peak() * 9 / 10);
+}
+
+TEST(Plan, ExplainsItself) {
+  const std::string text =
+      plan_of(scene_of(row_of({0, 1, 3, 8}).with_material(elastic(16)), rigid_material())).text();
+  EXPECT_NE(text.find("contact of 4 x 1 cells, 4 m x 1 m, free boundary\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  elasticity    box elements, stiffness 2 Pa/m (E*/peak-to-valley, 16 Pa / 8 m)\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("  solver        closed form (sorted heights), tolerance 1e-06\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("  transforms    0 expected\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  off           plasticity, creep, "), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Connected regions and outlines against a flood fill that visits node by node.
+#include "engine/contact/regions.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "tests/contact/contacts.hpp"
+
+namespace asperity {
+namespace {
+
+struct Mask {
+  int nx, ny;
+  std::vector<std::uint8_t> on;
+};
+
+Mask drawn(const std::vector<std::string>& rows) {
+  Mask mask{static_cast<int>(rows.front().size()), static_cast<int>(rows.size()), {}};
+  for (const std::string& row : rows)
+    for (const char c : row) mask.on.push_back(c == '#' ? 1 : 0);
+  return mask;
+}
+
+std::vector<std::int64_t> sizes(const Mask& mask, Neighbours neighbours, bool wrap) {
+  const auto found = region_sizes(mask.on, mask.nx, mask.ny, neighbours, wrap);
+  return {found.begin(), found.end()};
+}
+
+std::vector<std::int64_t> flooded(Mask mask, Neighbours neighbours, bool wrap) {
+  std::vector<std::int64_t> result;
+  for (int start = 0; start < mask.nx * mask.ny; ++start) {
+    if (mask.on[static_cast<std::size_t>(start)] == 0) continue;
+    std::vector<int> open = {start};
+    mask.on[static_cast<std::size_t>(start)] = 0;
+    std::int64_t count = 0;
+    while (!open.empty()) {
+      const int node = open.back();
+      open.pop_back();
+      ++count;
+      for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di) {
+          if (neighbours == Neighbours::four && di != 0 && dj != 0) continue;
+          int i = node % mask.nx + di, j = node / mask.nx + dj;
+          if (wrap) {
+            i = (i + mask.nx) % mask.nx;
+            j = (j + mask.ny) % mask.ny;
+          }
+          if (i < 0 || j < 0 || i >= mask.nx || j >= mask.ny) continue;
+          std::uint8_t& value = mask.on[static_cast<std::size_t>(j * mask.nx + i)];
+          if (value == 0) continue;
+          value = 0;
+          open.push_back(j * mask.nx + i);
+        }
+    }
+    result.push_back(count);
+  }
+  return result;
+}
+
+TEST(Regions, CornersJoinOnlyEightNeighbours) {
+  const Mask mask = drawn({"##..", "..#.", "...#"});
+  EXPECT_EQ(sizes(mask, Neighbours::four, false), (std::vector<std::int64_t>{2, 1, 1}));
+  EXPECT_EQ(sizes(mask, Neighbours::eight, false), (std::vector<std::int64_t>{4}));
+}
+
+TEST(Regions, WrapJoinsAcrossRimsAndCorners) {
+  const Mask mask = drawn({"#..#", "....", "....", "#..#"});
+  EXPECT_EQ(sizes(mask, Neighbours::eight, false).size(), 4U);
+  EXPECT_EQ(sizes(mask, Neighbours::four, true), (std::vector<std::int64_t>{4}));
+  const Mask corners = drawn({"#...", "....", "...#"});
+  EXPECT_EQ(sizes(corners, Neighbours::four, true).size(), 2U);
+  EXPECT_EQ(sizes(corners, Neighbours::eight, true).size(), 1U);
+}
+
+TEST(Regions, BranchesThatMeetLateAreOneRegion) {
+  EXPECT_EQ(sizes(drawn({"#.#.#", "#.#.#", "#####"}), Neighbours::four, false),
+            (std::vector<std::int64_t>{11}));
+  EXPECT_EQ(sizes(drawn({"#####", "#...#", "#.#.#", "#...#", "#####"}), Neighbours::four, false),
+            (std::vector<std::int64_t>{16, 1}));
+}
+
+TEST(Regions, EmptyAndFullTiles) {
+  EXPECT_TRUE(sizes(drawn({"...", "..."}), Neighbours::eight, true).empty());
+  for (const bool wrap : {false, true})
+    EXPECT_EQ(sizes(drawn({"###", "###"}), Neighbours::four, wrap), (std::vector<std::int64_t>{6}));
+  EXPECT_EQ(sizes(drawn({"#"}), Neighbours::eight, true), (std::vector<std::int64_t>{1}));
+}
+
+TEST(Regions, AgreeWithAFloodFillOnRandomTiles) {
+  std::uint64_t seed = 0;
+  for (const auto& [nx, ny] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 7}, {7, 2}, {13, 11}, {40, 33}})
+    for (const double share : {0.1, 0.4, 0.6, 0.9})
+      for (int repeat = 0; repeat < 10; ++repeat) {
+        const Stream stream(++seed, "mask");
+        Mask mask{nx, ny, {}};
+        for (int k = 0; k < nx * ny; ++k)
+          mask.on.push_back(stream.uniform(static_cast<std::uint64_t>(k)) < share ? 1 : 0);
+        for (const Neighbours neighbours : {Neighbours::four, Neighbours::eight})
+          for (const bool wrap : {false, true})
+            ASSERT_EQ(sizes(mask, neighbours, wrap), flooded(mask, neighbours, wrap))
+                << nx << " x " << ny << " seed " << seed << " wrap " << wrap;
+      }
+}
+
+TEST(BoundaryEdges, CountsBothDirectionsApart) {
+  const Mask mask = drawn({"....", ".##.", "...."});
+  const BoundaryEdges edges = boundary_edges(mask.on, 4, 3, false);
+  EXPECT_EQ(edges.between_columns, 2);
+  EXPECT_EQ(edges.between_rows, 4);
+}
+
+TEST(BoundaryEdges, TheRimOfATileIsNoEdgeUnlessItWraps) {
+  const Mask mask = drawn({"##..", "##.."});
+  const BoundaryEdges open = boundary_edges(mask.on, 4, 2, false),
+                      closed = boundary_edges(mask.on, 4, 2, true);
+  EXPECT_EQ(open.between_columns, 2);
+  EXPECT_EQ(open.between_rows, 0);
+  EXPECT_EQ(closed.between_columns, 4);
+  EXPECT_EQ(closed.between_rows, 0);
+  const Mask full = drawn({"###", "###"});
+  for (const bool wrap : {false, true}) {
+    const BoundaryEdges none = boundary_edges(full.on, 3, 2, wrap);
+    EXPECT_EQ(none.between_columns + none.between_rows, 0);
+  }
+}
+
+}  // namespace
+}  // namespace asperity
