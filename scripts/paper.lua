@@ -17,19 +17,19 @@ paper.young = 1e9
 paper.box = lab.material{ name = "box elements", young = paper.young, poisson = 0 }
 paper.pressure = 0.01 * paper.young
 
--- L and G in micrometres, so that lengths read like a specimen's; the peak-to-valley height A is set to a
--- tenth of the side at every D ("constant amplitude"). `raw` leaves the heights as eq. (2) gives them.
+-- L and G in micrometres, so that lengths read like a specimen's; the peak-to-valley height is set to a
+-- tenth of the side at every D ("constant amplitude"). `unscaled` leaves eq. (2)'s own heights.
 function paper.surface(given)
   local cells = given.cells or 150
   local s = lab.surface.weierstrass_mandelbrot{
     cells = cells, D = given.D, seed = given.seed, span = paper.spans[given.preset],
     L = "50 um", G = "5 um", material = paper.box,
   }
-  return given.raw and s or s:scaled{ amplitude = 0.1 * (cells - 1) * s.size[1] / cells }
+  return given.unscaled and s or s:scaled{ amplitude = 0.1 * (cells - 1) * s.size[1] / cells }
 end
 
 -- The contact of such a surface with the rigid flat. A box is as stiff as a column of height A, which is
--- the surface's own peak-to-valley height unless it is given.
+-- the surface's own peak-to-valley height unless it is given in metres.
 function paper.contact(surface, A)
   return lab.contact{
     lower = surface, upper = lab.rigid,
@@ -37,30 +37,21 @@ function paper.contact(surface, A)
   }
 end
 
--- Arguments `name=value` of a run, over the defaults, each of the default's own type.
-function paper.arguments(defaults, ...)
-  local options = {}
-  for name, value in pairs(defaults) do options[name] = value end
-  for _, word in ipairs{ ... } do
-    local name, text = word:match "^([%a_]+)=(.+)$"
-    local default = defaults[name]
-    if default == nil then
-      local names = {}
-      for known in lab.sorted(defaults) do names[#names + 1] = known .. "=" end
-      error("`" .. word .. "` is no argument of this script; it takes " .. table.concat(names, ", "), 0)
-    end
-    local value = text
-    if type(default) == "number" then value = math.tointeger(tonumber(text)) or tonumber(text) end
-    if value == nil then error("`" .. name .. "` must be a number, and is `" .. text .. "`", 0) end
-    options[name] = value
-  end
-  return options
-end
-
 function paper.count(n)
   local list = {}
   for k = 1, n do list[k] = k end
   return list
+end
+
+-- The rows in which these columns hold these values.
+function paper.where(rows, wanted)
+  local found = {}
+  for _, row in ipairs(rows) do
+    local all = true
+    for column, value in pairs(wanted) do all = all and row[column] == value end
+    if all then found[#found + 1] = row end
+  end
+  return found
 end
 
 -- One row for each combination of the columns `keys`, in order of first appearance: the mean of every
@@ -84,7 +75,7 @@ function paper.means(rows, keys)
     for column, value in pairs(group[1]) do
       if is_key[column] then
         mean[column] = value
-      elseif type(value) == "number" and column ~= "seed" then
+      elseif math.type(value) and column ~= "seed" then
         local sum, squares = 0, 0
         for _, row in ipairs(group) do sum = sum + row[column] end
         local centre = sum / #group

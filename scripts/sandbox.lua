@@ -11,6 +11,9 @@ local getinfo, open, find = debug.getinfo, io.open, string.find
 
 os.exit = host.exit
 
+local lab = require "asperity"
+function help(topic) print(lab.help(topic)) end
+
 if not trusted then
   local function refused(what, instead)
     return function()
@@ -25,29 +28,38 @@ if not trusted then
   io.popen = refused("io.popen")
   io.tmpfile = refused("io.tmpfile", "give the file a name: it goes to the run directory")
 
-  -- Files are read anywhere and written under the run directory only.
-  local function destination(path)
+  -- Files are read anywhere and written under the run directory only. A dry run writes none: it looks
+  -- at the name and gives the place `instead`.
+  local function destination(path, instead)
     if type(path) ~= "string" then error("a file name must be a string, and is a " .. type(path), 3) end
     local place, message = host.output_path(path)
     if not place then error(message, 3) end
-    return place
+    return host.dry and instead or place
   end
   function io.open(path, mode)
-    if mode ~= nil and find(tostring(mode), "[wa+]") then path = destination(path) end
+    if mode ~= nil and find(tostring(mode), "[wa+]") then path = destination(path, "/dev/null") end
     return open(path, mode)
   end
   local output = io.output
   function io.output(file)
     if type(file) == "string" then
-      local handle, message = open(destination(file), "w")
+      local handle, message = open(destination(file, "/dev/null"), "w")
       if not handle then error(message, 2) end
       return output(handle)
     end
     return output(file)
   end
   local remove, rename = os.remove, os.rename
-  function os.remove(path) return remove(destination(path)) end
-  function os.rename(from, to) return rename(destination(from), destination(to)) end
+  function os.remove(path)
+    local place = destination(path)
+    if host.dry then return true end
+    return remove(place)
+  end
+  function os.rename(from, to)
+    local old, new = destination(from), destination(to)
+    if host.dry then return true end
+    return rename(old, new)
+  end
 
   -- Chunks are text: bytecode can be made to crash the interpreter.
   local load_any, loadfile_any = load, loadfile
@@ -77,7 +89,17 @@ if not trusted then
     end,
   }
 
-  debug = { traceback = debug.traceback, getinfo = debug.getinfo }
+  -- What is known of a running function, less the function itself: the originals of what was taken
+  -- away can be met on the stack.
+  local running = coroutine.running
+  local function getinfo_without_functions(thread, of, what)
+    if type(thread) ~= "thread" then thread, of, what = running(), thread, of end
+    if thread == running() and type(of) == "number" then of = of + 1 end
+    local info = getinfo(thread, of, what)
+    if info then info.func = nil end
+    return info
+  end
+  debug = { traceback = debug.traceback, getinfo = getinfo_without_functions }
   package.loaded.debug = debug
 end
 

@@ -116,6 +116,12 @@ const Block<SceneKeys>& scene_block() {
                      keys.upper = *surface;
                    else if (const Material* material = value.as<Material>())
                      keys.upper = *material;
+                   else if (const Object* object = value.as_any_object(); object != nullptr && object->closed)
+                     problems.push_back("`upper` was closed");
+                   else if (value.is_text())
+                     problems.push_back("`upper` is the string \"" + std::string(value.text().substr(0, 40)) +
+                                        "\"; a flat of a material is lab.material \"" +
+                                        std::string(value.text().substr(0, 40)) + "\"");
                    else if (!value.is_unknown())
                      detail::wrong_type(value, info, "a surface, a material or lab.rigid", problems);
                  })

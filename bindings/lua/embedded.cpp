@@ -27,6 +27,10 @@ void preload_embedded_scripts(lua_State* L) {
   luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
   lua_Integer k = 0;
   for (const EmbeddedScript& script : embedded_scripts()) {
+    if (script.name == "sandbox") {
+      ++k;  // runs once, before the script
+      continue;
+    }
     lua_pushinteger(L, k++);
     lua_pushcclosure(L, load_embedded, 1);
     lua_pushfstring(L, "asperity.%s", script.name.data());

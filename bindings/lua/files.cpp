@@ -2,6 +2,7 @@
 #include "bindings/lua/files.hpp"
 
 #include <filesystem>
+#include <string_view>
 
 #include "bindings/lua/session.hpp"
 #include "engine/experiment/run_directory.hpp"
@@ -23,6 +24,21 @@ void note_input(const Call& call, const std::string& path) {
   if (session.run == nullptr || session.is_case || !std::filesystem::is_regular_file(path, problem)) return;
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(path, problem));
   session.run->note_input(path, bytes, file_digest(path));
+}
+
+std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems) {
+  const bool named = value.is_text() && !value.text().empty() &&
+                     std::string_view("+-.0123456789").find(value.text()[0]) == std::string_view::npos;
+  if (!named) return detail::read_quantity(value, info, above(0), problems);
+  try {
+    const Quantity unit = parse_unit(value.text());
+    if (unit.dimension == dimension::length) return unit.value;
+    problems.push_back(quoted(info.name) + " is \"" + std::string(value.text().substr(0, 40)) +
+                       "\", which is " + describe(unit.dimension) + "; give a length, e.g. \"um\"");
+  } catch (const Error& error) {
+    problems.push_back(quoted(info.name) + ": " + error.what());
+  }
+  return {};
 }
 
 void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Problems& problems) {

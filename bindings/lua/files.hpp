@@ -17,10 +17,16 @@ std::string writable_path(const Call& call, const std::string& name);
 // Enters a file that is about to be read, with its digest, in the run's manifest.
 void note_input(const Call& call, const std::string& path);
 
+// A length, or the name of a unit alone: "um" is short for "1 um".
+std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems);
 template <class O>
 Option<O> unit_key(std::optional<double> O::*member) {
-  return quantity("unit", member, dimension::length, above(0),
-                  "length of one number of the file, where it has no unit");
+  Option<O> option = quantity("unit", member, dimension::length, above(0),
+                              "length of one number of the file, where it has no unit, e.g. \"um\"");
+  option.read = [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+    if (const auto length = read_unit(value, info, problems)) options.*member = *length;
+  };
+  return option;
 }
 void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Problems& problems);
 template <class O>

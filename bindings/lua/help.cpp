@@ -214,7 +214,7 @@ void cats_function(std::string& page, const Function& function, const std::strin
             block_class(function) + "\n";
     names.push_back("options");
   }
-  if (!function.returns.empty()) page += "---@return " + cats_type(function.returns) + "\n";
+  for (const std::string& type : result_types(function)) page += "---@return " + cats_type(type) + "\n";
   page += "function " + declared + "(" + joined(names, ", ") + ") end\n\n";
 }
 
@@ -223,6 +223,10 @@ void cats_function(std::string& page, const Function& function, const std::strin
 std::string help_text(const std::string& topic) {
   if (topic.empty()) return topics_help();
   const std::vector<Topic> topics = all_topics();
+  // `Surface` is the value and `surface` the module: the case counts where it tells them apart.
+  for (const std::string& name : {topic, "lab." + topic})
+    for (const Topic& t : topics)
+      if (t.name == name) return t.text;
   for (const Topic& t : topics)
     if (same(t.name, topic) || same(t.name, "lab." + topic)) return t.text;
   // A bare name may mean several things: `close`, `roughness`. Show them all.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bindings/lua/catalogue.hpp"
+#include "bindings/lua/ensemble.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/friction.hpp"
 #include "bindings/lua/help.hpp"
@@ -31,6 +32,7 @@ const Module& lab_module() {
     m.sentence = "The laboratory: surfaces, contacts, friction, and the notebook that keeps what was found.";
     m.functions = {material_function(), contact_function(), friction_function(), tilt_stage_function(),
                    notebook_function()};
+    m.functions.push_back(ensemble_function());
     m.functions.push_back(
         {.name = "help",
          .body = help,

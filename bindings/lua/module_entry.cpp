@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loadable module: `require "asperity"` from any Lua 5.4. It links no Lua; the interpreter that
 // loads it supplies one. Nothing is recorded here: files go where the script says.
+#include "bindings/lua/embedded.hpp"
 #include "bindings/lua/registry.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/experiment/run_directory.hpp"
@@ -12,6 +13,7 @@ extern "C" __attribute__((visibility("default"))) int luaopen_asperity(lua_State
   if (session.run == nullptr)
     session.run = std::make_shared<RunDirectory>(RunDirectory::Without::loose, true);
   lua::Session::attach(L, session);
+  lua::preload_embedded_scripts(L);
   lua::push_library(L);
   return 1;
 }

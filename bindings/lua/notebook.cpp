@@ -43,6 +43,20 @@ Entry named_entry(std::string_view key) {
   return entry;
 }
 
+// "3 um" is a number with a unit, and not text: it is kept in SI.
+void keep_quantity(Entry& entry) {
+  const auto* text = std::get_if<std::string>(&entry.value);
+  if (text == nullptr || !entry.unit.empty()) return;
+  try {
+    const Quantity quantity = parse_quantity(*text);
+    if (quantity.dimension == dimension::number) return;
+    entry.unit = si_unit(quantity.dimension);
+    entry.value = quantity.value;
+  } catch (const Error&) {
+    // Text that is no quantity stays text.
+  }
+}
+
 Values write(Call& call) {
   const Argument table = call.argument(1);
   if (!table.is_table())
@@ -62,6 +76,8 @@ Values write(Call& call) {
                   "a cell holds a number, a string or a boolean");
     Entry entry = named_entry(key.text());
     entry.value = *cell;
+    if (!entry.unit.empty()) parse_unit(entry.unit);
+    keep_quantity(entry);
     row.push_back(std::move(entry));
   });
   if (row.empty() && dry) return {};

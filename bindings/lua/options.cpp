@@ -127,6 +127,12 @@ void read_table(const Argument& table, const std::string& caller,
         seen[static_cast<std::size_t>(found - names.begin())] = true;
     });
     std::sort(unknown.begin(), unknown.end());
+    constexpr std::size_t enough = 12;
+    if (unknown.size() > enough) {
+      const std::size_t more = unknown.size() - enough;
+      unknown.resize(enough);
+      unknown.push_back("and " + std::to_string(more) + " more unknown keys");
+    }
   }
   if (!unknown.empty()) unknown.push_back("the keys are " + joined(names, " and "));
   for (std::size_t k = 0; k < options.size(); ++k) {

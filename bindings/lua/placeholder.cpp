@@ -30,14 +30,25 @@ bool any_unknown(lua_State* L) {
   return false;
 }
 
-// Calls the original in upvalue 1 unless an argument is a placeholder, which it returns instead.
-int pass_unknown(lua_State* L) {
+// Goes on in the original in upvalue 1, one of Lua's own functions without upvalues, on the same frame:
+// what it raises keeps the script's line.
+int call_original(lua_State* L) { return lua_tocfunction(L, lua_upvalueindex(1))(L); }
+
+// The original unless an argument is a placeholder, which it returns instead.
+int pass_unknown(lua_State* L) { return any_unknown(L) ? again(L) : call_original(L); }
+
+// table.concat also meets placeholders inside its list.
+int concat_unknown(lua_State* L) {
   if (any_unknown(L)) return again(L);
-  const int arguments = lua_gettop(L);
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, arguments, LUA_MULTRET);
-  return lua_gettop(L);
+  if (lua_istable(L, 1)) {
+    const auto length = static_cast<lua_Integer>(lua_rawlen(L, 1));
+    for (lua_Integer k = 1; k <= length; ++k) {
+      lua_rawgeti(L, 1, k);
+      if (Argument(L, -1).is_unknown()) return again(L);
+      lua_pop(L, 1);
+    }
+  }
+  return call_original(L);
 }
 
 // A loop over a placeholder runs its body once.
@@ -56,7 +67,7 @@ int pairs_or_once(lua_State* L) {
     lua_pushcclosure(L, unknown_once, 1);
     return 1;
   }
-  return pass_unknown(L);
+  return call_original(L);
 }
 
 void wrap(lua_State* L, const char* library, const char* name, lua_CFunction wrapper) {
@@ -119,8 +130,9 @@ Value placeholder_of(const std::string& type) {
 
 bool stopped_at_placeholder(const std::string& message) {
   const std::string first = message.substr(0, message.find('\n'));
-  for (const char* sign : {cannot_follow, "placeholder", "'for' initial value must be a number",
-                           "'for' limit must be a number", "'for' step must be a number"})
+  for (const char* sign :
+       {cannot_follow, "got placeholder)", "a placeholder value", "'for' initial value must be a number",
+        "'for' limit must be a number", "'for' step must be a number"})
     if (first.find(sign) != std::string::npos) return true;
   return false;
 }
@@ -141,12 +153,19 @@ void open_dry_run_library(lua_State* L) {
     wrap(L, "math", name, pass_unknown);
   for (const char* name : {"format", "rep", "len", "sub", "upper", "lower"})
     wrap(L, "string", name, pass_unknown);
-  for (const char* name : {"concat", "unpack", "sort", "insert"}) wrap(L, "table", name, pass_unknown);
-  for (const char* name : {"tonumber", "assert", "select"}) wrap(L, "_G", name, pass_unknown);
+  for (const char* name : {"unpack", "sort"}) wrap(L, "table", name, pass_unknown);
+  wrap(L, "table", "concat", concat_unknown);
+  wrap(L, "_G", "tonumber", pass_unknown);
   for (const char* name : {"pairs", "ipairs"}) wrap(L, "_G", name, pairs_or_once);
   // The script's own output belongs to a run.
   wrap(L, "_G", "print", ignored);
-  wrap(L, "io", "write", ignored);
+  wrap(L, "io", "write", again);
+  lua_getglobal(L, "io");
+  for (const char* name : {"stdout", "stderr"}) {
+    push_unknown(L);
+    lua_setfield(L, -2, name);
+  }
+  lua_pop(L, 1);
 }
 
 }  // namespace asperity::lua

@@ -162,7 +162,7 @@ const Class& profile_class() {
         {.name = "outline",
          .body = outline,
          .sentence = "x and y of the points of a closed outline: two tables.",
-         .returns = "number[]",
+         .returns = "number[], number[]",
          .example = "local x, y = grain:outline()"},
         {.name = "roughness",
          .body = roughness_of,

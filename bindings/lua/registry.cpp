@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/registry.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <exception>
 #include <new>
@@ -9,6 +10,7 @@
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/run_directory.hpp"
@@ -20,6 +22,17 @@ std::vector<std::string> Class::names() const {
   for (const Getter& field : fields) result.push_back(field.name);
   for (const Function& method : methods) result.push_back(method.name);
   return result;
+}
+
+std::vector<std::string> result_types(const Function& function) {
+  constexpr std::string_view separator = ", ";
+  std::vector<std::string> types;
+  for (std::string_view rest = function.returns; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(separator), rest.size());
+    types.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + separator.size(), rest.size()));
+  }
+  return types;
 }
 
 namespace {
@@ -120,11 +133,13 @@ bool any_unknown(const Call& call) {
 Values dry_call(const Call& call, const Function& function) {
   if (function.options != nullptr) {
     const int k = static_cast<int>(function.parameters.size()) + 1;
-    if (!function.options_optional || call.given(k))
-      function.options->check(call.argument(k), call.function_name());
+    const Argument table = call.argument(k);
+    if (!table.is_unknown() && (!function.options_optional || call.given(k)))
+      function.options->check(table, call.function_name());
   }
-  if (function.returns.empty()) return {};
-  return {placeholder_of(function.returns)};
+  Values results;
+  for (const std::string& type : result_types(function)) results.push_back(placeholder_of(type));
+  return results;
 }
 
 std::string digest_of(const Object& object) {
@@ -150,30 +165,44 @@ void record(const Call& call, const Function&, const Values& results) {
   session.run->journal().write("call", line);
 }
 
+Values call_function(lua_State* L, const Entry& entry) {
+  Call call(L, entry.name, entry.owner != nullptr);
+  const Function& function = *entry.function;
+  bool placeholder_self = false;
+  if (entry.owner != nullptr) {
+    const Object* self = Argument(L, 1).as_object(*entry.owner);
+    if (self == nullptr)
+      throw Error(ErrorCode::bad_value,
+                  entry.name + " was called on " + Argument(L, 1).describe() + ", not on " +
+                      entry.owner->article_name,
+                  "write a colon: x:" + function.name + "(...)");
+    if (self->closed)
+      throw Error(ErrorCode::bad_state, entry.owner->article_name + " was used after it was closed");
+    placeholder_self = self->is_placeholder();
+  }
+  check_count(call, function);
+  if (call.session().dry_run && (function.heavy || placeholder_self || any_unknown(call)))
+    return dry_call(call, function);
+  Values results = function.body(call);
+  if (function.heavy) record(call, function, results);
+  return results;
+}
+
+// Whether collecting what the script can no longer reach gave memory back.
+bool collected_something(lua_State* L) {
+  const std::int64_t before = memory::held();
+  lua_gc(L, LUA_GCCOLLECT);
+  return memory::held() < before;
+}
+
 int guarded_function(lua_State* L, const Entry& entry) {
   return guarded(L, entry.name, [&]() -> Values {
-    Call call(L, entry.name, entry.owner != nullptr);
-    const Function& function = *entry.function;
-    bool placeholder_self = false;
-    if (entry.owner != nullptr) {
-      const Object* self = Argument(L, 1).as_object(*entry.owner);
-      if (self == nullptr) {
-        const std::string owner = lower_first(entry.owner->name);
-        throw Error(ErrorCode::bad_value,
-                    entry.name + " was called on " + Argument(L, 1).describe() + ", not on " +
-                        entry.owner->article_name,
-                    "write a colon: x:" + function.name + "(...)");
-      }
-      if (self->closed)
-        throw Error(ErrorCode::bad_state, entry.owner->article_name + " was used after it was closed");
-      placeholder_self = self->is_placeholder();
+    try {
+      return call_function(L, entry);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::out_of_memory || !collected_something(L)) throw;
     }
-    check_count(call, function);
-    if (call.session().dry_run && (function.heavy || placeholder_self || any_unknown(call)))
-      return dry_call(call, function);
-    Values results = function.body(call);
-    if (function.heavy) record(call, *entry.function, results);
-    return results;
+    return call_function(L, entry);  // a call that failed left everything as it was
   });
 }
 
@@ -266,6 +295,7 @@ int release(lua_State* L) {
 }
 
 const char native_key = 0;  // metatables[native_key] = true marks the metatables of native values
+const char module_key = 0;  // and [module_key] = Module* those of modules
 
 int module_index(lua_State* L) {
   lua_pushvalue(L, 2);
@@ -295,14 +325,16 @@ int module_new_index(lua_State* L) {
   return luaL_error(L, "%s cannot be changed", module.path.c_str());
 }
 
+// The storage stays an upvalue: handed to the script, it could be written to.
 int module_next(lua_State* L) {
   lua_settop(L, 2);
-  return lua_next(L, 1) != 0 ? 2 : (lua_pushnil(L), 1);
+  return lua_next(L, lua_upvalueindex(1)) != 0 ? 2 : (lua_pushnil(L), 1);
 }
 
 int module_pairs(lua_State* L) {
-  lua_pushcfunction(L, module_next);
   lua_pushvalue(L, lua_upvalueindex(2));
+  lua_pushcclosure(L, module_next, 1);
+  lua_pushvalue(L, 1);
   lua_pushnil(L);
   return 3;
 }
@@ -347,8 +379,12 @@ void push_module(lua_State* L, const Module& module) {
   lua_setfield(L, -2, "__name");
   lua_pushstring(L, module.path.c_str());
   lua_setfield(L, -2, "__metatable");
+  lua_pushlightuserdata(L, const_cast<Module*>(&module));
+  lua_rawsetp(L, -2, &module_key);
   lua_remove(L, -2);  // the second reference to storage
   lua_setmetatable(L, -2);
+  lua_pushvalue(L, -1);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &module);
 }
 
 void set_class_method(lua_State* L, const char* name, lua_CFunction function, const Class& type) {
@@ -379,6 +415,16 @@ Object* native_at(lua_State* L, int index) {
   lua_pop(L, 2);
   return ours ? static_cast<Object*>(block) : nullptr;
 }
+
+const Module* module_at(lua_State* L, int index) {
+  if (lua_type(L, index) != LUA_TTABLE || lua_getmetatable(L, index) == 0) return nullptr;
+  lua_rawgetp(L, -1, &module_key);
+  const auto* module = static_cast<const Module*>(lua_touserdata(L, -1));
+  lua_pop(L, 2);
+  return module;
+}
+
+void push_proxy(lua_State* L, const Module& module) { lua_rawgetp(L, LUA_REGISTRYINDEX, &module); }
 
 void push_function(lua_State* L, const Function& function) {
   lua_pushlightuserdata(L, const_cast<Entry*>(&entries().at(&function)));

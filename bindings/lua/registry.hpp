@@ -38,10 +38,13 @@ struct Function {
   std::vector<Parameter> parameters{};  // positional ones
   const BlockInfo* options = nullptr;   // the table of named keys: the last argument
   bool options_optional = false;        // the table may be left out
-  std::string returns{};  // type: "State", "number", "Profile[]", "iterator<State>", "" for none
+  std::string returns{};  // "State", "number", "Profile[]", "iterator<State>", "number, string", "" for none
   std::string example{};
   bool heavy = false;  // not run by `asperity check`
 };
+
+// The types of its results one by one.
+std::vector<std::string> result_types(const Function& function);
 
 // A field of a native value, computed when read.
 struct Getter {
@@ -146,6 +149,11 @@ const std::string& qualified_name(const Function& function);
 void push_metatable(lua_State* L, const Class& type);
 // The native value at an index if it is one of ours, whatever its class; null otherwise.
 Object* native_at(lua_State* L, int index);
+
+// The module whose table is at an index; null if it is none. Does not raise.
+const Module* module_at(lua_State* L, int index);
+// Pushes this state's table of a module.
+void push_proxy(lua_State* L, const Module& module);
 
 // Pushes `lab`, a table of everything. Raises like any luaopen function.
 void push_library(lua_State* L);

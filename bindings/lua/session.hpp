@@ -5,7 +5,9 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +34,9 @@ class Session {
   bool is_case = false;                // a case of an ensemble: cannot record
   std::shared_ptr<RunDirectory> run;   // null when nothing is recorded
   std::function<void(int)> exit_hook;  // what os.exit(code) does before the process ends
+  std::FILE* output = stdout;          // where print goes; a buffer in a case
+  // Of a case: the script's globals that could not come along, and why.
+  const std::map<std::string, std::string>* left_behind = nullptr;
 
   // Tells Lua's collector about memory it cannot see; collects when enough has piled up.
   void nudge_collector(lua_State* L, std::size_t bytes);

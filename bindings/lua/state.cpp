@@ -77,6 +77,9 @@ int unknown_global_body(lua_State* L) {
     });
     const std::string shown(name.is_text() ? name.text().substr(0, 60) : std::string_view("?"));
     message = "the global " + quoted(shown) + " was never set" + did_you_mean(shown, names);
+    if (const auto* stayed = Session::of(L).left_behind; stayed != nullptr && stayed->contains(shown))
+      message = "the global " + quoted(shown) + " stays with the script: " + stayed->at(shown) +
+                "; make it inside `run`, or use it on the rows that come back";
   } catch (const std::exception& error) {
     message = error.what();
   }
@@ -89,22 +92,28 @@ int unknown_global_body(lua_State* L) {
 
 int unknown_global(lua_State* L) { return unknown_global_body(L) < 0 ? lua_error(L) : 1; }
 
-// os.exit([code]): ends the run properly; true and nothing mean success.
-void exit_body(lua_State* L) {
+// Ends the process, unless the state is a case of an ensemble.
+void exit_body(lua_State* L, int code) {
   const Session& session = Session::of(L);
   if (session.is_case) return;
-  int code = 0;
-  if (lua_isboolean(L, 1))
-    code = lua_toboolean(L, 1) != 0 ? 0 : 1;
-  else if (lua_isinteger(L, 1))
-    code = static_cast<int>(lua_tointeger(L, 1));
-  if (session.exit_hook) session.exit_hook(code);
+  try {
+    if (session.exit_hook) session.exit_hook(code);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    if (code == 0) code = 1;
+  }
   std::fflush(nullptr);
   std::_Exit(code);
 }
 
+// os.exit([code]): ends the run properly; true and nothing mean success.
 int exit_run(lua_State* L) {
-  exit_body(L);
+  int code = 0;
+  if (lua_isboolean(L, 1))
+    code = lua_toboolean(L, 1) != 0 ? 0 : 1;
+  else if (!Argument(L, 1).is_unknown())
+    code = static_cast<int>(luaL_optinteger(L, 1, 0));
+  exit_body(L, code);
   return luaL_error(L, "a case of an ensemble cannot end the run");
 }
 
@@ -141,7 +150,9 @@ int set_up(lua_State* L) {
 
   const std::string_view sandbox = embedded_script("sandbox");
   if (luaL_loadbufferx(L, sandbox.data(), sandbox.size(), "=sandbox", "t") != LUA_OK) return lua_error(L);
-  lua_createtable(L, 0, 3);
+  lua_createtable(L, 0, 4);
+  lua_pushboolean(L, session.dry_run ? 1 : 0);
+  lua_setfield(L, -2, "dry");
   lua_pushcfunction(L, exit_run);
   lua_setfield(L, -2, "exit");
   lua_pushcfunction(L, output_path);

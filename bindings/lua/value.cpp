@@ -5,6 +5,7 @@
 #include <new>
 
 #include "bindings/lua/embedded.hpp"
+#include "bindings/lua/parcel.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/record.hpp"
 #include "bindings/lua/registry.hpp"
@@ -61,6 +62,7 @@ std::string show(const Value& value) {
     std::string operator()(Unknown) const { return "?"; }
     std::string operator()(Value::Function) const { return "a function"; }
     std::string operator()(Script) const { return "a function"; }
+    std::string operator()(const std::shared_ptr<const Parcel>&) const { return "a table"; }
     static std::string count(std::size_t n) { return "a table of " + std::to_string(n); }
   };
   return std::visit(Shower{}, value.data);
@@ -85,6 +87,8 @@ struct Pusher {
     lua_remove(L, -2);
     lua_call(L, 0, 1);
   }
+
+  void operator()(const std::shared_ptr<const Parcel>& v) const { v->push(L); }
 
   void operator()(const Object& v) const {
     void* block = lua_newuserdatauv(L, sizeof(Object), 0);

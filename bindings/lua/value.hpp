@@ -22,6 +22,7 @@ namespace asperity::lua {
 struct Class;
 class Call;
 class Value;
+class Parcel;
 using Values = std::vector<Value>;
 
 // The native class of T: its name, fields and methods. Specialised beside each binding.
@@ -71,9 +72,10 @@ class Value {
   using Numbers = std::shared_ptr<const Array<double>>;  // a plain table of numbers
   using Rows = std::shared_ptr<const Field>;             // a table of rows, rows[j+1][i+1]
   using Function = lua_CFunction;
-  using Variant = std::variant<std::monostate, bool, std::int64_t, double, std::string, Object,
-                               std::shared_ptr<Record>, std::shared_ptr<List>, std::shared_ptr<Map>, Numbers,
-                               Rows, std::shared_ptr<Iterator>, Unknown, Function, Script>;
+  using Variant =
+      std::variant<std::monostate, bool, std::int64_t, double, std::string, Object, std::shared_ptr<Record>,
+                   std::shared_ptr<List>, std::shared_ptr<Map>, Numbers, Rows, std::shared_ptr<Iterator>,
+                   Unknown, Function, Script, std::shared_ptr<const Parcel>>;
 
   Value() = default;
   Value(bool v) : data(v) {}
@@ -92,6 +94,7 @@ class Value {
   Value(Unknown v) : data(v) {}
   Value(Function v) : data(v) {}
   Value(Script v) : data(v) {}
+  Value(std::shared_ptr<const Parcel> v) : data(std::move(v)) {}
   template <class T>
   Value(const std::optional<T>& v) {
     if (v) *this = Value(*v);

@@ -124,7 +124,9 @@ void RunDirectory::keep_inside(const fs::path& relative, std::string_view file) 
     // A link that stands inside may still lead out.
     const fs::path real = fs::weakly_canonical(base / relative);
     const fs::path real_base = fs::weakly_canonical(base);
-    outside = std::ranges::mismatch(real_base, real).in1 != real_base.end();
+    // One that leads to nothing yet is not resolved above, and would be followed by whoever creates it.
+    const bool dangling = fs::is_symlink(base / relative) && !fs::exists(base / relative);
+    outside = dangling || std::ranges::mismatch(real_base, real).in1 != real_base.end();
   }
   if (outside)
     throw Error(ErrorCode::not_permitted, "the file " + quoted(file) + " lies outside the run directory",

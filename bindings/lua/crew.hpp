@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The threads that work through the cases of an ensemble. They take cases in order; the calling
+// thread waits, shows progress, what cases printed and warned of in the order of the cases, and
+// carries a stop to the states that run. With more than one of them the engine's own loops stay on
+// the thread of their case; results are the same bits for any number.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "bindings/lua/ensemble_case.hpp"
+#include "bindings/lua/session.hpp"
+
+namespace asperity::lua {
+
+// setup(k) describes case k and is called from several threads at once. When a case fails no further
+// one is begun; those before it have run, so the first failure does not depend on timing. Returns
+// the results up to and including it. Throws Error when the run is to stop, after every state has closed.
+std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
+                                  Session& session);
+
+}  // namespace asperity::lua

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/ensemble.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "bindings/lua/crew.hpp"
+#include "bindings/lua/ensemble_case.hpp"
+#include "bindings/lua/options.hpp"
+#include "bindings/lua/placeholder.hpp"
+#include "bindings/lua/record.hpp"
+#include "bindings/lua/session.hpp"
+#include "bindings/lua/state.hpp"
+#include "bindings/lua/transfer.hpp"
+#include "engine/core/digest.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/core/random.hpp"
+#include "engine/experiment/run_directory.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+constexpr std::size_t most_cases = 1'000'000;
+
+struct EnsembleKeys {
+  using Values = std::vector<CaseValue>;
+  struct Varied {
+    std::string key;
+    Values values;
+  };
+  std::optional<std::vector<Varied>> over;  // sorted by key
+  std::optional<std::vector<Values>> cases;
+
+  std::size_t count() const {
+    if (cases) return cases->size();
+    std::size_t product = 1;
+    for (const Varied& varied : *over) product *= varied.values.size();
+    return product;
+  }
+  // Case k from 0: the last key varies fastest.
+  Values values(std::size_t k) const {
+    if (cases) return (*cases)[k];
+    Values result(over->size());
+    for (std::size_t key = over->size(); key-- > 0;) {
+      const Values& list = (*over)[key].values;
+      result[key] = list[k % list.size()];
+      k /= list.size();
+    }
+    return result;
+  }
+};
+
+std::string value_text(const Argument& value) {
+  if (value.is_unknown()) return "?";
+  if (value.is_boolean()) return value.boolean() ? "true" : "false";
+  if (value.is_number())
+    return value.integer() ? std::to_string(*value.integer()) : format_short(value.number(), 10);
+  if (value.is_text()) return "\"" + std::string(value.text().substr(0, 60)) + "\"";
+  return value.describe();
+}
+
+CaseValue read_value(const std::string& key, const Argument& value, const std::string& name) {
+  return {
+      key,
+      pack(value.state(), value.index(), Cargo::data, name,
+           "a case is described by numbers, strings, booleans, tables of these, and values such as surfaces"),
+      value_text(value)};
+}
+
+template <class T>
+bool by_key(const T& a, const T& b) {
+  return a.key < b.key;
+}
+
+void read_over(const Argument& value, const OptionInfo& info, EnsembleKeys& keys, Problems& problems) {
+  if (!value.is_table())
+    return detail::wrong_type(value, info, "a table of lists, such as { seed = {1, 2, 3} }", problems);
+  keys.over.emplace();
+  value.each([&](const Argument& key, const Argument& list) {
+    if (!key.is_text()) {
+      problems.push_back(quoted(info.name) + " holds a value without a key; write `name = { ... }`");
+      return;
+    }
+    const std::string name(key.text());
+    const std::string path = info.name + "." + name;
+    EnsembleKeys::Values values;
+    if (list.is_unknown()) {
+      values.push_back({name, pack(list.state(), list.index(), Cargo::data, path, ""), "?"});
+    } else if (!list.is_table()) {
+      problems.push_back(quoted(path) + " is " + list.describe() + "; give a list of values, such as {" +
+                         value_text(list) + "}");
+      return;
+    }
+    const std::int64_t length = list.is_table() ? list.length() : 0;
+    std::int64_t entries = 0, others = 0;
+    if (list.is_table())
+      list.each([&](const Argument& place, const Argument&) {
+        const auto k = place.is_number() ? place.integer() : std::nullopt;
+        ++(k && *k >= 1 && *k <= length ? entries : others);
+      });
+    if (entries != length || others > 0) {
+      problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
+      return;
+    }
+    for (std::int64_t k = 1; k <= length; ++k)
+      list.element(k, [&](const Argument& item) {
+        values.push_back(read_value(name, item, path + "[" + std::to_string(k) + "]"));
+      });
+    keys.over->push_back({name, std::move(values)});
+  });
+  if (problems.empty() && keys.over->empty())
+    problems.push_back(quoted(info.name) + " names nothing to vary; give at least one list");
+  std::sort(keys.over->begin(), keys.over->end(), by_key<EnsembleKeys::Varied>);
+}
+
+void read_cases(const Argument& value, const OptionInfo& info, EnsembleKeys& keys, Problems& problems) {
+  if (!value.is_table())
+    return detail::wrong_type(value, info, "a list of cases, such as { {D = 2, seed = 1}, ... }", problems);
+  keys.cases.emplace();
+  for (std::int64_t k = 1; k <= value.length(); ++k)
+    value.element(k, [&](const Argument& item) {
+      const std::string path = info.name + "[" + std::to_string(k) + "]";
+      if (!item.is_table()) {
+        problems.push_back(quoted(path) + " is " + item.describe() + "; give a table of named values");
+        return;
+      }
+      EnsembleKeys::Values values;
+      item.each([&](const Argument& key, const Argument& part) {
+        if (key.is_text())
+          values.push_back(read_value(std::string(key.text()), part, path + "." + std::string(key.text())));
+        else
+          problems.push_back(quoted(path) + " holds a value without a key; write `name = value`");
+      });
+      std::sort(values.begin(), values.end(), by_key<CaseValue>);
+      keys.cases->push_back(std::move(values));
+    });
+}
+
+void check_keys(EnsembleKeys& keys, Problems& problems) {
+  if (!keys.over && !keys.cases)
+    problems.push_back("`over` is missing: what to vary, e.g. { seed = {1, 2, 3} }");
+  if (keys.over && keys.cases) problems.push_back("both `over` and `cases` are given; give one of them");
+  if (!keys.over) return;
+  double product = 1;
+  for (const auto& varied : *keys.over) product *= static_cast<double>(varied.values.size());
+  if (product > static_cast<double>(most_cases))
+    problems.push_back("`over` makes " + format_short(product) + " cases; at most " +
+                       std::to_string(most_cases) + " are run");
+}
+
+const Block<EnsembleKeys>& ensemble_block() {
+  static const Block<EnsembleKeys> block{
+      "lab.ensemble",
+      {custom<EnsembleKeys>(
+           "over", "table",
+           "name -> list of values; every combination is a case, in the order of the names with "
+           "the last one varying fastest",
+           read_over),
+       custom<EnsembleKeys>("cases", "table", "the cases themselves, a list of tables, in place of over",
+                            read_cases),
+       custom<EnsembleKeys>(
+           "run", "function",
+           "function(case) returning a table of results, called once a case in a fresh copy of "
+           "everything it uses: what it changes is seen by no other case",
+           [](const Argument& value, const OptionInfo& info, EnsembleKeys&, Problems& problems) {
+             if (!value.is_function()) detail::wrong_type(value, info, "a function(case)", problems);
+           })
+           .required()},
+      check_keys};
+  return block;
+}
+
+// What a dry run can say of the rows from running one of the cases here.
+Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run) {
+  lua_State* L = call.L;
+  const std::size_t count = keys.count();
+  if (count == 0) return {List{}};
+  const std::vector<CaseValue> first = keys.values(0);
+  const Argument::StackGuard guard(L);
+  lua_pushvalue(L, run.index());
+  auto push_case = [&first](lua_State* s) {
+    lua_newtable(s);
+    for (const CaseValue& value : first) {
+      lua_pushlstring(s, value.key.data(), value.key.size());
+      value.value->push(s);
+      lua_rawset(s, -3);
+    }
+    return 1;
+  };
+  if (protect(L, 0, 1, push_case) != LUA_OK || lua_pcall(L, 1, 1, 0) != LUA_OK) {
+    stop_flag().check();
+    throw Error(ErrorCode::bad_value, case_name(first) + ": " + error_text(L, -1));
+  }
+  const Argument returned(L, -1);
+  std::vector<std::string> fields;
+  bool known = true;
+  if (returned.is_table())
+    returned.each([&](const Argument& key, const Argument&) {
+      if (key.is_text())
+        fields.emplace_back(key.text());
+      else
+        known = false;
+    });
+  else if (const auto record = record_at(L, -1))
+    for (const Record::Entry& entry : record->entries) fields.push_back(entry.field);
+  else if (returned.is_unknown())
+    known = false;
+  else if (!returned.is_nil())
+    throw Error(ErrorCode::bad_value, case_name(first) + ": " + wrong_return(returned.describe()));
+  std::sort(fields.begin(), fields.end());
+  List rows;
+  for (std::size_t k = 0; k < count; ++k) {
+    Map row;
+    for (const std::string& field : fields) row.items.emplace_back(field, Unknown{});
+    for (const CaseValue& value : keys.values(k)) row.items.emplace_back(value.key, value.value);
+    rows.items.push_back(known ? Value(std::move(row)) : Value(Unknown{}));
+  }
+  return {std::move(rows)};
+}
+
+// One line: how many cases there were, and what came out.
+void record(const Session& session, const EnsembleKeys& keys, const std::vector<CaseResult>& results) {
+  if (session.run == nullptr || session.is_case) return;
+  Digester digester;
+  for (const CaseResult& result : results) digester.add(result.digest);
+  Json line = Json::object({{"cases", results.size()}});
+  if (keys.over) {
+    std::vector<std::string> names;
+    for (const auto& varied : *keys.over) names.push_back(varied.key);
+    line.set("over", Json::strings(names));
+  }
+  line.set("result", digester.hex());
+  session.run->journal().write("ensemble", line);
+}
+
+Values ensemble(Call& call) {
+  const EnsembleKeys keys = call.options(ensemble_block());
+  Session& session = call.session();
+  return with_key(call.argument(1), "run", [&](const Argument& run) -> Values {
+    CaseSetup common;
+    common.run = pack(call.L, run.index(), Cargo::functions, "run",
+                      "make it inside `run`, or use it on the rows that come back");
+    common.trusted = session.trusted;
+    common.watched = lua_gethook(call.L) != nullptr;
+    if (session.dry_run) return dry_rows(call, keys, run);
+    const Stream seeds(session.seed, "ensemble");
+    const auto setup = [&](std::size_t k) {
+      CaseSetup one = common;
+      one.values = keys.values(k);
+      one.seed = seeds.bits(k);
+      return one;
+    };
+    std::vector<CaseResult> results = run_cases(keys.count(), setup, session);
+    if (!results.empty() && !results.back().failure.empty())
+      throw Error(ErrorCode::bad_value,
+                  case_name(keys.values(results.size() - 1)) + ": " + results.back().failure);
+    record(session, keys, results);
+    List rows;
+    for (CaseResult& result : results) rows.items.emplace_back(std::move(result.row));
+    return {std::move(rows)};
+  });
+}
+
+}  // namespace
+
+Function ensemble_function() {
+  Function f;
+  f.name = "ensemble";
+  f.body = ensemble;
+  f.sentence =
+      "Runs a function for every case of a study, on all threads, and returns one row a case: the case's own "
+      "values and what the function returned. Order and values do not depend on the number of threads.";
+  f.options = &ensemble_block();
+  f.returns = "table[]";
+  f.example =
+      "local rows = lab.ensemble{ over={ D={2.2, 2.5}, seed={1, 2} }, run=function(case) return { twice=2 * "
+      "case.D } end }";
+  return f;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A Lua value outside any Lua state: a graph of tables, functions and native values that can be put
+// into other states, as often as wanted, each time as a fresh copy. Identity is kept within one
+// parcel: a table met twice is one table, local functions that share an upvalue go on sharing it,
+// cycles stay cycles. Native values are shared, never copied. Parcels are filled by pack() of
+// transfer.hpp and are immutable from then on; any number of threads may put one into their states.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "bindings/lua/base_library.hpp"
+#include "bindings/lua/lua_api.hpp"
+#include "bindings/lua/value.hpp"
+#include "engine/core/memory.hpp"
+
+namespace asperity::lua {
+
+struct Module;
+
+class Parcel {
+ public:
+  // Makes the value in a state and leaves it on the stack; one made by make_state if functions came
+  // along. What the script added to the globals and to Lua's own tables is made there too. Cost: linear
+  // in the parcel. Raises on lack of memory: call inside protect().
+  void push(lua_State* L) const;
+
+  // Of the content of data: the same for equal values, whatever the order of keys in memory.
+  std::string digest() const;
+
+  // Globals that could not come along: name -> "`app.bench` is a contact".
+  const std::map<std::string, std::string>& left_behind() const { return left_behind_; }
+
+ private:
+  friend class Packer;
+
+  struct NodeId {
+    std::uint32_t index;
+  };
+  struct BaseId {
+    std::uint32_t index;
+  };
+  using Item = std::variant<std::monostate, bool, std::int64_t, double, std::string, NodeId, BaseId,
+                            const Module*, lua_CFunction, void*, Unknown>;
+
+  struct Entry {
+    Item key, value;
+  };
+  struct Table {
+    std::uint32_t length = 0;  // of the part 1..n
+    Array<Entry> entries;
+    Item metatable;
+  };
+  // A function of the script: its code as Lua dumps it, and the cells its upvalues share.
+  struct ScriptFunction {
+    std::string code;
+    std::vector<std::uint32_t> cells;
+  };
+  struct HostFunction {
+    lua_CFunction function;
+    std::vector<Item> upvalues;
+  };
+  using Node = std::variant<Table, ScriptFunction, HostFunction, Value>;
+  // One upvalue, and the first function that has it: its node, and which of its upvalues it is.
+  struct Cell {
+    Item value;
+    std::uint32_t node;
+    int upvalue;
+  };
+  struct Addition {
+    BaseId table;
+    Entry entry;
+  };
+
+  struct Pusher;
+  struct Digest;
+
+  Item root_;
+  std::vector<Node> nodes_;
+  std::vector<Cell> cells_;
+  std::vector<BasePath> bases_;
+  std::vector<Addition> additions_;
+  bool strict_globals_ = true;
+  std::map<std::string, std::string> left_behind_;
+};
+
+}  // namespace asperity::lua
