@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the registry says about itself: help, the reference page and the editor's types are complete.
+#include "bindings/lua/help.hpp"
+
+#include "tests/bindings/lua_test.hpp"
+
+namespace asperity::lua {
+namespace {
+
+using Help = LuaTest;
+
+std::vector<const Function*> all_functions() {
+  std::vector<const Function*> all;
+  for (const Module* module : modules()) {
+    for (const Function& f : module->functions) all.push_back(&f);
+    if (module->call) all.push_back(&*module->call);
+  }
+  for (const Class* type : classes())
+    for (const Function& f : type->methods) all.push_back(&f);
+  return all;
+}
+
+TEST_F(Help, ExistsForEverything) {
+  for (const Module* module : modules()) {
+    EXPECT_FALSE(module->sentence.empty()) << module->path;
+    EXPECT_NE(help_text(module->path).find(module->sentence), std::string::npos) << module->path;
+    for (const Constant& c : module->constants)
+      EXPECT_NE(help_text(module->path + "." + c.name).find(c.sentence), std::string::npos) << c.name;
+  }
+  for (const Class* type : classes()) {
+    EXPECT_FALSE(type->sentence.empty()) << type->name;
+    EXPECT_NE(help_text(type->name).find(type->sentence), std::string::npos) << type->name;
+    for (const Getter& field : type->fields) {
+      EXPECT_FALSE(field.sentence.empty()) << type->name << "." << field.name;
+      EXPECT_NE(help_text(type->name + "." + field.name).find(field.sentence), std::string::npos);
+    }
+  }
+  for (const Function* function : all_functions()) {
+    const std::string name = qualified_name(*function);
+    EXPECT_FALSE(function->sentence.empty()) << name;
+    const std::string text = help_text(name);
+    EXPECT_NE(text.find(function->sentence), std::string::npos) << name;
+    for (const Parameter& p : function->parameters)
+      EXPECT_NE(text.find(p.sentence), std::string::npos) << name;
+    if (function->options != nullptr)
+      for (const OptionInfo* option : function->options->options()) {
+        EXPECT_FALSE(option->sentence.empty()) << name << " " << option->name;
+        EXPECT_NE(text.find(option->sentence), std::string::npos) << name << " " << option->name;
+      }
+  }
+}
+
+TEST_F(Help, ClassesThatFunctionsReturnExist) {
+  for (const Function* function : all_functions())
+    for (std::string type : result_types(*function)) {
+      if (type.starts_with("iterator<")) type = type.substr(9, type.size() - 10);
+      while (type.ends_with("[]")) type.resize(type.size() - 2);
+      const bool known = type == "number" || type == "integer" || type == "string" || type == "boolean" ||
+                         type == "table" || type == "function" || type == "any" ||
+                         find_class(type) != nullptr;
+      EXPECT_TRUE(known) << qualified_name(*function) << " returns " << type;
+    }
+}
+
+TEST_F(Help, FindsATopicByItsLastNameInAnyCase) {
+  EXPECT_EQ(help_text("surface.sine"), help_text("lab.surface.sine"));
+  EXPECT_EQ(help_text("sine"), help_text("lab.surface.sine"));
+  EXPECT_EQ(help_text("STATE"), help_text("State"));
+  EXPECT_EQ(help_text("surface"), help_text("lab.surface"));
+  EXPECT_NE(help_text("Surface"), help_text("surface"));
+  const std::string both = help_text("roughness");  // of surfaces and of profiles
+  EXPECT_NE(both.find("surface:roughness"), std::string::npos);
+  EXPECT_NE(both.find("profile:roughness"), std::string::npos);
+}
+
+TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {
+  EXPECT_NE(run("lab.help 'weierstras'").find("(did you mean `weierstrass_mandelbrot`?)"), std::string::npos);
+  EXPECT_EQ(
+      run("lab.help 'surfase'"),
+      "script.lua:1: lab.help: there is no help on `surfase` (did you mean `surface`?); help without a topic "
+      "lists what there is");
+}
+
+TEST_F(Help, ListsEveryModuleAndValueWithoutATopic) {
+  const std::string text = help_text("");
+  for (const Module* module : modules()) EXPECT_NE(text.find(module->path), std::string::npos);
+  for (const Class* type : classes()) EXPECT_NE(text.find(type->name), std::string::npos);
+  EXPECT_EQ(value("lab.help() == lab.help(nil)"), "true");
+}
+
+TEST_F(Help, ExamplesAreLua) {
+  for (const Function* function : all_functions()) {
+    if (function->example.empty()) continue;
+    const std::string chunk = function->example;
+    const std::string as_expression = "return " + chunk;
+    const bool good =
+        luaL_loadstring(L, chunk.c_str()) == LUA_OK || luaL_loadstring(L, as_expression.c_str()) == LUA_OK;
+    EXPECT_TRUE(good) << qualified_name(*function) << ": " << chunk;
+    lua_settop(L, 0);
+  }
+}
+
+TEST_F(Help, TheReferencePageNamesEverything) {
+  const std::string page = reference_page();
+  for (const Module* module : modules()) EXPECT_NE(page.find("## `" + module->path + "`"), std::string::npos);
+  for (const Class* type : classes()) {
+    EXPECT_NE(page.find("## " + type->name + "\n"), std::string::npos) << type->name;
+    for (const Getter& field : type->fields)
+      EXPECT_NE(page.find("| `" + field.name + "` |"), std::string::npos);
+  }
+  for (const Function* function : all_functions()) {
+    EXPECT_NE(page.find("### `" + qualified_name(*function) + "`"), std::string::npos)
+        << qualified_name(*function);
+    if (function->options == nullptr) continue;
+    for (const OptionInfo* option : function->options->options())
+      EXPECT_NE(page.find("| `" + option->name + "` |"), std::string::npos) << option->name;
+  }
+}
+
+TEST_F(Help, TheEditorsTypesAreLuaAndNameEverything) {
+  const std::string types = editor_types();
+  ASSERT_EQ(luaL_loadbufferx(L, types.data(), types.size(), "types", "t"), LUA_OK) << lua_tostring(L, -1);
+  lua_settop(L, 0);
+  EXPECT_EQ(run(types), "");  // and they run
+  for (const Function* function : all_functions()) {
+    std::string name = qualified_name(*function);
+    const std::size_t at = name.find_last_of(".:");
+    EXPECT_NE(types.find(name.substr(at + 1) + "("), std::string::npos) << name;
+  }
+  for (const Class* type : classes())
+    EXPECT_NE(types.find("---@class asperity." + type->name), std::string::npos);
+}
+
+}  // namespace
+}  // namespace asperity::lua

@@ -1,0 +1,51 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Contacts that cannot be made and loads that cannot be put on them.
+--! output: all refused
+local lab = require "asperity"
+local S = lab.surface
+local function refused(call, ...)
+  local ok, message = pcall(call)
+  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
+  local line = debug.getinfo(call, "S").linedefined
+  assert(message:find("bad_loads.lua:" .. line .. ": ", 1, true), "no line " .. line .. " in: " .. message)
+  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
+end
+local steel = lab.material "steel"
+local box = { elasticity="box" }
+local bare = S.sine{ cells=16, size="1 mm", amplitude="1 um" }
+local s = bare:with{ material=steel }
+refused(function() lab.contact{ lower=s, upper=lab.rigid } end, "`effects` is missing")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="half_space" } } end, "half_space", "not computed")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box", plasticity={} } } end, "plasticity", "not computed")
+refused(function() lab.contact{ lower=bare, upper=lab.rigid, effects=box } end, "elasticity", "the lower body", "no material")
+refused(function() lab.contact{ lower=s, upper=S.flat{ cells=8, size="1 mm", material=steel }, effects=box } end, "16 x 16 cells", "8 x 8 cells", "resampled")
+refused(function() lab.contact{ lower=s, upper=S.flat{ cells=16, size="2 mm", material=steel }, effects=box } end, "2 mm x 2 mm")
+refused(function() lab.contact{ lower=s:with{ material=lab.rigid }, upper=lab.rigid, effects=box } end, "both bodies are rigid")
+refused(function() lab.contact{ lower=S.flat{ cells=4, size=1, material=steel }, upper=lab.rigid, effects=box } end, "all combined heights are equal")
+
+local c = lab.contact{ lower=s, upper=lab.rigid, effects=box }
+refused(function() c:press{} end, "give exactly one of", "0 are given")
+refused(function() c:press{ pressure=1, load=2 } end, "2 are given")
+refused(function() c:press{ pressure=-1 } end, "`pressure` is -1 Pa")
+refused(function() c:press{ flatten=1.5 } end, "`flatten` is 1.5; give a number from 0 to 1")
+refused(function() c:sweep{ pressure=3 } end, "`pressure` is the number 3; give a list")
+refused(function() c:sweep{ pressure={} } end, "give a list of values")
+refused(function() c:rotate "45 deg" end, "multiples of 90 deg only")
+refused(function() c:place{} end, "`seed` is missing")
+-- Nothing that was refused has touched the bench.
+local before = c:press{ approach="0.5 um" }
+assert(not pcall(c.press, c, { pressure=-1 }))
+assert(c:press{ approach="0.5 um" }.digest == before.digest)
+-- Pressing until just nothing, and nothing at all.
+assert(c:press{ pressure=0 }.contacts == 0)
+refused(function() before:field "presure" end, "(did you mean `pressure`?)")
+refused(function() before:deformed "middle" end, 'give "lower" or "upper"')
+refused(function() return before.plastic_volume end, "needs the effect `plasticity`")
+
+local law = lab.friction{ tau0="500 MPa", alpha=0.2 }
+refused(function() law:on(c) end, "`st` is a contact; give a state")
+refused(function() lab.tilt_stage{ contact=c, friction=law } end, "`mass` is missing")
+refused(function() lab.tilt_stage{ contact=c, friction=law, mass="4 g", limit="95 deg" } end, "`limit` is")
+c:close()
+refused(function() c:press{ pressure=1 } end, "a contact was used after it was closed")
+print "all refused"

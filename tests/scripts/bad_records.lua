@@ -1,0 +1,29 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Rows, charts and names that a notebook refuses; what was written before is on disk.
+--! output: all refused
+--! file: kept.csv: 41
+--! file: kept.csv: 42
+local lab = require "asperity"
+local function refused(call, ...)
+  local ok, message = pcall(call)
+  assert(not ok, "this was accepted at line " .. debug.getinfo(call, "S").linedefined)
+  local line = debug.getinfo(call, "S").linedefined
+  assert(message:find("bad_records.lua:" .. line .. ": ", 1, true), "no line " .. line .. " in: " .. message)
+  for _, part in ipairs{ ... } do assert(message:find(part, 1, true), message .. "\n  does not hold: " .. part) end
+end
+local book = lab.notebook "kept"
+book:write{ a=41 }
+refused(function() lab.notebook "" end, "a notebook has an empty name")
+refused(function() lab.notebook() end, "`name` is nothing (nil)")
+refused(function() book:write{} end, "a notebook row has no columns")
+refused(function() book:write(3) end, "a row is a table of columns, and was given as the number 3")
+refused(function() book:write{ 1, 2 } end, "a column is named by the number 1")
+refused(function() book:write{ a={} } end, "column `a` is a table")
+refused(function() book:expect("a") end, "has no condition")
+refused(function() book:expect("a", { near=1 }) end, "`near` needs a width")
+refused(function() book:chart{ x="a" } end, "`y` is missing")
+refused(function() book:chart{ x="a", y="q" } end, "`y` names `q`, which is no column")
+refused(function() book:chart{ x="a", y="a", file="../x.svg" } end, "lies outside the run directory")
+refused(function() book:chart{ x="a", y="a", file="x.gif" } end, "pictures are .svg or .png")
+book:write{ a=42 }
+print "all refused"

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program as it is called: exit codes, options, run directories.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/scripts/runner/process.hpp"
+
+namespace asperity::scripts {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CommandLine : public testing::Test {
+ protected:
+  Outcome call(std::vector<std::string> arguments) {
+    Start start;
+    start.command = {ASPERITY_PROGRAM};
+    start.command.insert(start.command.end(), arguments.begin(), arguments.end());
+    start.folder = folder.path();
+    return run_process(start);
+  }
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((folder.path() / name).parent_path());
+    std::ofstream(folder.path() / name) << text;
+  }
+  bool exists(const std::string& name) { return fs::exists(folder.path() / name); }
+  TemporaryFolder folder;
+};
+
+TEST_F(CommandLine, BadUsageEndsWithTwoAndMakesNothing) {
+  write("good.lua", "print 'hello'");
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"rum"},
+      {"run"},
+      {"run", "nothere.lua"},
+      {"run", "."},
+      {"run", "--nonsense", "good.lua"},
+      {"run", "good.lua", "--threads", "0"},
+      {"run", "good.lua", "--threads", "many"},
+      {"run", "good.lua", "--seed", "x"},
+      {"run", "good.lua", "--limit-time", "5 kg"},
+      {"run", "good.lua", "--limit-time", "-5s"},
+      {"run", "good.lua", "--limit-time", "0"},
+      {"run", "good.lua", "--limit-memory", "4X"},
+      {"run", "good.lua", "--limit-memory", "-1"},
+      {"run", "good.lua", "--out"},
+      {"check"},
+      {"check", "nothere.lua"},
+      {"check", "good.lua", "--trust"},
+      {"help", "nosuchthing"},
+  };
+  for (const auto& arguments : wrong) {
+    const Outcome outcome = call(arguments);
+    std::string shown;
+    for (const std::string& argument : arguments) shown += " " + argument;
+    EXPECT_EQ(outcome.status, 2) << shown << "\n" << outcome.output << outcome.error;
+    EXPECT_NE(outcome.error + outcome.output, "") << shown;
+  }
+  EXPECT_FALSE(exists("runs"));
+}
+
+TEST_F(CommandLine, AMissingScriptIsNamed) {
+  EXPECT_NE(call({"run", "nothere.lua"}).error.find("there is no script `nothere.lua` that can be read"),
+            std::string::npos);
+  EXPECT_NE(call({"run", "."}).error.find("`.` is a folder"), std::string::npos);
+}
+
+TEST_F(CommandLine, RunsAreNumberedUp) {
+  write("rub.lua", "print 'x'");
+  for (int k = 1; k <= 3; ++k) {
+    const Outcome outcome = call({"run", "rub.lua"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.output, "x\n");
+    const std::string name = "runs/rub-" + std::to_string(k);
+    EXPECT_TRUE(exists(name));
+    EXPECT_EQ(faults_of_run(folder.path() / name), std::vector<std::string>{});
+    EXPECT_NE(outcome.error.find(name), std::string::npos) << outcome.error;
+    EXPECT_EQ(content_of(folder.path() / name / "script.lua"), "print 'x'");
+  }
+}
+
+TEST_F(CommandLine, AFullDirectoryIsRefusedAndLeftAlone) {
+  write("s.lua", "print 'x'");
+  write("full/precious.txt", "mine");
+  const Outcome outcome = call({"run", "s.lua", "--out", "full"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.error.find("full"), std::string::npos);
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_FALSE(exists("full/script.lua"));
+  EXPECT_EQ(content_of(folder.path() / "full/precious.txt"), "mine");
+  fs::create_directory(folder.path() / "empty");
+  EXPECT_EQ(call({"run", "s.lua", "--out", "empty"}).status, 0);
+  EXPECT_TRUE(exists("empty/manifest.json"));
+  EXPECT_EQ(call({"run", "s.lua", "--out", "empty"}).status, 2);
+  EXPECT_EQ(call({"run", "s.lua", "--out", "a/b/c"}).status, 0);
+  EXPECT_EQ(call({"run", "s.lua", "--out", "s.lua"}).status, 2);  // a file is in the way
+}
+
+TEST_F(CommandLine, TheManifestSaysWhatRan) {
+  write("s.lua",
+        "local lab = require 'asperity'\nlab.surface.flat{ cells=4, size=1 }:write 'flat.npy'\n"
+        "lab.notebook 'rows':write{ a=1 }");
+  ASSERT_EQ(call({"run", "s.lua", "--out", "r", "--seed", "9", "--", "x", "-y"}).status, 0);
+  const auto manifest = nlohmann::json::parse(content_of(folder.path() / "r/manifest.json"));
+  EXPECT_EQ(manifest["status"], "done");
+  EXPECT_EQ(manifest["seed"], 9);
+  EXPECT_EQ(manifest["script"]["name"], "s.lua");
+  EXPECT_EQ(manifest["arguments"], (std::vector<std::string>{"x", "-y"}));
+  const std::string outputs = manifest["outputs"].dump();
+  EXPECT_NE(outputs.find("flat.npy"), std::string::npos);
+  EXPECT_NE(outputs.find("rows.csv"), std::string::npos);
+}
+
+TEST_F(CommandLine, EqualRunsHaveEqualManifests) {
+  write("s.lua",
+        "local lab = require 'asperity'\n"
+        "lab.surface.weierstrass_mandelbrot{ cells=32, D=2.5 }:write 'w.npy'");
+  ASSERT_EQ(call({"run", "s.lua", "--out", "a", "--threads", "1"}).status, 0);
+  ASSERT_EQ(call({"run", "s.lua", "--out", "b", "--threads", "2"}).status, 0);
+  auto a = nlohmann::json::parse(content_of(folder.path() / "a/manifest.json"));
+  auto b = nlohmann::json::parse(content_of(folder.path() / "b/manifest.json"));
+  a.erase("unhashed");
+  b.erase("unhashed");
+  EXPECT_EQ(a.dump(), b.dump());
+  EXPECT_EQ(content_of(folder.path() / "a/w.npy"), content_of(folder.path() / "b/w.npy"));
+}
+
+TEST_F(CommandLine, TrustIsNeededToReachOutside) {
+  write("s.lua",
+        "local f = assert(io.open('outside.txt', 'w')) f:write 'x' f:close()\nassert(os.execute 'true')");
+  EXPECT_EQ(call({"run", "s.lua"}).status, 1);
+  EXPECT_FALSE(exists("outside.txt"));
+  EXPECT_TRUE(exists("runs/s-1/outside.txt"));
+  const std::string path = (folder.path() / "outside.txt").string();
+  write("t.lua",
+        "local f = assert(io.open('" + path + "', 'w')) f:write 'x' f:close()\nassert(os.execute 'true')");
+  EXPECT_EQ(call({"run", "t.lua"}).status, 1);
+  EXPECT_FALSE(exists("outside.txt"));
+  EXPECT_EQ(call({"run", "t.lua", "--trust"}).status, 0);
+  EXPECT_TRUE(exists("outside.txt"));
+}
+
+TEST_F(CommandLine, ModulesBesideTheScriptAreFoundFromAnywhere) {
+  write("lib/main.lua", "print(require('helper').answer)");
+  write("lib/helper.lua", "return { answer=42 }");
+  EXPECT_EQ(call({"run", "lib/main.lua"}).output, "42\n");
+  EXPECT_EQ(call({"run", (folder.path() / "lib/main.lua").string()}).output, "42\n");
+}
+
+TEST_F(CommandLine, ScriptsWithAwkwardNamesRun) {
+  for (const char* name :
+       {"two words.lua", "Größe.lua", "no_ending", "-dash.lua", ".hidden.lua", "a.b.c.lua"}) {
+    write(name, "print 'ran'");
+    const Outcome outcome = call({"run", std::string("./") + name});
+    EXPECT_EQ(outcome.status, 0) << name << outcome.error;
+    EXPECT_EQ(outcome.output, "ran\n") << name;
+  }
+}
+
+TEST_F(CommandLine, HelpMaterialsAndVersionAnswer) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"help"},
+                                                    {"help", "lab.surface"},
+                                                    {"help", "press"},
+                                                    {"help", "State.area"},
+                                                    {"help", "--reference"},
+                                                    {"help", "--types"},
+                                                    {"materials"},
+                                                    {"version"},
+                                                    {"--help"},
+                                                    {"run", "--help"}}) {
+    const Outcome outcome = call(arguments);
+    EXPECT_EQ(outcome.status, 0) << arguments[0] << outcome.error;
+    EXPECT_GT(outcome.output.size(), 20u) << arguments[0];
+    EXPECT_EQ(outcome.error, "") << arguments[0];
+  }
+  EXPECT_NE(call({"materials"}).output.find("Al-2011"), std::string::npos);
+  EXPECT_NE(call({"help", "surfase"}).error.find("did you mean"), std::string::npos);
+}
+
+TEST_F(CommandLine, AnUnwritableFolderIsAnErrorOfUsage) {
+  write("s.lua", "print 'x'");
+  EXPECT_EQ(call({"run", "s.lua", "--out", "/proc/nothing/here"}).status, 2);
+}
+
+TEST_F(CommandLine, OutputThatNobodyReadsIsNoCrash) {
+  write("s.lua", "local f = io.open('/dev/full', 'r')\nprint 'x'\nio.stdout:write(('y'):rep(1e5))");
+  Start start;
+  start.command = {"sh", "-c", std::string(ASPERITY_PROGRAM) + " run s.lua > /dev/full"};
+  start.folder = folder.path();
+  const Outcome outcome = run_process(start);
+  EXPECT_EQ(outcome.signal, 0);
+  EXPECT_EQ(faults_of_run(folder.path() / "runs/s-1"), std::vector<std::string>{});
+  start.command = {"sh", "-c", std::string(ASPERITY_PROGRAM) + " run s.lua | true"};
+  run_process(start);
+}
+
+}  // namespace
+}  // namespace asperity::scripts
