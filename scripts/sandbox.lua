@@ -37,7 +37,11 @@ if not trusted then
     return host.dry and instead or place
   end
   function io.open(path, mode)
-    if mode ~= nil and find(tostring(mode), "[wa+]") then path = destination(path, "/dev/null") end
+    if mode ~= nil and find(tostring(mode), "[wa+]") then
+      path = destination(path, "/dev/null")
+    elseif type(path) == "string" then
+      path = host.input_path(path) or path
+    end
     return open(path, mode)
   end
   local output = io.output

@@ -10,12 +10,16 @@ return function(t)
   if type(t) ~= "table" and type(t) ~= "userdata" then
     error("lab.sorted was given a " .. type(t) .. "; give a table", 2)
   end
-  local keys = {}
-  for key in pairs(t) do
-    if type(key) ~= "number" and type(key) ~= "string" then
-      error("lab.sorted met a " .. type(key) .. " as a key; keys must be numbers or strings", 2)
+  local keys, stranger = {}, nil
+  local walked = pcall(function()
+    for key in pairs(t) do
+      if type(key) ~= "number" and type(key) ~= "string" then stranger = type(key) end
+      keys[#keys + 1] = key
     end
-    keys[#keys + 1] = key
+  end)
+  if not walked then error("lab.sorted was given a value without entries; give a table", 2) end
+  if stranger then
+    error("lab.sorted met a " .. stranger .. " as a key; keys must be numbers or strings", 2)
   end
   table.sort(keys, before)
   local k = 0

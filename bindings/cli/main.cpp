@@ -3,8 +3,10 @@
 // more to do.
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "bindings/cli/run_command.hpp"
 #include "bindings/lua/help.hpp"
@@ -56,7 +58,13 @@ int print_help(const std::string& topic, bool reference, bool types) {
 
 void add_script_options(CLI::App& command, cli::RunCommand& run, std::string& limit_time) {
   command.add_option("script", run.script, "the Lua script")->required();
-  command.add_option("--seed", run.seed, "of math.random (default 1)");
+  command.add_option("--seed", run.seed, "of math.random (default 1)")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+            return whole && (text.size() < 19) ? std::string() : "a seed is a whole number from 0 to 10^18";
+          },
+          "WHOLE NUMBER"));
   command.add_option("--limit-time", limit_time, "end the run after this long, e.g. 60s or \"2 min\"");
   command.add_option("arguments", run.arguments, "reach the script as ... and arg; put them after --");
 }
@@ -68,6 +76,7 @@ int main(int argc, char** argv) {
   app.name("asperity");
   app.require_subcommand(1);
   app.set_help_flag("-h,--help", "show this help");
+  app.set_version_flag("--version", "asperity " + lua::version_text());
 
   cli::RunCommand run, check;
   std::string run_time, check_time, memory, topic;
@@ -92,6 +101,18 @@ int main(int argc, char** argv) {
 
   CLI::App& materials_command = *app.add_subcommand("materials", "list the materials known by name");
   CLI::App& version_command = *app.add_subcommand("version", "show what this program is and was built with");
+
+  // A word that is no command is answered with the nearest one, which the parser does not know how to do.
+  if (argc > 1 && argv[1][0] != '-') {
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+    if (std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+      std::fprintf(stderr, "asperity: there is no command %s%s; the commands are %s\n",
+                   quoted(argv[1]).c_str(), did_you_mean(argv[1], commands).c_str(),
+                   joined(commands, " and ").c_str());
+      return bad_usage;
+    }
+  }
 
   try {
     app.parse(argc, argv);

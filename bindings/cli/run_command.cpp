@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +20,7 @@
 #include "engine/core/cost.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/run_directory.hpp"
 
@@ -65,8 +67,9 @@ int execute(lua_State* L, const std::string& script, const std::string& text,
     lua_pushcfunction(state, lua::traceback_handler);
     const std::string& name = script;
     lua_pushfstring(state, "@%s", name.c_str());
-    std::size_t skip = 0;  // a first line "#!..." is for the shell
-    if (!text.empty() && text[0] == '#') skip = std::min(text.find('\n'), text.size());
+    std::size_t skip = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte-order mark
+    // A first line "#!..." is for the shell.
+    if (skip < text.size() && text[skip] == '#') skip = std::min(text.find('\n'), text.size());
     if (luaL_loadbufferx(state, text.data() + skip, text.size() - skip, lua_tostring(state, -1), "t") !=
         LUA_OK)
       return 1;
@@ -94,9 +97,12 @@ std::string reason_text(StopReason reason, const RunCommand& command) {
     case StopReason::interrupt:
       return "interrupted";
     case StopReason::time_limit:
-      return "the time limit of " + duration_text(command.limit_time.value_or(0)) + " was reached";
+      return "the time limit of " + format_quantity(command.limit_time.value_or(0), dimension::time) +
+             " was reached";
     case StopReason::memory_limit:
-      return "the memory limit was reached";
+      return "the memory limit of " +
+             format_short(static_cast<double>(command.limit_memory.value_or(0)) / 0x1p20) +
+             " MiB was reached (--limit-memory)";
     case StopReason::none:
       break;
   }
@@ -174,6 +180,8 @@ int run(const RunCommand& command) {
     limit_address_space(*command.limit_memory);
   }
 
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away must not take the record with it
+
   int status = done;
   std::string why;
   lua::Session session(monitor);
@@ -192,9 +200,8 @@ int run(const RunCommand& command) {
     lua::State state = lua::make_state(session, folder.empty() ? "." : folder);
     lua_State* L = state.get();
     if (command.limit_time || command.limit_memory) lua::watch_for_stops(L);
-    watchdog.watch(L);
+    const Watchdog::Watching watching(watchdog, L);
     const int result = execute(L, command.script, text, command.arguments);
-    watchdog.watch(nullptr);
     if (result != LUA_OK) {
       status = failed;
       why = lua::error_text(L, -1);
@@ -205,18 +212,23 @@ int run(const RunCommand& command) {
   }
 
   RunStatus ended = status == done ? RunStatus::done : RunStatus::failed;
+  // A script may have caught the error of a memory limit; the limit was met all the same.
+  if (command.limit_memory && lua::memory_limit_met()) {
+    stop_flag().raise(StopReason::memory_limit);
+    if (status == done) why = "the script went on with less";
+    status = failed;
+  }
   const StopReason stopped = status == done ? StopReason::none : stop_flag().reason();
   if (stopped != StopReason::none) {
     status = exit_status(stopped);
     ended = stopped == StopReason::interrupt ? RunStatus::interrupted : RunStatus::failed;
-    why = reason_text(stopped, command);
+    // Where a limit was met is worth knowing; where Ctrl-C was pressed is not.
+    const std::string met_at = stopped == StopReason::interrupt || why.empty() ? "" : "\n" + why;
+    why = reason_text(stopped, command) + met_at;
   }
   monitor.clear();
   std::fflush(stdout);
   if (!why.empty()) std::fprintf(stderr, "asperity: %s\n", why.c_str());
-  if (why.find("not enough memory") != std::string::npos && command.limit_memory)
-    std::fprintf(stderr, "asperity: the memory limit is %s MiB (--limit-memory)\n",
-                 format_short(static_cast<double>(*command.limit_memory) / 0x1p20).c_str());
   try {
     if (status == done && run->expectations().failed() > 0) {
       status = failed;
@@ -256,9 +268,8 @@ int check(const RunCommand& command) {
   try {
     const std::string folder = std::filesystem::path(command.script).parent_path().string();
     lua::State state = lua::make_state(session, folder.empty() ? "." : folder);
-    watchdog.watch(state.get());
+    const Watchdog::Watching watching(watchdog, state.get());
     const int result = execute(state.get(), command.script, text, command.arguments);
-    watchdog.watch(nullptr);
     if (result == LUA_OK) {
       std::printf("%s: no problem found\n", command.script.c_str());
       return done;
@@ -268,7 +279,7 @@ int check(const RunCommand& command) {
       std::fprintf(stderr, "asperity: %s: the check was stopped\n", command.script.c_str());
       return exit_status(stop_flag().reason());
     }
-    if (lua::stopped_at_placeholder(message)) {
+    if (lua::stopped_at_placeholder(message) || (session.gave_placeholders && lua::met_nothing(message))) {
       std::printf("%s: no problem found; checked to line %s: %s\n", command.script.c_str(),
                   lua::line_of(message).c_str(), lua::cannot_follow);
       return done;

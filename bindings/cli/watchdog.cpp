@@ -39,9 +39,15 @@ Watchdog::~Watchdog() {
   thread_.join();
 }
 
+void Watchdog::watch(lua_State* L) {
+  const std::lock_guard lock(mutex_);
+  state_ = L;
+}
+
 void Watchdog::ask(StopReason reason) {
   stop_flag().raise(reason);
-  if (lua_State* L = state_.load()) lua::interrupt(L);
+  const std::lock_guard lock(mutex_);
+  if (state_ != nullptr) lua::interrupt(state_);
 }
 
 void Watchdog::guard(std::optional<double> limit_seconds) {

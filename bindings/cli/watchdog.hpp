@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -25,15 +26,26 @@ class Watchdog {
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  // The Lua state that a stop must reach; null when it is about to close.
-  void watch(lua_State* L) { state_.store(L); }
+  // While it lives, stops reach this Lua state; it must go before the state is closed.
+  class Watching {
+   public:
+    Watching(Watchdog& watchdog, lua_State* L) : watchdog_(watchdog) { watchdog_.watch(L); }
+    ~Watching() { watchdog_.watch(nullptr); }
+    Watching(const Watching&) = delete;
+    Watching& operator=(const Watching&) = delete;
+
+   private:
+    Watchdog& watchdog_;
+  };
 
  private:
+  void watch(lua_State* L);
   void guard(std::optional<double> limit_seconds);
   void ask(StopReason reason);
 
   std::function<void(StopReason)> last_words_;
-  std::atomic<lua_State*> state_{nullptr};
+  std::mutex mutex_;  // of state_: it may not be closed between being read and being interrupted
+  lua_State* state_ = nullptr;
   std::atomic<bool> done_{false};
   std::thread thread_;
 };

@@ -22,6 +22,8 @@ namespace asperity::lua {
 namespace {
 
 constexpr std::size_t most_cases = 1'000'000;
+// Ensembles in cases of ensembles: each level holds a thread and a Lua state.
+constexpr int deepest = 8;
 
 struct EnsembleKeys {
   using Values = std::vector<CaseValue>;
@@ -237,11 +239,15 @@ void record(const Session& session, const EnsembleKeys& keys, const std::vector<
 Values ensemble(Call& call) {
   const EnsembleKeys keys = call.options(ensemble_block());
   Session& session = call.session();
+  if (session.depth >= deepest)
+    throw Error(ErrorCode::bad_value, "this ensemble stands inside " + std::to_string(deepest) + " others",
+                "let the outer ones vary more keys in `over` instead");
   return with_key(call.argument(1), "run", [&](const Argument& run) -> Values {
     CaseSetup common;
     common.run = pack(call.L, run.index(), Cargo::functions, "run",
                       "make it inside `run`, or use it on the rows that come back");
     common.trusted = session.trusted;
+    common.depth = session.depth + 1;
     common.watched = lua_gethook(call.L) != nullptr;
     if (session.dry_run) return dry_rows(call, keys, run);
     const Stream seeds(session.seed, "ensemble");

@@ -218,6 +218,7 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
     session.seed = setup.seed;
     session.trusted = setup.trusted;
     session.is_case = true;
+    session.depth = setup.depth;
     session.output = output.file();
     session.left_behind = &setup.run->left_behind();
     try {

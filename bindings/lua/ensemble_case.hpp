@@ -27,6 +27,7 @@ struct CaseSetup {
   std::vector<CaseValue> values;  // in the order in which messages name them
   std::uint64_t seed = 1;
   bool trusted = false;
+  int depth = 1;         // ensembles the case stands inside
   bool watched = false;  // look at the stop flag every few thousand instructions
 };
 

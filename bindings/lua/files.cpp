@@ -18,6 +18,11 @@ std::string writable_path(const Call& call, const std::string& name) {
   return session.run == nullptr ? name : session.run->path_for(name).string();
 }
 
+std::string readable_path(const Call& call, const std::string& name) {
+  const Session& session = call.session();
+  return session.run == nullptr ? name : session.run->place_to_read(name).string();
+}
+
 void note_input(const Call& call, const std::string& path) {
   const Session& session = call.session();
   std::error_code problem;

@@ -14,6 +14,8 @@ namespace asperity::lua {
 // Where a file that the script writes goes. Throws Error{not_permitted} for a way out of the run
 // directory, and inside a case of an ensemble.
 std::string writable_path(const Call& call, const std::string& name);
+// Where a file that the script reads lies: as named, or else the one the run wrote under that name.
+std::string readable_path(const Call& call, const std::string& name);
 // Enters a file that is about to be read, with its digest, in the run's manifest.
 void note_input(const Call& call, const std::string& path);
 

@@ -136,7 +136,7 @@ Values raise_stage(Call& call) {
       .add("spread", result.spread)
       .add("slipped", result.slipped)
       .add("trials", std::move(trials))
-      .add("note", result.note);
+      .add("note", result.note.empty() ? Value() : Value(result.note));
   return {std::move(record)};
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "bindings/lua/catalogue.hpp"
-#include "bindings/lua/ensemble.hpp"
 #include "bindings/lua/contact.hpp"
+#include "bindings/lua/ensemble.hpp"
 #include "bindings/lua/friction.hpp"
 #include "bindings/lua/help.hpp"
 #include "bindings/lua/material.hpp"

@@ -51,6 +51,12 @@ int concat_unknown(lua_State* L) {
   return call_original(L);
 }
 
+// type() and math.type(): a script asks them to choose its path.
+int refuse_unknown(lua_State* L) {
+  return Argument(L, 1).is_unknown() && native_at(L, 1) == nullptr ? luaL_error(L, "%s", cannot_follow)
+                                                                   : call_original(L);
+}
+
 // A loop over a placeholder runs its body once.
 int unknown_once(lua_State* L) {
   if (lua_toboolean(L, lua_upvalueindex(1)) != 0) return lua_pushnil(L), 1;
@@ -137,6 +143,11 @@ bool stopped_at_placeholder(const std::string& message) {
   return false;
 }
 
+bool met_nothing(const std::string& message) {
+  const std::string first = message.substr(0, message.find('\n'));
+  return first.find("attempt to ") != std::string::npos && first.find("a nil value") != std::string::npos;
+}
+
 std::string line_of(const std::string& message) {
   for (std::size_t at = message.find(':'); at != std::string::npos; at = message.find(':', at + 1)) {
     const std::size_t end = message.find_first_not_of("0123456789", at + 1);
@@ -156,6 +167,8 @@ void open_dry_run_library(lua_State* L) {
   for (const char* name : {"unpack", "sort"}) wrap(L, "table", name, pass_unknown);
   wrap(L, "table", "concat", concat_unknown);
   wrap(L, "_G", "tonumber", pass_unknown);
+  wrap(L, "_G", "type", refuse_unknown);
+  wrap(L, "math", "type", refuse_unknown);
   for (const char* name : {"pairs", "ipairs"}) wrap(L, "_G", name, pairs_or_once);
   // The script's own output belongs to a run.
   wrap(L, "_G", "print", ignored);

@@ -23,6 +23,9 @@ inline constexpr const char* cannot_follow =
 
 // Whether an error message is that of a dry run that met a placeholder where it needed a value.
 bool stopped_at_placeholder(const std::string& message);
+// Whether it is Lua's own complaint about nil, which after a placeholder may only mean that a result has
+// more parts than its placeholder.
+bool met_nothing(const std::string& message);
 // The line number of "script.lua:12: …", "?" if there is none.
 std::string line_of(const std::string& message);
 

@@ -97,7 +97,7 @@ const Block<ReadProfileOptions>& read_block() {
 }
 
 Values read(Call& call) {
-  const std::string path = call.text(1, "path");
+  const std::string path = readable_path(call, call.text(1, "path"));
   const ReadProfileOptions options = call.options(read_block(), 2);
   note_input(call, path);
   return {object(read_profile(path, options, call.session().monitor()))};

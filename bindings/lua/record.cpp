@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 
+#include "bindings/lua/guard.hpp"
 #include "bindings/lua/registry.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <exception>
-#include <new>
 #include <unordered_map>
 
+#include "bindings/lua/guard.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/core/error.hpp"
@@ -63,53 +62,15 @@ const std::unordered_map<const Function*, Entry>& entries() {
   return all;
 }
 
-std::string message_of(lua_State* L, const std::string& name, const Error& error) {
-  if (error.code() == ErrorCode::interrupted) return where(L) + "interrupted";
-  const std::string text = error.what();
-  return where(L) + (text.starts_with(name) || name.empty() ? text : name + ": " + text);
-}
-
-// Pushes an error message and returns -1, which tells the outer frame to raise it.
-int fail(lua_State* L, const std::string& message) {
-  auto action = [&message](lua_State* state) {
-    lua_pushlstring(state, message.data(), message.size());
-    return 1;
-  };
-  protect(L, 0, 1, action);  // on failure Lua's own memory error is there instead
-  return -1;
-}
-
-int deliver(lua_State* L, const Values& results) {
-  const int count = static_cast<int>(results.size());
-  auto action = [&results](lua_State* state) {
-    luaL_checkstack(state, static_cast<int>(results.size()) + 8, "too many results");
-    for (const Value& value : results) push(state, value);
-    return static_cast<int>(results.size());
-  };
-  return protect(L, 0, count, action) == LUA_OK ? count : -1;
-}
-
-// The middle frame: runs a body that returns Values; -1 with the error on the stack if it threw.
-template <class Run>
-int guarded(lua_State* L, const std::string& name, Run run) {
-  try {
-    stop_flag().check();
-    return deliver(L, run());
-  } catch (const Error& error) {
-    return fail(L, message_of(L, name, error));
-  } catch (const std::bad_alloc&) {
-    return fail(L, where(L) + name + ": out of memory");
-  } catch (const std::exception& error) {
-    return fail(L, where(L) + name + ": internal error: " + error.what());
-  }
-}
-
 void check_count(const Call& call, const Function& function) {
   const std::size_t most = function.parameters.size() + (function.options != nullptr ? 1 : 0);
   if (call.count() > static_cast<int>(most))
     throw Error(ErrorCode::bad_value,
                 call.function_name() + " takes " +
-                    (most == 0 ? std::string("no arguments") : "at most " + std::to_string(most)) +
+                    (most == 0   ? std::string("no arguments")
+                     : most == 1 ? std::string("one argument")
+                                 : "at most " + std::to_string(most) + " arguments") +
+                    (most == 1 && function.options != nullptr ? ", a table of named keys," : "") +
                     " and was given " + std::to_string(call.count()));
 }
 
@@ -137,6 +98,7 @@ Values dry_call(const Call& call, const Function& function) {
     if (!table.is_unknown() && (!function.options_optional || call.given(k)))
       function.options->check(table, call.function_name());
   }
+  call.session().gave_placeholders = true;
   Values results;
   for (const std::string& type : result_types(function)) results.push_back(placeholder_of(type));
   return results;
@@ -188,21 +150,21 @@ Values call_function(lua_State* L, const Entry& entry) {
   return results;
 }
 
-// Whether collecting what the script can no longer reach gave memory back.
-bool collected_something(lua_State* L) {
-  const std::int64_t before = memory::held();
-  lua_gc(L, LUA_GCCOLLECT);
-  return memory::held() < before;
-}
-
 int guarded_function(lua_State* L, const Entry& entry) {
   return guarded(L, entry.name, [&]() -> Values {
     try {
       return call_function(L, entry);
     } catch (const Error& error) {
-      if (error.code() != ErrorCode::out_of_memory || !collected_something(L)) throw;
+      if (error.code() != ErrorCode::out_of_memory) throw;
+      lua_gc(L, LUA_GCCOLLECT);  // what the script can no longer reach may be enough
     }
-    return call_function(L, entry);  // a call that failed left everything as it was
+    try {
+      return call_function(L, entry);  // a call that failed left everything as it was
+    } catch (const Error& error) {
+      // Nothing is left to give back: the run met its limit, whatever the script makes of the error.
+      if (error.code() == ErrorCode::out_of_memory) memory::note_exceeded();
+      throw;
+    }
   });
 }
 
@@ -212,281 +174,14 @@ int outer_function(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
-int guarded_field(lua_State* L, const Class& type) {
-  static const std::string nothing;
-  return guarded(L, nothing, [&]() -> Values {
-    const Argument key(L, 2);
-    const Object* self = Argument(L, 1).as_object(type);
-    if (self == nullptr) throw Error(ErrorCode::bad_value, "this is not " + type.article_name);
-    if (!key.is_text())
-      throw Error(ErrorCode::unknown_name, type.article_name + " was indexed with " + key.describe(),
-                  "its fields have names");
-    if (self->closed) throw Error(ErrorCode::bad_state, type.article_name + " was used after it was closed");
-    for (const Getter& field : type.fields) {
-      if (field.name != key.text()) continue;
-      if (self->is_placeholder()) return {placeholder_of(field.type)};
-      Call call(L, field.name, true);
-      return field.body(call);
-    }
-    throw Error(ErrorCode::unknown_name, type.article_name + " has no field " +
-                                             quoted(key.text().substr(0, 40)) +
-                                             did_you_mean(key.text(), type.names()));
-  });
-}
-
-int outer_index(lua_State* L) {
-  lua_pushvalue(L, 2);
-  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;  // a method
-  lua_pop(L, 1);
-  const int results = guarded_field(L, *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1))));
-  return results < 0 ? lua_error(L) : results;
-}
-
-int guarded_new_index(lua_State* L, const Class& type) {
-  static const std::string nothing;
-  return guarded(L, nothing, [&]() -> Values {
-    const Argument key(L, 2);
-    throw Error(ErrorCode::not_permitted,
-                type.article_name + " cannot be changed" +
-                    (key.is_text() ? " (field " + quoted(key.text().substr(0, 40)) + ")" : ""),
-                "its methods return new values");
-  });
-}
-
-int outer_new_index(lua_State* L) {
-  guarded_new_index(L, *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1))));
-  return lua_error(L);
-}
-
-int outer_to_string(lua_State* L) {
-  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
-  const int results = [&] {
-    return guarded(L, type.name, [&]() -> Values {
-      const Object* self = Argument(L, 1).as_object(type);
-      if (self == nullptr || self->pointer == nullptr || type.describe == nullptr)
-        return {type.article_name + (self != nullptr && self->closed ? " (closed)" : "")};
-      return {type.describe(self->pointer.get())};
-    });
-  }();
-  return results < 0 ? lua_error(L) : results;
-}
-
-int outer_equal(lua_State* L) {
-  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
-  const int results = [&] {
-    return guarded(L, type.name, [&]() -> Values {
-      const Object* a = Argument(L, 1).as_object(type);
-      const Object* b = Argument(L, 2).as_object(type);
-      if (a == nullptr || b == nullptr || a->pointer == nullptr || b->pointer == nullptr) return {false};
-      return {a->pointer == b->pointer ||
-              (type.equal != nullptr && type.equal(a->pointer.get(), b->pointer.get()))};
-    });
-  }();
-  return results < 0 ? lua_error(L) : results;
-}
-
-// __gc and __close: drops the native value. Safe to run twice.
-int release(lua_State* L) {
-  if (Object* object = native_at(L, 1)) {
-    object->pointer.reset();
-    object->closed = true;
-  }
-  return 0;
-}
-
-const char native_key = 0;  // metatables[native_key] = true marks the metatables of native values
-const char module_key = 0;  // and [module_key] = Module* those of modules
-
-int module_index(lua_State* L) {
-  lua_pushvalue(L, 2);
-  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
-  lua_pop(L, 1);
-  const Module& module = *static_cast<const Module*>(lua_touserdata(L, lua_upvalueindex(1)));
-  const int results = [&] {
-    static const std::string nothing;
-    return guarded(L, nothing, [&]() -> Values {
-      std::vector<std::string> names;
-      Argument(L, lua_upvalueindex(2)).each([&](const Argument& key, const Argument&) {
-        names.emplace_back(key.text());
-      });
-      const Argument key(L, 2);
-      const std::string shown = key.is_text() ? quoted(key.text().substr(0, 40)) : key.describe();
-      throw Error(
-          ErrorCode::unknown_name,
-          module.path + " has no field " + shown + (key.is_text() ? did_you_mean(key.text(), names) : ""),
-          "lab.help \"" + module.path + "\" lists what it has");
-    });
-  }();
-  return results < 0 ? lua_error(L) : results;
-}
-
-int module_new_index(lua_State* L) {
-  const Module& module = *static_cast<const Module*>(lua_touserdata(L, lua_upvalueindex(1)));
-  return luaL_error(L, "%s cannot be changed", module.path.c_str());
-}
-
-// The storage stays an upvalue: handed to the script, it could be written to.
-int module_next(lua_State* L) {
-  lua_settop(L, 2);
-  return lua_next(L, lua_upvalueindex(1)) != 0 ? 2 : (lua_pushnil(L), 1);
-}
-
-int module_pairs(lua_State* L) {
-  lua_pushvalue(L, lua_upvalueindex(2));
-  lua_pushcclosure(L, module_next, 1);
-  lua_pushvalue(L, 1);
-  lua_pushnil(L);
-  return 3;
-}
-
-// With [-1] = the metatable being made and [-2] = hidden storage: sets a closure over both.
-void set_module_method(lua_State* L, const char* name, lua_CFunction function, const Module& module) {
-  lua_pushlightuserdata(L, const_cast<Module*>(&module));
-  lua_pushvalue(L, -3);
-  lua_pushcclosure(L, function, 2);
-  lua_setfield(L, -2, name);
-}
-
-int module_call(lua_State* L) {
-  lua_remove(L, 1);  // the module itself
-  const int results = guarded_function(L, *static_cast<const Entry*>(lua_touserdata(L, lua_upvalueindex(1))));
-  return results < 0 ? lua_error(L) : results;
-}
-
-// Pushes the proxy of a module and leaves its storage below it: storage, proxy.
-void push_module(lua_State* L, const Module& module) {
-  lua_newtable(L);  // storage
-  for (const Function& function : module.functions) {
-    push_function(L, function);
-    lua_setfield(L, -2, function.name.c_str());
-  }
-  for (const Constant& constant : module.constants) {
-    push(L, constant.value());
-    lua_setfield(L, -2, constant.name.c_str());
-  }
-  lua_newtable(L);  // proxy, empty for ever
-  lua_pushvalue(L, -2);
-  lua_newtable(L);  // its metatable
-  set_module_method(L, "__index", module_index, module);
-  set_module_method(L, "__newindex", module_new_index, module);
-  set_module_method(L, "__pairs", module_pairs, module);
-  if (module.call) {
-    lua_pushlightuserdata(L, const_cast<Entry*>(&entries().at(&*module.call)));
-    lua_pushcclosure(L, module_call, 1);
-    lua_setfield(L, -2, "__call");
-  }
-  lua_pushstring(L, module.path.c_str());
-  lua_setfield(L, -2, "__name");
-  lua_pushstring(L, module.path.c_str());
-  lua_setfield(L, -2, "__metatable");
-  lua_pushlightuserdata(L, const_cast<Module*>(&module));
-  lua_rawsetp(L, -2, &module_key);
-  lua_remove(L, -2);  // the second reference to storage
-  lua_setmetatable(L, -2);
-  lua_pushvalue(L, -1);
-  lua_rawsetp(L, LUA_REGISTRYINDEX, &module);
-}
-
-void set_class_method(lua_State* L, const char* name, lua_CFunction function, const Class& type) {
-  lua_pushlightuserdata(L, const_cast<Class*>(&type));
-  lua_pushcclosure(L, function, 1);
-  lua_setfield(L, -2, name);
-}
-
 }  // namespace
 
-std::string where(lua_State* L) {
-  lua_Debug frame;
-  for (int level = 0; level < 16 && lua_getstack(L, level, &frame) != 0; ++level) {
-    lua_getinfo(L, "Sl", &frame);
-    if (frame.currentline > 0)
-      return std::string(frame.short_src) + ":" + std::to_string(frame.currentline) + ": ";
-  }
-  return "";
-}
-
 const std::string& qualified_name(const Function& function) { return entries().at(&function).name; }
-
-Object* native_at(lua_State* L, int index) {
-  void* block = lua_touserdata(L, index);
-  if (lua_type(L, index) != LUA_TUSERDATA || lua_getmetatable(L, index) == 0) return nullptr;
-  lua_rawgetp(L, -1, &native_key);
-  const bool ours = lua_toboolean(L, -1) != 0;
-  lua_pop(L, 2);
-  return ours ? static_cast<Object*>(block) : nullptr;
-}
-
-const Module* module_at(lua_State* L, int index) {
-  if (lua_type(L, index) != LUA_TTABLE || lua_getmetatable(L, index) == 0) return nullptr;
-  lua_rawgetp(L, -1, &module_key);
-  const auto* module = static_cast<const Module*>(lua_touserdata(L, -1));
-  lua_pop(L, 2);
-  return module;
-}
-
-void push_proxy(lua_State* L, const Module& module) { lua_rawgetp(L, LUA_REGISTRYINDEX, &module); }
 
 void push_function(lua_State* L, const Function& function) {
   lua_pushlightuserdata(L, const_cast<Entry*>(&entries().at(&function)));
   lua_pushcclosure(L, outer_function, 1);
 }
-
-void push_metatable(lua_State* L, const Class& type) {
-  luaL_checkstack(L, 8, nullptr);
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &type) == LUA_TTABLE) return;
-  lua_pop(L, 1);
-  lua_newtable(L);
-  lua_pushboolean(L, 1);
-  lua_rawsetp(L, -2, &native_key);
-  lua_pushstring(L, type.name.c_str());
-  lua_setfield(L, -2, "__name");
-  lua_pushstring(L, type.name.c_str());
-  lua_setfield(L, -2, "__metatable");
-  lua_pushlightuserdata(L, const_cast<Class*>(&type));
-  lua_newtable(L);
-  for (const Function& method : type.methods) {
-    push_function(L, method);
-    lua_setfield(L, -2, method.name.c_str());
-  }
-  lua_pushcclosure(L, outer_index, 2);
-  lua_setfield(L, -2, "__index");
-  set_class_method(L, "__newindex", outer_new_index, type);
-  set_class_method(L, "__tostring", outer_to_string, type);
-  set_class_method(L, "__eq", outer_equal, type);
-  set_class_method(L, "__gc", release, type);
-  set_class_method(L, "__close", release, type);
-  lua_pushvalue(L, -1);
-  lua_rawsetp(L, LUA_REGISTRYINDEX, &type);
-}
-
-void push_library(lua_State* L) {
-  luaL_checkstack(L, 16, nullptr);
-  lua_newtable(L);  // path -> storage
-  const int storages = lua_gettop(L);
-  int root = 0;
-  for (const Module* module : modules()) {
-    push_module(L, *module);
-    if (module->path == "lab") {
-      root = lua_gettop(L);
-    } else {
-      const std::string& path = module->path;
-      const std::size_t dot = path.rfind('.');
-      lua_pushlstring(L, path.data(), dot);
-      lua_rawget(L, storages);  // the parent's storage
-      lua_pushvalue(L, -2);
-      lua_setfield(L, -2, path.c_str() + dot + 1);
-      lua_pop(L, 1);
-    }
-    lua_pushvalue(L, -2);  // this module's storage
-    lua_setfield(L, storages, module->path.c_str());
-    if (lua_gettop(L) != root) lua_pop(L, 2);
-  }
-  lua_pushvalue(L, root);
-  lua_replace(L, storages);
-  lua_settop(L, storages);
-}
-
-Session& Call::session() const { return Session::of(L); }
 
 void* Call::self_pointer(const Class& type) const {
   const Object* object = Argument(L, 1).as_object(type);

@@ -158,7 +158,4 @@ void push_proxy(lua_State* L, const Module& module);
 // Pushes `lab`, a table of everything. Raises like any luaopen function.
 void push_library(lua_State* L);
 
-// "script.lua:12: " of the innermost Lua function that is running, or "".
-std::string where(lua_State* L);
-
 }  // namespace asperity::lua

@@ -30,7 +30,9 @@ class Session {
 
   std::uint64_t seed = 1;              // of math.random and of anything a script leaves to the run
   bool dry_run = false;                // asperity check: heavy calls give placeholders
+  bool gave_placeholders = false;      // a dry run has met a call it did not make
   bool trusted = false;                // the whole of Lua, and files anywhere
+  int depth = 0;                       // ensembles this state stands inside
   bool is_case = false;                // a case of an ensemble: cannot record
   std::shared_ptr<RunDirectory> run;   // null when nothing is recorded
   std::function<void(int)> exit_hook;  // what os.exit(code) does before the process ends

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <optional>
+#include <utility>
 
 #include "bindings/lua/embedded.hpp"
 #include "bindings/lua/placeholder.hpp"
@@ -17,6 +19,10 @@ namespace asperity::lua {
 
 namespace {
 
+// A request of this thread that was refused. Lua collects and asks once more for the same: what follows
+// shows whether the refusal was final.
+thread_local std::optional<std::pair<void*, std::size_t>> refused;
+
 // Lua's heap falls under the same limit as the engine's grids.
 void* allocate(void*, void* block, std::size_t old_size, std::size_t new_size) {
   const auto held = static_cast<std::int64_t>(block == nullptr ? 0 : old_size);
@@ -26,7 +32,15 @@ void* allocate(void*, void* block, std::size_t old_size, std::size_t new_size) {
     return nullptr;
   }
   const std::int64_t change = static_cast<std::int64_t>(new_size) - held;
-  if (!memory::account(change)) return nullptr;
+  if (!memory::account(change)) {
+    if (refused) memory::note_exceeded();
+    refused = {block, new_size};
+    return nullptr;
+  }
+  if (change > 0 && refused) {
+    if (*refused != std::pair(block, new_size)) memory::note_exceeded();
+    refused.reset();
+  }
   void* moved = std::realloc(block, new_size);
   if (moved == nullptr) memory::account(-change);
   return moved;
@@ -37,17 +51,21 @@ int open_library(lua_State* L) {
   return 1;
 }
 
-// host.output_path(name) -> path, or nil and why not.
-int output_path_body(lua_State* L) {
+// host.output_path(name) and host.input_path(name) -> path, or nil and why not.
+int path_body(lua_State* L, bool to_write) {
   std::string result;
   bool good = true;
   try {
     const Session& session = Session::of(L);
     const std::string name(Argument(L, 1).text());
-    if (session.is_case)
-      throw Error(ErrorCode::not_permitted, "a case of an ensemble writes no files",
-                  "return what it found, and write after the loop");
-    result = session.run == nullptr ? name : session.run->path_for(name).string();
+    if (!to_write) {
+      result = session.run == nullptr ? name : session.run->place_to_read(name).string();
+    } else {
+      if (session.is_case)
+        throw Error(ErrorCode::not_permitted, "a case of an ensemble writes no files",
+                    "return what it found, and write after the loop");
+      result = session.run == nullptr ? name : session.run->path_for(name).string();
+    }
   } catch (const std::exception& error) {
     result = error.what();
     good = false;
@@ -62,7 +80,12 @@ int output_path_body(lua_State* L) {
 }
 
 int output_path(lua_State* L) {
-  const int results = output_path_body(L);
+  const int results = path_body(L, true);
+  return results < 0 ? lua_error(L) : results;
+}
+
+int input_path(lua_State* L) {
+  const int results = path_body(L, false);
   return results < 0 ? lua_error(L) : results;
 }
 
@@ -157,6 +180,8 @@ int set_up(lua_State* L) {
   lua_setfield(L, -2, "exit");
   lua_pushcfunction(L, output_path);
   lua_setfield(L, -2, "output_path");
+  lua_pushcfunction(L, input_path);
+  lua_setfield(L, -2, "input_path");
   lua_pushcfunction(L, unknown_global);
   lua_setfield(L, -2, "unknown_global");
   lua_pushboolean(L, session.trusted ? 1 : 0);
@@ -165,6 +190,8 @@ int set_up(lua_State* L) {
 }
 
 }  // namespace
+
+bool memory_limit_met() { return memory::exceeded() || refused.has_value(); }
 
 State make_state(Session& session, const std::string& script_folder) {
   State state(lua_newstate(allocate, nullptr));

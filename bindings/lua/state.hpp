@@ -28,6 +28,10 @@ void interrupt(lua_State* L);
 // its speed, so it is for runs with a limit.
 void watch_for_stops(lua_State* L);
 
+// Whether a request for memory of this thread's states, or of the engine, was refused for good since the
+// limit was set, even if the script caught the error.
+bool memory_limit_met();
+
 // An error value as text: a string as it is, anything else as tostring would show it.
 std::string error_text(lua_State* L, int index);
 

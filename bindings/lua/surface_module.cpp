@@ -269,7 +269,7 @@ const Block<ReadOptions>& read_block() {
   return block;
 }
 Values read_body(Call& call) {
-  const std::string path = call.text(1, "path");
+  const std::string path = readable_path(call, call.text(1, "path"));
   const ReadOptions options = call.options(read_block(), 2);
   note_input(call, path);
   return {object(read_surface(path, options, call.session().monitor()))};

@@ -14,6 +14,7 @@ namespace asperity::memory {
 namespace {
 std::atomic<std::int64_t> held_bytes{0};
 std::atomic<std::int64_t> limit_bytes{0};
+std::atomic<bool> limit_exceeded{false};
 
 constexpr std::size_t alignment = 64;
 constexpr double mebibyte = 1024.0 * 1024.0;
@@ -29,7 +30,14 @@ constexpr double mebibyte = 1024.0 * 1024.0;
 }  // namespace
 
 std::int64_t held() { return held_bytes.load(); }
-void set_limit(std::int64_t bytes) { limit_bytes.store(bytes); }
+void set_limit(std::int64_t bytes) {
+  limit_bytes.store(bytes);
+  limit_exceeded.store(false);
+}
+void note_exceeded() noexcept {
+  if (limit_bytes.load() > 0) limit_exceeded.store(true);
+}
+bool exceeded() noexcept { return limit_exceeded.load(); }
 std::int64_t limit() { return limit_bytes.load(); }
 
 bool account(std::int64_t change) noexcept {

@@ -20,6 +20,11 @@ std::int64_t held();
 void set_limit(std::int64_t bytes);
 std::int64_t limit();
 
+// Whether a request was refused for good since the limit was set, even if the error was caught. Whoever
+// frees something and asks again decides when a refusal is final.
+void note_exceeded() noexcept;
+bool exceeded() noexcept;
+
 // 64-byte aligned. Throws Error{out_of_memory} naming the size asked for and what is held.
 void* acquire(std::size_t bytes);
 void release(void* pointer, std::size_t bytes) noexcept;

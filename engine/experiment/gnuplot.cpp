@@ -166,7 +166,7 @@ std::string gnuplot_text(std::string_view text) {
     } else if (byte < 0x20 || byte == 0x7F) {
       literal += ' ';
     } else if (byte == '\'') {
-      literal += "''";
+      literal += "’";  // a doubled quote fails where a text begins with it
     } else {
       literal += text.substr(k, length);
     }

@@ -53,7 +53,7 @@ fs::path given_directory(const fs::path& out) {
   if (!fs::is_empty(out, reason) && !reason)
     throw Error(ErrorCode::bad_value,
                 "`--out` names " + asperity::quoted(out.string()) + ", which is not empty",
-                "give a new directory, or continue that run with `--resume`");
+                "give a new directory");
   if (reason) throw_file_error("read the folder", out, reason.value());
   return out;
 }
@@ -134,11 +134,21 @@ void RunDirectory::keep_inside(const fs::path& relative, std::string_view file) 
 }
 
 fs::path RunDirectory::path_for(std::string_view file) {
-  const fs::path given = fs::path(std::string(file)).lexically_normal();
+  fs::path given = fs::path(std::string(file)).lexically_normal();
+  // What a method returned as the place of a file may be given back: it is inside, though absolute.
+  if (given.is_absolute() && !root_.empty())
+    if (const fs::path inside = given.lexically_relative(root_); !inside.empty() && *inside.begin() != "..")
+      given = inside;
   if (file.empty() || file.find('\0') != std::string_view::npos || !given.has_filename() ||
       given.filename() == "." || given.filename() == "..")
     throw Error(ErrorCode::bad_value, quoted(file) + " is not the name of a file",
                 "give a name such as \"heights.npy\"");
+  constexpr std::size_t longest = 255;  // bytes of one name on the file systems of Linux
+  for (const fs::path& part : given)
+    if (part.native().size() > longest)
+      throw Error(ErrorCode::bad_value,
+                  "a file name is " + std::to_string(part.native().size()) + " bytes long",
+                  "give at most " + std::to_string(longest));
   const bool outside_allowed = trusted_ && (given.is_absolute() || *given.begin() == "..");
   if (!outside_allowed) keep_inside(given, file);
   fs::path place = given.is_absolute() || root_.empty() ? given : root_ / given;
@@ -154,6 +164,14 @@ fs::path RunDirectory::path_for(std::string_view file) {
   const std::lock_guard lock(mutex_);
   outputs_.insert(given.string());
   return place;
+}
+
+fs::path RunDirectory::place_to_read(std::string_view file) const {
+  const fs::path given{std::string(file)};
+  std::error_code ignored;
+  if (given.is_absolute() || root_.empty() || fs::exists(given, ignored)) return given;
+  const fs::path written = root_ / given;
+  return fs::exists(written, ignored) ? written : given;
 }
 
 std::shared_ptr<Notebook> RunDirectory::notebook(std::string_view name) {

@@ -64,6 +64,10 @@ class RunDirectory {
   // The file is listed among the outputs if it is there when the run ends.
   std::filesystem::path path_for(std::string_view file);
 
+  // Where a file that the script is about to read lies: as named, from the working directory; if there
+  // is none, the one the run itself wrote under that name.
+  std::filesystem::path place_to_read(std::string_view file) const;
+
   Journal& journal() { return *journal_; }
   // The notebook of that name, the same one each time. Throws Error{bad_value} for an empty name.
   std::shared_ptr<Notebook> notebook(std::string_view name);

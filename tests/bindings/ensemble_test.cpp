@@ -562,5 +562,18 @@ TEST(Ensemble, TrustedScriptsHaveTheWholeOfLuaInCases) {
             "functionfunction");
 }
 
+TEST(Ensemble, EndlessNestingIsRefusedAndShallowNestingRuns) {
+  Bench bench(2);
+  EXPECT_TRUE(
+      contains(bench.run("local function f() return lab.ensemble{ over = { x = {1} }, run = f }[1] end f()"),
+               "this ensemble stands inside 8 others"));
+  EXPECT_EQ(bench.run("local rows = lab.ensemble{ over = { x = {1, 2} }, run = function(case)"
+                      " local inner = lab.ensemble{ over = { y = {10, 20} }, run = function(c)"
+                      " return { sum = case.x + c.y } end }"
+                      " return { total = inner[1].sum + inner[2].sum } end }"
+                      " return rows[1].total .. ' ' .. rows[2].total"),
+            "32 34");
+}
+
 }  // namespace
 }  // namespace asperity::lua

@@ -173,10 +173,11 @@ TEST_F(Method, NeedsAColonAndAValueOfItsClass) {
 
 TEST_F(Method, RefusesSurplusArguments) {
   run("s = lab.surface.flat{ cells=4, size=1 }");
-  EXPECT_EQ(run("s:height(1, 2, 3)"), "script.lua:1: surface:height takes at most 2 and was given 3");
+  EXPECT_EQ(run("s:height(1, 2, 3)"),
+            "script.lua:1: surface:height takes at most 2 arguments and was given 3");
   EXPECT_EQ(run("s:mirrored(1)"), "script.lua:1: surface:mirrored takes no arguments and was given 1");
   EXPECT_EQ(run("lab.surface.flat({ cells=4, size=1 }, 2)"),
-            "script.lua:1: lab.surface.flat takes at most 1 and was given 2");
+            "script.lua:1: lab.surface.flat takes one argument, a table of named keys, and was given 2");
 }
 
 TEST_F(Method, NamesItsPositionalArguments) {

@@ -127,7 +127,7 @@ TEST_F(ChartTest, DrawsWithoutAComplaint) {
   EXPECT_TRUE(draw(chart, folder / "a.svg").empty());
   const std::string svg = content_of(folder / "a.svg");
   EXPECT_TRUE(svg.find("</svg>") != std::string::npos) << svg.substr(svg.size() - 40);
-  EXPECT_NE(svg.find("a'b`touch x` &lt;b>&amp;c"), std::string::npos);
+  EXPECT_NE(svg.find("a’b`touch x` &lt;b>&amp;c"), std::string::npos);
   draw(chart, folder / "a.png");
   EXPECT_TRUE(content_of(folder / "a.png").starts_with("\x89PNG"));
   EXPECT_EQ(files_in(folder), 2U);

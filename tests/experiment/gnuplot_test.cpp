@@ -12,9 +12,11 @@ namespace {
 
 TEST(GnuplotText, IsALiteralOfExactlyThisText) {
   EXPECT_EQ(gnuplot_text("Ra (µm)"), "'Ra (µm)'");
-  EXPECT_EQ(gnuplot_text("a'b`rm -rf`"), "'a''b`rm -rf`'");
+  EXPECT_EQ(gnuplot_text("a'b`rm -rf`"), "'a’b`rm -rf`'");
   EXPECT_EQ(gnuplot_text("a\nb\tc\x7f"), "'a b c '");
-  EXPECT_EQ(gnuplot_text(std::string("\xff\xc3", 2)), "'?" "?'");
+  EXPECT_EQ(gnuplot_text(std::string("\xff\xc3", 2)),
+            "'?"
+            "?'");
   EXPECT_EQ(gnuplot_text(""), "''");
 }
 

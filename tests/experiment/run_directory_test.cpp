@@ -65,8 +65,7 @@ TEST_F(RunDirectoryTest, OutMayBeMissingOrEmptyOnly) {
   s.out = folder / "a" / "b";
   EXPECT_EQ(RunDirectory(s).path(), folder / "a" / "b");
   EXPECT_EQ(error_of([&] { RunDirectory again(s); }),
-            "bad_value: `--out` names `" + s.out->string() +
-                "`, which is not empty; give a new directory, or continue that run with `--resume`");
+            "bad_value: `--out` names `" + s.out->string() + "`, which is not empty; give a new directory");
   s.out = folder / "empty";
   fs::create_directory(*s.out);
   EXPECT_EQ(RunDirectory(s).path(), *s.out);

@@ -61,5 +61,8 @@ refused(function() S.read(holes, { size=1, unit="kg" }) end, "`unit`", "a mass")
 refused(function() S.read(holes, { size=1, unit="um", format="tiff" }) end, "`format` is \"tiff\"", "x3p")
 refused(function() s:write "x.bmp" end, "no format has the extension .bmp")
 refused(function() s:write "../x.npy" end, "lies outside the run directory")
+refused(function() s:write(("x"):rep(300) .. ".npy") end, "a file name is 304 bytes long; give at most 255")
+refused(function() s:write "a\0b.npy" end, "surface:write: ")
+refused(function() s:write "" end, "is not the name of a file")
 refused(function() s:picture "x.jpg" end, "pictures are .svg or .png")
 print "all refused"

@@ -11,7 +11,7 @@ local all = {
   v + 1, 1 - v, v * v, v / 2, v // 1, v % 2, v ^ 2, -v, v .. "x", "x" .. v, v & 1, v | 1, v ~ 1, ~v, v << 1, v >> 1, #s:heights(),
   v == 1, v ~= v, not v, math.sqrt(v), math.max(v, 1), math.floor(v), math.abs(v), math.log(v), math.tan(v), math.huge * v,
   string.format("%g", v), ("%d"):format(v), tostring(v), tonumber(v), table.concat(t, " "), table.unpack(t),
-  select("#", v, v), select(2, 1, v), assert(v, "none"), rawequal(v, v), rawlen(t), next(t), type(v),
+  select("#", v, v), select(2, 1, v), assert(v, "none"), rawequal(v, v), rawlen(t), next(t),
 }
 table.insert(t, v)
 table.insert(t, 1, v)

@@ -2,7 +2,7 @@
 --! flags: --limit-memory 64M
 --! exit: 1
 --! error: not enough memory
---! error: the memory limit is 64 MiB
+--! error: the memory limit of 64 MiB was reached
 --! file: rows.csv: 1
 local lab = require "asperity"
 lab.notebook "rows":write{ a=1 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "engine/surface/io/read.hpp"
 #include "tests/surface/files.hpp"
@@ -61,6 +63,72 @@ TEST(StylusCsv, UnevenOrCutShort) {
             std::string::npos);
 }
 
+class Listener final : public Monitor {
+ public:
+  void progress(std::string_view, double) override {}
+  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
+  std::vector<std::string> warnings;
+};
+
+// 100 samples, 1 um apart, of a trace said to be 100 um long.
+std::string trace_of(int samples, const std::string& header) {
+  std::string text = header + "\nScan Data\nLateral um,Raw um,\n";
+  for (int k = 0; k < samples; ++k) text += std::to_string(k) + ".0,0." + std::to_string(k % 7) + ",,\r\n";
+  return text;
+}
+
+TEST(StylusCsv, LessThanTheStatedLengthIsRefused) {
+  const Scratch scratch;
+  const auto answer = [&](int samples, const std::string& header) {
+    return message_of([&] { read_profile(scratch.write("t.csv", trace_of(samples, header))); });
+  };
+  const std::string header = "Length,100.0 um\nResolution,1.000 um/sample";
+  EXPECT_EQ(answer(100, header), "no error");
+  EXPECT_EQ(answer(99, header), "no error");
+  EXPECT_EQ(
+      answer(50, header),
+      "\"" + scratch.path("t.csv") +
+          "\" covers 50 um of the 100 um that its header states; the file is cut short, or the scan was "
+          "stopped: then correct `Length` in the file");
+  EXPECT_NE(answer(98, header).find("covers 98 um of the 100 um"), std::string::npos);
+  EXPECT_NE(answer(60, "Length,0.1 mm").find("covers 60 um of the 100 um"), std::string::npos);
+  EXPECT_NE(answer(60, "Length,100 \xB5m").find("covers 60 um of the 100 um"), std::string::npos);
+  EXPECT_EQ(answer(50, "Length,unknown"), "no error");
+  EXPECT_EQ(answer(50, "Resolution,1.000 um/sample"), "no error");  // says nothing of the end
+}
+
+TEST(StylusCsv, MoreThanTheStatedLengthIsAWarning) {
+  const Scratch scratch;
+  Listener listener;
+  EXPECT_EQ(read_profile(scratch.write("t.csv", trace_of(100, "Length,50 um")), {}, listener).size(), 100);
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_NE(listener.warnings[0].find("says it is 50 um long but its samples span 100 um"),
+            std::string::npos);
+}
+
+// One byte less may make 1.25 of 1.258, which nothing else can tell.
+TEST(StylusCsv, LastLineWithoutEndIsAWarning) {
+  const Scratch scratch;
+  const std::string whole = testing::bytes_of(sample("trace.csv"));
+  const auto warnings = [&](const std::string& bytes) {
+    Listener listener;
+    read_profile(scratch.write("t.csv", bytes), {}, listener);
+    read_surface(scratch.path("t.csv"), {}, listener);
+    return listener.warnings;
+  };
+  EXPECT_TRUE(warnings(whole).empty());
+  const std::size_t last = whole.find_last_not_of("\r\n");
+  EXPECT_TRUE(warnings(whole.substr(0, last + 2)).empty());
+  for (const std::size_t cut : {last + 1, last, last - 2}) {
+    const std::vector<std::string> found = warnings(whole.substr(0, cut));
+    ASSERT_EQ(found.size(), 2U) << cut;
+    EXPECT_EQ(found[0],
+              "\"" + scratch.path("t.csv") +
+                  "\": the last line has no line end; if the file was cut short its last height may "
+                  "be wrong");
+  }
+}
+
 TEST(StylusCsv, DamagedBytesGiveErrors) {
   const Scratch scratch;
   int read = 0;
@@ -75,13 +143,22 @@ TEST(StylusCsv, DamagedBytesGiveErrors) {
 
 TEST(StylusCsv, MeasuredFile) {
   if (measured("").empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
-  const Profile profile = read_profile(measured("dektak-1.csv"));
+  Listener listener;
+  const Profile profile = read_profile(measured("dektak-1.csv"), {}, listener);
+  EXPECT_TRUE(listener.warnings.empty());
   EXPECT_NEAR(profile.length(), 1500e-6, 1e-10);  // the length that the header states
   EXPECT_NEAR(profile.spacing(), 0.156e-6, 0.0005e-6);
   EXPECT_NEAR(profile.heights()[0], -0.00933e-6, 1e-18);
   EXPECT_NEAR(profile.heights()[1], -0.00760e-6, 1e-18);
   EXPECT_NEAR(profile.heights().back(), 16.58112e-6, 1e-16);
   EXPECT_EQ(read_surface(measured("dektak-1.csv")).grid().nx, profile.size());
+  const Scratch scratch;
+  const std::string whole = testing::bytes_of(measured("dektak-1.csv"));
+  EXPECT_NE(
+      message_of([&] {
+        read_profile(scratch.write("half.csv", whole.substr(0, whole.find('\n', whole.size() / 2) + 1)));
+      }).find("of the 1.5 mm that its header states"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <string>
+
 #include "engine/surface/io/read.hpp"
 #include "tests/surface/files.hpp"
 
@@ -85,6 +88,79 @@ TEST(Xyz, ThreeColumnsOfHeightsAreAMatrix) {
       read_surface(scratch.write("narrow.txt", "5 1 2\n3 9 4\n8 2 7\n6 4 4\n0 0 1\n"), options);
   EXPECT_EQ(surface.grid().nx, 3);
   EXPECT_EQ(surface.grid().ny, 5);
+}
+
+// A lattice of nx x ny points whose point k is given copies(k) times.
+template <class Copies>
+std::string lattice(int nx, int ny, Copies&& copies) {
+  std::string text;
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+      for (int copy = 0; copy < copies(j * nx + i); ++copy)
+        text += std::to_string(i) + " " + std::to_string(0.5 * j) + " 0." + std::to_string(i * j % 10) + "\n";
+  return text;
+}
+
+TEST(Xyz, AlmostALatticeHasToBeNamed) {
+  const Scratch scratch;
+  const auto answer = [&](const std::string& text, const std::string& format) {
+    ReadOptions options = in_micrometres();
+    options.size_x = options.size_y = 1e-3;
+    options.fill = HoleFill::interpolate();
+    options.format = format;
+    return message_of([&] { read_surface(scratch.write("points.txt", text), options); });
+  };
+  const auto ambiguous = [&](const std::string& text) {
+    const std::string message = answer(text, "");
+    return message.find("almost all points of a") != std::string::npos &&
+           message.find("`format` = \"xyz\"") != std::string::npos &&
+           message.find("`format` = \"text\"") != std::string::npos;
+  };
+  const std::string few = lattice(3, 3, [](int k) { return k == 4 ? 0 : 1; });
+  EXPECT_TRUE(ambiguous(few)) << answer(few, "");
+  const std::string twice = lattice(6, 5, [](int k) { return k == 7 ? 2 : 1; });
+  EXPECT_TRUE(ambiguous(twice)) << answer(twice, "");
+  const std::string one_less_one_more = lattice(6, 5, [](int k) { return k == 7 ? 2 : k == 9 ? 0 : 1; });
+  EXPECT_TRUE(ambiguous(one_less_one_more)) << answer(one_less_one_more, "");
+  const std::string all_twice = lattice(6, 5, [](int) { return 2; });
+  EXPECT_TRUE(ambiguous(all_twice)) << answer(all_twice, "");
+  const std::string column_less = lattice(7, 5, [](int k) { return k % 7 == 3 ? 0 : 1; });
+  EXPECT_TRUE(ambiguous(column_less)) << answer(column_less, "");
+  for (const std::string& text : {few, twice, one_less_one_more, all_twice, column_less})
+    EXPECT_EQ(answer(text, "text"), "no error");
+  EXPECT_EQ(answer(few, "xyz"), "no error");
+  EXPECT_NE(answer(twice, "xyz").find("gives the point x = 1, y = 0.5 twice"), std::string::npos);
+  EXPECT_TRUE(ambiguous("# made by hand\n" + few));
+  // What says that it is a matrix is one.
+  EXPECT_EQ(answer("# Channel: Height\n# Width: 3 um\n# Height: 8 um\n" + few, ""), "no error");
+  EXPECT_EQ(answer("h=8 w=3\npixel size=1e-6\n" + few, ""), "no error");
+}
+
+// Heights of an instrument with few steps, drawn independently or along a smooth surface.
+TEST(Xyz, MatricesOfFewDistinctHeightsStayMatrices) {
+  const Scratch scratch;
+  ReadOptions options = in_micrometres();
+  options.size_x = options.size_y = 1e-3;
+  const Stream stream(9, "matrix");
+  for (const int steps : {4, 10, 31}) {
+    for (const double load : {0.75, 1.0, 1.5, 1.9}) {
+      const int rows = static_cast<int>(load * steps * steps) + 8;
+      std::string drawn, smooth;
+      for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < 3; ++i) {
+          const auto key = static_cast<std::uint64_t>(steps * 10000 + j * 3 + i);
+          drawn +=
+              std::to_string(stream.below(key, static_cast<std::uint64_t>(steps))) + (i < 2 ? " " : "\n");
+          smooth += std::to_string(static_cast<int>(steps * (0.5 + 0.49 * std::sin(0.05 * j + 0.3 * i)))) +
+                    (i < 2 ? " " : "\n");
+        }
+      for (const std::string& text : {drawn, smooth}) {
+        const std::string path = scratch.write("steps.txt", text);
+        EXPECT_EQ(message_of([&] { EXPECT_EQ(read_surface(path, options).grid().ny, rows); }), "no error")
+            << steps << ", " << load;
+      }
+    }
+  }
 }
 
 TEST(Xyz, DamagedBytesGiveErrors) {

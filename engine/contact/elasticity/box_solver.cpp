@@ -219,8 +219,10 @@ BoxSolver::Load BoxSolver::resolve(const PressRequest& request) const {
     throw Error(ErrorCode::bad_value,
                 asked + ", a pressure under 1e-280 of the modulus: too small to mean anything",
                 "give zero for no load, or check its unit");
-  if (!std::isfinite(result.approach) || !std::isfinite(k * result.approach) || !std::isfinite(result.load) ||
-      !std::isfinite(result.pressure))
+  // The energy holds the square of the approach: it is the first to overflow.
+  const double square = result.approach * result.approach;
+  if (!std::isfinite(square * nodes) || !std::isfinite(k * square * tile) ||
+      !std::isfinite(k * result.approach) || !std::isfinite(result.load) || !std::isfinite(result.pressure))
     throw Error(ErrorCode::bad_value,
                 asked + ", so large that the numbers of the solution leave the range of a double",
                 "check its unit");

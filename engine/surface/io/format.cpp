@@ -18,6 +18,20 @@ std::span<const Format* const> formats() {
   return all;
 }
 
+namespace {
+
+const Format& if_certain(const Format& format, const SourceFile& file) {
+  if (&format == &text_format() && almost_triples(file))
+    refuse_file(
+        file,
+        "has three columns, of which the first two hold almost all points of a lattice: it may be x y z "
+        "triples, some missing or given twice, or a matrix of heights",
+        "say which: `format` = \"xyz\" or `format` = \"text\"");
+  return format;
+}
+
+}  // namespace
+
 const Format& choose_format(const SourceFile& file, const std::string& forced) {
   std::vector<std::string> names;
   std::vector<std::string> marks;
@@ -35,10 +49,11 @@ const Format& choose_format(const SourceFile& file, const std::string& forced) {
                 "known formats are " + joined(names, " and "));
   }
   for (const Format* format : formats())
-    if (format->recognises(file)) return *format;
+    if (format->recognises(file)) return if_certain(*format, file);
   for (const Format* format : formats()) {
     const auto& endings = format->extensions;
-    if (std::find(endings.begin(), endings.end(), file.extension()) != endings.end()) return *format;
+    if (std::find(endings.begin(), endings.end(), file.extension()) != endings.end())
+      return if_certain(*format, file);
   }
   refuse_file(file, "is of no known format; looked for " + joined(marks, " and "),
               "if it is one of them, name it with `format`");

@@ -42,12 +42,16 @@ const Format& stylus_csv_format();
 const Format& xyz_format();
 const Format& text_format();
 
+// Whether a text of three columns without any mark looks like x y z triples of a lattice with some
+// points missing or given more than once, which a matrix of three columns could be as well.
+bool almost_triples(const SourceFile& file);
+
 // All of them, in the order in which they are tried: the most particular marks first.
 std::span<const Format* const> formats();
 
 // The format called `forced`, or else the first that recognises the content, or else the one of the
 // extension. Throws Error{unknown_name} for a `format` that does not exist and Error{bad_file} when
-// nothing fits, naming what was looked for.
+// nothing fits, naming what was looked for, or when a table may be a matrix or almost_triples().
 const Format& choose_format(const SourceFile& file, const std::string& forced);
 
 }  // namespace asperity

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The five-point Laplacian on the missing nodes only, scaled by its diagonal. The system is
-// symmetric and positive definite because every hole of a connected grid touches a measured node.
+// The five-point Laplacian on the missing nodes only. The system is symmetric and positive definite
+// because every hole of a connected grid touches a measured node. Conjugate gradients are
+// preconditioned by one V-cycle of multigrid: every second node of the lattice, bilinear
+// interpolation that vanishes on measured nodes, Galerkin coarse operators, one Gauss-Seidel sweep
+// down and its mirror up (Trottenberg, Oosterlee & Schueller, Multigrid, 2001, ch. 2 and 7). Where
+// cells are long, only the direction of the stronger coupling is coarsened.
 #include "engine/surface/io/holes.hpp"
 
 #include <algorithm>
@@ -8,6 +12,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "engine/core/error.hpp"
 
@@ -15,11 +21,244 @@ namespace asperity {
 
 namespace {
 
-struct Hole {
-  std::size_t node = 0;
-  std::array<std::int64_t, 4> neighbours{-1, -1, -1, -1};  // holes left, right, below, above
-  double diagonal = 0;                                     // of the Laplacian
-  double known = 0;                                        // weighted sum of measured neighbours
+// A lattice has at most 65536^2 nodes and one measured among them, so 32 bits number the holes.
+using Index = std::uint32_t;
+
+// The missing nodes of a lattice, row by row. Absent neighbours have the number size(), where every
+// vector holds a zero.
+struct Nodes {
+  int nx = 0, ny = 0;
+  Array<std::int32_t> x, y;
+  Array<std::size_t> row;  // first node of each row, and the end
+
+  std::size_t size() const { return x.size(); }
+  void close_rows() {
+    row.assign(static_cast<std::size_t>(ny) + 1, 0);
+    for (const std::int32_t j : y) ++row[static_cast<std::size_t>(j) + 1];
+    for (std::size_t j = 1; j < row.size(); ++j) row[j] += row[j - 1];
+  }
+};
+
+// Finds nodes of one row; quick when the questions come from left to right.
+class Cursor {
+ public:
+  void enter(const Nodes& nodes, int j) {
+    nodes_ = &nodes;
+    const bool inside = j >= 0 && j < nodes.ny;
+    begin_ = at_ = inside ? nodes.row[static_cast<std::size_t>(j)] : 0;
+    end_ = inside ? nodes.row[static_cast<std::size_t>(j) + 1] : 0;
+  }
+  Index find(int i) {
+    while (at_ > begin_ && nodes_->x[at_ - 1] >= i) --at_;
+    while (at_ < end_ && nodes_->x[at_] < i) ++at_;
+    return static_cast<Index>(at_ < end_ && nodes_->x[at_] == i ? at_ : nodes_->size());
+  }
+
+ private:
+  const Nodes* nodes_ = nullptr;
+  std::size_t begin_ = 0, end_ = 0, at_ = 0;
+};
+
+// Neighbour k stands at (k % 3 - 1, k / 3 - 1).
+constexpr std::size_t centre = 4;
+
+struct FivePoints {
+  static constexpr std::array<std::size_t, 4> places{1, 3, 5, 7};
+  double wx = 1, wy = 1;
+  Array<std::array<Index, 4>> neighbours;
+  Array<double> diagonal, inverse;
+
+  double pull(std::size_t k, const Array<double>& u) const {
+    const auto& n = neighbours[k];
+    return wy * (u[n[0]] + u[n[3]]) + wx * (u[n[1]] + u[n[2]]);
+  }
+  double coupling(std::size_t, std::size_t side) const { return side == 1 || side == 2 ? wx : wy; }
+};
+
+struct NinePoints {
+  static constexpr std::array<std::size_t, 8> places{0, 1, 2, 3, 5, 6, 7, 8};
+  Array<std::array<Index, 8>> neighbours;
+  Array<std::array<double, 8>> couplings;
+  Array<double> diagonal, inverse;
+
+  double pull(std::size_t k, const Array<double>& u) const {
+    double sum = 0;
+    for (std::size_t side = 0; side < 8; ++side) sum += couplings[k][side] * u[neighbours[k][side]];
+    return sum;
+  }
+  double coupling(std::size_t k, std::size_t side) const { return couplings[k][side]; }
+};
+
+template <class Operator>
+void link(const Nodes& nodes, Operator& a) {
+  std::array<Cursor, 3> rows;
+  a.neighbours.resize(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const int i = nodes.x[k], j = nodes.y[k];
+    if (k == 0 || nodes.y[k - 1] != j)
+      for (int step = 0; step < 3; ++step) rows[static_cast<std::size_t>(step)].enter(nodes, j + step - 1);
+    for (std::size_t side = 0; side < Operator::places.size(); ++side) {
+      const std::size_t place = Operator::places[side];
+      a.neighbours[k][side] = rows[place / 3].find(i + static_cast<int>(place % 3) - 1);
+    }
+  }
+}
+
+template <class Operator>
+void sweep_forward(const Operator& a, Array<double>& u, const Array<double>& b) {
+  stop_flag().check();
+  for (std::size_t k = 0; k < a.neighbours.size(); ++k) u[k] = (b[k] + a.pull(k, u)) * a.inverse[k];
+}
+
+template <class Operator>
+void sweep_back(const Operator& a, Array<double>& u, const Array<double>& b) {
+  stop_flag().check();
+  for (std::size_t k = a.neighbours.size(); k-- > 0;) u[k] = (b[k] + a.pull(k, u)) * a.inverse[k];
+}
+
+// The nodes of the coarser lattice from which each fine one is interpolated. On the rim, where one
+// of two would lie outside, the other counts in full: no slope across the rim.
+struct Parents {
+  bool halve_x = false, halve_y = false;
+  Array<std::array<Index, 4>> of;
+  Array<float> weight;  // of each parent: 1, 1/2 or 1/4
+};
+
+struct Level {
+  Nodes nodes;
+  NinePoints a;
+  Parents parents;  // on the level below this one in number, which is finer
+  Array<double> u, b;
+};
+
+Nodes coarse_nodes(const Nodes& fine, bool halve_x, bool halve_y) {
+  Nodes coarse;
+  coarse.nx = halve_x ? (fine.nx + 1) / 2 : fine.nx;
+  coarse.ny = halve_y ? (fine.ny + 1) / 2 : fine.ny;
+  for (std::size_t k = 0; k < fine.size(); ++k) {
+    if ((halve_x && fine.x[k] % 2 != 0) || (halve_y && fine.y[k] % 2 != 0)) continue;
+    coarse.x.push_back(halve_x ? fine.x[k] / 2 : fine.x[k]);
+    coarse.y.push_back(halve_y ? fine.y[k] / 2 : fine.y[k]);
+  }
+  coarse.close_rows();
+  return coarse;
+}
+
+Parents parents_of(const Nodes& fine, const Nodes& coarse, bool halve_x, bool halve_y) {
+  Parents parents{halve_x, halve_y, {}, {}};
+  parents.of.resize(fine.size());
+  parents.weight.resize(fine.size());
+  const auto absent = static_cast<Index>(coarse.size());
+  std::array<Cursor, 2> rows;
+  for (std::size_t k = 0; k < fine.size(); ++k) {
+    const int i = fine.x[k], j = fine.y[k];
+    const int left = halve_x ? i / 2 : i, low = halve_y ? j / 2 : j;
+    const bool two_x = halve_x && i % 2 != 0 && left + 1 < coarse.nx;
+    const bool two_y = halve_y && j % 2 != 0 && low + 1 < coarse.ny;
+    if (k == 0 || fine.y[k - 1] != j) {
+      rows[0].enter(coarse, low);
+      rows[1].enter(coarse, two_y ? low + 1 : -1);
+    }
+    parents.of[k] = {rows[0].find(left), two_x ? rows[0].find(left + 1) : absent, rows[1].find(left),
+                     two_x ? rows[1].find(left + 1) : absent};
+    parents.weight[k] = (two_x ? 0.5F : 1.0F) * (two_y ? 0.5F : 1.0F);
+  }
+  return parents;
+}
+
+// P' A P, which has nine points again.
+template <class Operator>
+void project(const Operator& fine, Level& coarse) {
+  const Nodes& nodes = coarse.nodes;
+  const auto absent = static_cast<Index>(nodes.size());
+  Array<std::array<double, 9>> sums(nodes.size(), std::array<double, 9>{});
+  const auto add = [&](std::size_t k, std::size_t m, double entry) {
+    const double both =
+        entry * static_cast<double>(coarse.parents.weight[k]) * static_cast<double>(coarse.parents.weight[m]);
+    for (const Index p : coarse.parents.of[k]) {
+      if (p == absent) continue;
+      for (const Index q : coarse.parents.of[m]) {
+        if (q == absent) continue;
+        const int place = (nodes.y[q] - nodes.y[p] + 1) * 3 + nodes.x[q] - nodes.x[p] + 1;
+        sums[p][static_cast<std::size_t>(place)] += both;
+      }
+    }
+  };
+  for (std::size_t k = 0; k < fine.neighbours.size(); ++k) {
+    add(k, k, fine.diagonal[k]);
+    for (std::size_t side = 0; side < Operator::places.size(); ++side)
+      if (const Index m = fine.neighbours[k][side]; m < fine.neighbours.size())
+        add(k, m, -fine.coupling(k, side));
+  }
+  NinePoints& a = coarse.a;
+  link(nodes, a);
+  a.couplings.resize(nodes.size());
+  a.diagonal.resize(nodes.size());
+  a.inverse.resize(nodes.size());
+  for (std::size_t p = 0; p < nodes.size(); ++p) {
+    for (std::size_t side = 0; side < 8; ++side) a.couplings[p][side] = -sums[p][NinePoints::places[side]];
+    a.diagonal[p] = sums[p][centre];
+    a.inverse[p] = 1 / a.diagonal[p];
+  }
+}
+
+class Multigrid {
+ public:
+  Multigrid(const Nodes& nodes, const FivePoints& a) : fine_(a) {
+    double wx = a.wx, wy = a.wy;
+    const Nodes* below = &nodes;
+    while (below->nx > 1 || below->ny > 1) {
+      stop_flag().check();
+      const bool halve_x = below->nx > 1 && (below->ny == 1 || wx > 0.5 * wy);
+      const bool halve_y = below->ny > 1 && (below->nx == 1 || wy > 0.5 * wx);
+      auto level = std::make_unique<Level>();
+      level->nodes = coarse_nodes(*below, halve_x, halve_y);
+      if (level->nodes.size() == 0) break;
+      level->parents = parents_of(*below, level->nodes, halve_x, halve_y);
+      if (levels_.empty()) {
+        project(fine_, *level);
+      } else {
+        project(levels_.back()->a, *level);
+      }
+      level->u.assign(level->nodes.size() + 1, 0.0);
+      level->b.assign(level->nodes.size() + 1, 0.0);
+      if (halve_x) wx /= 4;
+      if (halve_y) wy /= 4;
+      levels_.push_back(std::move(level));
+      below = &levels_.back()->nodes;
+    }
+  }
+
+  // u = M^-1 b; M is symmetric and positive definite.
+  void apply(const Array<double>& b, Array<double>& u) { cycle(fine_, 0, u, b); }
+
+ private:
+  template <class Operator>
+  void cycle(const Operator& a, std::size_t next, Array<double>& u, const Array<double>& b) {
+    std::fill(u.begin(), u.end(), 0.0);
+    sweep_forward(a, u, b);
+    if (next < levels_.size()) {
+      Level& coarse = *levels_[next];
+      const Parents& parents = coarse.parents;
+      std::fill(coarse.b.begin(), coarse.b.end(), 0.0);
+      for (std::size_t k = 0; k < a.neighbours.size(); ++k) {
+        const double left =
+            static_cast<double>(parents.weight[k]) * (b[k] - a.diagonal[k] * u[k] + a.pull(k, u));
+        for (const Index p : parents.of[k]) coarse.b[p] += left;
+      }
+      coarse.b.back() = 0;
+      cycle(coarse.a, next + 1, coarse.u, coarse.b);
+      for (std::size_t k = 0; k < a.neighbours.size(); ++k) {
+        const auto& p = parents.of[k];
+        u[k] += static_cast<double>(parents.weight[k]) *
+                ((coarse.u[p[0]] + coarse.u[p[1]]) + (coarse.u[p[2]] + coarse.u[p[3]]));
+      }
+    }
+    sweep_back(a, u, b);
+  }
+
+  const FivePoints& fine_;
+  std::vector<std::unique_ptr<Level>> levels_;  // from fine to coarse; about thirty at most
 };
 
 double product(const Array<double>& a, const Array<double>& b, Array<double>& work) {
@@ -27,99 +266,114 @@ double product(const Array<double>& a, const Array<double>& b, Array<double>& wo
   return block_sum(work);
 }
 
+double largest(const Array<double>& values) {
+  double most = 0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+// The Laplacian of the holes, and in `known` the pull of their measured neighbours, whose heights
+// count from `low` in units of `span`.
+FivePoints laplacian_of(const Field& heights, const Nodes& nodes, double hx, double hy, double low,
+                        double span, Array<double>& known) {
+  // Couplings weaker than this would be lost in the rounding of the others.
+  constexpr double weakest = 1e-12;
+  FivePoints a;
+  a.wx = hx > hy ? std::max((hy / hx) * (hy / hx), weakest) : 1.0;
+  a.wy = hx > hy ? 1.0 : std::max((hx / hy) * (hx / hy), weakest);
+  link(nodes, a);
+  a.diagonal.resize(nodes.size());
+  a.inverse.resize(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const int i = nodes.x[k], j = nodes.y[k];
+    for (std::size_t side = 0; side < 4; ++side) {
+      const int place = static_cast<int>(FivePoints::places[side]);
+      const int p = i + place % 3 - 1, q = j + place / 3 - 1;
+      if (p < 0 || p >= nodes.nx || q < 0 || q >= nodes.ny) continue;
+      a.diagonal[k] += a.coupling(k, side);
+      if (a.neighbours[k][side] == nodes.size())
+        known[k] += a.coupling(k, side) * ((heights(p, q) - low) / span);
+    }
+    a.inverse[k] = 1 / a.diagonal[k];
+  }
+  return a;
+}
+
 }  // namespace
 
-void fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
-  const int nx = heights.nx(), ny = heights.ny();
+int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
+  Nodes nodes{heights.nx(), heights.ny(), {}, {}, {}};
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  std::size_t missing = 0;
-  for (const double h : heights.values()) {
-    if (std::isnan(h)) {
-      ++missing;
-    } else {
-      low = std::min(low, h);
-      high = std::max(high, h);
+  for (int j = 0; j < nodes.ny; ++j)
+    for (int i = 0; i < nodes.nx; ++i) {
+      const double h = heights(i, j);
+      if (std::isnan(h)) {
+        nodes.x.push_back(i);
+        nodes.y.push_back(j);
+      } else {
+        low = std::min(low, h);
+        high = std::max(high, h);
+      }
     }
-  }
-  if (missing == 0) return;
-  if (missing == heights.size())
+  const std::size_t n = nodes.size();
+  if (n == 0) return 0;
+  if (n == heights.size())
     throw Error(ErrorCode::bad_value, "every height is missing, so there is nothing to interpolate between");
   if (low == high) {
     for (double& h : heights.values()) h = low;
-    return;
+    return 0;
   }
+  nodes.close_rows();
 
+  constexpr std::int64_t parts = 1000;
+  Task task(monitor, "filling missing points", parts);
   // Heights relative to the range, so that products neither overflow nor underflow.
   const double span = high - low;
-  const double wx = hx > hy ? (hy / hx) * (hy / hx) : 1.0, wy = hx > hy ? 1.0 : (hx / hy) * (hx / hy);
-  Array<std::int64_t> number(heights.size(), -1);
-  Array<Hole> holes;
-  holes.reserve(missing);
-  for (std::size_t k = 0; k < heights.size(); ++k) {
-    if (!std::isnan(heights[k])) continue;
-    number[k] = std::ssize(holes);
-    holes.push_back({.node = k});
-  }
-  for (Hole& hole : holes) {
-    const int i = static_cast<int>(hole.node % static_cast<std::size_t>(nx));
-    const int j = static_cast<int>(hole.node / static_cast<std::size_t>(nx));
-    const std::array<std::array<int, 2>, 4> around{{{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}}};
-    for (std::size_t side = 0; side < 4; ++side) {
-      const auto [a, b] = around[side];
-      if (a < 0 || a >= nx || b < 0 || b >= ny) continue;
-      const double weight = side < 2 ? wx : wy;
-      const std::size_t node =
-          static_cast<std::size_t>(b) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(a);
-      hole.diagonal += weight;
-      if (number[node] >= 0) {
-        hole.neighbours[side] = number[node];
-      } else {
-        hole.known += weight * ((heights[node] - low) / span);
-      }
-    }
-  }
-
-  const std::size_t n = holes.size();
-  Array<double> value(n, 0.5), residual(n), direction(n), scaled(n), image(n), work(n);
-  const auto laplacian = [&](const Array<double>& u, Array<double>& result) {
-    for (std::size_t k = 0; k < n; ++k) {
-      double sum = holes[k].diagonal * u[k];
-      for (std::size_t side = 0; side < 4; ++side)
-        if (holes[k].neighbours[side] >= 0)
-          sum -= (side < 2 ? wx : wy) * u[static_cast<std::size_t>(holes[k].neighbours[side])];
-      result[k] = sum;
-    }
+  Array<double> value(n + 1, 0.5), residual(n + 1, 0.0), direction(n + 1, 0.0), scaled(n + 1, 0.0),
+      image(n + 1, 0.0), work(n + 1, 0.0);
+  value[n] = 0;
+  const FivePoints a = laplacian_of(heights, nodes, hx, hy, low, span, residual);
+  Multigrid multigrid(nodes, a);
+  const auto laplacian = [&](const Array<double>& u) {
+    for (std::size_t k = 0; k < n; ++k) image[k] = a.diagonal[k] * u[k] - a.pull(k, u);
   };
-  laplacian(value, image);
-  for (std::size_t k = 0; k < n; ++k) {
-    residual[k] = holes[k].known - image[k];
-    scaled[k] = residual[k] / holes[k].diagonal;
-    direction[k] = scaled[k];
-  }
+  laplacian(value);
+  for (std::size_t k = 0; k < n; ++k) residual[k] -= image[k];
+
+  // `scaled` is close to the error itself, in units of the height range.
+  constexpr double enough = 1e-12;
+  constexpr int most = 1000;
+  multigrid.apply(residual, scaled);
+  direction = scaled;
   double descent = product(residual, scaled, work);
-  // With the diagonal scaled out, the mean square of `scaled` is in units of the height range.
-  // Below 1e-30 there is only rounding.
-  const double enough = std::max(1e-24 * std::min(wx, wy), 1e-30) * static_cast<double>(n);
-  const auto most = static_cast<std::int64_t>(10 * n + 100);
-  Task task(monitor, "filling holes", most);
-  for (std::int64_t turn = 0; descent > enough; ++turn) {
+  double error = largest(scaled);
+  const double decades = std::log(std::max(error, 2 * enough) / enough);
+  std::int64_t told = 0;
+  int turn = 0;
+  for (; error > enough; ++turn) {
     if (turn == most)
       throw Error(ErrorCode::not_converged, "the holes of the map could not be filled from their neighbours",
                   "give `fill` a height instead");
-    task.advance();
-    laplacian(direction, image);
+    laplacian(direction);
     const double step = descent / product(direction, image, work);
     for (std::size_t k = 0; k < n; ++k) {
       value[k] += step * direction[k];
       residual[k] -= step * image[k];
-      scaled[k] = residual[k] / holes[k].diagonal;
     }
+    multigrid.apply(residual, scaled);
+    error = largest(scaled);
     const double next = product(residual, scaled, work);
     const double turnback = next / descent;
     for (std::size_t k = 0; k < n; ++k) direction[k] = scaled[k] + turnback * direction[k];
     descent = next;
+    const double left = error > enough ? std::log(error / enough) / decades : 0.0;
+    const auto now = static_cast<std::int64_t>(static_cast<double>(parts) * std::clamp(1 - left, 0.0, 1.0));
+    task.advance(std::max<std::int64_t>(now - told, 0));
+    told = std::max(told, now);
   }
-  for (std::size_t k = 0; k < n; ++k) heights[holes[k].node] = std::clamp(low + span * value[k], low, high);
+  for (std::size_t k = 0; k < n; ++k)
+    heights(nodes.x[k], nodes.y[k]) = std::clamp(low + span * value[k], low, high);
+  return turn;
 }
 
 }  // namespace asperity

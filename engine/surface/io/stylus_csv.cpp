@@ -3,7 +3,8 @@
 // names columns and units (`Lateral um,Raw Micrometer`), then one line a sample. Positions are
 // written rounded (0.1 um for a spacing of 0.156 um), and so is the `Resolution` of the header;
 // the spacing is therefore the least-squares slope of position against sample number, which is
-// good to about rounding / n^1.5. Unevenly spaced samples are an error.
+// good to about rounding / n^1.5. Unevenly spaced samples are an error, and so are samples that end
+// before the `Length` of the header. `Resolution` alone says nothing of the end and is not used.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -64,6 +65,31 @@ int decimals(std::string_view text) {
              : static_cast<int>(std::min<std::size_t>(text.size() - point - 1, 17));
 }
 
+// "1500.0 um", and "1500.0 \xB5m" as instruments write it.
+std::optional<double> length_of(std::string_view text) {
+  std::string plain(text);
+  if (const std::size_t micro = plain.find('\xB5');
+      micro != std::string::npos && (micro == 0 || plain[micro - 1] != '\xC2'))
+    plain[micro] = 'u';
+  try {
+    return parse_quantity_as(plain, dimension::length);
+  } catch (const Error&) {  // only used for a check
+    return {};
+  }
+}
+
+// Half a sample is allowed for a length counted between the first and the last.
+void check_length(const SourceFile& file, double found, double spacing, double stated, Monitor& monitor) {
+  const std::string stated_text = format_quantity(stated, dimension::length),
+                    found_text = format_quantity(found, dimension::length);
+  if (found + 0.5 * spacing < 0.99 * stated)
+    refuse_file(file, "covers " + found_text + " of the " + stated_text + " that its header states",
+                "the file is cut short, or the scan was stopped: then correct `Length` in the file");
+  if (found > 1.01 * stated)
+    monitor.warn(file_name(file.path()) + " says it is " + stated_text + " long but its samples span " +
+                 found_text);
+}
+
 struct Line {
   double spacing = 0, first = 0;
 };
@@ -88,12 +114,7 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
   while (!found && lines.next(line)) {
     found = is_scan_mark(line);
     const std::vector<std::string_view> cells = cells_of(line, Separator::comma);
-    if (cells.size() >= 2 && lower_case(cells[0]) == "length" && !length) {
-      try {
-        length = parse_quantity_as(cells[1], dimension::length);
-      } catch (const Error&) {  // only used for a check
-      }
-    }
+    if (cells.size() >= 2 && lower_case(cells[0]) == "length" && !length) length = length_of(cells[1]);
   }
   if (!found)
     refuse_file(file, "has no line \"Scan Data\"", "if it is another format, name it with `format`");
@@ -149,9 +170,10 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
   map.unit = unit_of(titles[1]);
   map.size_x = fit.spacing * *lateral_unit * n;
   map.trace = true;
-  if (length && std::abs(*map.size_x - *length) > 0.01 * *length)
-    monitor.warn(file_name(file.path()) + " says it is " + format_quantity(*length, dimension::length) +
-                 " long but its samples span " + format_quantity(*map.size_x, dimension::length));
+  if (length) check_length(file, *map.size_x, fit.spacing * *lateral_unit, *length, monitor);
+  if (file.text().find_last_of("\r\n") + 1 != file.text().size())
+    monitor.warn(file_name(file.path()) +
+                 ": the last line has no line end; if the file was cut short its last height may be wrong");
   return map;
 }
 

@@ -2,11 +2,14 @@
 // x y z triples of a regular grid, in any order: one point a line. The distinct x and y give the
 // lattice; spacing is (last - first)/(n - 1), and every coordinate must lie within a quarter of a
 // cell of its lattice line. A point given twice is an error, one left out is a hole. x, y and z are
-// in the same unit. Scattered points are not gridded here.
+// in the same unit. Scattered points are not gridded here. Three columns whose first two are almost
+// a lattice are neither taken for points nor for a matrix: the caller has to say.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -22,6 +25,12 @@ struct Axis {
   int lines = 0;      // distinct coordinates
   bool even = false;  // each within a quarter of the spacing of its place
   double odd = 0;     // a coordinate that is not
+  Array<double> distinct;
+  // Which of the distinct coordinates it is.
+  std::uint64_t rank(double coordinate) const {
+    return static_cast<std::uint64_t>(std::upper_bound(distinct.begin(), distinct.end(), coordinate) -
+                                      distinct.begin() - 1);
+  }
   int place(double coordinate) const {
     if (lines == 1) return 0;
     const double nearest = std::round((coordinate - first) / spacing);
@@ -34,10 +43,10 @@ Axis axis_of(const TextTable& table, std::size_t column) {
   for (std::size_t k = 0; k < values.size(); ++k) values[k] = table.values[3 * k + column];
   std::sort(values.begin(), values.end());
   const double same = 1e-6 * (values.back() - values.front());
-  Array<double> distinct;
+  Axis axis;
+  Array<double>& distinct = axis.distinct;
   for (const double value : values)
     if (distinct.empty() || value - distinct.back() > same) distinct.push_back(value);
-  Axis axis;
   axis.first = distinct.front();
   axis.lines = static_cast<int>(distinct.size());
   axis.even = true;
@@ -74,32 +83,73 @@ void skip_names(LineReader& lines) {
   }
 }
 
-// Three columns whose first two form a lattice. A full lattice of 2 x 2 or more is never by chance;
-// with points missing only a larger one is believed.
-bool recognises(const SourceFile& file) {
-  if (!file.looks_like_text()) return false;
-  if (file.text().starts_with("# asperity")) return false;  // a table of this program's own
+// A table of three columns without holes in the first two; nothing if it is another one.
+std::optional<TextTable> triples_of(const SourceFile& file) {
+  if (!file.looks_like_text()) return {};
+  if (file.text().starts_with("# asperity")) return {};  // a table of this program's own
   LineReader lines(file.text());
   skip_names(lines);
   std::string_view line;
   for (LineReader ahead = lines; ahead.next(line);) {
     if (is_skipped(line)) continue;
-    if (!is_row_of_numbers(line)) return false;
+    if (!is_row_of_numbers(line)) return {};
     const std::string_view text = trimmed(line.substr(0, line.find('#')));
-    if (cells_of(text, separator_of(text)).size() != 3) return false;
+    if (cells_of(text, separator_of(text)).size() != 3) return {};
     break;
   }
   try {
-    const TextTable table = read_table(lines, file, Monitor::silent());
-    if (table.columns != 3 || table.rows < 4 || !coordinates_present(table)) return false;
-    const Axis x = axis_of(table, 0), y = axis_of(table, 1);
-    if (!x.even || !y.even || x.lines < 2 || y.lines < 2) return false;
-    const double places = static_cast<double>(x.lines) * y.lines;
-    return places == table.rows || (table.rows >= 16 && places > table.rows && places < 2.0 * table.rows);
+    TextTable table = read_table(lines, file, Monitor::silent());
+    if (table.columns == 3 && table.rows >= 4 && coordinates_present(table)) return table;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_file) throw;
-    return false;
   }
+  return {};
+}
+
+// How the points of a table stand among all pairs of an x and a y that occur.
+struct Coverage {
+  double places = 0;          // pairs that could be
+  int points = 0;             // pairs that are
+  bool equally_often = true;  // each as often as the others
+};
+
+Coverage coverage_of(const TextTable& table, const Axis& x, const Axis& y) {
+  Array<std::uint64_t> pairs(static_cast<std::size_t>(table.rows));
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    pairs[k] = x.rank(table.values[3 * k]) << 32 | y.rank(table.values[3 * k + 1]);
+  std::sort(pairs.begin(), pairs.end());
+  Coverage coverage;
+  coverage.places = static_cast<double>(x.lines) * y.lines;
+  std::size_t often = 0;
+  for (std::size_t k = 0, next = 0; k < pairs.size(); k = next) {
+    while (next < pairs.size() && pairs[next] == pairs[k]) ++next;
+    if (k == 0) often = next;
+    if (next - k != often) coverage.equally_often = false;
+    ++coverage.points;
+  }
+  return coverage;
+}
+
+// Three columns whose first two form a lattice, each point once. A full lattice of 2 x 2 or more is
+// never by chance; with points missing only a larger one is believed.
+bool recognises(const SourceFile& file) {
+  const std::optional<TextTable> table = triples_of(file);
+  if (!table) return false;
+  const Axis x = axis_of(*table, 0), y = axis_of(*table, 1);
+  if (!x.even || !y.even || x.lines < 2 || y.lines < 2) return false;
+  const double places = static_cast<double>(x.lines) * y.lines;
+  if (places != table->rows && !(table->rows >= 16 && places > table->rows && places < 2.0 * table->rows))
+    return false;
+  return coverage_of(*table, x, y).points == table->rows;
+}
+
+// Comments that only a matrix has.
+bool names_a_width(const SourceFile& file) {
+  LineReader lines(file.text());
+  std::string_view line;
+  while (lines.next(line) && is_skipped(line))
+    if (lower_case(line).find("width:") != std::string::npos) return true;
+  return false;
 }
 
 HeightMap read(const SourceFile& file, Monitor& monitor) {
@@ -111,11 +161,12 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
     refuse_file(file, "has " + std::to_string(table.columns) + " numbers a line", "x y z triples have three");
   if (!coordinates_present(table)) refuse_file(file, "has a point without x or y");
   const Axis x = axis_of(table, 0), y = axis_of(table, 1);
-  for (const auto& [axis, name] : {std::pair{x, "x"}, std::pair{y, "y"}})
-    if (!axis.even)
+  for (const auto& [axis, name] : {std::pair{&x, "x"}, std::pair{&y, "y"}})
+    if (!axis->even)
       refuse_file(file,
-                  std::string("is not on a regular grid: its ") + std::to_string(axis.lines) + " values of " +
-                      name + " are not evenly spaced (" + name + " = " + format_short(axis.odd) + ")",
+                  std::string("is not on a regular grid: its ") + std::to_string(axis->lines) +
+                      " values of " + name + " are not evenly spaced (" + name + " = " +
+                      format_short(axis->odd) + ")",
                   "grid the points evenly first");
   if (x.lines < 2)
     refuse_file(file, "has only one value of x, so its cells have no width",
@@ -147,6 +198,24 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
 }
 
 }  // namespace
+
+// Heights with few steps make few distinct pairs too, but they meet by chance: of n pairs drawn from
+// m, m (1 - exp(-n/m)) differ, 73 % of n where m is 1.5 n and 79 % at 2 n. Points of a scan differ
+// but for a few, or all come equally often.
+bool almost_triples(const SourceFile& file) {
+  const std::optional<TextTable> table = triples_of(file);
+  if (!table || table->rows < 5 || names_a_width(file)) return false;
+  const Axis x = axis_of(*table, 0), y = axis_of(*table, 1);
+  const double rows = table->rows;
+  if (x.lines < 2 || y.lines < 2 || 1.5 * x.lines >= rows || 1.5 * y.lines >= rows) return false;
+  const Coverage coverage = coverage_of(*table, x, y);
+  if (coverage.points == coverage.places && coverage.equally_often) return true;
+  if (coverage.places < 0.5 * rows || coverage.places >= 2 * rows) return false;
+  if (rows < 16)
+    return x.even && y.even && coverage.places <= 1.5 * rows &&
+           (coverage.points == rows || coverage.points == coverage.places);
+  return coverage.points >= (coverage.places <= 1.5 * rows ? 0.8 : 0.9) * rows;
+}
 
 const Format& xyz_format() {
   static constexpr std::array<std::string_view, 1> endings{"xyz"};
