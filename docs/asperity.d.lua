@@ -511,8 +511,8 @@ function Notebook:expect(column, options) end
 function Notebook:chart(options) end
 
 ---@class asperity.options.lab.material
----@field young number|string Young's modulus (a pressure above 0, required)
----@field poisson number Poisson's ratio (number above -1 to 0.5, required)
+---@field young? number|string Young's modulus (a pressure above 0)
+---@field poisson? number Poisson's ratio (number above -1 to 0.5)
 ---@field hardness? number|string indentation hardness (a pressure above 0, or math.huge for never)
 ---@field density? number|string mass per volume (a density above 0)
 ---@field name? string what to call it (string)
@@ -521,7 +521,7 @@ function Notebook:chart(options) end
 ---@field lower asperity.Surface the lower body, rough side up (Surface, required)
 ---@field upper asperity.Surface|asperity.Material the upper body: a rough surface that is turned over to face down, a flat of a material, or lab.rigid (Surface|Material, required)
 ---@field boundary? "free"|"periodic" whether the tile goes on beyond its rim ("free"|"periodic", default "free")
----@field effects table what the scene computes, by name, e.g. { elasticity="box" }; nothing else is (table, required)
+---@field effects table what the scene computes, by name, e.g. { elasticity="box" }; nothing else is ({ elasticity="box"|{ model="box", stiffness= } }, required)
 ---@field accuracy? table how close a solve must come, and what if it does not (table)
 
 ---@class asperity.options.lab.friction

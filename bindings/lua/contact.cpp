@@ -128,7 +128,7 @@ const Block<SceneKeys>& scene_block() {
            .required(),
        choice("boundary", &K::boundary, {{"free", Boundary::free}, {"periodic", Boundary::periodic}},
               "whether the tile goes on beyond its rim"),
-       custom<K>("effects", "table",
+       custom<K>("effects", "{ elasticity=\"box\"|{ model=\"box\", stiffness= } }",
                  "what the scene computes, by name, e.g. { elasticity=\"box\" }; nothing else is",
                  read_effects)
            .required(),

@@ -31,6 +31,22 @@ std::string signature(const Function& function) {
   return text + "(" + joined(parts, ", ") + ")";
 }
 
+// The options of a block, those of tables inside it after the table's own, as `accuracy.tolerance`.
+struct NamedOption {
+  std::string name;
+  const OptionInfo* option;
+};
+std::vector<NamedOption> all_options(const BlockInfo& block, const std::string& prefix = "") {
+  std::vector<NamedOption> result;
+  for (const OptionInfo* option : block.options()) {
+    result.push_back({prefix + option->name, option});
+    if (option->inner == nullptr) continue;
+    for (NamedOption& inner : all_options(*option->inner, prefix + option->name + "."))
+      result.push_back(std::move(inner));
+  }
+  return result;
+}
+
 std::string option_line(const OptionInfo& option) {
   std::string text = option.type;
   if (!option.range_text.empty()) text += " " + option.range_text;
@@ -52,14 +68,14 @@ std::string function_help(const Function& function) {
   std::size_t width = 0;
   for (const Parameter& p : function.parameters) width = std::max(width, p.name.size());
   if (function.options != nullptr)
-    for (const OptionInfo* option : function.options->options()) width = std::max(width, option->name.size());
+    for (const NamedOption& named : all_options(*function.options))
+      width = std::max(width, named.name.size());
   if (width > 0) text += "\n";
   for (const Parameter& p : function.parameters)
     text += "  " + padded(p.name, width) + "  " + p.sentence + " (" + p.type + ")\n";
   if (function.options != nullptr)
-    for (const OptionInfo* option : function.options->options())
-      text +=
-          "  " + padded(option->name, width) + "  " + option->sentence + " (" + option_line(*option) + ")\n";
+    for (const auto& [name, option] : all_options(*function.options))
+      text += "  " + padded(name, width) + "  " + option->sentence + " (" + option_line(*option) + ")\n";
   if (!function.example.empty()) text += "\nExample:\n  " + function.example + "\n";
   return text;
 }
@@ -161,9 +177,8 @@ void function_reference(std::string& page, const Function& function) {
     for (const Parameter& p : function.parameters)
       page += "| `" + p.name + "` | " + cell(p.type) + " | " + cell(p.sentence) + " |\n";
     if (function.options != nullptr)
-      for (const OptionInfo* option : function.options->options())
-        page += "| `" + option->name + "` | " + cell(option_line(*option)) + " | " + cell(option->sentence) +
-                " |\n";
+      for (const auto& [name, option] : all_options(*function.options))
+        page += "| `" + name + "` | " + cell(option_line(*option)) + " | " + cell(option->sentence) + " |\n";
     page += "\n";
   }
   if (!function.example.empty()) page += "```lua\n" + function.example + "\n```\n\n";

@@ -13,8 +13,8 @@ const Block<Material>& material_block() {
   static const Block<Material> block{
       "lab.material",
       {
-          quantity("young", &Material::young, dimension::pressure, above(0), "Young's modulus").required(),
-          number("poisson", &Material::poisson, {-1, 0.5, true, false, false}, "Poisson's ratio").required(),
+          quantity("young", &Material::young, dimension::pressure, above(0), "Young's modulus"),
+          number("poisson", &Material::poisson, {-1, 0.5, true, false, false}, "Poisson's ratio"),
           quantity("hardness", &Material::hardness, dimension::pressure, above(0).or_never(),
                    "indentation hardness"),
           quantity("density", &Material::density, dimension::density, above(0), "mass per volume"),
