@@ -28,6 +28,17 @@ local Material = {}
 ---@field short_wave? number|string waves shorter than this are attenuated (a length above 0)
 ---@field long_wave? number|string waves longer than this are attenuated (a length above 0, or math.huge for never)
 
+---@class asperity.options.surface.picture
+---@field title? string above the picture (string)
+---@field label? string of the colour bar (string)
+---@field palette? string of colours: viridis, cividis, grey, heat, balance or contact (string)
+---@field range? table lowest and highest value of the colours, in SI ({number, number})
+---@field width? integer of the picture in pixels (integer from 200 to 4000, default 1000)
+---@field view? "map"|"relief" from above, or in relief ("map"|"relief", default "map")
+
+---@class asperity.options.surface.levelled
+---@field degree? integer of the polynomial taken away: 0 the mean, 1 the plane, 2 the quadratic form (integer from 0 to 5, default 1)
+
 ---@class asperity.options.surface.scaled
 ---@field amplitude? number|string peak to valley to reach (a length at least 0)
 ---@field rms? number|string root mean square height to reach (a length at least 0)
@@ -62,17 +73,6 @@ local Material = {}
 
 ---@class asperity.options.surface.profiles
 ---@field along? "x"|"y" rows or columns ("x"|"y", default "x")
-
----@class asperity.options.surface.picture
----@field title? string above the picture (string)
----@field label? string of the colour bar (string)
----@field palette? string of colours: viridis, cividis, grey, heat, balance or contact (string)
----@field range? table lowest and highest value of the colours, in SI ({number, number})
----@field width? integer of the picture in pixels (integer from 200 to 4000, default 1000)
----@field view? "map"|"relief" from above, or in relief ("map"|"relief", default "map")
-
----@class asperity.options.surface.levelled
----@field degree? integer of the polynomial taken away: 0 the mean, 1 the plane, 2 the quadratic form (integer from 0 to 5, default 1)
 
 ---Heights on a regular grid of cells; an immutable value whose methods return new ones.
 ---@class asperity.Surface
@@ -113,6 +113,22 @@ function Surface:fractal_dimension(options) end
 ---@param options asperity.options.surface.filtered
 ---@return asperity.Surface
 function Surface:filtered(options) end
+
+---Writes the heights: .npy, .x3p, .txt, .asc or .csv by the extension of the path.
+---@param path string under the run directory
+---@return string
+function Surface:write(path) end
+
+---A picture of the heights as PNG, true to scale, with scale and colour bars.
+---@param path string a .png under the run directory
+---@param options? asperity.options.surface.picture
+---@return string
+function Surface:picture(path, options) end
+
+---Less the least-squares polynomial of a degree.
+---@param options? asperity.options.surface.levelled
+---@return asperity.Surface
+function Surface:levelled(options) end
 
 ---Stretched in height to an amplitude, rms height or Ra.
 ---@param options asperity.options.surface.scaled
@@ -167,22 +183,6 @@ function Surface:profile(options) end
 ---@param options? asperity.options.surface.profiles
 ---@return asperity.Profile[]
 function Surface:profiles(options) end
-
----Writes the heights: .npy, .x3p, .txt, .asc or .csv by the extension of the path.
----@param path string under the run directory
----@return string
-function Surface:write(path) end
-
----A picture of the heights as PNG, true to scale, with scale and colour bars.
----@param path string a .png under the run directory
----@param options? asperity.options.surface.picture
----@return string
-function Surface:picture(path, options) end
-
----Less the least-squares polynomial of a degree.
----@param options? asperity.options.surface.levelled
----@return asperity.Surface
-function Surface:levelled(options) end
 
 ---@class asperity.options.profile.spectrum
 ---@field window? "automatic"|"none"|"hann" taper towards the rim; automatic: none for periodic surfaces, otherwise hann ("automatic"|"none"|"hann", default "automatic")
