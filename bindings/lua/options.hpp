@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block of named options, described once: name, dimension, default, range and a sentence for each
-// key. The block reads a Lua table into a plain C++ struct, reports every problem of the table in
-// one Error (unknown keys with the nearest name, missing ones, wrong types, units and ranges),
-// and tells help(), the editor's types, the reference page and the journal what it knows.
-//
-//   const Block<SineOptions> block{"lab.surface.sine", {
-//       quantity("amplitude", &SineOptions::amplitude, dimension::length, any(), "height of a
-//       crest").required(),
-//       ...}};
+// The kinds of options that a block (block.hpp) is made of: quantities and numbers with a range, whole
+// numbers, flags, texts, words of a closed set, native values, tables inside the table, and the grid's
+// `cells` and pairs of lengths. Each reads one key into one member of a plain struct.
 #pragma once
 
 #include <cmath>
-#include <concepts>
-#include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,130 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/lua/argument.hpp"
+#include "bindings/lua/block.hpp"
+#include "bindings/lua/number_range.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
+#include "engine/core/grid.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
-
-// The numbers an option accepts. NaN never passes; an infinity only where `never` allows it.
-struct NumberRange {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false, high_open = false;
-  bool never = false;
-  // math.huge is accepted and means "never".
-  constexpr NumberRange or_never() const {
-    NumberRange r = *this;
-    r.never = true;
-    return r;
-  }
-  bool contains(double value) const;
-  // "above 0", "from 2 to 3"; "" for any.
-  std::string text(Dimension dimension) const;
-};
-constexpr NumberRange any() { return {}; }
-constexpr NumberRange above(double low) {
-  return {low, std::numeric_limits<double>::infinity(), true, false, false};
-}
-constexpr NumberRange at_least(double low) {
-  return {low, std::numeric_limits<double>::infinity(), false, false, false};
-}
-constexpr NumberRange between(double low, double high) { return {low, high, false, false, false}; }
-constexpr NumberRange inside(double low, double high) { return {low, high, true, true, false}; }
-
-class BlockInfo;
-
-struct OptionInfo {
-  std::string name;
-  std::string type;  // "length", "number", "integer", "string", "boolean", "Surface", "\"all\"|\"resolved\""
-  Dimension dimension{};
-  std::string default_text;  // as a script would write it; "" if there is none
-  std::string range_text;    // "above 0"; may be empty
-  std::string sentence;
-  bool required = false;
-  const BlockInfo* inner = nullptr;  // of a table inside the table
-};
-
-template <class O>
-class Block;
-
-// What is known of a block without its struct.
-class BlockInfo {
- public:
-  virtual ~BlockInfo() = default;
-  virtual const std::string& name() const = 0;
-  virtual std::vector<const OptionInfo*> options() const = 0;
-  // Reads and throws away: what a dry run does. Throws like read().
-  virtual void check(const Argument& table, const std::string& caller) const = 0;
-};
-
-// The keys of a call with the values that were in force, as text.
-using Resolved = std::vector<std::pair<std::string, std::string>>;
-
-// A problem is a sentence about one key, without its line.
-using Problems = std::vector<std::string>;
-
-namespace detail {
-// Reads a number or a quantity; appends a problem and returns nothing if it cannot be had.
-std::optional<double> read_quantity(const Argument& value, const OptionInfo& info, const NumberRange& range,
-                                    Problems& problems);
-std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo& info,
-                                         const NumberRange& range, Problems& problems);
-void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems);
-// Walks the table: calls read(option index, value) for known keys; reports unknown and missing ones.
-void read_table(const Argument& table, const std::string& caller,
-                const std::vector<const OptionInfo*>& options,
-                const std::function<void(std::size_t, const Argument&, Problems&)>& read,
-                const std::function<void(Problems&)>& finish);
-template <class T>
-void assign(std::optional<T>& member, T value) {
-  member = std::move(value);
-}
-template <class T, class U>
-void assign(T& member, U value) {
-  member = static_cast<T>(value);
-}
-inline std::optional<double> shown(double v) { return v; }
-inline std::optional<double> shown(int v) { return v; }
-inline std::optional<double> shown(std::int64_t v) { return static_cast<double>(v); }
-inline std::optional<double> shown(std::uint64_t v) { return static_cast<double>(v); }
-template <class T>
-std::optional<double> shown(const std::optional<T>& v) {
-  return v ? std::optional<double>(static_cast<double>(*v)) : std::nullopt;
-}
-}  // namespace detail
-
-// One key of a block that fills a struct O.
-template <class O>
-struct Option {
-  OptionInfo info;
-  std::function<void(const Argument&, const OptionInfo&, O&, Problems&)> read;
-  // The value as a script would write it, "" for none; may be null. Gives defaults and the record.
-  std::function<std::string(const O&)> show;
-
-  Option() = default;
-  // An option of a base struct serves the struct that extends it.
-  template <class Base>
-  requires(std::derived_from<O, Base> && !std::same_as<O, Base>) Option(Option<Base> base)
-      : info(std::move(base.info)), read(std::move(base.read)), show(std::move(base.show)) {}
-
-  Option required() && {
-    info.required = true;
-    return std::move(*this);
-  }
-  // How a value reads in the record, for options made with custom().
-  Option shown_by(std::function<std::string(const O&)> text) && {
-    show = std::move(text);
-    return std::move(*this);
-  }
-  // How the default reads where the struct cannot tell ("size", "roll_off = long_wave").
-  Option defaults_to(std::string text) && {
-    info.default_text = std::move(text);
-    return std::move(*this);
-  }
-};
 
 // A quantity of one dimension, or a plain number for dimension::number. Member: double or optional<double>.
 template <class O, class M>
@@ -383,61 +257,5 @@ Option<O> pair_option(std::string name, M O::*x, M O::*y, Dimension dimension, N
   };
   return option;
 }
-
-template <class O>
-class Block final : public BlockInfo {
- public:
-  // `whole` sees the whole struct after all keys were read without a problem, and may add some.
-  using Check = void (*)(O&, Problems&);
-
-  Block(std::string name, std::vector<Option<O>> options, Check whole = nullptr)
-      : name_(std::move(name)), options_(std::move(options)), check_(whole) {
-    const O defaults{};
-    for (Option<O>& option : options_)
-      if (!option.info.required && option.info.default_text.empty() && option.show)
-        option.info.default_text = option.show(defaults);
-  }
-
-  const std::string& name() const override { return name_; }
-
-  std::vector<const OptionInfo*> options() const override {
-    std::vector<const OptionInfo*> infos;
-    for (const Option<O>& option : options_) infos.push_back(&option.info);
-    return infos;
-  }
-
-  // Throws Error with all problems of the table. No argument at all reads as an empty table.
-  // `resolved`, if given, receives every key with the value in force, as text.
-  O read(const Argument& table, const std::string& caller, Resolved* resolved = nullptr) const {
-    O result{};
-    bool placeholders = false;
-    detail::read_table(
-        table, caller, options(),
-        [&](std::size_t k, const Argument& value, Problems& problems) {
-          if (value.is_unknown()) {
-            // A native placeholder still has a class to check.
-            placeholders = true;
-            if (value.as_any_object() == nullptr) return;
-          }
-          options_[k].read(value, options_[k].info, result, problems);
-        },
-        [&](Problems& problems) {
-          if (check_ != nullptr && !placeholders) check_(result, problems);
-        });
-    if (resolved != nullptr)
-      for (const Option<O>& option : options_)
-        if (option.show)
-          if (std::string text = option.show(result); !text.empty())
-            resolved->emplace_back(option.info.name, text);
-    return result;
-  }
-
-  void check(const Argument& table, const std::string& caller) const override { (void)read(table, caller); }
-
- private:
-  std::string name_;
-  std::vector<Option<O>> options_;
-  Check check_;
-};
 
 }  // namespace asperity::lua
