@@ -30,8 +30,8 @@ bool any_unknown(lua_State* L) {
   return false;
 }
 
-// Goes on in the original in upvalue 1, one of Lua's own functions without upvalues, on the same frame:
-// what it raises keeps the script's line.
+// Goes on in the original in upvalue 1, one of Lua's own functions without upvalues (never one wrapped
+// already), on the same frame: what it raises keeps the script's line.
 int call_original(lua_State* L) { return lua_tocfunction(L, lua_upvalueindex(1))(L); }
 
 // The original unless an argument is a placeholder, which it returns instead.
@@ -158,9 +158,8 @@ std::string line_of(const std::string& message) {
 }
 
 void open_dry_run_library(lua_State* L) {
-  for (const char* name :
-       {"abs", "ceil", "cos",  "deg", "exp",       "floor", "fmod", "log",  "max",  "min", "modf",
-        "rad", "sin",  "sqrt", "tan", "tointeger", "type",  "ult",  "asin", "acos", "atan"})
+  for (const char* name : {"abs",  "ceil", "cos", "deg",  "exp", "floor",     "fmod", "log",  "max",  "min",
+                           "modf", "rad",  "sin", "sqrt", "tan", "tointeger", "ult",  "asin", "acos", "atan"})
     wrap(L, "math", name, pass_unknown);
   for (const char* name : {"format", "rep", "len", "sub", "upper", "lower"})
     wrap(L, "string", name, pass_unknown);

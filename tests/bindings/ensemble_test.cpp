@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // lab.ensemble: order and values whatever the number of threads, what travels into a case and what
 // cannot, and how a case ends that goes wrong.
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -118,7 +120,8 @@ const char* const study = R"(
 
 std::string journal_of(int threads, std::string& rows, std::string& printed) {
   const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("asperity-ensemble-" + std::to_string(threads));
+      std::filesystem::temp_directory_path() /
+      ("asperity-ensemble-" + std::to_string(getpid()) + "-" + std::to_string(threads));
   std::filesystem::remove_all(folder);
   std::string text;
   {
