@@ -190,12 +190,12 @@ TEST_F(CommandLine, AnUnwritableFolderIsAnErrorOfUsage) {
 TEST_F(CommandLine, OutputThatNobodyReadsIsNoCrash) {
   write("s.lua", "local f = io.open('/dev/full', 'r')\nprint 'x'\nio.stdout:write(('y'):rep(1e5))");
   Start start;
-  start.command = {"sh", "-c", std::string(ASPERITY_PROGRAM) + " run s.lua > /dev/full"};
+  start.command = {"sh", "-c", "'" ASPERITY_PROGRAM "' run s.lua > /dev/full"};
   start.folder = folder.path();
   const Outcome outcome = run_process(start);
   EXPECT_EQ(outcome.signal, 0);
   EXPECT_EQ(faults_of_run(folder.path() / "runs/s-1"), std::vector<std::string>{});
-  start.command = {"sh", "-c", std::string(ASPERITY_PROGRAM) + " run s.lua | true"};
+  start.command = {"sh", "-c", "'" ASPERITY_PROGRAM "' run s.lua | true"};
   run_process(start);
 }
 
