@@ -2,8 +2,8 @@
 #include "bindings/lua/record.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <new>
+#include <utility>
 
 #include "bindings/lua/guard.hpp"
 #include "bindings/lua/registry.hpp"
@@ -36,27 +36,20 @@ Record* record_of(lua_State* L) {
 
 void push_text(lua_State* L, const std::string& text) { lua_pushlstring(L, text.data(), text.size()); }
 
-// The message for a field that is not there; an ordinary C++ frame.
+// The error for a field that is not there.
 int missing_field(lua_State* L) {
-  std::string message;
-  try {
+  static const std::string nothing;
+  return guarded(L, nothing, [&]() -> Values {
     const Record& record = *record_of(L);
     std::vector<std::string> names;
     for (const Record::Entry& entry : record.entries) names.push_back(entry.field);
     const Argument key(L, 2);
-    message = where(L) + "a " + record.name + " result has no field " +
-              (key.is_text() ? quoted(key.text().substr(0, 40)) + did_you_mean(key.text(), names)
-                             : key.describe()) +
-              "; it has " + joined(names, " and ");
-  } catch (const std::exception&) {
-    return -1;
-  }
-  auto action = [&message](lua_State* state) {
-    push_text(state, message);
-    return 1;
-  };
-  protect(L, 0, 1, action);
-  return -1;
+    throw Error(ErrorCode::unknown_name,
+                "a " + record.name + " result has no field " +
+                    (key.is_text() ? quoted(key.text().substr(0, 40)) + did_you_mean(key.text(), names)
+                                   : key.describe()),
+                "it has " + joined(names, " and "));
+  });
 }
 
 int record_index(lua_State* L) {
@@ -88,17 +81,8 @@ std::string describe(const Record& record) {
 }
 
 int describe_record(lua_State* L) {
-  std::string text;
-  try {
-    text = describe(*record_of(L));
-  } catch (const std::exception&) {
-    text = "a result";
-  }
-  auto action = [&text](lua_State* state) {
-    push_text(state, text);
-    return 1;
-  };
-  return protect(L, 0, 1, action) == LUA_OK ? 1 : -1;
+  static const std::string nothing;
+  return guarded(L, nothing, [&]() -> Values { return {describe(*record_of(L))}; });
 }
 
 int record_to_string(lua_State* L) {
@@ -137,37 +121,16 @@ int record_release(lua_State* L) {
 }
 
 int next_of(lua_State* L) {
-  auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
-  static const std::string name = "iterator";
-  std::string message;
-  try {
+  static const std::string nothing, name = "iterator";
+  return guarded(L, nothing, [&]() -> Values {
+    auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
     if (block == nullptr || *block == nullptr) throw Error(ErrorCode::bad_state, "the iterator is finished");
     Call call(L, name, true);
-    const std::optional<Values> results = (*block)->next(call);
-    if (!results) {
-      block->reset();
-      lua_pushnil(L);
-      return 1;
-    }
-    auto action = [&results](lua_State* state) {
-      for (const Value& value : *results) push(state, value);
-      return static_cast<int>(results->size());
-    };
-    const int count = static_cast<int>(results->size());
-    return protect(L, 0, count, action) == LUA_OK ? count : -1;
-  } catch (const Error& error) {
-    message = where(L) + error.what();
-  } catch (const std::bad_alloc&) {
-    message = where(L) + "out of memory";
-  } catch (const std::exception& error) {
-    message = where(L) + error.what();
-  }
-  auto action = [&message](lua_State* state) {
-    push_text(state, message);
-    return 1;
-  };
-  protect(L, 0, 1, action);
-  return -1;
+    std::optional<Values> results = (*block)->next(call);
+    if (results) return *std::move(results);
+    block->reset();
+    return {Value()};
+  });
 }
 
 int iterator_call(lua_State* L) {
