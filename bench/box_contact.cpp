@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "engine/contact/elasticity/ascending_sort.hpp"
+#include "engine/contact/elasticity/box/ascending_sort.hpp"
 #include "engine/core/random.hpp"
 #include "engine/experiment/specimen_pair.hpp"
 

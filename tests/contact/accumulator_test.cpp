@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The running sum in two doubles.
-#include "engine/contact/elasticity/accumulator.hpp"
+#include "engine/contact/elasticity/box/accumulator.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The radix sort against the library's, on both sides of its smallest size.
-#include "engine/contact/elasticity/ascending_sort.hpp"
+#include "engine/contact/elasticity/box/ascending_sort.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Box elements under a plane: known answers (case V14), the ways of prescribing a load, rescaling, and
 // the hard cases: few nodes, equal heights, zero load, loads and heights of any magnitude.
-#include "engine/contact/elasticity/box_solver.hpp"
+#include "engine/contact/elasticity/box/box_solver.hpp"
 
 #include <algorithm>
 #include <cmath>

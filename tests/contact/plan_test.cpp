@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/contact/elasticity/sorted_drops.hpp"
+#include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sums over sorted heights against plain sums in extended precision, across block borders.
-#include "engine/contact/elasticity/sorted_drops.hpp"
+#include "engine/contact/elasticity/box/sorted_drops.hpp"
 
 #include <algorithm>
 #include <cmath>

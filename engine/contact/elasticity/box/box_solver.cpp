@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/box_solver.hpp"
+#include "engine/contact/elasticity/box/box_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "engine/contact/elasticity/accumulator.hpp"
+#include "engine/contact/elasticity/box/accumulator.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -50,6 +50,9 @@ class BoxSolver::UnderLoad final : public Solution {
   double peak_pressure() const override { return ready_->box.stiffness * at_.approach; }
   double stiffness() const override {
     return ready_->box.stiffness * (static_cast<double>(touched_) / static_cast<double>(drops().size()));
+  }
+  double flatten() const override {
+    return drops().peak_to_valley() > 0 ? std::min(1.0, at_.approach / drops().peak_to_valley()) : 0.0;
   }
   int iterations() const override { return 0; }
   std::string_view solver() const override { return "closed form (sorted heights)"; }
@@ -173,7 +176,7 @@ Field BoxSolver::UnderLoad::upper_under_load() const {
   Field z = rough ? rough->heights() : Field(grid.nx, grid.ny);
   const double share = 1 - ready_->box.lower_share;
   if (share == 0) return z;
-  const Field own = geometry().placement().to_upper(displacement_field());
+  const Field own = geometry().pose().to_upper(displacement_field(), grid);
   for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * own[k];
   return z;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/ascending_sort.hpp"
+#include "engine/contact/elasticity/box/ascending_sort.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/sorted_drops.hpp"
+#include "engine/contact/elasticity/box/sorted_drops.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/contact/elasticity/accumulator.hpp"
-#include "engine/contact/elasticity/ascending_sort.hpp"
+#include "engine/contact/elasticity/box/accumulator.hpp"
+#include "engine/contact/elasticity/box/ascending_sort.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/text.hpp"

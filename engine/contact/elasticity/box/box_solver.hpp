@@ -8,7 +8,7 @@
 
 #include <memory>
 
-#include "engine/contact/elasticity/sorted_drops.hpp"
+#include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/solver.hpp"
 
