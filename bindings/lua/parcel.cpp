@@ -202,6 +202,10 @@ struct Parcel::Digest {
                         [&](const std::shared_ptr<List>& v) {
                           digester.add(static_cast<std::int64_t>(v->items.size()));
                           for (const Value& item : v->items) add(item);
+                          for (const auto& [key, item] : v->named) {
+                            digester.add(key);
+                            add(item);
+                          }
                         },
                         [&](const std::shared_ptr<Map>& v) {
                           for (const auto& [key, item] : v->items) {

@@ -5,6 +5,7 @@
 #include "bindings/lua/grid_keys.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/surface.hpp"
+#include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/grain_profile.hpp"
 #include "engine/surface/generators/self_affine.hpp"
@@ -164,6 +165,69 @@ Values self_affine_body(Call& call) {
   return result(self_affine_surface(keys, call.session().monitor()), keys.body_material);
 }
 
+// --- bead_blasted
+
+const Block<BlastTexture>& texture_block() {
+  using O = BlastTexture;
+  static const Block<O> block{
+      "fine",
+      {number("hurst", &O::hurst, {0, 1, true, false, false}, "Hurst exponent of the texture"),
+       quantity("roll_off", &O::roll_off, dimension::length, above(0),
+                "wave above which its spectrum is flat"),
+       quantity("short_wave", &O::short_wave, dimension::length, above(0),
+                "its shortest wave, at least two cells, better six"),
+       number("share", &O::share, {0, 1, true, false, false}, "its Ra as a fraction of `ra`")}};
+  return block;
+}
+
+struct BeadBlastedKeys : GridKeys, BeadBlastedOptions {
+  BlastTexture texture;
+};
+const Block<BeadBlastedKeys>& bead_blasted_block() {
+  using O = BeadBlastedOptions;
+  using K = BeadBlastedKeys;
+  auto fine = table_of<K>("fine", &K::texture, texture_block(),
+                          "the fine self-affine texture on top of the dents; false leaves it out");
+  fine.info.type = "table|false";
+  fine.read = [table = fine.read](const Argument& value, const OptionInfo& info, K& keys,
+                                  Problems& problems) {
+    if (value.is_boolean() && !value.boolean()) {
+      keys.fine.reset();
+    } else if (!value.is_table()) {
+      detail::wrong_type(value, info, "a table of named keys, or false for none", problems);
+    } else {
+      table(value, info, keys, problems);
+      keys.fine = keys.texture;
+    }
+  };
+  fine.show = [](const K& keys) -> std::string {
+    if (!keys.fine) return "false";
+    const BlastTexture& t = *keys.fine;
+    return "{ hurst=" + format_exact(t.hurst) + ", roll_off=" + format_exact(t.roll_off) +
+           ", short_wave=" + format_exact(t.short_wave) + ", share=" + format_exact(t.share) + " }";
+  };
+  static const Block<K> block{
+      "lab.surface.bead_blasted",
+      {Option<K>(cells_key()).required(), Option<K>(size_key()).required(),
+       Option<K>(quantity("ra", &O::ra, dimension::length, above(0), "mean absolute height, met exactly"))
+           .required(),
+       Option<K>(pair_option("bead", &O::bead_low, &O::bead_high, dimension::length, above(0),
+                             "diameters of the beads, uniform between the two"))
+           .defaults_to("{\"250 um\", \"300 um\"}"),
+       Option<K>(pair_option("dent", &O::dent_low, &O::dent_high, dimension::length, above(0),
+                             "radii of the dents, uniform between the two"))
+           .defaults_to("{\"25 um\", \"60 um\"}"),
+       number("coverage", &O::coverage, above(0), "area of all dents over that of the surface"),
+       std::move(fine).defaults_to("{}"),
+       integer("seed", &O::seed, at_least(0), "of the dents and the texture"), material_key()}};
+  return block;
+}
+Values bead_blasted_body(Call& call) {
+  BeadBlastedKeys keys = call.options(bead_blasted_block());
+  keys.grid = keys.make();
+  return result(bead_blasted_surface(keys, call.session().monitor()), keys.body_material);
+}
+
 const Block<GrainProfileOptions>& grain_profile_block() {
   using O = GrainProfileOptions;
   static const Block<O> block{
@@ -305,6 +369,11 @@ const Module& surface_module() {
         self_affine_block(), "Surface",
         "local s = lab.surface.self_affine{ cells=256, size=\"1 mm\", hurst=0.8, rms_height=\"1 um\", "
         "short_wave=\"16 um\" }");
+    add("bead_blasted", bead_blasted_body,
+        "A surface blasted with glass beads, as the specimens of the source paper: overlapping dents with "
+        "piled-up rims, and a fine self-affine texture.",
+        bead_blasted_block(), "Surface",
+        "local s = lab.surface.bead_blasted{ cells=512, size=\"1 mm\", ra=\"3 um\" }");
     add("flat", flat_body, "A flat surface at height 0.", flat_block(), "Surface",
         "local s = lab.surface.flat{ cells=64, size=\"1 mm\" }");
     add("sine", sine_body,

@@ -33,11 +33,12 @@ bool shareable(const Value& value) {
   if (const auto* record = std::get_if<std::shared_ptr<Record>>(&value.data))
     return std::all_of((*record)->entries.begin(), (*record)->entries.end(),
                        [](const Record::Entry& entry) { return shareable(entry.value); });
+  const auto field_is_shareable = [](const auto& field) { return shareable(field.second); };
   if (const auto* list = std::get_if<std::shared_ptr<List>>(&value.data))
-    return std::all_of((*list)->items.begin(), (*list)->items.end(), shareable);
+    return std::all_of((*list)->items.begin(), (*list)->items.end(), shareable) &&
+           std::all_of((*list)->named.begin(), (*list)->named.end(), field_is_shareable);
   if (const auto* map = std::get_if<std::shared_ptr<Map>>(&value.data))
-    return std::all_of((*map)->items.begin(), (*map)->items.end(),
-                       [](const auto& item) { return shareable(item.second); });
+    return std::all_of((*map)->items.begin(), (*map)->items.end(), field_is_shareable);
   return !std::holds_alternative<std::shared_ptr<Iterator>>(value.data);
 }
 

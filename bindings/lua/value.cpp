@@ -103,19 +103,16 @@ struct Pusher {
   void operator()(const std::shared_ptr<Iterator>& v) const { push_iterator(L, v); }
 
   void operator()(const std::shared_ptr<List>& v) const {
-    lua_createtable(L, clipped(v->items.size()), 0);
+    lua_createtable(L, clipped(v->items.size()), clipped(v->named.size()));
     for (std::size_t k = 0; k < v->items.size(); ++k) {
       push(L, v->items[k]);
       lua_rawseti(L, -2, static_cast<lua_Integer>(k) + 1);
     }
+    push_fields(v->named);
   }
   void operator()(const std::shared_ptr<Map>& v) const {
     lua_createtable(L, 0, clipped(v->items.size()));
-    for (const auto& [key, item] : v->items) {
-      lua_pushlstring(L, key.data(), key.size());
-      push(L, item);
-      lua_rawset(L, -3);
-    }
+    push_fields(v->items);
   }
   void operator()(const Value::Numbers& v) const {
     lua_createtable(L, clipped(v->size()), 0);
@@ -133,6 +130,15 @@ struct Pusher {
         lua_rawseti(L, -2, i + 1);
       }
       lua_rawseti(L, -2, j + 1);
+    }
+  }
+
+  // Into the table on top of the stack.
+  void push_fields(const std::vector<std::pair<std::string, Value>>& fields) const {
+    for (const auto& [key, item] : fields) {
+      lua_pushlstring(L, key.data(), key.size());
+      push(L, item);
+      lua_rawset(L, -3);
     }
   }
 

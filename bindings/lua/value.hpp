@@ -46,9 +46,12 @@ struct Record {
   const Value* find(std::string_view field) const;
 };
 
-// A plain Lua table 1..n, and one with text keys in order.
+// A plain Lua table 1..n, which may carry named fields besides; and one with text keys in order.
 struct List {
   Values items;
+  std::vector<std::pair<std::string, Value>> named;
+  List();
+  List(Values values);
 };
 struct Map {
   std::vector<std::pair<std::string, Value>> items;
@@ -112,6 +115,9 @@ struct Record::Entry {
   Value value;
   Dimension dimension;
 };
+
+inline List::List() = default;
+inline List::List(Values values) : items(std::move(values)) {}
 
 // A native value for Lua. T needs a class_of<T>.
 template <class T>

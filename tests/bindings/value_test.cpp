@@ -21,9 +21,9 @@ class NativeValue : public LuaTest {
             "c = lab.contact{ lower=s:with{ material=m }, upper=lab.rigid, effects={ elasticity='box' } }\n"
             "st = c:press{ approach='1 um' }\nf = st:field 'pressure'\n"
             "law = lab.friction{ tau0='500 MPa', alpha=0.2 }\n"
-            "book = lab.notebook 'values'\n"
+            "stylus = lab.stylus{ length='1 mm' }\nbook = lab.notebook 'values'\n"
             "stage = lab.tilt_stage{ contact=c, friction=law, mass='4 g' }\n"
-            "all = { s, p, m, c, st, f, law, book, stage }"),
+            "all = { s, p, m, c, st, f, law, stylus, book, stage }"),
         "");
   }
 };
@@ -32,6 +32,7 @@ TEST_F(NativeValue, PrintsWhatItIs) {
   EXPECT_EQ(value("s"), "surface 8 x 8 cells, 1 mm x 1 mm, peak to valley 2 um");
   EXPECT_EQ(value("p"), "profile of 8 samples, 1 mm long, peak to valley 2 um");
   EXPECT_EQ(value("lab.rigid"), "rigid body");
+  EXPECT_EQ(value("stylus"), "stylus: tip radius 2 um, 4000 samples every 250 nm");
   EXPECT_EQ(value("book"), "notebook \"values\": 0 rows of 0 columns");
   for (const char* name : {"m", "c", "st", "f", "law", "stage"}) {
     const std::string text = value(name);
@@ -71,9 +72,10 @@ TEST_F(NativeValue, EveryDeclaredFieldCanBeRead) {
   const struct {
     const char* global;
     const Class* type;
-  } values[] = {{"s", &class_of<Surface>()},  {"p", &class_of<Profile>()},     {"m", find_class("Material")},
-                {"c", find_class("Contact")}, {"st", find_class("State")},     {"f", find_class("Field")},
-                {"law", find_class("Law")},   {"book", find_class("Notebook")}};
+  } values[] = {
+      {"s", &class_of<Surface>()},  {"p", &class_of<Profile>()},      {"m", find_class("Material")},
+      {"c", find_class("Contact")}, {"st", find_class("State")},      {"f", find_class("Field")},
+      {"law", find_class("Law")},   {"book", find_class("Notebook")}, {"stylus", find_class("Stylus")}};
   for (const auto& entry : values) {
     ASSERT_NE(entry.type, nullptr);
     for (const Getter& field : entry.type->fields) {
@@ -86,6 +88,15 @@ TEST_F(NativeValue, EveryDeclaredFieldCanBeRead) {
       EXPECT_EQ(value("type(" + std::string(entry.global) + "." + method.name + ")"), "function")
           << method.name;
   }
+}
+
+TEST_F(NativeValue, TracesAreAPlainListWithNamedFields) {
+  ASSERT_EQ(run("traces = stylus:scan(s:with{ material=m }, { count=3 })"), "");
+  EXPECT_EQ(value("type(traces)"), "table");
+  EXPECT_EQ(value("#traces"), "3");
+  EXPECT_EQ(value("traces[3].points"), "4000");
+  EXPECT_EQ(value("traces.tip_effect.greatest_lift >= traces.tip_effect.mean_lift"), "true");
+  EXPECT_EQ(value("#traces.lines"), "3");
 }
 
 TEST_F(NativeValue, HidesItsMetatable) {

@@ -348,6 +348,12 @@ TEST(Sections, LinesAreBilinear) {
   EXPECT_EQ(profile_between(surface, {10, 5}, {10, 0}).heights()[0], surface.height(10, 5));
 }
 
+TEST(Sections, LinesNeverLeaveTheHeightsOfTheirNodes) {
+  const Surface level = surface_of(7, 7, 7, 7, [](double, double) { return 3e-6; });
+  for (const double share : {0.1, 0.3, 1.0 / 3, 0.7, 0.999})
+    EXPECT_EQ(height_between(level, {share, 2.9 * share}), 3e-6) << share;
+}
+
 TEST(Sections, LinesWrapOnPeriodicSurfacesOnly) {
   const Surface open = numbered(6, 4), closed = numbered(6, 4, true);
   EXPECT_NE(message_of([&] {

@@ -52,6 +52,11 @@ Between between(double place, int n, bool wraps) {
   return {below, (below + 1) % n, place - std::floor(place)};
 }
 
+// Never outside the two by rounding: a flat stays flat to the last bit.
+double mixed(double a, double b, double share) {
+  return std::clamp((1 - share) * a + share * b, std::min(a, b), std::max(a, b));
+}
+
 }  // namespace
 
 Profile profile_row(const Surface& surface, double j) {
@@ -76,9 +81,9 @@ double height_between(const Surface& surface, Point point) {
   const bool wraps = surface.traits().periodic;
   const Between x = between(point.x / g.hx(), g.nx, wraps), y = between(point.y / g.hy(), g.ny, wraps);
   const Field& h = surface.heights();
-  const double low = (1 - x.share) * h(x.below, y.below) + x.share * h(x.above, y.below);
-  const double high = (1 - x.share) * h(x.below, y.above) + x.share * h(x.above, y.above);
-  return (1 - y.share) * low + y.share * high;
+  const double low = mixed(h(x.below, y.below), h(x.above, y.below), x.share);
+  const double high = mixed(h(x.below, y.above), h(x.above, y.above), x.share);
+  return mixed(low, high, y.share);
 }
 
 Profile profile_between(const Surface& surface, Point from, Point to, std::optional<double> points) {
