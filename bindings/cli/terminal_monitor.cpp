@@ -36,14 +36,28 @@ void TerminalMonitor::progress(std::string_view what, double done) {
   }
   last_done_ = done;
   const double elapsed = std::chrono::duration<double>(now - started_).count();
-  if (elapsed < quiet_seconds) return;
-  if (std::chrono::duration<double>(now - shown_).count() < (terminal_ ? redraw_seconds : relist_seconds))
-    return;
+  if (elapsed < quiet_seconds || std::chrono::duration<double>(now - shown_).count() < pause()) return;
   shown_ = now;
-  const std::string left = done > 0 ? ", about " + duration_text(elapsed / done * (1 - done)) + " left" : "";
+  show(current_, done, elapsed);
+}
+
+void TerminalMonitor::progress_of_parts(std::string_view what, double done, std::string_view part,
+                                        double seconds) {
+  const std::lock_guard lock(mutex_);
+  const auto now = Clock::now();
+  current_.clear();
+  if (seconds < quiet_seconds || std::chrono::duration<double>(now - parts_shown_).count() < pause()) return;
+  parts_shown_ = now;
+  show(std::string(what) + ", " + std::string(part), done, seconds);
+}
+
+double TerminalMonitor::pause() const { return terminal_ ? redraw_seconds : relist_seconds; }
+
+void TerminalMonitor::show(const std::string& title, double done, double seconds) {
+  const std::string left = done > 0 ? ", about " + duration_text(seconds / done * (1 - done)) + " left" : "";
   char percent[16];
   std::snprintf(percent, sizeof percent, "%.0f %%", 100 * done);
-  const std::string line = current_ + ": " + percent + left;
+  const std::string line = title + ": " + percent + left;
   if (terminal_) {
     std::fprintf(stderr, "\r\033[K%s", line.c_str());
     std::fflush(stderr);

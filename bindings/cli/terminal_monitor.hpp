@@ -25,12 +25,15 @@ class TerminalMonitor final : public Monitor {
   void keep_warnings_in(RunDirectory* run) { run_ = run; }
 
   void progress(std::string_view what, double done) override;
+  void progress_of_parts(std::string_view what, double done, std::string_view part, double seconds) override;
   void warn(std::string_view sentence) override;
   // Takes the progress line away.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
+  double pause() const;  // seconds between two lines
+  void show(const std::string& title, double done, double seconds);
   void clear_line();
 
   std::mutex mutex_;
@@ -39,6 +42,7 @@ class TerminalMonitor final : public Monitor {
   bool line_shown_ = false;
   std::string current_;
   Clock::time_point started_{}, shown_{};
+  Clock::time_point parts_shown_{};  // other work between the parts shows itself at its own times
   double last_done_ = 0;
   std::set<std::string> warned_;
 };

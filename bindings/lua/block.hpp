@@ -44,6 +44,8 @@ class BlockInfo {
   virtual ~BlockInfo() = default;
   virtual const std::string& name() const = 0;
   virtual std::vector<const OptionInfo*> options() const = 0;
+  // Whether what is given is a list of tables, each with one of these keys.
+  virtual bool is_list() const { return false; }
   // Reads and throws away: what a dry run does. Throws like read().
   virtual void check(const Argument& table, const std::string& caller) const = 0;
 };
@@ -154,12 +156,20 @@ class Block final : public BlockInfo {
         [&](Problems& problems) {
           if (check_ != nullptr && !placeholders) check_(result, problems);
         });
-    if (resolved != nullptr)
-      for (const Option<O>& option : options_)
-        if (option.show)
-          if (std::string text = option.show(result); !text.empty())
-            resolved->emplace_back(option.info.name, text);
+    if (resolved != nullptr) {
+      const Resolved values = this->resolved(result);
+      resolved->insert(resolved->end(), values.begin(), values.end());
+    }
     return result;
+  }
+
+  // Every key with the value that it has there.
+  Resolved resolved(const O& values) const {
+    Resolved all;
+    for (const Option<O>& option : options_)
+      if (option.show)
+        if (std::string text = option.show(values); !text.empty()) all.emplace_back(option.info.name, text);
+    return all;
   }
 
   void check(const Argument& table, const std::string& caller) const override { (void)read(table, caller); }

@@ -10,11 +10,14 @@ const Module& lab_module();
 const Module& units_module();
 const Module& surface_module();
 const Module& profile_module();
+const Module& protocol_module();
 
 const Class& state_class();
 const Class& field_class();
 const Class& contact_class();
+const Class& protocol_class();
 const Class& law_class();
+const Class& stylus_class();
 const Class& stage_class();
 const Class& notebook_class();
 const Class& material_class();

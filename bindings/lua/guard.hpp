@@ -12,6 +12,7 @@
 #include "bindings/lua/lua_api.hpp"
 #include "bindings/lua/value.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
 
 namespace asperity::lua {
@@ -38,6 +39,25 @@ int guarded(lua_State* L, const std::string& name, Run run) {
     return fail(L, where(L) + name + ": out of memory");
   } catch (const std::exception& error) {
     return fail(L, where(L) + name + ": internal error: " + error.what());
+  }
+}
+
+// Runs a body, and once more if it found no memory, after Lua has given back what the script can no longer
+// reach. A body that fails must leave everything as it was.
+template <class Run>
+auto with_collection(lua_State* L, Run run) {
+  try {
+    return run();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::out_of_memory) throw;
+    lua_gc(L, LUA_GCCOLLECT);
+  }
+  try {
+    return run();
+  } catch (const Error& error) {
+    // Nothing is left to give back: the run met its limit, whatever the script makes of the error.
+    if (error.code() == ErrorCode::out_of_memory) memory::note_exceeded();
+    throw;
   }
 }
 

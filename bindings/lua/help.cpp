@@ -20,6 +20,12 @@ std::string signature(const Function& function) {
     const bool optional = p.type.ends_with("?");
     parts.push_back(optional ? "[" + p.name + "]" : p.name);
   }
+  if (function.options != nullptr && function.options->is_list()) {
+    std::string keys;
+    for (const OptionInfo* option : function.options->options())
+      keys += (keys.empty() ? "{" : " | {") + option->name + "=}";
+    return text + "{ " + keys + ", ... }";
+  }
   if (function.options != nullptr) {
     std::string keys;
     for (const OptionInfo* option : function.options->options())
@@ -189,6 +195,10 @@ void function_reference(std::string& page, const Function& function) {
 std::string cats_type(const std::string& type) {
   if (type.ends_with("?")) return cats_type(type.substr(0, type.size() - 1)) + "|nil";
   if (type.starts_with("iterator<")) return "fun(): " + cats_type(type.substr(9, type.size() - 10));
+  if (const std::size_t at = type.find(" and "); at != std::string::npos && type.find(" with ") > at)
+    return cats_type(type.substr(0, at)) + ", " + cats_type(type.substr(at + 5));
+  if (const std::size_t at = type.find("[] with "); at != std::string::npos)
+    return cats_type(type.substr(0, at + 2)) + "|table";
   if (type.ends_with("[]")) return cats_type(type.substr(0, type.size() - 2)) + "[]";
   if (type.starts_with("{") || type.starts_with("\"")) return type.starts_with("{") ? "table" : type;
   if (const std::size_t bar = type.find('|'); bar != std::string::npos)
@@ -307,6 +317,7 @@ std::string editor_types() {
     page += "---" + module->sentence + "\n---@class asperity." + module->path + "\n";
     if (module->call)
       page += "---@overload fun(options: " + block_class(*module->call) +
+              (module->call->options != nullptr && module->call->options->is_list() ? "[]" : "") +
               "): " + cats_type(module->call->returns) + "\n";
     for (const Constant& c : module->constants)
       page += "---@field " + c.name + " " + cats_type(c.type) + " " + c.sentence + "\n";

@@ -10,6 +10,7 @@
 #include "bindings/lua/help.hpp"
 #include "bindings/lua/material.hpp"
 #include "bindings/lua/notebook.hpp"
+#include "bindings/lua/stylus.hpp"
 #include "bindings/lua/version.hpp"
 
 namespace asperity::lua {
@@ -30,8 +31,8 @@ const Module& lab_module() {
     Module m;
     m.path = "lab";
     m.sentence = "The laboratory: surfaces, contacts, friction, and the notebook that keeps what was found.";
-    m.functions = {material_function(), contact_function(), friction_function(), tilt_stage_function(),
-                   notebook_function()};
+    m.functions = {material_function(), stylus_function(),     contact_function(),
+                   friction_function(), tilt_stage_function(), notebook_function()};
     m.functions.push_back(ensemble_function());
     m.functions.push_back(
         {.name = "help",

@@ -85,6 +85,20 @@ int outer_equal(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
+int outer_length(lua_State* L) {
+  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const int results = [&] {
+    return guarded(L, type.name, [&]() -> Values {
+      const Object* self = Argument(L, 1).as_object(type);
+      if (self != nullptr && self->is_placeholder()) return {Unknown{}};
+      if (self == nullptr || self->closed)
+        throw Error(ErrorCode::bad_state, type.article_name + " was used after it was closed");
+      return {type.length(self->pointer.get())};
+    });
+  }();
+  return results < 0 ? lua_error(L) : results;
+}
+
 // __gc and __close: drops the native value. Safe to run twice.
 int release(lua_State* L) {
   if (Object* object = native_at(L, 1)) {
@@ -133,6 +147,7 @@ void push_metatable(lua_State* L, const Class& type) {
   set_class_method(L, "__newindex", outer_new_index, type);
   set_class_method(L, "__tostring", outer_to_string, type);
   set_class_method(L, "__eq", outer_equal, type);
+  if (type.length != nullptr) set_class_method(L, "__len", outer_length, type);
   set_class_method(L, "__gc", release, type);
   set_class_method(L, "__close", release, type);
   lua_pushvalue(L, -1);

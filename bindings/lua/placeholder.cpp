@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/placeholder.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include "bindings/lua/registry.hpp"
 
 namespace asperity::lua {
@@ -88,10 +91,18 @@ void wrap(lua_State* L, const char* library, const char* name, lua_CFunction wra
   }
 }
 
-std::optional<Values> one_placeholder(const std::shared_ptr<bool>& done, const std::string& type) {
+// Of the values of one turn: "State", or "table and State?".
+std::optional<Values> one_turn(const std::shared_ptr<bool>& done, const std::string& types) {
   if (*done) return std::nullopt;
   *done = true;
-  return Values{placeholder_of(type)};
+  Values values;
+  constexpr std::string_view separator = " and ";
+  for (std::string_view rest = types; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(separator), rest.size());
+    values.push_back(placeholder_of(std::string(rest.substr(0, end))));
+    rest.remove_prefix(std::min(end + separator.size(), rest.size()));
+  }
+  return values;
 }
 
 }  // namespace
@@ -123,12 +134,22 @@ void push_unknown(lua_State* L) {
 
 Value placeholder_of(const std::string& type) {
   if (type.empty() || type == "nil") return {};
+  if (type.ends_with("?")) return placeholder_of(type.substr(0, type.size() - 1));
   if (type == "boolean" || type == "string" || type == "number" || type == "integer") return Unknown{};
+  if (const std::size_t at = type.find("[] with "); at != std::string::npos) {
+    List list{{placeholder_of(type.substr(0, at))}};
+    for (std::string_view rest = std::string_view(type).substr(at + 8); !rest.empty();) {
+      const std::size_t end = std::min(rest.find(" and "), rest.size());
+      list.named.emplace_back(rest.substr(0, end), Unknown{});
+      rest.remove_prefix(std::min(end + 5, rest.size()));
+    }
+    return list;
+  }
   if (type.ends_with("[]")) return List{{placeholder_of(type.substr(0, type.size() - 2))}};
   if (type.starts_with("iterator<")) {
     const std::string inner = type.substr(9, type.size() - 10);
     auto done = std::make_shared<bool>(false);
-    return Iterator{[inner, done](Call&) { return one_placeholder(done, inner); }};
+    return Iterator{[inner, done](Call&) { return one_turn(done, inner); }};
   }
   if (const Class* found = find_class(type)) return Object{found, nullptr, false};
   return Unknown{};

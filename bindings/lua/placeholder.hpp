@@ -14,7 +14,8 @@ namespace asperity::lua {
 
 // Raises on lack of memory: call inside protect().
 void push_unknown(lua_State* L);
-// The placeholder for a result of this declared type ("Surface", "number", "Profile[]", …).
+// The placeholder for a result of this declared type ("Surface", "number", "Profile[]", "Profile[] with
+// tip_effect and lines", …).
 Value placeholder_of(const std::string& type);
 
 // Begins the message of a dry run that cannot follow the script further.

@@ -73,10 +73,12 @@ int record_new_index(lua_State* L) {
 
 std::string describe(const Record& record) {
   std::size_t width = 0;
-  for (const Record::Entry& entry : record.entries) width = std::max(width, entry.field.size());
+  for (const Record::Entry& entry : record.entries)
+    if (!entry.value.is_nil()) width = std::max(width, entry.field.size());
   std::string text = record.name;
   for (const Record::Entry& entry : record.entries)
-    text += "\n  " + entry.field + std::string(width - entry.field.size() + 2, ' ') + show(entry);
+    if (!entry.value.is_nil())
+      text += "\n  " + entry.field + std::string(width - entry.field.size() + 2, ' ') + show(entry);
   return text;
 }
 
@@ -126,7 +128,8 @@ int next_of(lua_State* L) {
     auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
     if (block == nullptr || *block == nullptr) throw Error(ErrorCode::bad_state, "the iterator is finished");
     Call call(L, name, true);
-    std::optional<Values> results = (*block)->next(call);
+    // The turn must not have advanced when it fails for lack of memory.
+    std::optional<Values> results = with_collection(L, [&] { return (*block)->next(call); });
     if (results) return *std::move(results);
     block->reset();
     return {Value()};

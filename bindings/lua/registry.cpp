@@ -9,8 +9,6 @@
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/memory.hpp"
-#include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/run_directory.hpp"
 
@@ -110,23 +108,6 @@ std::string digest_of(const Object& object) {
              : object.type->digest(object.pointer.get());
 }
 
-// One journal line a heavy call: what it was called on and with, and the digest of what came out.
-void record(const Call& call, const Function&, const Values& results) {
-  const Session& session = call.session();
-  if (session.run == nullptr || session.is_case) return;
-  Json line = Json::object();
-  line.set("function", call.function_name());
-  if (const Object* self = Argument(call.L, 1).as_any_object())
-    if (const std::string digest = digest_of(*self); !digest.empty()) line.set("self", digest);
-  Json inputs = Json::object();
-  for (const auto& [key, text] : call.inputs()) inputs.set(key, text);
-  line.set("inputs", inputs);
-  for (const Value& result : results)
-    if (const auto* object = std::get_if<Object>(&result.data))
-      if (const std::string digest = digest_of(*object); !digest.empty()) line.set("result", digest);
-  session.run->journal().write("call", line);
-}
-
 Values call_function(lua_State* L, const Entry& entry) {
   Call call(L, entry.name, entry.owner != nullptr);
   const Function& function = *entry.function;
@@ -146,25 +127,14 @@ Values call_function(lua_State* L, const Entry& entry) {
   if (call.session().dry_run && (function.heavy || placeholder_self || any_unknown(call)))
     return dry_call(call, function);
   Values results = function.body(call);
-  if (function.heavy) record(call, function, results);
+  if (function.heavy)
+    record_call(call.session(), call.function_name(), Argument(L, 1).as_any_object(), call.inputs(), results);
   return results;
 }
 
 int guarded_function(lua_State* L, const Entry& entry) {
   return guarded(L, entry.name, [&]() -> Values {
-    try {
-      return call_function(L, entry);
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::out_of_memory) throw;
-      lua_gc(L, LUA_GCCOLLECT);  // what the script can no longer reach may be enough
-    }
-    try {
-      return call_function(L, entry);  // a call that failed left everything as it was
-    } catch (const Error& error) {
-      // Nothing is left to give back: the run met its limit, whatever the script makes of the error.
-      if (error.code() == ErrorCode::out_of_memory) memory::note_exceeded();
-      throw;
-    }
+    return with_collection(L, [&] { return call_function(L, entry); });  // a failed call changes nothing
   });
 }
 
@@ -175,6 +145,22 @@ int outer_function(lua_State* L) {
 }
 
 }  // namespace
+
+void record_call(const Session& session, const std::string& function, const Object* self,
+                 const Resolved& inputs, const Values& results) {
+  if (session.run == nullptr || session.is_case) return;
+  Json line = Json::object();
+  line.set("function", function);
+  if (self != nullptr)
+    if (const std::string digest = digest_of(*self); !digest.empty()) line.set("self", digest);
+  Json given = Json::object();
+  for (const auto& [key, text] : inputs) given.set(key, text);
+  line.set("inputs", given);
+  for (const Value& result : results)
+    if (const auto* object = std::get_if<Object>(&result.data))
+      if (const std::string digest = digest_of(*object); !digest.empty()) line.set("result", digest);
+  session.run->journal().write("call", line);
+}
 
 const std::string& qualified_name(const Function& function) { return entries().at(&function).name; }
 

@@ -62,6 +62,7 @@ struct Class {
   std::vector<Getter> fields{};
   std::vector<Function> methods{};
   bool shareable = true;  // an immutable value, which cases of an ensemble may share
+  std::int64_t (*length)(const void* self) = nullptr;       // what # gives; null: nothing
   std::string (*describe)(const void* self) = nullptr;      // one line for print()
   std::size_t (*native_bytes)(const void* self) = nullptr;  // memory Lua cannot see
   bool (*equal)(const void* a, const void* b) = nullptr;
@@ -140,6 +141,11 @@ class Call {
   int first_;
   mutable Resolved inputs_;
 };
+
+// The journal's line of a heavy call: what it was called on (may be null) and with, and the digest of what
+// came out. The registry writes that of every heavy function; an iterator writes those of its turns.
+void record_call(const Session& session, const std::string& function, const Object* self,
+                 const Resolved& inputs, const Values& results);
 
 // Pushes a function or method of the registry; raises on lack of memory (call inside protect).
 void push_function(lua_State* L, const Function& function);

@@ -40,6 +40,12 @@ class Monitor {
   virtual ~Monitor() = default;
   // `done` in [0, 1] of the work called `what`.
   virtual void progress(std::string_view what, double done) = 0;
+  // The same of long work made of parts: `part` is the one under way, and `seconds` how long the whole has
+  // been going on, other work between the parts included. Shown like any progress unless overridden.
+  virtual void progress_of_parts(std::string_view what, double done, std::string_view /*part*/,
+                                 double /*seconds*/) {
+    progress(what, done);
+  }
   // A sentence the experimenter should see; shown once, kept in the journal.
   virtual void warn(std::string_view sentence) = 0;
 

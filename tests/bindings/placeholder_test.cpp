@@ -36,6 +36,15 @@ TEST_F(DryRun, KeepsNamesOfFieldsAndMethodsChecked) {
       0u);
 }
 
+TEST_F(DryRun, AListWithNamedFieldsHasThemAll) {
+  goes_on(
+      "traces = lab.stylus{}:scan(s, { count=2 })\nfor _, t in ipairs(traces) do print(t:roughness().Ra) "
+      "end\n"
+      "print(#traces * 2, traces.tip_effect.Ra_ratio / 2, traces.lines[1].x)");
+  EXPECT_EQ(run("print(traces[1].lenght)").rfind("script.lua:1: a profile has no field `lenght`", 0), 0u);
+  EXPECT_NE(run("lab.stylus{}:scan(s, { cuont=2 })").find("unknown key `cuont`"), std::string::npos);
+}
+
 TEST_F(DryRun, KeepsOptionsChecked) {
   EXPECT_EQ(run("c:press{ presure='1 MPa' }").rfind("script.lua:1: contact:press: unknown key `presure`", 0),
             0u);

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/protocol.hpp"
+
+#include "bindings/lua/catalogue.hpp"
+#include "bindings/lua/contact.hpp"
+#include "bindings/lua/files.hpp"
+#include "bindings/lua/protocol_events.hpp"
+#include "bindings/lua/session.hpp"
+#include "engine/experiment/aside_file.hpp"
+#include "engine/experiment/press_log.hpp"
+#include "engine/experiment/protocol_run.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+Values make_protocol(Call& call) {
+  const auto protocol = read_protocol(call.argument(1), call.function_name());
+  return {protocol ? object(*protocol) : Value(Object{&class_of<Protocol>(), nullptr, false})};
+}
+
+Values read(Call& call) {
+  const std::string path = readable_path(call, call.text(1, "path"));
+  note_input(call, path);
+  return {object(read_press_log(path, call.session().monitor()))};
+}
+
+// --- events
+
+std::optional<double> pressed_to(const Protocol::Step& step, PressBy by) {
+  const auto* press = std::get_if<PressRequest>(&step);
+  return press != nullptr && press->by == by ? std::optional<double>(press->value) : std::nullopt;
+}
+
+// Every event has every field, so that a script may ask for any; those that do not apply are nil.
+Record event_record(const Protocol& protocol, std::size_t k) {
+  const Protocol::Event& event = protocol.events()[k];
+  const Protocol::Step& step = event.step;
+  const auto* press = std::get_if<PressRequest>(&step);
+  const auto* place = std::get_if<Protocol::Place>(&step);
+  const auto* rotate = std::get_if<Protocol::Rotate>(&step);
+  const auto* shift = std::get_if<Protocol::Shift>(&step);
+  Record record;
+  record.name = "protocol event";
+  record.add("index", static_cast<std::int64_t>(k) + 1)
+      .add("total", static_cast<std::int64_t>(protocol.count()))
+      .add("kind", std::string(kind(step)))
+      .add("text", text(step))
+      .add("time", event.time, dimension::time)
+      .add("pressure", pressed_to(step, PressBy::pressure), dimension::pressure)
+      .add("load", pressed_to(step, PressBy::load), dimension::force)
+      .add("approach", pressed_to(step, PressBy::approach), dimension::length)
+      .add("indentation", pressed_to(step, PressBy::indentation))
+      .add("flatten", pressed_to(step, PressBy::flatten))
+      .add("dwell", press != nullptr ? Value(press->dwell) : Value(), dimension::time)
+      .add("seed", place != nullptr ? Value(static_cast<std::int64_t>(place->seed)) : Value())
+      .add("angle", rotate != nullptr ? Value(rotate->angle) : Value(), dimension::angle)
+      .add("x", shift != nullptr ? Value(shift->x) : Value(), dimension::length)
+      .add("y", shift != nullptr ? Value(shift->y) : Value(), dimension::length);
+  return record;
+}
+
+Values events(Call& call) {
+  const Protocol& protocol = call.self<Protocol>();
+  List list;
+  for (std::size_t k = 0; k < protocol.count(); ++k) list.items.emplace_back(event_record(protocol, k));
+  return {std::move(list)};
+}
+
+// A press of a protocol stands in the journal as one made by hand does.
+void record_press(const Session& session, const ProtocolRun& run, const PressRequest& request,
+                  const State& state, const std::string& function) {
+  const std::shared_ptr<SpecimenPair> pair(std::shared_ptr<void>(), &run.pair());
+  const Object self{&class_of<SpecimenPair>(), pair, false};
+  record_call(session, function, &self, press_block().resolved({1, request, request.dwell}),
+              {object(asperity::State(state))});
+}
+
+Values on(Call& call) {
+  call.object<SpecimenPair>(1, "contact");  // or an error that says what it is instead
+  auto pair =
+      std::static_pointer_cast<SpecimenPair>(call.argument(1).as_object(class_of<SpecimenPair>())->pointer);
+  auto run = std::make_shared<ProtocolRun>(call.self<Protocol>(), std::move(pair));
+  return {Iterator{[run](Call& turn) -> std::optional<Values> {
+    if (run->finished()) return std::nullopt;
+    const std::size_t k = run->next();
+    const std::optional<asperity::State> state = run->step(turn.session().monitor());
+    Values values{event_record(run->protocol(), k), state ? object(*state) : Value()};
+    if (const auto* press = std::get_if<PressRequest>(&run->protocol().events()[k].step))
+      record_press(turn.session(), *run, *press, *state, "contact:press");
+    return values;
+  }}};
+}
+
+// --- others from it
+
+struct RepeatedKeys {
+  std::int64_t times = 1;
+};
+const Block<RepeatedKeys>& repeated_block() {
+  static const Block<RepeatedKeys> block{
+      "repeated", {integer("times", &RepeatedKeys::times, at_least(1), "how often it is done").required()}};
+  return block;
+}
+Values repeated(Call& call) {
+  return {object(call.self<Protocol>().repeated(call.options(repeated_block()).times))};
+}
+Values plus(Call& call) { return {object(call.self<Protocol>().plus(call.object<Protocol>(1, "next")))}; }
+
+Values write(Call& call) {
+  const std::string log = press_log_text(call.self<Protocol>());
+  const std::string path = writable_path(call, call.text(1, "path"));
+  write_aside(path, log);
+  return {path};
+}
+
+std::string describe(const void* self) { return static_cast<const Protocol*>(self)->text(); }
+std::string digest(const void* self) { return static_cast<const Protocol*>(self)->digest(); }
+bool equal(const void* a, const void* b) { return digest(a) == digest(b); }
+std::int64_t length(const void* self) {
+  return static_cast<std::int64_t>(static_cast<const Protocol*>(self)->count());
+}
+std::size_t native_bytes(const void* self) {
+  return static_cast<const Protocol*>(self)->count() * sizeof(Protocol::Event);
+}
+
+}  // namespace
+
+const Class& protocol_class() {
+  static const Class type = [] {
+    Class c;
+    c.name = "Protocol";
+    c.article_name = "a protocol";
+    c.sentence =
+        "What is done to a contact, event by event; an immutable value that any number of contacts may go "
+        "through. #p is the number of its events.";
+    c.length = length;
+    c.describe = describe;
+    c.native_bytes = native_bytes;
+    c.equal = equal;
+    c.digest = digest;
+    c.fields = {
+        {"count",
+         "integer",
+         "number of events",
+         {},
+         [](Call& call) -> Values { return {length(&call.self<Protocol>())}; }},
+        {"presses",
+         "integer",
+         "number of presses among them",
+         {},
+         [](Call& call) -> Values { return {static_cast<std::int64_t>(call.self<Protocol>().presses())}; }},
+        {"digest", "string", "equal protocols have equal digests", {}, [](Call& call) -> Values {
+           return {digest(&call.self<Protocol>())};
+         }}};
+    c.methods = {
+        {.name = "on",
+         .body = on,
+         .sentence =
+             "Does one event after another to a contact, one a turn of a for loop: an event (index, total, "
+             "kind, text, and pressure, load, approach, indentation, flatten, dwell, seed, angle, x, y, time "
+             "where they apply, else nil) and the state of a press, nil after any other. An event that fails "
+             "raises an error, and leaves the contact as it was before that event; a loop that is broken off "
+             "leaves the rest undone.",
+         .parameters = {{"contact", "Contact", "what it is done to"}},
+         .returns = "iterator<table and State?>",
+         .example = "for event, st in p:on(c) do if st then print(event.text, st.area_fraction) end end",
+         .heavy = true},
+        {.name = "events",
+         .body = events,
+         .sentence = "All events as a list, as p:on gives them.",
+         .returns = "table[]",
+         .example = "for _, event in ipairs(p:events()) do print(event.index, event.text) end"},
+        {.name = "repeated",
+         .body = repeated,
+         .sentence = "The same events several times over, without recorded times.",
+         .options = &repeated_block(),
+         .returns = "Protocol",
+         .example = "local p = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, "
+                    "{ rotate=\"90 deg\" } }:repeated{ times=8 }"},
+        {.name = "plus",
+         .body = plus,
+         .sentence = "One protocol after another, without recorded times.",
+         .parameters = {{"next", "Protocol", "what is done after this one"}},
+         .returns = "Protocol",
+         .example = "local both = p:plus(q)"},
+        {.name = "write",
+         .body = write,
+         .sentence = "Writes a press log, which lab.protocol.read reads back as this protocol: rows of turn, "
+                     "pressure "
+                     "or load, and dwell. Shifts, and presses to anything else, are an error.",
+         .parameters = {{"path", "string", "under the run directory"}},
+         .returns = "string",
+         .example = "p:write \"press_log.csv\"",
+         .heavy = true},
+    };
+    return c;
+  }();
+  return type;
+}
+
+template <>
+const Class& class_of<Protocol>() {
+  return protocol_class();
+}
+
+const Module& protocol_module() {
+  static const Module module = [] {
+    Module m;
+    m.path = "lab.protocol";
+    m.sentence = "Loading protocols: what is done to a contact, event by event, from tables or press logs.";
+    m.functions = {
+        {.name = "read",
+         .body = read,
+         .sentence =
+             "A protocol from a press log, a row an event: its columns are named with units, such as time "
+             "[s], "
+             "pressure [MPa] or load [N], rotation [deg], dwell [min], and place for a seed. A row turns the "
+             "upper body by its rotation from where it lies, then presses for its dwell; no pressure takes "
+             "the "
+             "load off, and so does a turn under load. Cells are parted by commas, semicolons or tabs; other "
+             "columns are left out with a warning. Nothing is looked for in a recording sampled all the "
+             "time: "
+             "each of its rows would be a press.",
+         .parameters = {{"path", "string", "the file"}},
+         .returns = "Protocol",
+         .example = "local p = lab.protocol.read \"press_log.csv\"",
+         .heavy = true}};
+    m.call = Function{.name = "protocol",
+                      .body = make_protocol,
+                      .sentence = "A protocol from a list of events: tables with one key each.",
+                      .options = &protocol_keys(),
+                      .returns = "Protocol",
+                      .example =
+                          "local p = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 min\" } }, "
+                          "{ release=true }, { place={ seed=1 } } }"};
+    return m;
+  }();
+  return module;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Press logs: what was done to a specimen, a row an event, as people keep it in a spreadsheet.
+//
+//   time [s], pressure [MPa], rotation [deg], dwell [min]
+//   0,        152.78,         0,              10
+//   900,      152.78,         90,             10
+//
+// A row turns the upper body by `rotation` from where it lies, then presses to `pressure`, or to `load` on
+// the whole tile, for `dwell`; an empty pressure or a zero takes the load off. A column `place` (or `seed`)
+// lifts the body and puts it down afresh before the turn. A body under load is released before it is placed
+// or turned. The time is kept and nothing waits for it.
+//
+// Every row is an event: this reader looks for none in a recording sampled all the time, whose rows would
+// each be a press; it warns of a table that looks like one.
+#pragma once
+
+#include <string>
+
+#include "engine/core/monitor.hpp"
+#include "engine/experiment/protocol.hpp"
+
+namespace asperity {
+
+// The first line that is neither blank nor a comment (#) names the columns in any order and case, with the
+// unit of each quantity in [] or (). Cells are parted by commas, semicolons or tabs, whichever the first
+// line uses, and may be quoted; with any but commas a decimal comma is read. Columns of another name are
+// left out with a warning. Throws Error{bad_file} with every problem of the file, each by line and column:
+// a column without its unit or given twice, both pressure and load or neither, a row of another length, a
+// cell that is no number, a negative pressure, load or dwell, a time that is missing or runs backwards.
+Protocol read_press_log(const std::string& path, Monitor& monitor = Monitor::silent());
+
+// The log that reads back as this protocol, to the last bit of every number: in MPa, N, deg and min if
+// they can say them, else in SI units. Times are kept if every event has one. A release that was not
+// written where a body under load is placed or turned is there when it is read. Throws
+// Error{bad_value} naming the first event that a log has no way to say: a shift, a press to anything but a
+// pressure or load above zero, both of these in one protocol.
+std::string press_log_text(const Protocol& protocol);
+
+}  // namespace asperity

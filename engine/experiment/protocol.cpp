@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/experiment/protocol.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/digest.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr int digits = 6;
+constexpr std::size_t most_events = 10'000'000;
+
+std::string number_of(std::size_t n) { return std::to_string(n); }
+
+// format_quantity knows no minutes.
+std::string duration(double seconds) {
+  const double minutes = seconds / 60;
+  return minutes >= 1 && minutes == std::round(minutes) ? format_short(minutes) + " min"
+                                                        : format_quantity(seconds, dimension::time, digits);
+}
+
+std::string load_text(const PressRequest& request) {
+  switch (request.by) {
+    case PressBy::pressure:
+      return format_quantity(request.value, dimension::pressure, digits);
+    case PressBy::load:
+      return format_quantity(request.value, dimension::force, digits);
+    case PressBy::approach:
+      return "to an approach of " + format_quantity(request.value, dimension::length, digits);
+    case PressBy::indentation:
+    case PressBy::flatten:
+      break;
+  }
+  return "to `" + std::string(name(request.by)) + "` " + format_short(request.value);
+}
+
+struct Kind {
+  std::string_view operator()(const PressRequest&) const { return "press"; }
+  std::string_view operator()(const Protocol::Release&) const { return "release"; }
+  std::string_view operator()(const Protocol::Place&) const { return "place"; }
+  std::string_view operator()(const Protocol::Rotate&) const { return "rotate"; }
+  std::string_view operator()(const Protocol::Shift&) const { return "shift"; }
+};
+
+struct Detail {
+  std::string operator()(const PressRequest& s) const {
+    return " " + load_text(s) + (s.dwell ? " for " + duration(*s.dwell) : "");
+  }
+  std::string operator()(const Protocol::Release&) const { return ""; }
+  std::string operator()(const Protocol::Place& s) const { return " with seed " + std::to_string(s.seed); }
+  std::string operator()(const Protocol::Rotate& s) const {
+    return " " + format_quantity(s.angle, dimension::angle, digits);
+  }
+  std::string operator()(const Protocol::Shift& s) const {
+    return " by " + format_quantity(s.x, dimension::length, digits) + " along x and " +
+           format_quantity(s.y, dimension::length, digits) + " along y";
+  }
+};
+
+struct Checker {
+  void operator()(const PressRequest& s) const { check(s); }
+  void operator()(const Protocol::Release&) const {}
+  void operator()(const Protocol::Place&) const {}
+  void operator()(const Protocol::Rotate& s) const { finite(s.angle, "the angle of `rotate`"); }
+  void operator()(const Protocol::Shift& s) const {
+    finite(s.x, "`x` of `shift`");
+    finite(s.y, "`y` of `shift`");
+  }
+  static void finite(double value, const char* what) {
+    if (!std::isfinite(value))
+      throw Error(ErrorCode::bad_value, std::string(what) + " is " + format_short(value),
+                  "give a finite value");
+  }
+};
+
+struct Adder {
+  Digester& digester;
+  void operator()(const PressRequest& s) const {
+    digester.add(name(s.by)).add(s.value);
+    if (s.dwell) digester.add("dwell").add(*s.dwell);
+  }
+  void operator()(const Protocol::Release&) const {}
+  void operator()(const Protocol::Place& s) const { digester.add(static_cast<std::int64_t>(s.seed)); }
+  void operator()(const Protocol::Rotate& s) const { digester.add(s.angle); }
+  void operator()(const Protocol::Shift& s) const { digester.add(s.x).add(s.y); }
+};
+
+}  // namespace
+
+std::string_view kind(const Protocol::Step& step) { return std::visit(Kind{}, step); }
+
+std::string text(const Protocol::Step& step) { return std::string(kind(step)) + std::visit(Detail{}, step); }
+
+Protocol::Protocol(std::vector<Event> events) {
+  if (events.empty())
+    throw Error(ErrorCode::bad_value, "a protocol of no events was asked",
+                "give at least one, such as { press={ pressure=\"10 MPa\" } }");
+  if (events.size() > most_events)
+    throw Error(ErrorCode::bad_value, "a protocol of " + number_of(events.size()) + " events was asked",
+                "at most " + number_of(most_events) + " can be kept");
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    try {
+      std::visit(Checker{}, events[k].step);
+    } catch (const Error& error) {
+      throw Error(error.code(), "event " + number_of(k + 1) + ": " + error.sentence(), error.hint());
+    }
+  }
+  events_ = std::make_shared<const std::vector<Event>>(std::move(events));
+}
+
+std::size_t Protocol::presses() const {
+  return static_cast<std::size_t>(std::count_if(events_->begin(), events_->end(), [](const Event& event) {
+    return std::holds_alternative<PressRequest>(event.step);
+  }));
+}
+
+Protocol Protocol::plus(const Protocol& next) const {
+  std::vector<Event> all = *events_;
+  all.insert(all.end(), next.events_->begin(), next.events_->end());
+  for (Event& event : all) event.time.reset();
+  return Protocol(std::move(all));
+}
+
+Protocol Protocol::repeated(std::int64_t times) const {
+  const auto most = static_cast<std::int64_t>(most_events / count());
+  if (times < 1 || times > most)
+    throw Error(ErrorCode::bad_value,
+                "a protocol of " + number_of(count()) + " events was to be repeated " +
+                    std::to_string(times) + " times",
+                "give a whole number from 1 to " + std::to_string(most));
+  if (times == 1) return *this;
+  std::vector<Event> all;
+  all.reserve(count() * static_cast<std::size_t>(times));
+  for (std::int64_t k = 0; k < times; ++k) all.insert(all.end(), events_->begin(), events_->end());
+  for (Event& event : all) event.time.reset();
+  return Protocol(std::move(all));
+}
+
+std::string Protocol::text() const {
+  constexpr std::size_t first = 20, last = 5;
+  const std::size_t n = count(), width = number_of(n).size();
+  std::string all = "protocol of " + number_of(n) + (n == 1 ? " event" : " events");
+  for (std::size_t k = 0; k < n; ++k) {
+    if (n > first + last && k == first) {
+      all += "\n  ... " + number_of(n - first - last) + " more";
+      k = n - last;
+    }
+    const Event& event = (*events_)[k];
+    const std::string number = number_of(k + 1);
+    all += "\n  " + std::string(width - number.size(), ' ') + number + "  " + asperity::text(event.step);
+    if (event.time) all += " (at " + format_short(*event.time) + " s)";
+  }
+  return all;
+}
+
+std::string Protocol::digest() const {
+  Digester digester;
+  digester.add("protocol");
+  for (const Event& event : *events_) {
+    digester.add(kind(event.step));
+    std::visit(Adder{digester}, event.step);
+    if (event.time) digester.add("time").add(*event.time);
+  }
+  return digester.hex();
+}
+
+}  // namespace asperity

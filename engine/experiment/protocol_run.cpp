@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/experiment/protocol_run.hpp"
+
+#include <string>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/experiment/part_monitor.hpp"
+
+namespace asperity {
+
+namespace {
+
+struct Doer {
+  SpecimenPair& pair;
+  Monitor& monitor;
+  std::optional<State> operator()(const PressRequest& s) const { return pair.press(s, monitor); }
+  std::optional<State> operator()(const Protocol::Release&) const { return pair.release(), std::nullopt; }
+  std::optional<State> operator()(const Protocol::Place& s) const { return pair.place(s.seed), std::nullopt; }
+  std::optional<State> operator()(const Protocol::Rotate& s) const {
+    return pair.rotate(s.angle), std::nullopt;
+  }
+  std::optional<State> operator()(const Protocol::Shift& s) const {
+    return pair.shift(s.x, s.y), std::nullopt;
+  }
+};
+
+}  // namespace
+
+ProtocolRun::ProtocolRun(Protocol protocol, std::shared_ptr<SpecimenPair> pair)
+    : protocol_(std::move(protocol)),
+      pair_(std::move(pair)),
+      presses_(protocol_.presses()),
+      begun_(std::chrono::steady_clock::now()) {}
+
+std::optional<State> ProtocolRun::step(Monitor& monitor) {
+  const Protocol::Event& event = protocol_.events()[next_];
+  const std::string title = "event " + std::to_string(next_ + 1) + " of " +
+                            std::to_string(protocol_.count()) + ": " + text(event.step);
+  try {
+    stop_flag().check();
+    const bool press = std::holds_alternative<PressRequest>(event.step);
+    const double all = presses_ == 0 ? 1 : static_cast<double>(presses_);
+    const double before = static_cast<double>(pressed_) / all;
+    const double after = static_cast<double>(pressed_ + (press ? 1 : 0)) / all;
+    PartMonitor part(monitor, "protocol", title, before, after, begun_);
+    part.begin();
+    std::optional<State> state = std::visit(Doer{*pair_, part}, event.step);
+    if (press) ++pressed_;
+    ++next_;
+    return state;
+  } catch (const Error& error) {
+    throw Error(error.code(),
+                title + (event.origin.empty() ? "" : " (" + event.origin + ")") + ": " + error.sentence(),
+                error.hint());
+  }
+}
+
+}  // namespace asperity

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A protocol under way on a specimen pair, one event a call. An event that fails leaves the pair as it was
+// before it, the earlier ones done, and itself the next one still. Whoever stops calling leaves nothing
+// behind: events that were not asked for are not done.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "engine/contact/state.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/experiment/protocol.hpp"
+#include "engine/experiment/specimen_pair.hpp"
+
+namespace asperity {
+
+// Several runs may share a protocol, and take turns on one pair.
+class ProtocolRun {
+ public:
+  ProtocolRun(Protocol protocol, std::shared_ptr<SpecimenPair> pair);
+
+  const Protocol& protocol() const { return protocol_; }
+  SpecimenPair& pair() const { return *pair_; }
+  bool finished() const { return next_ >= protocol_.count(); }
+  // The number of the next event, from 0.
+  std::size_t next() const { return next_; }
+
+  // Does the next event: the state of a press, nothing for any other kind. Tells the monitor how much of
+  // the whole protocol is done, where presses count alike and all else counts nothing. Throws what the pair
+  // throws, and Error{interrupted | time_limit | ...} before an event when a stop was asked for; the
+  // sentence names event and step. Precondition: not finished().
+  std::optional<State> step(Monitor& monitor = Monitor::silent());
+
+ private:
+  Protocol protocol_;
+  std::shared_ptr<SpecimenPair> pair_;
+  std::size_t next_ = 0;
+  std::size_t presses_ = 0, pressed_ = 0;
+  std::chrono::steady_clock::time_point begun_;
+};
+
+}  // namespace asperity

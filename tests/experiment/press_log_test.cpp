@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Press logs: rows as people write them become events, everything wrong with a file is named by line and
+// column, and a protocol written out reads back as itself.
+#include "engine/experiment/press_log.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "tests/experiment/run_fixture.hpp"
+
+namespace asperity {
+namespace {
+
+class Listener final : public Monitor {
+ public:
+  void progress(std::string_view, double) override {}
+  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
+  std::vector<std::string> warnings;
+};
+
+class PressLog : public InFolder {
+ protected:
+  Protocol read(const std::string& content) {
+    write_log(content);
+    return read_press_log(path(), listener);
+  }
+  // One event a line.
+  std::string events(const std::string& content) {
+    std::string lines;
+    const Protocol protocol = read(content);
+    for (const Protocol::Event& event : protocol.events()) lines += text(event.step) + "\n";
+    return lines;
+  }
+  // The error without the name of the file.
+  std::string refusal(const std::string& content) {
+    write_log(content);
+    std::string error = error_of([&] { read_press_log(path(), listener); });
+    const std::string name = "\"" + path() + "\" ";
+    if (const std::size_t at = error.find(name); at != std::string::npos) error.erase(at, name.size());
+    return error;
+  }
+  std::string path() const { return (folder / "log.csv").string(); }
+  void write_log(const std::string& content) const {
+    std::ofstream(folder / "log.csv", std::ios::binary) << content;
+  }
+  Listener listener;
+};
+
+using PressLogWriter = PressLog;
+
+TEST_F(PressLog, RowsAreEvents) {
+  const Protocol p = read(
+      "time [s], pressure [MPa], rotation [deg], dwell [min]\n"
+      "0, 152.78, 0, 10\n"
+      "900, 152.78, 90, 10\n"
+      "1800, 0, 0, 0\n");
+  EXPECT_EQ(p.text(),
+            "protocol of 5 events\n"
+            "  1  press 152.78 MPa for 10 min (at 0 s)\n"
+            "  2  release (at 900 s)\n"
+            "  3  rotate 90 deg (at 900 s)\n"
+            "  4  press 152.78 MPa for 10 min (at 900 s)\n"
+            "  5  release (at 1800 s)");
+  // The same doubles as in a script.
+  EXPECT_EQ(std::get<PressRequest>(p.events()[0].step).value, 152.78e6);
+  EXPECT_EQ(std::get<PressRequest>(p.events()[0].step).dwell, 600.0);
+  EXPECT_EQ(p.events()[3].origin, "log.csv line 3");
+  EXPECT_TRUE(listener.warnings.empty());
+}
+
+TEST_F(PressLog, ColumnsStandInAnyOrderAndAreNamedFreely) {
+  EXPECT_EQ(events("DWELL (s),Seed, Load(kN) ,Turn [ rad ]\n1,7,0.25,-1.5\n"),
+            "place with seed 7\nrotate -85.9437 deg\npress 250 N for 1 s\n");
+}
+
+TEST_F(PressLog, APressureAloneIsEnough) { EXPECT_EQ(events("pressure [GPa]\n0.5\n"), "press 500 MPa\n"); }
+
+TEST_F(PressLog, SemicolonsAndTabsAllowDecimalCommas) {
+  const std::string expected = "press 1.5 MPa for 2.5 s\n";
+  EXPECT_EQ(events("pressure [MPa];dwell [s]\n1,5;2,5\n"), expected);
+  EXPECT_EQ(events("pressure [MPa]\tdwell [s]\n1,5\t2,5\n"), expected);
+  EXPECT_EQ(events("pressure [MPa];dwell [s]\n1.5;+2.5\n"), expected);
+  EXPECT_EQ(events("sep=;\npressure [MPa];dwell [s]\n1,5;2,5\n"), expected);
+}
+
+TEST_F(PressLog, WhatSpreadsheetsAddIsReadOver) {
+  EXPECT_EQ(events("\xEF\xBB\xBF# kept by hand\r\n\r\n\"Pressure [MPa]\",\"Dwell [s]\",\r\n"
+                   "\"1.5\",2.5,\r\n,,\r\n# a note\r\n\r\n2,,\r\n"),
+            "press 1.5 MPa for 2.5 s\npress 2 MPa\n");
+}
+
+TEST_F(PressLog, DegreesAsSpreadsheetsWriteThem) {
+  for (const char* unit : {"deg", "\xC2\xB0", "\xB0"})
+    EXPECT_EQ(events("pressure [MPa],rotation [" + std::string(unit) + "]\n1,90\n"),
+              "rotate 90 deg\npress 1 MPa\n");
+}
+
+TEST_F(PressLog, CommentsEndARowAndNotesMayHoldTheirMark) {
+  EXPECT_EQ(events("pressure [MPa],dwell [s]\n1,2 # first, by hand\n"), "press 1 MPa for 2 s\n");
+  EXPECT_EQ(events("note,pressure [MPa]\nsample #3,1\n\"a #, or b\",2\n"), "press 1 MPa\npress 2 MPa\n");
+}
+
+TEST_F(PressLog, NoPressureTakesTheLoadOff) {
+  // The last row is not blank: it has a dwell.
+  EXPECT_EQ(events("pressure [MPa]; dwell [s]\n1;\n0;\n;\n;0\n"), "press 1 MPa\nrelease\nrelease\n");
+}
+
+TEST_F(PressLog, BodiesUnderLoadAreReleasedBeforeTheyAreMoved) {
+  EXPECT_EQ(events("pressure [Pa],rotation [deg],place\n0,90,\n5,0,\n5,90,\n,90,\n5,,2\n5,90,3\n"),
+            "rotate 90 deg\n"
+            "press 5 Pa\n"
+            "release\nrotate 90 deg\npress 5 Pa\n"
+            "release\nrotate 90 deg\n"
+            "place with seed 2\npress 5 Pa\n"
+            "release\nplace with seed 3\nrotate 90 deg\npress 5 Pa\n");
+}
+
+TEST_F(PressLog, UnknownColumnsAreLeftOutWithAWarning) {
+  EXPECT_EQ(events("pressure [MPa],operator,dwel [s]\n1,Li,5\n"), "press 1 MPa\n");
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_EQ(listener.warnings[0], "\"" + path() +
+                                      "\" has columns of which a protocol makes nothing: \"operator\", "
+                                      "\"dwel [s]\" (did you mean `dwell`?)");
+}
+
+TEST_F(PressLog, SampledRecordingsAreWarnedOf) {
+  std::string log = "time [s],load [N]\n";
+  for (int k = 0; k < 99; ++k) log += std::to_string(k) + ",1\n";
+  EXPECT_EQ(read(log).count(), 99U);
+  EXPECT_TRUE(listener.warnings.empty());
+  EXPECT_EQ(read(log + "99,1\n").count(), 100U);
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_NE(listener.warnings[0].find("has 100 rows and neither dwell nor turn: each is taken for an event"),
+            std::string::npos);
+}
+
+TEST_F(PressLog, DwellWithoutLoadIsAWarning) {
+  EXPECT_EQ(events("pressure [MPa],dwell [s]\n0,5\n"), "release\n");
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_NE(listener.warnings[0].find("a dwell without load changes nothing, as in line 2"),
+            std::string::npos);
+}
+
+TEST_F(PressLog, EqualTimesAreNoStepBack) {
+  EXPECT_EQ(read("time [s],pressure [Pa]\n-5,1\n-5,2\n0,3\n").count(), 3U);
+}
+
+TEST_F(PressLog, ColumnsThatMeanNothingCertainAreRefused) {
+  EXPECT_EQ(refusal("time,pressure [MPa]\n0,1\n"),
+            "bad_file: line 1, column 1 (time): has no unit; write \"time [s]\"");
+  EXPECT_EQ(refusal("pressure [mm]\n1\n"),
+            "bad_file: line 1, column 1 (pressure): has the unit \"mm\" of a length where a pressure is "
+            "wanted; write \"pressure [MPa]\"");
+  EXPECT_NE(refusal("pressure [MPaa]\n1\n").find("line 1, column 1 (pressure): "), std::string::npos);
+  EXPECT_NE(refusal("pressure [MPaa]\n1\n").find("(did you mean `MPa`?)"), std::string::npos);
+  EXPECT_EQ(refusal("turn [deg],pressure [Pa],rotation [deg]\n0,1,0\n"),
+            "bad_file: line 1, column 3 (rotation): means the same as column 1; leave one of them out");
+  EXPECT_EQ(refusal("pressure [Pa],load [N]\n1,1\n"),
+            "bad_file: line 1: both `pressure` and `load` are given; leave one of them out, or name it "
+            "otherwise");
+  EXPECT_EQ(refusal("time [s],presure [MPa]\n0,1\n"),
+            "bad_file: line 1: no column `pressure` or `load` among others: \"presure [MPa]\" (did you mean "
+            "`pressure`?); write \"pressure [MPa]\" or \"load [N]\"");
+  EXPECT_EQ(refusal("time [s]\n0\n"),
+            "bad_file: line 1: no column `pressure` or `load`; write \"pressure [MPa]\" or \"load [N]\"");
+}
+
+TEST_F(PressLog, AllProblemsAreNamedByLineAndColumn) {
+  EXPECT_EQ(refusal("time [s],pressure [MPa],rotation [deg],dwell [min],seed\n"
+                    "0,-1,x,-2,1.5\n"
+                    "5,nan,inf,1,-1\n"
+                    "4,1,0,1,\n"
+                    ",1,0,1,\n"
+                    "6,1\n"
+                    "7,1e400,0,1,1,1\n"
+                    "8,1,0,1e400,\n"),
+            "bad_file: has 12 problems\n"
+            "  line 2, column 2 (pressure): \"-1\" is negative\n"
+            "  line 2, column 3 (rotation): \"x\" is no finite number\n"
+            "  line 2, column 4 (dwell): \"-2\" is negative\n"
+            "  line 2, column 5 (seed): \"1.5\" is no seed; give a whole number from zero up\n"
+            "  line 3, column 2 (pressure): \"nan\" is no finite number\n"
+            "  line 3, column 3 (rotation): \"inf\" is no finite number\n"
+            "  line 3, column 5 (seed): \"-1\" is no seed; give a whole number from zero up\n"
+            "  line 4, column 1 (time): the time 4 s runs backwards: 5 s stands before it\n"
+            "  line 5, column 1 (time): the time is missing\n"
+            "  line 6: there are 2 cells under 5 columns\n"
+            "  line 7: there are 6 cells under 5 columns\n"
+            "  line 8, column 4 (dwell): \"1e400\" is no finite number");
+  std::string many = "pressure [MPa]\n";
+  for (int k = 0; k < 20; ++k) many += "x\n";
+  const std::string text = refusal(many);
+  EXPECT_NE(text.find("has 20 problems"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with("\n  and 8 more")) << text;
+}
+
+TEST_F(PressLog, ThousandsAreNotGuessed) {
+  EXPECT_EQ(refusal("pressure [Pa],dwell [s]\n\"1,500\",1\n"),
+            "bad_file: line 2, column 1 (pressure): \"1,500\" is no finite number");
+}
+
+TEST_F(PressLog, FilesThatAreNoLogs) {
+  EXPECT_NE(refusal("0,152,10\n1,152,10\n").find("begins with numbers, in line 1, and names no columns"),
+            std::string::npos);
+  EXPECT_NE(refusal("# nothing\n\n").find("holds no line of column titles"), std::string::npos);
+  EXPECT_NE(refusal("pressure [Pa]\n# nothing\n").find("names columns but holds no row"), std::string::npos);
+  EXPECT_NE(refusal("").find("is empty"), std::string::npos);
+  EXPECT_NE(refusal(std::string("\xFF\xFEp\0r\0", 6)).find("is not text"), std::string::npos);
+  EXPECT_NE(error_of([&] { read_press_log(path() + "x"); }).find("there is no file"), std::string::npos);
+}
+
+// A spreadsheet of another country: semicolons, decimal commas, Latin-1, CRLF, notes.
+TEST_F(PressLog, AFileAsItIsKept) {
+  const Protocol p = read_press_log(ASPERITY_TEST_DATA "/../data/press_log.csv", listener);
+  EXPECT_EQ(p.text(),
+            "protocol of 8 events\n"
+            "  1  press 1.9098 kN for 10 min (at 0 s)\n"
+            "  2  release (at 900 s)\n"
+            "  3  rotate 90 deg (at 900 s)\n"
+            "  4  press 1.9098 kN for 10 min (at 900 s)\n"
+            "  5  release (at 1800.5 s)\n"
+            "  6  rotate -90 deg (at 1800.5 s)\n"
+            "  7  press 1.9098 kN for 150 s (at 1800.5 s)\n"
+            "  8  release (at 2700 s)");
+  EXPECT_EQ(p.events()[6].origin, "press_log.csv line 7");
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_NE(listener.warnings[0].find("\"Operator\""), std::string::npos);
+}
+
+// --- written out
+
+TEST_F(PressLogWriter, WritesWhatAPersonWould) {
+  const std::string log =
+      "time [s], rotation [deg], pressure [MPa], dwell [min]\n"
+      "0, , 152.78, 10\n"
+      "900, 90, 152.78, 10\n"
+      "1800, , 0, \n";
+  EXPECT_EQ(press_log_text(read(log)), log);
+}
+
+TEST_F(PressLogWriter, ReadsBackAsItself) {
+  using P = Protocol;
+  const auto press = [](double value, std::optional<double> dwell = {}) {
+    return PressRequest{PressBy::pressure, value, dwell};
+  };
+  const std::vector<Protocol> all = {
+      P({{press(1)}}),
+      P({{P::Release{}}}),
+      P({{P::Release{}}, {P::Release{}}, {P::Rotate{1}}, {P::Release{}}, {P::Release{}}}),
+      P({{press(0.1 + 0.2)}, {press(std::nextafter(152.78e6, 0), 1.0 / 3)}, {P::Release{}}, {P::Release{}}}),
+      P({{P::Rotate{1.0 / 3}}, {P::Rotate{-0.1}}, {P::Place{9}}, {P::Rotate{0.7}}, {press(2)}}),
+      P({{P::Place{1}}, {P::Place{std::uint64_t{1} << 53}}, {press(2, 0.0)}}),
+      P({{press(1)},
+         {P::Release{}},
+         {P::Place{2}},
+         {P::Rotate{1}},
+         {press(2)},
+         {P::Release{}},
+         {P::Rotate{2}}}),
+      P({{press(1), 0.1}, {P::Release{}, 0.2}, {P::Rotate{1}, 0.3}, {press(2), 0.4}, {P::Release{}, 0.5}}),
+      P({{press(1), 0.1}, {P::Release{}, 0.3}, {P::Rotate{1}, 0.3}, {press(2), 0.3}}),
+      P({{PressRequest{PressBy::load, 1e-9 / 3, {}}}, {PressRequest{PressBy::load, 7e20, {}}}}),
+      P({{press(1), 5.0}, {press(2)}, {P::Release{}, 1.0}}).plus(P({{press(3)}})),
+  };
+  for (const Protocol& protocol : all) {
+    const std::string log = press_log_text(protocol);
+    EXPECT_EQ(read(log).digest(), protocol.digest()) << log << read(log).text();
+  }
+}
+
+TEST_F(PressLogWriter, TimesAreKeptOnlyIfAllAreKnown) {
+  const Protocol some({{PressRequest{PressBy::pressure, 1, {}}, 5.0}, {Protocol::Release{}}});
+  EXPECT_EQ(press_log_text(some).find("time"), std::string::npos);
+}
+
+TEST_F(PressLogWriter, NamesWhatALogCannotSay) {
+  using P = Protocol;
+  const PressRequest press{PressBy::pressure, 1, {}};
+  const auto refused = [](std::vector<P::Event> events) {
+    return error_of([&] { press_log_text(P(std::move(events))); });
+  };
+  EXPECT_EQ(refused({{press}, {P::Shift{1, 0}}}),
+            "bad_value: a press log cannot hold event 2, shift by 1 m along x and 0 m along y: it has no "
+            "column for one");
+  EXPECT_EQ(refused({{press}, {PressRequest{PressBy::load, 1, {}}}}),
+            "bad_value: a press log cannot hold event 2, press 1 N: it has a column of pressures or one of "
+            "loads, and events before give the other");
+  EXPECT_NE(
+      refused({{PressRequest{PressBy::flatten, 0.1, {}}}}).find("it presses to a pressure or a load only"),
+      std::string::npos);
+  EXPECT_NE(refused({{PressRequest{}}}).find("zero stands for a release there; use a release"),
+            std::string::npos);
+  EXPECT_NE(refused({{P::Rotate{0}}}).find("a turn by nothing stands for none"), std::string::npos);
+  EXPECT_NE(refused({{P::Place{(std::uint64_t{1} << 53) + 1}}}).find("its seed is above 2^53"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace asperity
