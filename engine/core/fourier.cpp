@@ -7,14 +7,13 @@
 #include <fftw3.h>
 
 #include <algorithm>
-#include <map>
-#include <memory>
-#include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/fourier_plan.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -23,43 +22,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-enum class Kind { real_forward, real_inverse, complex_forward, complex_inverse };
-
 fftw_complex* fftw(Complex* pointer) { return reinterpret_cast<fftw_complex*>(pointer); }
-
-struct DestroyPlan {
-  void operator()(fftw_plan plan) const { fftw_destroy_plan(plan); }
-};
-using Plan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, DestroyPlan>;
-
-// The planner of FFTW is not thread-safe; executing a finished plan is. Estimated plans do not
-// depend on timings. A plan is never thrown away while the process lives.
-fftw_plan plan_for(int n, Kind kind) {
-  static std::mutex mutex;
-  static std::map<std::pair<int, Kind>, Plan> plans;
-  const std::lock_guard lock(mutex);
-  Plan& plan = plans[{n, kind}];
-  if (plan) return plan.get();
-  Array<Complex> in(static_cast<std::size_t>(n)), out(static_cast<std::size_t>(n));
-  auto* const real_in = reinterpret_cast<double*>(in.data());
-  auto* const real_out = reinterpret_cast<double*>(out.data());
-  switch (kind) {
-    case Kind::real_forward:
-      plan.reset(fftw_plan_dft_r2c_1d(n, real_in, fftw(out.data()), FFTW_ESTIMATE));
-      break;
-    case Kind::real_inverse:
-      plan.reset(fftw_plan_dft_c2r_1d(n, fftw(in.data()), real_out, FFTW_ESTIMATE | FFTW_DESTROY_INPUT));
-      break;
-    case Kind::complex_forward:
-      plan.reset(fftw_plan_dft_1d(n, fftw(in.data()), fftw(out.data()), FFTW_FORWARD, FFTW_ESTIMATE));
-      break;
-    case Kind::complex_inverse:
-      plan.reset(fftw_plan_dft_1d(n, fftw(in.data()), fftw(out.data()), FFTW_BACKWARD, FFTW_ESTIMATE));
-      break;
-  }
-  if (!plan) throw Error(ErrorCode::internal, "no Fourier transform of length " + std::to_string(n));
-  return plan.get();
-}
 
 struct RowWork {
   Array<double> signal;
@@ -84,9 +47,9 @@ void inverse(fftw_plan plan, RowWork& work, std::span<const Complex> bins, std::
                  [scale](double v) { return v * scale; });
 }
 
-// Starting threads costs more than a small transform.
+// Waking a helper costs more than a small transform.
 std::optional<SingleThreaded> alone_if_small(std::size_t nodes) {
-  constexpr std::size_t worth_sharing = 300 * 300;
+  constexpr std::size_t worth_sharing = 64 * 64;
   return nodes < worth_sharing ? std::optional<SingleThreaded>(std::in_place) : std::nullopt;
 }
 
@@ -100,11 +63,11 @@ int rows_per_block(int nx) { return std::clamp(65536 / nx, 1, 256); }
 // Columns are gathered a cache line's worth at a time, so that each line is read once.
 constexpr int columns_per_block = 8;
 
-void transform_columns(HalfSpectrum& spectrum, Kind kind) {
+void transform_columns(HalfSpectrum& spectrum, FourierPlan kind) {
   const int ny = spectrum.ny();
   const int bins_x = spectrum.bins_x();
   if (ny == 1) return;
-  const fftw_plan plan = plan_for(ny, kind);
+  const fftw_plan plan = fourier_plan(ny, kind);
   // A column of odd length would leave the next one in the buffer unaligned.
   const std::size_t stride = (static_cast<std::size_t>(ny) + 3) / 4 * 4;
   parallel_for(block_count(bins_x, columns_per_block), [&](std::int64_t block) {
@@ -133,7 +96,7 @@ Array<Complex> fourier_forward(std::span<const double> signal) {
   if (n == 0) return {};
   RowWork work(n);
   Array<Complex> bins(work.bins.size());
-  forward(plan_for(n, Kind::real_forward), work, signal, bins);
+  forward(fourier_plan(n, FourierPlan::real_forward), work, signal, bins);
   return bins;
 }
 
@@ -145,7 +108,7 @@ Array<double> fourier_inverse(std::span<const Complex> half_spectrum, int n) {
   if (n == 0) return {};
   RowWork work(n);
   Array<double> signal(static_cast<std::size_t>(n));
-  inverse(plan_for(n, Kind::real_inverse), work, half_spectrum, signal, 1.0 / n);
+  inverse(fourier_plan(n, FourierPlan::real_inverse), work, half_spectrum, signal, 1.0 / n);
   return signal;
 }
 
@@ -158,7 +121,7 @@ HalfSpectrum fourier_forward(const Field& field) {
   if (field.empty()) throw Error(ErrorCode::internal, "a transform of no values");
   const auto alone = alone_if_small(field.size());
   HalfSpectrum spectrum(nx, ny);
-  const fftw_plan plan = plan_for(nx, Kind::real_forward);
+  const fftw_plan plan = fourier_plan(nx, FourierPlan::real_forward);
   const int rows = rows_per_block(nx);
   const auto bins_x = static_cast<std::size_t>(spectrum.bins_x());
   parallel_for(block_count(ny, rows), [&](std::int64_t block) {
@@ -168,7 +131,7 @@ HalfSpectrum fourier_forward(const Field& field) {
       forward(plan, work, field.row(j),
               spectrum.bins().subspan(static_cast<std::size_t>(j) * bins_x, bins_x));
   });
-  transform_columns(spectrum, Kind::complex_forward);
+  transform_columns(spectrum, FourierPlan::complex_forward);
   cost::count_transforms(1);
   return spectrum;
 }
@@ -179,8 +142,8 @@ Field fourier_inverse(HalfSpectrum spectrum) {
   if (spectrum.bins().empty()) throw Error(ErrorCode::internal, "a transform of no values");
   Field field(nx, ny);
   const auto alone = alone_if_small(field.size());
-  transform_columns(spectrum, Kind::complex_inverse);
-  const fftw_plan plan = plan_for(nx, Kind::real_inverse);
+  transform_columns(spectrum, FourierPlan::complex_inverse);
+  const fftw_plan plan = fourier_plan(nx, FourierPlan::real_inverse);
   const int rows = rows_per_block(nx);
   const auto bins_x = static_cast<std::size_t>(spectrum.bins_x());
   const double scale = 1.0 / static_cast<double>(field.size());

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The helpers are threads that live as long as the process and sleep between loops: a loop over a
+// small grid lasts less than starting a thread would. One loop at a time has them; a loop that another
+// thread calls meanwhile runs on that thread alone. A loop never waits for a helper that has not yet
+// begun to help.
 #include "engine/core/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -14,8 +19,150 @@
 namespace asperity {
 
 namespace {
+
 std::atomic<int> threads_wanted{0};
 thread_local bool single_threaded = false;
+
+// One call of parallel_for.
+class Loop {
+ public:
+  Loop(std::int64_t blocks, const std::function<void(std::int64_t)>& block)
+      : blocks_(blocks), block_(block) {}
+
+  void work(bool helper) {
+    const SingleThreaded nested;
+    const double before = cost::transforms();
+    for (;;) {
+      const std::int64_t k = next_.fetch_add(1);
+      if (k >= blocks_) break;
+      try {
+        stop_flag().check();
+        block_(k);
+      } catch (const std::exception&) {
+        const std::lock_guard lock(mutex_);
+        if (!failure_ || k < failed_block_) {
+          failed_block_ = k;
+          failure_ = std::current_exception();
+        }
+        next_.store(blocks_);
+      }
+    }
+    if (helper) {
+      const std::lock_guard lock(mutex_);
+      helper_transforms_ += cost::transforms() - before;
+    }
+  }
+
+  // Once every thread has left work().
+  void finish() {
+    cost::count_transforms(helper_transforms_);
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  const std::int64_t blocks_;
+  const std::function<void(std::int64_t)>& block_;
+  std::atomic<std::int64_t> next_{0};
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+  std::int64_t failed_block_ = 0;
+  double helper_transforms_ = 0;
+};
+
+// Turns a waiting thread takes before it sleeps: some microseconds, the gap between the loops of
+// one transform, and less than waking a sleeper takes.
+constexpr int turns_before_sleep = 2000;
+
+void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#endif
+}
+
+class Pool {
+ public:
+  ~Pool() {
+    {
+      const std::lock_guard lock(mutex_);
+      closing_ = true;
+      ++calls_;
+    }
+    wake_.notify_all();
+    for (std::thread& helper : helpers_) helper.join();
+  }
+
+  // False, having done nothing, if the helpers are taken.
+  bool run(Loop& loop, int helpers) {
+    const std::unique_lock taken(taken_, std::try_to_lock);
+    if (!taken) return false;
+    while (static_cast<int>(helpers_.size()) < helpers) helpers_.emplace_back([this] { help(); });
+    {
+      const std::lock_guard lock(mutex_);
+      loop_ = &loop;
+      seats_ = helpers;
+      ++calls_;
+    }
+    if (helpers == 1)
+      wake_.notify_one();
+    else
+      wake_.notify_all();
+    const Recall recall{*this};
+    loop.work(false);
+    return true;
+  }
+
+ private:
+  // No helper may still hold the loop when its caller goes on, even by an exception.
+  struct Recall {
+    Pool& pool;
+    ~Recall() { pool.recall(); }
+  };
+
+  void recall() {
+    {
+      const std::lock_guard lock(mutex_);
+      loop_ = nullptr;
+    }
+    for (int turn = 0; turn < turns_before_sleep && helping_.load() > 0; ++turn) pause();
+    std::unique_lock lock(mutex_);
+    left_.wait(lock, [this] { return helping_.load() == 0; });
+  }
+
+  void help() {
+    std::int64_t seen = 0;
+    for (;;) {
+      for (int turn = 0; turn < turns_before_sleep && calls_.load() == seen; ++turn) pause();
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [&] { return calls_.load() != seen; });
+      if (closing_) return;
+      seen = calls_.load();
+      if (loop_ == nullptr || seats_ == 0) continue;
+      Loop& loop = *loop_;
+      --seats_;
+      ++helping_;
+      lock.unlock();
+      loop.work(true);
+      lock.lock();
+      if (--helping_ == 0) left_.notify_one();
+    }
+  }
+
+  std::mutex taken_;  // by the loop that has the helpers
+  std::vector<std::thread> helpers_;
+  std::mutex mutex_;  // of all below; the atomics are also read without it
+  std::condition_variable wake_, left_;
+  std::atomic<std::int64_t> calls_{0};
+  std::atomic<int> helping_{0};
+  Loop* loop_ = nullptr;
+  int seats_ = 0;
+  bool closing_ = false;
+};
+
+Pool& pool() {
+  static Pool the_pool;
+  return the_pool;
+}
+
 }  // namespace
 
 int thread_count() {
@@ -31,50 +178,14 @@ SingleThreaded::~SingleThreaded() { single_threaded = outer_; }
 
 void parallel_for(std::int64_t blocks, const std::function<void(std::int64_t)>& block) {
   const std::int64_t threads = std::min<std::int64_t>(thread_count(), blocks);
-  if (threads <= 1) {
-    for (std::int64_t k = 0; k < blocks; ++k) {
-      stop_flag().check();
-      block(k);
-    }
-    return;
+  if (threads > 1) {
+    Loop loop(blocks, block);
+    if (pool().run(loop, static_cast<int>(threads - 1))) return loop.finish();
   }
-  std::atomic<std::int64_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr failure;
-  std::int64_t failed_block = blocks;
-  double helper_transforms = 0;
-
-  auto work = [&](bool helper) {
-    const SingleThreaded nested;
-    const double before = cost::transforms();
-    for (;;) {
-      const std::int64_t k = next.fetch_add(1);
-      if (k >= blocks) break;
-      try {
-        stop_flag().check();
-        block(k);
-      } catch (const std::exception&) {
-        const std::lock_guard lock(mutex);
-        if (k < failed_block) {
-          failed_block = k;
-          failure = std::current_exception();
-        }
-        next.store(blocks);
-      }
-    }
-    if (helper) {
-      const std::lock_guard lock(mutex);
-      helper_transforms += cost::transforms() - before;
-    }
-  };
-
-  std::vector<std::jthread> helpers;
-  helpers.reserve(static_cast<std::size_t>(threads - 1));
-  for (std::int64_t t = 1; t < threads; ++t) helpers.emplace_back(work, true);
-  work(false);
-  for (std::jthread& helper : helpers) helper.join();
-  cost::count_transforms(helper_transforms);
-  if (failure) std::rethrow_exception(failure);
+  for (std::int64_t k = 0; k < blocks; ++k) {
+    stop_flag().check();
+    block(k);
+  }
 }
 
 }  // namespace asperity

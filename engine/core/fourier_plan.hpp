@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// FFTW's one-dimensional plans, made once per length and kept. Estimated, so that no timing decides
+// which algorithm, hence which bits. Thread-safe. Included only by sources of this folder.
+#pragma once
+
+#include <fftw3.h>
+
+#include <complex>
+
+namespace asperity {
+
+enum class FourierPlan { real_forward, real_inverse, complex_forward, complex_inverse };
+
+// From one 64-byte aligned buffer into another; only real_inverse spoils its input. Unnormalised.
+// Throws Error{internal} if FFTW has no plan.
+fftw_plan fourier_plan(int n, FourierPlan kind);
+
+}  // namespace asperity
