@@ -1,147 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.contact: two specimens on the bench. Its options table becomes a Scene; pressing gives states.
+// Contacts as values of the language: two specimens on the bench, pressed, turned and read.
 #include "bindings/lua/contact.hpp"
 
 #include <algorithm>
 
 #include "bindings/lua/catalogue.hpp"
-#include "bindings/lua/grid_keys.hpp"
+#include "bindings/lua/contact_scene.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/surface.hpp"
-#include "engine/contact/effects/catalogue.hpp"
 
 namespace asperity::lua {
 
 namespace {
 
-// --- lab.contact{...}
-
-struct BoxKeys {
-  std::string model = "box";
-  std::optional<double> stiffness;
-};
-const Block<BoxKeys>& box_block() {
-  static const Block<BoxKeys> block{"elasticity",
-                                    {text("model", &BoxKeys::model, "how the bodies give way").required(),
-                                     quantity("stiffness", &BoxKeys::stiffness, dimension::stiffness,
-                                              above(0), "pressure per shortening of a box element")
-                                         .defaults_to("E*/peak-to-valley")}};
-  return block;
-}
-
-const Block<Accuracy>& accuracy_block() {
-  using O = Accuracy;
-  static const Block<O> block{
-      "accuracy",
-      {number("tolerance", &O::tolerance, {1e-15, 1, false, true, false},
-              "bound on every relative entry of the certificate"),
-       choice("precision", &O::precision,
-              {{"double", O::Precision::double_}, {"single", O::Precision::single}},
-              "of the fields inside a solve"),
-       choice("on_failure", &O::on_failure, {{"error", O::OnFailure::error}, {"best", O::OnFailure::best}},
-              "what a solve that misses its tolerance does: raise an error, or return the best it got")}};
-  return block;
-}
-
-struct SceneKeys {
-  std::optional<Surface> lower;
-  std::optional<UpperBody> upper;
-  Boundary boundary = Boundary::free;
-  std::optional<Elasticity> elasticity;
-  Accuracy accuracy;
-};
-
-// Appends what `act` throws.
-template <class Act>
-void collect(Problems& problems, Act act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    problems.push_back(error.what());
-  }
-}
-
-void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems) {
-  BoxKeys box;
-  if (value.is_text()) {
-    box.model = value.text();
-  } else if (value.is_table()) {
-    collect(problems, [&] { box = box_block().read(value, "`effects.elasticity`"); });
-  } else {
-    problems.push_back("`effects.elasticity` is " + value.describe() +
-                       "; give \"box\" or { model=\"box\", stiffness= }");
-    return;
-  }
-  collect(problems, [&] {
-    require_elasticity_model(box.model);
-    keys.elasticity = BoxOptions{box.stiffness};
-  });
-}
-
-// Every key of the table is an effect by name; those this build does not compute are refused.
-void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
-  if (!value.is_table())
-    return detail::wrong_type(value, info, "a table such as { elasticity=\"box\" }", problems);
-  std::vector<std::string> names;
-  value.each([&](const Argument& key, const Argument&) {
-    if (key.is_text())
-      names.emplace_back(key.text());
-    else
-      problems.push_back("`effects` holds " + key.describe() + " as a key; write { elasticity=\"box\" }");
-  });
-  std::sort(names.begin(), names.end());
-  for (const std::string& name : names) {
-    collect(problems, [&] {
-      require_effect(name);
-      if (name == "elasticity")
-        with_key(value, name,
-                 [&](const Argument& elasticity) { read_elasticity(elasticity, keys, problems); });
-    });
-  }
-  if (std::find(names.begin(), names.end(), "elasticity") == names.end())
-    problems.push_back("`effects` names no elasticity; give elasticity=\"box\"");
-}
-
-const Block<SceneKeys>& scene_block() {
-  using K = SceneKeys;
-  static const Block<K> block{
-      "lab.contact",
-      {native<Surface>("lower", &K::lower, "Surface", "a surface", "the lower body, rough side up")
-           .required(),
-       custom<K>("upper", "Surface|Material",
-                 "the upper body: a rough surface that is turned over to face down, a flat of a "
-                 "material, or lab.rigid",
-                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   if (const Surface* surface = value.as<Surface>())
-                     keys.upper = *surface;
-                   else if (const Material* material = value.as<Material>())
-                     keys.upper = *material;
-                   else if (const Object* object = value.as_any_object(); object != nullptr && object->closed)
-                     problems.push_back("`upper` was closed");
-                   else if (value.is_text())
-                     problems.push_back("`upper` is the string \"" + std::string(value.text().substr(0, 40)) +
-                                        "\"; a flat of a material is lab.material \"" +
-                                        std::string(value.text().substr(0, 40)) + "\"");
-                   else if (!value.is_unknown())
-                     detail::wrong_type(value, info, "a surface, a material or lab.rigid", problems);
-                 })
-           .required(),
-       choice("boundary", &K::boundary, {{"free", Boundary::free}, {"periodic", Boundary::periodic}},
-              "whether the tile goes on beyond its rim"),
-       custom<K>("effects", "{ elasticity=\"box\"|{ model=\"box\", stiffness= } }",
-                 "what the scene computes, by name, e.g. { elasticity=\"box\" }; nothing else is",
-                 read_effects)
-           .required(),
-       table_of("accuracy", &K::accuracy, accuracy_block(),
-                "how close a solve must come, and what if it does not")}};
-  return block;
-}
-
-Values make_contact(Call& call) {
-  const SceneKeys keys = call.options(scene_block());
-  Scene scene{*keys.lower, *keys.upper, keys.boundary, *keys.elasticity, keys.accuracy};
-  return {object(SpecimenPair(scene))};
-}
+Values make_contact(Call& call) { return {object(SpecimenPair(read_scene(call)))}; }
 
 // --- pressing
 
@@ -159,11 +31,8 @@ constexpr struct {
     {"flatten", PressBy::flatten, dimension::number, "share of the peak-to-valley pressed away"},
 };
 
-struct PressKeys {
-  int given = 0;
-  PressRequest request;
-  std::optional<double> dwell;
-};
+}  // namespace
+
 const Block<PressKeys>& press_block() {
   static const Block<PressKeys> block = [] {
     std::vector<Option<PressKeys>> options;
@@ -196,6 +65,8 @@ const Block<PressKeys>& press_block() {
   }();
   return block;
 }
+
+namespace {
 
 Values press(Call& call) {
   PressKeys keys = call.options(press_block());
@@ -246,7 +117,9 @@ Values sweep(Call& call) {
   return {Iterator{
       [pair, requests = keys.requests, k = std::size_t{0}](Call& step) mutable -> std::optional<Values> {
         if (k >= requests.size()) return std::nullopt;
-        return Values{object(pair->press(requests[k++], step.session().monitor()))};
+        Values state{object(pair->press(requests[k], step.session().monitor()))};
+        ++k;  // only now: a press that failed for lack of memory is tried once more
+        return state;
       }}};
 }
 
@@ -257,9 +130,8 @@ Values release_load(Call& call) {
   return {};
 }
 
-struct PlaceKeys {
-  std::uint64_t seed = 1;
-};
+}  // namespace
+
 const Block<PlaceKeys>& place_block() {
   static const Block<PlaceKeys> block{
       "place",
@@ -267,6 +139,17 @@ const Block<PlaceKeys>& place_block() {
            .required()}};
   return block;
 }
+
+const Block<ShiftKeys>& shift_block() {
+  static const Block<ShiftKeys> block{
+      "shift",
+      {quantity("x", &ShiftKeys::x, dimension::length, any(), "way along x, whole cells"),
+       quantity("y", &ShiftKeys::y, dimension::length, any(), "way along y, whole cells")}};
+  return block;
+}
+
+namespace {
+
 Values place(Call& call) {
   call.self<SpecimenPair>().place(call.options(place_block()).seed);
   return {};
@@ -277,16 +160,6 @@ Values rotate(Call& call) {
   return {};
 }
 
-struct ShiftKeys {
-  double x = 0, y = 0;
-};
-const Block<ShiftKeys>& shift_block() {
-  static const Block<ShiftKeys> block{
-      "shift",
-      {quantity("x", &ShiftKeys::x, dimension::length, any(), "way along x, whole cells"),
-       quantity("y", &ShiftKeys::y, dimension::length, any(), "way along y, whole cells")}};
-  return block;
-}
 Values shift(Call& call) {
   const ShiftKeys keys = call.options(shift_block());
   call.self<SpecimenPair>().shift(keys.x, keys.y);
@@ -321,7 +194,7 @@ Function contact_function() {
   return {.name = "contact",
           .body = make_contact,
           .sentence = "Puts two bodies on the bench. Only the effects that are named are computed.",
-          .options = &scene_block(),
+          .options = &scene_keys(),
           .returns = "Contact",
           .example = "local c = lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity=\"box\" } }"};
 }
@@ -352,7 +225,9 @@ const Class& contact_class() {
          .options = &sweep_block(),
          .returns = "iterator<State>",
          .example = "for st in c:sweep{ pressure={\"1 MPa\", \"10 MPa\"} } do print(st.area_fraction) end"},
-        {.name = "release", .body = release_load, .sentence = "Takes the load off."},
+        {.name = "release",
+         .body = release_load,
+         .sentence = "Takes the load off. The bodies recover elastically; what yielded stays."},
         {.name = "place",
          .body = place,
          .sentence = "Lifts the upper body and puts it down turned by a multiple of 90 degrees and, on a "
@@ -362,9 +237,8 @@ const Class& contact_class() {
          .example = "c:place{ seed=2 }"},
         {.name = "rotate",
          .body = rotate,
-         .sentence = "Turns the upper body about the centre of the nodes, counter-clockwise seen from above, "
-                     "by a multiple of 90 "
-                     "degrees.",
+         .sentence = "Turns the upper body about the centre of the nodes, counter-clockwise seen from above; "
+                     "turns add up. A periodic contact turns by multiples of 90 degrees only.",
          .parameters = {{"angle", "an angle", "to turn by"}},
          .example = "c:rotate \"90 deg\""},
         {.name = "shift",
@@ -384,7 +258,7 @@ const Class& contact_class() {
          .example = "print(c:explain())"},
         {.name = "lower",
          .body = lower,
-         .sentence = "The lower body's surface as it is now.",
+         .sentence = "The lower body's surface as it is now, with all that yielded.",
          .returns = "Surface"},
         {.name = "upper",
          .body = upper,

@@ -2,7 +2,9 @@
 // lab.contact, and contacts, their states and fields as native values of the language.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "bindings/lua/registry.hpp"
@@ -26,6 +28,22 @@ template <>
 const Class& class_of<asperity::State>();
 template <>
 const Class& class_of<StateField>();
+
+// The tables of c:press, c:place and c:shift, which events of a protocol share.
+struct PressKeys {
+  int given = 0;  // ways to say how far; exactly one is
+  PressRequest request;
+  std::optional<double> dwell;
+};
+const Block<PressKeys>& press_block();
+struct PlaceKeys {
+  std::uint64_t seed = 1;
+};
+const Block<PlaceKeys>& place_block();
+struct ShiftKeys {
+  double x = 0, y = 0;
+};
+const Block<ShiftKeys>& shift_block();
 
 Function contact_function();
 

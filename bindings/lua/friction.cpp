@@ -71,17 +71,21 @@ const Block<StageKeys>& stage_block() {
                 "greatest angle of the stage"),
        quantity("gravity", &K::gravity, dimension::acceleration, above(0), "acceleration of free fall"),
        custom<K>("probe_pressure", "a pressure[]",
-                 "at which a half-space contact is solved; a box contact is solved at its weight",
+                 "at which a half-space contact is solved, each raised until enough nodes touch; a box "
+                 "contact is solved at its weight",
                  [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   if (!value.is_table() || value.length() == 0)
-                     return detail::wrong_type(value, info, "a list of pressures", problems);
                    OptionInfo pressure = info;
                    pressure.dimension = dimension::pressure;
-                   for (std::int64_t k = 1; k <= value.length(); ++k)
-                     value.element(k, [&](const Argument& part) {
-                       detail::read_quantity(part, pressure, above(0), problems);
-                     });
                    keys.probe_given = true;
+                   keys.probe_pressures.clear();
+                   const auto read = [&](const Argument& part) {
+                     if (auto p = detail::read_quantity(part, pressure, above(0), problems))
+                       keys.probe_pressures.push_back(*p);
+                   };
+                   if (!value.is_table()) return read(value);
+                   if (value.length() == 0)
+                     return detail::wrong_type(value, info, "a pressure or a list of them", problems);
+                   for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, read);
                  })
            .defaults_to("{\"1 MPa\", \"3 MPa\"}"),
        number("scatter", &TiltTrialOptions::scatter, at_least(0),
@@ -91,7 +95,9 @@ const Block<StageKeys>& stage_block() {
 
 Values make_stage(Call& call) {
   const StageKeys keys = call.options(stage_block());
-  if (keys.probe_given)
+  const bool half_space =
+      keys.contact && std::holds_alternative<HalfSpaceOptions>(keys.contact->scene().elasticity);
+  if (keys.probe_given && !half_space)
     call.session().monitor().warn(
         "`probe_pressure` is for half-space contacts; a box contact is solved at its weight");
   TiltStage stage{keys.contact, keys.law, keys};
@@ -128,6 +134,16 @@ Values raise_stage(Call& call) {
         .add("slipped", trial.slipped);
     trials.items.emplace_back(std::move(record));
   }
+  List probes;
+  for (const TiltProbe& probe : result.probes) {
+    Record record;
+    record.name = "probe";
+    record.add("pressure", probe.pressure, dimension::pressure)
+        .add("contacts", probe.contacts)
+        .add("area_per_load", probe.area_per_load)
+        .add("mu", probe.mu);
+    probes.items.emplace_back(std::move(record));
+  }
   Record record;
   record.name = result.slipped ? "tilt" : "tilt (does not slip)";
   record.add("angle", result.angle, dimension::angle)
@@ -136,6 +152,8 @@ Values raise_stage(Call& call) {
       .add("spread", result.spread)
       .add("slipped", result.slipped)
       .add("trials", std::move(trials))
+      .add("area_per_load", Value(result.area_per_load))
+      .add("probes", std::move(probes))
       .add("note", result.note.empty() ? Value() : Value(result.note));
   return {std::move(record)};
 }

@@ -102,6 +102,9 @@ Values distribution(Call& call) {
 }
 
 std::string describe(const void* self) { return static_cast<const Contacting*>(self)->text(); }
+std::size_t state_bytes(const void* self) {
+  return static_cast<std::size_t>(static_cast<const Contacting*>(self)->bytes_held());
+}
 std::string digest(const void* self) { return static_cast<const Contacting*>(self)->digest(); }
 bool equal(const void* a, const void* b) {
   return static_cast<const Contacting*>(a)->digest() == static_cast<const Contacting*>(b)->digest();
@@ -149,6 +152,7 @@ const Class& state_class() {
     c.sentence =
         "A contact under load: an immutable value whose fields are computed when they are first read.";
     c.describe = describe;
+    c.native_bytes = state_bytes;
     c.digest = digest;
     c.equal = equal;
     c.fields = {
@@ -172,6 +176,9 @@ const Class& state_class() {
         {"spots", "integer", "regions of contact joined by an edge", {}, read<&S::spots>},
         {"spots8", "integer", "regions of contact joined by an edge or a corner", {}, read<&S::spots8>},
         {"peak_pressure", "number", "greatest pressure", dimension::pressure, read<&S::peak_pressure>},
+        {"separation", "number",
+         "of the mean planes of the bodies, undeformed, as they stand under this load", dimension::length,
+         read<&S::separation>},
         {"mean_gap", "number", "mean over the tile of the gap where it is open", dimension::length,
          read<&S::mean_gap>},
         {"stiffness", "number", "d pressure / d approach at this contact set", dimension::stiffness,
@@ -224,7 +231,8 @@ const Class& state_class() {
          .example = "local areas = st:spot_areas()"},
         {.name = "field",
          .body = field,
-         .sentence = "A field over the tile: pressure, gap, contact or displacement.",
+         .sentence = "A field over the tile: pressure, gap, contact, displacement, or the plastic part of "
+                     "the approach.",
          .parameters = {{"name", "\"pressure\"|\"gap\"|\"contact\"|\"displacement\"|\"plastic\"", "which"}},
          .returns = "Field",
          .example = "st:field \"pressure\":picture \"pressure.png\""},

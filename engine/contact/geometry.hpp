@@ -7,23 +7,31 @@
 
 #include <memory>
 
-#include "engine/contact/lattice_isometry.hpp"
+#include "engine/contact/pose.hpp"
 #include "engine/contact/scene.hpp"
 
 namespace asperity {
 
+// What earlier events left in the bodies beside their shapes: the hardness of each node, Pa, in each body's
+// own frame. None until a body has hardened: its material then says how hard it is.
+struct HardnessMemory {
+  std::shared_ptr<const Field> lower, upper;
+};
+
 class ContactGeometry {
  public:
-  // The bodies of `scene` (which must have passed check) lying as `placement` says. O(n), and one
-  // field of memory for two rough bodies. Throws Error{bad_value} when the sums of heights leave the
-  // range of a double.
-  ContactGeometry(const Scene& scene, const LatticeIsometry& placement);
+  // The bodies of `scene` (which must have passed check) lying as `pose` says. O(n), and one field of
+  // memory for two rough bodies. Nodes of the lower body over which the upper one, turned off the lattice,
+  // has no node lie as low as the lowest of the others: they are the last to touch. Throws Error{bad_value}
+  // when the sums of heights leave the range of a double.
+  ContactGeometry(const Scene& scene, const Pose& pose, HardnessMemory hardness = {});
 
   const Grid& grid() const { return lower_.grid(); }
   const Surface& lower() const { return lower_; }
   const UpperBody& upper() const { return upper_; }
   Boundary boundary() const { return boundary_; }
-  const LatticeIsometry& placement() const { return placement_; }
+  const Pose& pose() const { return pose_; }
+  const HardnessMemory& hardness() const { return hardness_; }
   bool upper_is_flat() const { return std::holds_alternative<Material>(upper_); }
 
   const Field& combined() const { return combined_ ? *combined_ : lower_.heights(); }  // m
@@ -34,7 +42,8 @@ class ContactGeometry {
   Surface lower_;
   UpperBody upper_;
   Boundary boundary_;
-  LatticeIsometry placement_;
+  Pose pose_;
+  HardnessMemory hardness_;
   std::shared_ptr<const Field> combined_;  // none under a flat
   Range range_;
 };

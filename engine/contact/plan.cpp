@@ -5,7 +5,10 @@
 #include <array>
 
 #include "engine/contact/effects/catalogue.hpp"
-#include "engine/contact/elasticity/box_plan.hpp"
+#include "engine/contact/effects/creep.hpp"
+#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -73,7 +76,12 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
   if (!geometry.upper_is_flat())
     plan.buffers.push_back(
         {"combined heights", static_cast<std::int64_t>(geometry.grid().nodes() * sizeof(double))});
-  std::visit([&](const BoxOptions& options) { plan_box(options, geometry, plan); }, scene.elasticity);
+  if (const auto* box = std::get_if<BoxOptions>(&scene.elasticity))
+    plan_box(*box, geometry, plan);
+  else
+    plan_half_space(geometry, plan);
+  if (scene.plasticity) plan_plasticity(*scene.plasticity, geometry, plan);
+  if (scene.creep) plan_creep(*scene.creep, plan);
   for (const PlannedTerm& term : plan.terms)
     if (std::find(plan.effects_run.begin(), plan.effects_run.end(), term.effect) == plan.effects_run.end())
       plan.effects_run.push_back(term.effect);

@@ -4,7 +4,10 @@
 // no effect by name. The plan explains itself: explain() and any table made of it render this struct.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -33,12 +36,33 @@ struct BoxOperator {
   double lower_share = 1;         // of the shortening that the lower body takes, 0 … 1
 };
 
-using PlannedOperator = std::variant<BoxOperator>;
+// Half-spaces: u = K p, the multiplier 2/(E*|q|) of a periodic tile or the Love kernel of a free one.
+struct HalfSpaceOperator {
+  double modulus = 0;      // E*, Pa
+  double lower_share = 1;  // of the elastic displacement that the lower body takes, 0 … 1
+};
+
+using PlannedOperator = std::variant<BoxOperator, HalfSpaceOperator>;
+
+// What limits the pressure and who gives way. A body that takes no share of what yields has infinite
+// hardness here.
+struct PlannedYield {
+  double lower_hardness = 0, upper_hardness = 0;  // Pa, at the reference dwell, before any event
+  double hardening = 0;                           // K_h, Pa/m; infinite: the pressure is capped
+  std::optional<CreepOptions> creep{};
+
+  double hardness() const { return std::min(lower_hardness, upper_hardness); }
+  bool hardens() const { return std::isfinite(hardening) && std::isfinite(hardness()); }
+};
+
+// The share of the plastic approach that the lower of two bodies takes: H_upper/(H_lower + H_upper).
+double lower_plastic_share(double lower_hardness, double upper_hardness);
 
 struct Plan {
   std::string title;  // tile and boundary
   std::string solver;
   PlannedOperator elasticity;
+  std::optional<PlannedYield> yield;  // none without the effect `plasticity`
   std::vector<PlannedTerm> terms;
   std::vector<PlannedBuffer> buffers;
   double transforms = 0;  // expected for a press, equivalents of the finest grid

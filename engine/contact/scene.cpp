@@ -31,6 +31,29 @@ void check_tiles(const Grid& lower, const Grid& upper) {
               "`:cropped{...}`");
 }
 
+void check_positive(double value, std::string_view key, const std::string& unit, bool never,
+                    const char* hint) {
+  if (!(value > 0) || (!never && !std::isfinite(value)))
+    throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(value) + " " + unit, hint);
+}
+
+void check(const PlasticityOptions& options) {
+  if (options.hardness)
+    check_positive(*options.hardness, "hardness", "Pa", true,
+                   "give a pressure above zero, such as \"1.1 GPa\"");
+  check_positive(
+      options.hardening, "hardening", "Pa/m", true,
+      "give a value above zero, such as \"80 MPa/um\"; math.huge, the default, leaves hardening out");
+}
+
+void check(const CreepOptions& options) {
+  if (!(options.rate >= 0 && std::isfinite(options.rate)))
+    throw Error(ErrorCode::bad_value, "`rate` is " + format_short(options.rate),
+                "give a finite number from zero up; 0.02 is usual");
+  check_positive(options.onset, "onset", "s", false, "give a time above zero, such as \"1 s\"");
+  check_positive(options.reference, "reference", "s", false, "give a time above zero, such as \"10 min\"");
+}
+
 }  // namespace
 
 std::string_view name(Boundary boundary) { return boundary == Boundary::periodic ? "periodic" : "free"; }
@@ -42,14 +65,34 @@ void check(const Scene& scene) {
   if (!(tolerance >= 1e-15 && tolerance < 1))
     throw Error(ErrorCode::bad_value, "`tolerance` is " + format_short(tolerance),
                 "give a number from 1e-15 to below 1");
+  const bool single = scene.accuracy.precision == Accuracy::Precision::single;
   if (const auto* box = std::get_if<BoxOptions>(&scene.elasticity)) {
     if (box->stiffness && !(*box->stiffness > 0 && std::isfinite(*box->stiffness)))
       throw Error(ErrorCode::bad_value, "`stiffness` is " + format_short(*box->stiffness) + " Pa/m",
                   "give a finite value above zero, such as \"80 MPa/um\"");
-    if (scene.accuracy.precision == Accuracy::Precision::single)
+    if (single)
       throw Error(ErrorCode::bad_value, "`precision` is \"single\" for box elements",
                   "their solution is a closed form in double precision; leave `precision` out");
+    if (scene.plasticity)
+      throw Error(ErrorCode::bad_value, "`plasticity` of box elements is not computed by this version",
+                  "name elasticity=\"half_space\" beside it");
+  } else if (single) {
+    throw Error(ErrorCode::bad_value, "`precision` is \"single\", which this version does not compute",
+                "half-space contacts are solved in double precision; leave `precision` out");
   }
+  if (scene.plasticity) check(*scene.plasticity);
+  if (scene.creep) {
+    check(*scene.creep);
+    if (!scene.plasticity)
+      throw Error(ErrorCode::bad_value,
+                  "`creep` softens the hardness that the effect `plasticity` limits pressure by",
+                  "name `plasticity` beside it, or leave `creep` out");
+  }
+}
+
+double softening(const CreepOptions& creep, std::optional<double> dwell) {
+  const auto growth = [&](double time) { return 1 + creep.rate * std::log1p(time / creep.onset); };
+  return dwell ? growth(creep.reference) / growth(*dwell) : 1.0;
 }
 
 }  // namespace asperity

@@ -4,17 +4,14 @@
 // is switched on silently: an effect that is not a member of the scene is not computed.
 #pragma once
 
+#include <limits>
 #include <optional>
-#include <string_view>
 #include <variant>
 
+#include "engine/contact/boundary.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
-
-// Whether contact regions, displacements and shifts go round the rim of the tile.
-enum class Boundary { free, periodic };
-std::string_view name(Boundary boundary);
 
 // The upper body: a rough one facing down, or a flat of this material (rigid_material() for a rigid
 // counter-body).
@@ -26,7 +23,29 @@ struct BoxOptions {
   std::optional<double> stiffness;
 };
 
-using Elasticity = std::variant<BoxOptions>;
+// Elastic half-spaces: every pressure moves every node.
+struct HalfSpaceOptions {};
+
+using Elasticity = std::variant<BoxOptions, HalfSpaceOptions>;
+
+// Pressure is limited by hardness, and what yields stays flattened. The volume that yields is removed,
+// not redistributed.
+struct PlasticityOptions {
+  // Pa, of both bodies; by default each body's own. Infinite: never yields.
+  std::optional<double> hardness;
+  // K_h, Pa/m: a node that yields by w carries its hardness and K_h·w, and is as hard afterwards. Infinite:
+  // none named, the pressure never passes the hardness.
+  double hardening = std::numeric_limits<double>::infinity();
+};
+
+// The hardness falls as the load dwells: H(t) = H (1 + b ln(1 + t_ref/t_c)) / (1 + b ln(1 + t/t_c)).
+struct CreepOptions {
+  double rate = 0.02;      // b
+  double onset = 1;        // t_c, s
+  double reference = 600;  // t_ref, s: the dwell at which the hardness is the stated one
+};
+// H(t)/H; a press that names no dwell lasts t_ref.
+double softening(const CreepOptions& creep, std::optional<double> dwell);
 
 struct Accuracy {
   enum class OnFailure { error, best };
@@ -41,11 +60,14 @@ struct Scene {
   UpperBody upper;
   Boundary boundary = Boundary::free;
   Elasticity elasticity = BoxOptions{};
-  Accuracy accuracy;
+  Accuracy accuracy{};
+  std::optional<PlasticityOptions> plasticity{};
+  std::optional<CreepOptions> creep{};
 };
 
 // Throws Error for the first thing that does not fit: cells or size of the two bodies, `stiffness`,
-// `tolerance`, `precision`, a property of the flat counter-body out of range.
+// `tolerance`, `precision`, a property of the flat counter-body out of range, an option of an effect out of
+// range, or an effect that needs another one.
 void check(const Scene& scene);
 
 }  // namespace asperity

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,14 @@ struct PressureSplit {
   double sum_below = 0;    // Σ p over the latter, Pa
 };
 
+// What a press leaves in the bodies once the load is off.
+struct PlasticChange {
+  Field approach;  // w, m: the plastic part of the local approach, both bodies together
+  // Pa, at the reference dwell: the hardness of a node that yielded, 0 elsewhere. Empty unless the bodies
+  // harden.
+  Field hardness;
+};
+
 class Solution {
  public:
   virtual ~Solution() = default;
@@ -34,21 +43,31 @@ class Solution {
   virtual double approach() const = 0;        // m
   virtual std::int64_t contacts() const = 0;  // nodes with p > 0
   virtual double peak_pressure() const = 0;   // Pa
-  virtual double stiffness() const = 0;       // Pa/m, d pressure / d approach at this contact set
   virtual int iterations() const = 0;
   virtual std::string_view solver() const = 0;
 
+  // What plasticity adds; all zero where nothing can yield.
+  virtual std::int64_t yielded() const { return 0; }   // nodes at the cap, or past their yield pressure
+  virtual double plastic_volume() const { return 0; }  // m³, from both bodies together
+  // None where nothing yielded.
+  virtual std::optional<PlasticChange> plastic_change() const { return {}; }
+
+  // What this solution alone keeps in memory.
+  virtual std::int64_t bytes() const { return 0; }
+
   // Worked out when asked.
-  virtual double mean_gap() const = 0;  // m
-  virtual double energy() const = 0;    // J in the tile, elastic
+  virtual double flatten() const = 0;    // share of the peak-to-valley of the combined heights pressed away
+  virtual double stiffness() const = 0;  // Pa/m, d pressure / d approach at this contact set
+  virtual double mean_gap() const = 0;   // m
+  virtual double energy() const = 0;     // J in the tile, elastic
   virtual Certificate certificate() const = 0;
   virtual PressureSplit split(double threshold) const = 0;
   virtual Array<std::uint8_t> contact_mask() const = 0;  // 1 where p > 0, row by row
   virtual Field pressure_field() const = 0;              // Pa
   virtual Field gap_field() const = 0;                   // m, 0 in contact
-  virtual Field displacement_field() const = 0;          // m, of both bodies together, positive into them
-  virtual Field lower_under_load() const = 0;            // m, heights in the lower body's own frame
-  virtual Field upper_under_load() const = 0;            // m, heights in the upper body's own frame
+  virtual Field displacement_field() const = 0;  // m, of both bodies together, elastic, positive into them
+  virtual Field lower_under_load() const = 0;    // m, heights in the lower body's own frame
+  virtual Field upper_under_load() const = 0;    // m, heights in the upper body's own frame
 };
 
 }  // namespace asperity

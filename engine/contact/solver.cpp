@@ -3,16 +3,16 @@
 
 #include <utility>
 
-#include "engine/contact/elasticity/box_solver.hpp"
+#include "engine/contact/elasticity/box/box_solver.hpp"
+#include "engine/contact/elasticity/half_space/half_space_solver.hpp"
 
 namespace asperity {
 
 std::shared_ptr<const Solver> make_solver(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry) {
-  return std::visit(
-      [&](const BoxOperator& box) -> std::shared_ptr<const Solver> {
-        return std::make_shared<const BoxSolver>(plan, box, std::move(geometry));
-      },
-      plan.elasticity);
+  if (const auto* box = std::get_if<BoxOperator>(&plan.elasticity))
+    return std::make_shared<const BoxSolver>(plan, *box, std::move(geometry));
+  return std::make_shared<const HalfSpaceSolver>(plan, std::get<HalfSpaceOperator>(plan.elasticity),
+                                                 std::move(geometry));
 }
 
 }  // namespace asperity

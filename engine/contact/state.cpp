@@ -56,13 +56,21 @@ struct State::Shared {
   double tolerance;
   std::vector<std::string> effects_run, effects_off;
 
-  Lazy<double> mean_gap, energy, corrected;
+  Lazy<double> mean_gap, separation, energy, corrected, flatten, stiffness, plastic_volume;
   Lazy<Certificate> certificate;
   Lazy<std::vector<std::int64_t>> spot_sizes;
   Lazy<std::int64_t> spots8;
   Lazy<std::string> digest;
-  std::array<Lazy<std::shared_ptr<const Field>>, 4> fields;
+  std::array<Lazy<std::shared_ptr<const Field>>, 5> fields;
 
+  bool runs(std::string_view effect) const {
+    return std::find(effects_run.begin(), effects_run.end(), effect) != effects_run.end();
+  }
+  void need_plasticity(const char* what) const {
+    if (!runs("plasticity"))
+      throw Error(ErrorCode::bad_state,
+                  quoted(what) + " needs the effect `plasticity`, which this scene does not name");
+  }
   bool wraps() const { return solution->geometry().boundary() == Boundary::periodic; }
   const Grid& grid() const { return solution->geometry().grid(); }
   Array<std::int64_t> find_regions(Neighbours neighbours) const {
@@ -87,10 +95,10 @@ State::State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCo
   shared_->effects_off = plan.effects_off;
 }
 
-State State::costing_also(const StateCost& preparation) const {
+State State::costing_also(const StateCost& more) const {
   State result = *this;
   StateCost sum = *cost_;
-  sum += preparation;
+  sum += more;
   result.cost_ = std::make_shared<const StateCost>(std::move(sum));
   return result;
 }
@@ -100,10 +108,13 @@ double State::pressure() const { return shared_->solution->pressure(); }
 double State::approach() const { return shared_->solution->approach(); }
 std::int64_t State::contacts() const { return shared_->solution->contacts(); }
 double State::peak_pressure() const { return shared_->solution->peak_pressure(); }
-double State::stiffness() const { return shared_->solution->stiffness(); }
+double State::stiffness() const {
+  return shared_->stiffness.get([&] { return shared_->solution->stiffness(); });
+}
 int State::iterations() const { return shared_->solution->iterations(); }
 std::string_view State::solver() const { return shared_->solution->solver(); }
 const ContactGeometry& State::geometry() const { return shared_->solution->geometry(); }
+std::int64_t State::bytes_held() const { return shared_->solution->bytes(); }
 PressureSplit State::split(double threshold) const { return shared_->solution->split(threshold); }
 const std::vector<std::string>& State::effects_run() const { return shared_->effects_run; }
 const std::vector<std::string>& State::effects_off() const { return shared_->effects_off; }
@@ -111,7 +122,14 @@ const StateCost& State::cost() const { return *cost_; }
 bool State::converged() const { return residual() <= shared_->tolerance; }
 
 double State::indentation() const { return approach() > 0 ? approach() / geometry().peak_to_valley() : 0.0; }
-double State::flatten() const { return geometry().peak_to_valley() > 0 ? std::min(1.0, indentation()) : 0.0; }
+double State::flatten() const {
+  return shared_->flatten.get([&] { return shared_->solution->flatten(); });
+}
+double State::separation() const {
+  return shared_->separation.get([&] {
+    return geometry().combined_range().max - asperity::mean(geometry().combined().values()) - approach();
+  });
+}
 double State::secant_stiffness() const { return approach() > 0 ? pressure() / approach() : 0.0; }
 double State::area() const { return static_cast<double>(contacts()) * shared_->grid().cell_area(); }
 
@@ -177,7 +195,7 @@ std::shared_ptr<const Field> State::field(std::string_view name) const {
     throw Error(ErrorCode::unknown_name,
                 "a state has no field " + quoted(name) + did_you_mean(name, names_of_fields),
                 "fields are " + joined(names_of_fields, " and "));
-  if (name == "plastic")
+  if (name == "plastic" && !shared_->runs("plasticity"))
     throw Error(ErrorCode::bad_state,
                 "the field `plastic` needs the effect `plasticity`, which this scene does not name",
                 "there is no plastic change without it");
@@ -187,6 +205,11 @@ std::shared_ptr<const Field> State::field(std::string_view name) const {
     if (name == "pressure") return std::make_shared<const Field>(solution.pressure_field());
     if (name == "gap") return std::make_shared<const Field>(solution.gap_field());
     if (name == "displacement") return std::make_shared<const Field>(solution.displacement_field());
+    if (name == "plastic") {
+      std::optional<PlasticChange> change = solution.plastic_change();
+      return std::make_shared<const Field>(change ? std::move(change->approach)
+                                                  : Field(shared_->grid().nx, shared_->grid().ny));
+    }
     Field contact(shared_->grid().nx, shared_->grid().ny);
     const Array<std::uint8_t> mask = solution.contact_mask();
     std::copy(mask.begin(), mask.end(), contact.values().begin());
@@ -235,14 +258,16 @@ Histogram State::distribution(std::string_view name, const HistogramOptions& opt
 }
 
 double State::plastic_volume() const {
-  throw Error(ErrorCode::bad_state,
-              "`plastic_volume` needs the effect `plasticity`, which this scene does not name");
+  shared_->need_plasticity("plastic_volume");
+  return shared_->plastic_volume.get([&] { return shared_->solution->plastic_volume(); });
 }
 
 double State::plastic_fraction() const {
-  throw Error(ErrorCode::bad_state,
-              "`plastic_fraction` needs the effect `plasticity`, which this scene does not name");
+  shared_->need_plasticity("plastic_fraction");
+  return static_cast<double>(shared_->solution->yielded()) / static_cast<double>(shared_->grid().nodes());
 }
+
+std::optional<PlasticChange> State::plastic_change() const { return shared_->solution->plastic_change(); }
 
 std::string State::text() const {
   const Cost& total = cost().total;
@@ -252,6 +277,9 @@ std::string State::text() const {
             format_short(indentation(), 4) + "\n";
   result += "  contact       area fraction " + format_short(area_fraction(), 4) + ", " +
             std::to_string(contacts()) + (contacts() == 1 ? " node\n" : " nodes\n");
+  if (shared_->runs("plasticity"))
+    result += "  plastic       " + format_quantity(plastic_volume(), dimension::volume) + " taken, " +
+              format_short(100 * plastic_fraction(), 3) + " % of the tile at the limit\n";
   result += "  solver        " + std::string(solver()) + ", residual " + format_short(residual(), 2) + "\n";
   result += "  cost          " + format_quantity(total.seconds, dimension::time, 3) + ", " +
             format_short(total.transforms) + " transforms, " + std::to_string(total.bytes) + " bytes\n";

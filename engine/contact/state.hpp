@@ -35,6 +35,7 @@ class State {
   double load() const;                     // N on the tile
   double pressure() const;                 // Pa, load over nominal area
   double approach() const;                 // m from first touch
+  double separation() const;               // m, of the mean planes of the undeformed bodies
   double indentation() const;              // approach / peak-to-valley of the combined heights
   double flatten() const;                  // share of that peak-to-valley pressed away, 0 … 1
   double area() const;                     // m²
@@ -58,25 +59,31 @@ class State {
   const std::vector<std::string>& effects_run() const;
   const std::vector<std::string>& effects_off() const;
   const StateCost& cost() const;  // of the press, not of what was asked afterwards
-  // The same state, its cost increased by what was done for it beforehand.
-  State costing_also(const StateCost& preparation) const;
+  // The same state, its cost increased by what was done for it beforehand or afterwards.
+  State costing_also(const StateCost& more) const;
   const std::string& digest() const;  // of pressures, load and approach
 
-  // "pressure" (Pa), "gap" (m), "contact" (1 or 0), "displacement" (m); in the lower body's frame. Throws
-  // Error{unknown_name}, or Error{bad_state} for "plastic" without plasticity.
+  // "pressure" (Pa), "gap" (m), "contact" (1 or 0), "displacement" (m, elastic), "plastic" (m, the plastic
+  // part of the approach); in the lower body's frame. Throws Error{unknown_name}, or Error{bad_state} for
+  // "plastic" without plasticity.
   std::shared_ptr<const Field> field(std::string_view name) const;
   // The body under load, in its own frame: "lower" or "upper". A rigid one comes back as it was.
   Surface deformed(std::string_view body) const;
   // "pressure" over the nodes in contact, "gap" over the others, "spot_area" over the spots. Throws
   // Error{bad_state} when there are none.
   Histogram distribution(std::string_view name, const HistogramOptions& options = {}) const;
-  // Both throw Error{bad_state}: they need the effect `plasticity`.
+  // m³ that this press took from both bodies, and the share of the nodes at the limit of the pressure. Both
+  // throw Error{bad_state} without the effect `plasticity`.
   double plastic_volume() const;
   double plastic_fraction() const;
+  // What this press leaves in the bodies; none where nothing yielded.
+  std::optional<PlasticChange> plastic_change() const;
 
   // Nodes in contact at or above a pressure, and the sum of the rest.
   PressureSplit split(double threshold) const;
   const ContactGeometry& geometry() const;
+  // Memory that this state's solution keeps, without the bodies and what was worked out since.
+  std::int64_t bytes_held() const;
   // Several lines for a reader: load, contact, cost and residual.
   std::string text() const;
 

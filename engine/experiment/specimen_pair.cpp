@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -50,21 +51,64 @@ std::shared_ptr<const Solver> SpecimenPair::solver() {
 
 State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
   check(request);
+  warn_of_a_step_at_the_rim(monitor);
   const bool first = solver_ == nullptr;
-  State state = solver()->press(request, monitor);
-  if (first) state = state.costing_also(solver_->preparation());
+  const std::shared_ptr<const Solver> ready = solver();
+  State state = ready->press(request, monitor);
+  if (first) state = state.costing_also(ready->preparation());
+  if (plan_.yield) state = state.costing_also(flatten_for_good(state, monitor));
   under_load_ = state.load() > 0;
   return state;
 }
 
+StateCost SpecimenPair::flatten_for_good(const State& state, Monitor& monitor) {
+  const CostScope scope;
+  if (const std::optional<PlasticChange> change = state.plastic_change()) {
+    YieldedBodies after = yielded_bodies(*geometry_, *plan_.yield, *change);
+    Scene scene = scene_;
+    scene.lower = std::move(after.lower);
+    scene.upper = std::move(after.upper);
+    auto geometry = std::make_shared<const ContactGeometry>(scene, geometry_->pose(), after.hardness);
+    Plan plan = make_plan(scene, *geometry);
+    constexpr double noticeable = 0.05;
+    if (std::abs(after.mapped_volume - 1) > noticeable)
+      monitor.warn("at this angle the nodes of the bodies map " + format_short(100 * after.mapped_volume, 3) +
+                   " % of the volume that yielded onto the upper body; it was scaled to all of it, so "
+                   "finer cells would tell more");
+    // Nothing throws from here on.
+    std::swap(scene_, scene);
+    std::swap(plan_, plan);
+    hardness_ = std::move(after.hardness);
+    geometry_ = std::move(geometry);
+    solver_.reset();
+  }
+  const Cost cost = scope.so_far();
+  return {cost, {{"plasticity", cost}}};
+}
+
+void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
+  if (warned_of_rim_ || scene_.boundary != Boundary::periodic ||
+      !std::holds_alternative<HalfSpaceOptions>(scene_.elasticity))
+    return;
+  std::vector<std::string> bodies;
+  if (!scene_.lower.traits().periodic) bodies.emplace_back("lower");
+  if (const auto* rough = std::get_if<Surface>(&scene_.upper); rough && !rough->traits().periodic)
+    bodies.emplace_back("upper");
+  if (bodies.empty()) return;
+  warned_of_rim_ = true;
+  monitor.warn("the " + joined(bodies, " and the ") + (bodies.size() > 1 ? " bodies do" : " body does") +
+               " not continue across the rim of the tile, so on a periodic half-space the step there "
+               "presses too; boundary=\"free\" has none");
+}
+
 void SpecimenPair::release() { under_load_ = false; }
 
-void SpecimenPair::lay(const LatticeIsometry& placement) {
-  if (placement == geometry_->placement()) {
+void SpecimenPair::lay(const Pose& pose) {
+  if (pose == geometry_->pose()) {
     under_load_ = false;
     return;
   }
-  auto geometry = std::make_shared<const ContactGeometry>(scene_, placement);
+  auto geometry = std::make_shared<const ContactGeometry>(scene_, pose, hardness_);
   Plan plan = make_plan(scene_, *geometry);
   // Under a rigid flat every placement is the same contact, and what was prepared for it stays good.
   const Material* flat = std::get_if<Material>(&scene_.upper);
@@ -84,15 +128,18 @@ void SpecimenPair::rotate(double angle) {
   const std::string asked =
       "a turn by " + format_short(angle * 180 / std::numbers::pi, 10) + " deg was asked";
   if (!(std::abs(quarters) < 1e6)) throw Error(ErrorCode::bad_value, asked, "give a finite angle");
-  const double whole = std::round(quarters);
-  if (std::abs(angle - whole * quarter) > 1e-9)
-    throw Error(ErrorCode::bad_value, asked + "; this contact turns by whole multiples of 90 deg only",
-                "put the body down afresh with `place{seed=}`: surfaces are never resampled in place");
   const Grid& grid = scene_.lower.grid();
-  const auto turns = static_cast<int>(whole);
-  if (turns % 2 != 0 && (grid.nx != grid.ny || grid.size_x != grid.size_y))
-    throw Error(ErrorCode::bad_value, asked + " of a tile that is not square", "it can be turned by 180 deg");
-  lay(placement().turned(turns));
+  const Pose turned = pose().turned(angle, grid);
+  if (scene_.boundary == Boundary::periodic && !turned.on_lattice()) {
+    const double whole = std::round(turned.angle() / quarter);
+    if (std::abs(turned.angle() - whole * quarter) <= 1e-9)
+      throw Error(ErrorCode::bad_value, asked + " of a tile that is not square",
+                  "it can be turned by 180 deg");
+    throw Error(ErrorCode::bad_value, asked + "; a periodic contact turns by whole multiples of 90 deg only",
+                "put the body down afresh with `place{seed=}`, or give boundary=\"free\": surfaces are never "
+                "resampled in place");
+  }
+  lay(turned);
 }
 
 void SpecimenPair::shift(double x, double y) {

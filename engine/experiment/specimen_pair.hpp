@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bench: two specimens, how the upper one lies on the lower, and what the scene computes. The only
 // thing of the laboratory that changes; copying it copies its whole present state, cheaply, for the
-// heights are shared. Each call either completes or leaves the pair as it was. What does not depend on
-// the load (for box elements the sorted heights) is worked out at the first press after a placement
-// and kept, so a sweep up or down is repeated presses. Not for use from two threads at once.
+// heights are shared. What a press flattens for good stays on the specimens, each in its own frame, and
+// is all that events leave: stored heights are never resampled. Each call either completes or leaves the
+// pair as it was. What does not depend on the load (for box elements the sorted heights) is worked out
+// at the first press after a change of the bodies or of how they lie, and kept, so a sweep up or down is
+// repeated presses. Not for use from two threads at once.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +25,9 @@ class SpecimenPair {
   // for two rough bodies, no solve.
   explicit SpecimenPair(const Scene& scene);
 
-  // The state under this load. The bodies come back elastically at release.
+  // The state under this load. The bodies come back elastically at release; what yielded stays. Warns once
+  // where bodies that do not continue across the rim lie on a periodic half-space, and where a turn off the
+  // lattice maps the yielded volume badly (it is scaled to be kept).
   State press(const PressRequest& request, Monitor& monitor = Monitor::silent());
   // Takes the load off.
   void release();
@@ -32,8 +36,9 @@ class SpecimenPair {
   // Lifts the upper specimen and puts it down as draw_placement(seed) says, whatever came before.
   void place(std::uint64_t seed);
   // Turns the upper specimen about the centre of the nodes, counter-clockwise seen from above the lower
-  // one. Whole multiples of 90 deg (to 1e-9 rad) only: throws Error{bad_value} naming `place` otherwise,
-  // and for a quarter turn of a tile that is not square.
+  // one. Turns add up; within 1e-9 rad of a whole multiple of 90 deg the nodes lie on nodes. On a periodic
+  // boundary only such turns fit: throws Error{bad_value} naming `place` otherwise, and for a quarter turn
+  // of a tile that is not square.
   void rotate(double angle);
   // Shifts the upper specimen by (x, y) m, whole cells (to 1e-9 of a cell), on a periodic boundary only.
   void shift(double x, double y);
@@ -44,20 +49,28 @@ class SpecimenPair {
   bool upper_is_flat() const { return geometry_->upper_is_flat(); }
 
   const Scene& scene() const { return scene_; }
-  const LatticeIsometry& placement() const { return geometry_->placement(); }
+  const Pose& pose() const { return geometry_->pose(); }
+  // The part of the pose that is on the lattice.
+  const LatticeIsometry& placement() const { return pose().lattice(); }
+  const HardnessMemory& hardness() const { return hardness_; }
   // What a press will compute, and at what cost; plan().text() prints it.
   const Plan& plan() const { return plan_; }
   // The pair made ready to be pressed as it lies now; worked out once per placement.
   std::shared_ptr<const Solver> solver();
 
  private:
-  void lay(const LatticeIsometry& placement);
+  void lay(const Pose& pose);
+  // Takes from the bodies what yielded in `state`; what it cost.
+  StateCost flatten_for_good(const State& state, Monitor& monitor);
+  void warn_of_a_step_at_the_rim(Monitor& monitor);
 
-  Scene scene_;
+  Scene scene_;  // with the bodies as they are now
+  HardnessMemory hardness_;
   std::shared_ptr<const ContactGeometry> geometry_;
   Plan plan_;
   std::shared_ptr<const Solver> solver_;  // none until the first press after a placement
   bool under_load_ = false;
+  bool warned_of_rim_ = false;
 };
 
 }  // namespace asperity

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/random.hpp"
 #include "engine/core/text.hpp"
 
@@ -21,9 +23,47 @@ void check_trials(const TiltTrialOptions& options) {
   if (!(options.scatter >= 0 && options.scatter < 1))
     throw Error(ErrorCode::bad_value, "`scatter` is " + format_short(options.scatter),
                 "it is a relative standard deviation: give a number from 0 to below 1");
+  if (options.probe_pressures.empty() ||
+      !std::all_of(options.probe_pressures.begin(), options.probe_pressures.end(),
+                   [](double p) { return p > 0 && std::isfinite(p); }))
+    throw Error(ErrorCode::bad_value, "`probe_pressure` holds a pressure that is not finite and above zero",
+                "give one or more, such as { \"1 MPa\", \"3 MPa\" }");
   if (options.repeats < 1 || options.repeats > 100000)
     throw Error(ErrorCode::bad_value, "`repeats` is " + std::to_string(options.repeats),
                 "give a whole number from 1 to 100000");
+}
+
+// A half-space contact at a pressure that the grid resolves.
+TiltProbe probe(const Solver& contact, const JunctionLaw& law, double pressure, Monitor& monitor) {
+  constexpr std::int64_t enough = 50;
+  const auto nodes = static_cast<std::int64_t>(contact.geometry().grid().nodes());
+  for (;; pressure *= 2) {
+    const State state = contact.press({PressBy::pressure, pressure, {}}, monitor);
+    if (state.contacts() < std::min(enough, nodes)) continue;
+    const FrictionResult friction = law.on(state);
+    const double corrected = state.corrected_area_fraction() / state.area_fraction();
+    return {pressure, state.contacts(), state.corrected_area_fraction() / state.pressure(),
+            (friction.adhesive_force * corrected + friction.load_force) / state.load()};
+  }
+}
+
+std::vector<TiltProbe> probe_all(const Solver& contact, const JunctionLaw& law,
+                                 const TiltTrialOptions& options, Monitor& monitor) {
+  std::vector<TiltProbe> probes;
+  for (const double pressure : options.probe_pressures)
+    probes.push_back(probe(contact, law, pressure, monitor));
+  return probes;
+}
+
+double mean_of(std::span<const TiltProbe> probes, double TiltProbe::*quantity) {
+  double sum = 0;
+  for (const TiltProbe& probe : probes) sum += probe.*quantity;
+  return sum / static_cast<double>(probes.size());
+}
+
+void add_sentence(std::string& note, const std::string& sentence) {
+  if (!note.empty()) note += "; ";
+  note += sentence;
 }
 
 double tangent(double angle) {
@@ -52,10 +92,22 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
     note = "does not slip up to " + limit + " in " +
            std::to_string(result.trials.size() - static_cast<std::size_t>(slips)) + " of " +
            std::to_string(result.trials.size()) + " trials: mu is a lower bound";
-  if (flat && result.trials.size() > 1) {
-    if (!note.empty()) note += "; ";
-    note += options.scatter > 0 ? "the counter-body is flat: trials differ only by `scatter`"
-                                : "the counter-body is flat and `scatter` is 0: all trials are the same";
+  if (flat && result.trials.size() > 1)
+    add_sentence(note, options.scatter > 0
+                           ? "the counter-body is flat: trials differ only by `scatter`"
+                           : "the counter-body is flat and `scatter` is 0: all trials are the same");
+  if (!result.probes.empty()) {
+    const auto raised =
+        std::max_element(result.probes.begin(), result.probes.end(),
+                         [](const TiltProbe& a, const TiltProbe& b) { return a.pressure < b.pressure; });
+    const double asked = *std::max_element(options.probe_pressures.begin(), options.probe_pressures.end());
+    if (raised->pressure > asked)
+      add_sentence(note, "the probe pressure was raised to " +
+                             format_quantity(raised->pressure, dimension::pressure) +
+                             " until enough nodes touched");
+    add_sentence(note,
+                 "real area per load is taken from the probe pressures down to the weight; tau0 is an "
+                 "effective, calibrated number, so only ratios of mu are predictions");
   }
   return note;
 }
@@ -73,13 +125,21 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
 
   TiltResult result;
   Task task(monitor, "tilt stage", options.repeats);
+  const bool half_space = std::holds_alternative<HalfSpaceOptions>(bench.scene().elasticity);
+  std::vector<TiltProbe> probes;
   for (int trial = 0; trial < options.repeats; ++trial) {
     const auto k = static_cast<std::uint64_t>(trial);
     if (!flat) bench.place(placements.bits(k));
     const std::shared_ptr<const Solver> solver = bench.solver();
     // A draw far out in the tail must not turn friction into a push.
     const double factor = std::max(0.0, 1 + options.scatter * scatter.normal(k));
+    if (half_space && (probes.empty() || !flat)) {
+      probes = probe_all(*solver, law, options, monitor);
+      result.probes.insert(result.probes.end(), probes.begin(), probes.end());
+    }
+    const double mu = half_space ? mean_of(probes, &TiltProbe::mu) : 0;
     const auto friction = [&](double normal_force) {
+      if (half_space) return factor * mu * normal_force;
       const State state = solver->press({PressBy::load, normal_force * tile_share, {}}, monitor);
       return factor * law.on(state).force / tile_share;
     };
@@ -100,6 +160,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     coefficients.push_back(tangent(trial.held));
   }
   result.mu = tangent(result.held);
+  if (half_space) result.area_per_load = mean_of(result.probes, &TiltProbe::area_per_load);
   result.spread = standard_deviation(coefficients);
   result.note = note_on(result, options, flat);
   return result;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Repeated trials of a specimen pair on a tilt stage. The specimen's weight presses the tile as it would
 // a specimen of its area; the friction law sums the junctions of the contact under the normal force at
-// each angle. A rough counter-body is put down afresh for every trial; on a flat every placement is the
-// same contact and trials differ only by the scatter asked for.
+// each angle. A box contact is solved at every angle's load. On a half-space the weight of a specimen rests
+// on less than one cell, so the contact is solved where the grid resolves it, at the probe pressures, and
+// what a load makes of area and friction there is taken to hold down to the weight: real area grows in
+// proportion to load. A rough counter-body is put down afresh for every trial; on a flat every placement
+// is the same contact and trials differ only by the scatter asked for.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +22,20 @@ namespace asperity {
 struct TiltTrialOptions {
   TiltOptions stage;
   std::optional<double> specimen_area;  // m², > 0; the area of the tile by default
+  // Pa, each > 0: where a half-space contact is solved; each is doubled until fifty nodes touch. The ratios
+  // of all are averaged.
+  std::vector<double> probe_pressures = {1e6, 3e6};
   double scatter = 0;  // relative standard deviation of the friction force from trial to trial, >= 0
   int repeats = 5;     // 1 … 100000
   std::uint64_t seed = 1;
+};
+
+// A half-space contact solved for the stage.
+struct TiltProbe {
+  double pressure = 0;        // Pa
+  std::int64_t contacts = 0;  // nodes
+  double area_per_load = 0;   // 1/Pa, of the corrected area
+  double mu = 0;              // friction over load, its adhesive part on the corrected area
 };
 
 struct TiltResult {
@@ -31,7 +45,9 @@ struct TiltResult {
   double spread = 0;              // standard deviation of tan(held) over the trials (n−1); 0 for one trial
   bool slipped = false;           // every trial slipped; otherwise angle, held and mu are lower bounds
   std::vector<SlipAngle> trials;  // in the order they were made
-  std::string note;               // what a reader must know of them, one sentence
+  std::optional<double> area_per_load;  // 1/Pa, mean over probes and trials; on a half-space only
+  std::vector<TiltProbe> probes;        // of all trials that solved anew
+  std::string note;                     // what a reader must know of them, one sentence
 };
 
 // Works on a copy: the pair stays as it is. Throws Error{bad_value} naming the option.

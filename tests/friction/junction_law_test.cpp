@@ -34,6 +34,19 @@ double sum_over_nodes(const JunctionLaw& law, const State& st) {
   return static_cast<double>(sum) * st.geometry().grid().cell_area();
 }
 
+// Case V15, Hertz: R = E* = 1, F = 1e-3, τ0 = .01, α = .2; the contact radius is about .091.
+TEST(JunctionLaw, HertzContactWithAndWithoutACap) {
+  Scene scene{paraboloid(512, 0.3).with_material(test::elastic(1)), rigid_material(), Boundary::free,
+              HalfSpaceOptions{}, Accuracy{}};
+  const State st = press(scene, PressBy::load, 1e-3);
+  const FrictionResult open = JunctionLaw({.tau0 = 0.01, .alpha = 0.2}).on(st);
+  EXPECT_NEAR(open.force, 0.01 * st.area() + 0.2 * st.load(), 1e-12 * open.force);
+  EXPECT_NEAR(open.force / 4.593328e-4, 1, 2e-3);
+  const JunctionLaw capped({.tau0 = 0.01, .alpha = 0.2, .tau_max = 0.018});
+  EXPECT_NEAR(capped.on(st).force / 4.337256e-4, 1, 2e-3);
+  EXPECT_NEAR(capped.on(st).force / sum_over_nodes(capped, st), 1, 1e-12);
+}
+
 // Case V15, boxes: R = k = 1, F = 1e-3, τ0 = .001, α = .2.
 TEST(JunctionLaw, ParaboloidWithAndWithoutACap) {
   const State st = press(boxes(paraboloid(2048, 0.5), 1), PressBy::load, 1e-3);

@@ -15,7 +15,9 @@ local box = { elasticity="box" }
 local bare = S.sine{ cells=16, size="1 mm", amplitude="1 um" }
 local s = bare:with{ material=steel }
 refused(function() lab.contact{ lower=s, upper=lab.rigid } end, "`effects` is missing")
-refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="half_space" } } end, "half_space", "not computed")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="half_space" } } end, "a half-space needs `boundary`")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="rigid" } } end, "rigid", "not computed")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box", adhesion={} } } end, "adhesion", "not computed")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box", plasticity={} } } end, "plasticity", "not computed")
 refused(function() lab.contact{ lower=bare, upper=lab.rigid, effects=box } end, "elasticity", "the lower body", "no material")
 refused(function() lab.contact{ lower=s, upper=S.flat{ cells=8, size="1 mm", material=steel }, effects=box } end, "16 x 16 cells", "8 x 8 cells", "resampled")
@@ -30,7 +32,7 @@ refused(function() c:press{ pressure=-1 } end, "`pressure` is -1 Pa")
 refused(function() c:press{ flatten=1.5 } end, "`flatten` is 1.5; give a number from 0 to 1")
 refused(function() c:sweep{ pressure=3 } end, "`pressure` is the number 3; give a list")
 refused(function() c:sweep{ pressure={} } end, "give a list of values")
-refused(function() c:rotate "45 deg" end, "multiples of 90 deg only")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects=box }:rotate(0.3) end, "rotate", "place")
 refused(function() c:place{} end, "`seed` is missing")
 -- Nothing that was refused has touched the bench.
 local before = c:press{ approach="0.5 um" }

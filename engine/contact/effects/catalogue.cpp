@@ -14,8 +14,8 @@ namespace {
 constexpr std::array effects = {
     EffectEntry{"elasticity", "how the bodies give way under pressure and recover", Availability::computed},
     EffectEntry{"plasticity", "pressure is capped by hardness, and what yields stays flattened",
-                Availability::not_yet},
-    EffectEntry{"creep", "hardness falls with the time the load dwells", Availability::not_yet},
+                Availability::computed},
+    EffectEntry{"creep", "hardness falls with the time the load dwells", Availability::computed},
     EffectEntry{"capillarity", "liquid in narrow gaps pulls the bodies together", Availability::not_yet},
     EffectEntry{"adhesion", "the surfaces attract each other across the gap", Availability::not_yet},
     EffectEntry{"ageing", "contacts strengthen with the time they rest", Availability::not_yet},
@@ -29,7 +29,7 @@ constexpr std::array models = {
     EffectEntry{"box", "independent elements over the nodes, pressure in proportion to their shortening",
                 Availability::computed},
     EffectEntry{"half_space", "every pressure moves every node, as on an elastic half-space",
-                Availability::not_yet},
+                Availability::computed},
     EffectEntry{"rigid", "no elastic deformation; the bodies rest on what has yielded",
                 Availability::not_yet},
 };

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/effects/plasticity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+double hardness_of(const Material* material, const std::optional<double>& given, const std::string& body) {
+  if (material != nullptr && material->rigid) return never;
+  if (given) return *given;
+  if (material != nullptr && material->hardness) return *material->hardness;
+  const std::string wants = "the effect `plasticity` needs `hardness` of the " + body + " body";
+  if (material == nullptr)
+    throw Error(ErrorCode::bad_state, wants + ", which has no material",
+                "give `material=` to the surface, or `hardness` to the effect");
+  throw Error(ErrorCode::bad_state,
+              wants + "; " + (material->name.empty() ? std::string("its material") : quoted(material->name)) +
+                  " has none",
+              "give it in lab.material{...}, or to the effect");
+}
+
+// The same hardness everywhere unless events have left a field of it.
+Field hardness_field(const std::shared_ptr<const Field>& memory, double virgin, const Grid& grid) {
+  return memory ? *memory : Field(grid.nx, grid.ny, virgin);
+}
+
+// Raises `memory` (own frame) to the hardness that yielding nodes reached.
+std::shared_ptr<const Field> hardened(const std::shared_ptr<const Field>& memory, double virgin,
+                                      const Field& reached, const Grid& grid) {
+  Field result = hardness_field(memory, virgin, grid);
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::max(result[k], reached[k]);
+  return std::make_shared<const Field>(std::move(result));
+}
+
+Surface with_heights(const Surface& body, Field heights) {
+  return Surface(body.grid(), std::move(heights), body.traits());
+}
+
+std::string share_text(double share) { return format_short(100 * share, 3) + " %"; }
+
+}  // namespace
+
+double lower_plastic_share(double lower_hardness, double upper_hardness) {
+  if (!std::isfinite(upper_hardness)) return 1;
+  if (!std::isfinite(lower_hardness)) return 0;
+  // As a ratio, so that huge hardnesses do not overflow in the sum.
+  return 1 / (1 + lower_hardness / upper_hardness);
+}
+
+void plan_plasticity(const PlasticityOptions& options, const ContactGeometry& geometry, Plan& plan) {
+  PlannedYield yield;
+  yield.hardening = options.hardening;
+  yield.lower_hardness = hardness_of(lower_material(geometry.lower()), options.hardness, "lower");
+  yield.upper_hardness = geometry.upper_is_flat()
+                             ? never
+                             : hardness_of(upper_material(geometry.upper()), options.hardness, "upper");
+  const auto rigid = [](const Material* material) { return material != nullptr && material->rigid; };
+  if (rigid(lower_material(geometry.lower())) &&
+      (geometry.upper_is_flat() || rigid(upper_material(geometry.upper()))))
+    throw Error(ErrorCode::bad_state, "the effect `plasticity` has no body that can yield",
+                "a rigid body and a flat counter-body take no share: give a rough body a material with "
+                "`hardness`, or leave the effect out");
+  const double share = lower_plastic_share(yield.lower_hardness, yield.upper_hardness);
+  std::string sentence =
+      std::isfinite(yield.hardness())
+          ? "pressure up to " + format_quantity(yield.hardness(), dimension::pressure) +
+                (yield.hardens()
+                     ? ", then hardening by " + format_quantity(yield.hardening, dimension::stiffness)
+                     : std::string()) +
+                "; the lower body takes " + share_text(share) + " of what yields"
+          : std::string("nothing yields: the hardness is infinite");
+  plan.terms.push_back({"plasticity", std::move(sentence)});
+  if (yield.hardens()) {
+    const auto bytes = static_cast<std::int64_t>(geometry.grid().nodes() * sizeof(double));
+    plan.buffers.push_back({"hardness of each body's nodes, and where they meet", 3 * bytes});
+  }
+  plan.yield = yield;
+}
+
+LocalHardness local_hardness(const ContactGeometry& geometry, const PlannedYield& yield) {
+  const HardnessMemory& memory = geometry.hardness();
+  LocalHardness local;
+  local.lower = memory.lower;
+  if (memory.upper) {
+    Field seen = geometry.pose().to_lower(*memory.upper, geometry.grid());
+    // Where the turned upper body has no node it cannot be touched; it is as hard there as it began.
+    for (double& value : seen.values())
+      if (std::isnan(value)) value = yield.upper_hardness;
+    local.upper = std::make_shared<const Field>(std::move(seen));
+  }
+  return local;
+}
+
+YieldedBodies yielded_bodies(const ContactGeometry& geometry, const PlannedYield& yield,
+                             const PlasticChange& change) {
+  const Grid& grid = geometry.grid();
+  const Field& w = change.approach;
+  const bool hardens = !change.hardness.empty();
+  const LocalHardness local = local_hardness(geometry, yield);
+  const auto lower_share = [&](std::size_t k) {
+    return lower_plastic_share(local.lower ? (*local.lower)[k] : yield.lower_hardness,
+                               local.upper ? (*local.upper)[k] : yield.upper_hardness);
+  };
+
+  Field lower = geometry.lower().heights();
+  Field upper_loss(grid.nx, grid.ny);
+  for (std::size_t k = 0; k < w.size(); ++k) {
+    if (!(w[k] > 0)) continue;
+    const double share = lower_share(k);
+    lower[k] -= share * w[k];
+    upper_loss[k] = (1 - share) * w[k];
+  }
+
+  YieldedBodies after{with_heights(geometry.lower(), std::move(lower)), geometry.upper(),
+                      geometry.hardness()};
+  const auto* rough = std::get_if<Surface>(&geometry.upper());
+  if (rough != nullptr && std::isfinite(yield.upper_hardness)) {
+    const Pose& pose = geometry.pose();
+    Field own_loss = pose.to_upper(upper_loss, grid);
+    if (!pose.on_lattice()) {
+      const double meant = block_sum(upper_loss.values()), mapped = block_sum(own_loss.values());
+      if (meant > 0 && mapped > 0) {
+        after.mapped_volume = mapped / meant;
+        for (double& loss : own_loss.values()) loss *= meant / mapped;
+      }
+    }
+    Field upper = rough->heights();
+    for (std::size_t k = 0; k < upper.size(); ++k)
+      if (own_loss[k] > 0) upper[k] -= own_loss[k];
+    after.upper = with_heights(*rough, std::move(upper));
+  }
+  if (hardens) {
+    if (std::isfinite(yield.lower_hardness))
+      after.hardness.lower = hardened(after.hardness.lower, yield.lower_hardness, change.hardness, grid);
+    if (rough != nullptr && std::isfinite(yield.upper_hardness))
+      after.hardness.upper = hardened(after.hardness.upper, yield.upper_hardness,
+                                      geometry.pose().to_upper(change.hardness, grid), grid);
+  }
+  return after;
+}
+
+}  // namespace asperity

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/contact_level.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace asperity {
+
+ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double> raw_heights,
+                           double height_origin, double height_factor, PressureLimit pressure_limit,
+                           double mean)
+    : shape(level_shape),
+      limit(std::move(pressure_limit)),
+      mean_pressure(mean),
+      compliance(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight),
+      preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, 8, shape.weight),
+      short_wave_stiffness(std::numbers::pi / 4 / std::sqrt(shape.aspect)),
+      heights_(raw_heights),
+      origin_(height_origin),
+      factor_(height_factor) {}
+
+void ContactLevel::gap(std::span<const double> p, std::span<double> g) {
+  apply(p, g);
+  for_nodes(nodes(), [&](std::size_t k) { g[k] -= height(k); });
+}
+
+}  // namespace asperity

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contact problem on one of the nested grids, in its own cell units: hx = 1, hy = aspect, E* = 1,
+// heights divided by the rms of the finest grid, pressures by E*·rms/hx. Holds the operator and
+// its preconditioner on the free nodes; the descents read the heights from the caller's field, so that none are copied.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "engine/contact/boundary.hpp"
+#include "engine/contact/elasticity/half_space/contact_preconditioner.hpp"
+#include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/pressure_limit.hpp"
+
+namespace asperity {
+
+// What a level is made of; all plain data.
+struct LevelShape {
+  int nx = 0, ny = 0;
+  double aspect = 1;
+  Boundary boundary = Boundary::periodic;
+  double weight = 1;  // of one transform, in transforms of the finest grid
+
+  std::size_t nodes() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
+};
+
+class ContactLevel {
+ public:
+  // heights: any unit, `height_origin` is taken off and the rest multiplied by `height_factor`.
+  ContactLevel(const LevelShape& level_shape, std::span<const double> raw_heights, double height_origin,
+               double height_factor, PressureLimit pressure_limit, double mean_pressure);
+
+  const LevelShape shape;
+  const PressureLimit limit;
+  const double mean_pressure;
+  HalfSpaceCompliance compliance;
+  ContactPreconditioner preconditioner;
+  // Pressure per gap of a short wave: orders nodes that leave or enter the contact.
+  const double short_wave_stiffness;
+  // Told the residual after each pass; throws to stop the solve.
+  std::function<void(double)> report;
+  int applications = 0;  // of K so far
+  // What gaps are measured by: the rms of the finest grid, unless its heights are flat.
+  double length = 1;
+
+  std::size_t nodes() const { return shape.nodes(); }
+  double height(std::size_t k) const { return (heights_[k] - origin_) * factor_; }
+  double total_load() const { return mean_pressure * static_cast<double>(nodes()); }
+
+  void apply(std::span<const double> p, std::span<double> u) {
+    ++applications;
+    compliance.apply(p, u);
+  }
+  // g = K p − h.
+  void gap(std::span<const double> p, std::span<double> g);
+
+ private:
+  std::span<const double> heights_;
+  double origin_, factor_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// An approximate inverse of the half-space's compliance restricted to the free nodes of a contact:
+// z = Extᵀ (|q|/2) Ext r on the free set, in cell units. Ext carries r past the edge of the set by a
+// few Jacobi sweeps, each node off the set becoming the mean of its four neighbours, so that no jump is
+// paid for there; |q|/2 is HalfOrderPyramid's. Symmetric, positive semi-definite on the free set; single
+// precision inside. No projection of the mean.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "engine/contact/boundary.hpp"
+
+namespace asperity {
+
+class ContactPreconditioner {
+ public:
+  // nx, ny >= 1; aspect > 0; sweeps >= 0. `weight` is the cost of one transform of this grid in
+  // transforms of the finest; counted only as far as the pyramid has to transform.
+  ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, int sweeps = 8, double weight = 1);
+  ~ContactPreconditioner();
+  ContactPreconditioner(ContactPreconditioner&&) noexcept;
+  ContactPreconditioner& operator=(ContactPreconditioner&&) noexcept;
+
+  // The nodes where free[k] != 0; none at first. O(n), a fraction of an application.
+  void set_free(std::span<const std::uint8_t> free);
+
+  // z = M r; r is read on the free set only, z is 0 off it and may be r. r times a power of two gives z
+  // times the same, bit for bit. The same bits for any number of threads. Not thread-safe.
+  void apply(std::span<const double> r, std::span<double> z);
+
+  // What an object of this grid holds, at most.
+  static std::int64_t bytes(int nx, int ny, double aspect, Boundary boundary);
+
+ private:
+  class Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the descents of one grid share: the fields they work on, how a stage ends, and how the chain hands
+// pressures from one to the next.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "engine/core/memory.hpp"
+
+namespace asperity {
+
+struct DescentFields {
+  explicit DescentFields(std::size_t nodes)
+      : pressure(nodes), gap(nodes), step(nodes), direction(nodes), residual(nodes), free(nodes), old_free(nodes) {}
+
+  Array<double> pressure;  // p: feasible between stages
+  Array<double> gap;       // K p − h
+  Array<double> step, direction, residual;
+  Array<double> old_pressure, old_gap;  // of the pass before; made when first needed
+  Array<std::uint8_t> free, old_free;   // nodes the present pass may move
+};
+
+struct StageEnd {
+  bool converged = false;  // then `gap` belongs to `pressure`, by an application of K of its own
+  double residual = std::numeric_limits<double>::infinity();
+  double best = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace asperity

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/half_space_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/contact/elasticity/half_space/nested_descent.hpp"
+#include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string pascals(double p) { return format_quantity(p, dimension::pressure); }
+
+void check(const HalfSpaceProblem& problem, double mean_pressure) {
+  check(problem.yield, problem.grid.nx, problem.grid.ny);
+  if (!problem.heights || problem.heights->size() != problem.grid.nodes())
+    throw Error(ErrorCode::internal, "the heights are not on the grid of the contact");
+  if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
+    throw Error(ErrorCode::bad_value, "`pressure` is " + pascals(mean_pressure),
+                "a mean pressure is finite and not negative: nothing here pulls");
+  if (mean_pressure > 0 && mean_pressure < 1e-280 * problem.modulus)
+    throw Error(ErrorCode::bad_value,
+                "`pressure` is " + format_short(mean_pressure) +
+                    " Pa, less than 1e-280 of the contact modulus: no double holds its gaps",
+                "give a larger pressure, or none");
+  const YieldLaw& law = problem.yield;
+  if (law.caps() && mean_pressure >= law.cap)
+    throw Error(ErrorCode::infeasible,
+                "a mean pressure of " + pascals(mean_pressure) + " cannot be carried: `hardness` allows " +
+                    pascals(law.cap) + " at every node at most",
+                "press with less than the hardness, or give `hardening`");
+}
+
+// Whether the heights say more than rounding. On a free tile a punch whose heights differ by a millionth of
+// its approach is a flat one: no pressure can be so exact as to fill its roughness to the tolerance.
+bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
+  if (!(problem.rms > 0) || range(problem.heights->values()).span() == 0) return false;
+  const double side = std::max(problem.grid.size_x, problem.grid.size_y);
+  return problem.boundary == Boundary::periodic || problem.rms > 1e-6 * mean_pressure / problem.modulus * side;
+}
+
+// The scale of heights and pressures that makes the problem one of cell units.
+struct CellUnits {
+  double height = 1;    // m
+  double pressure = 1;  // Pa
+  double origin = 0;    // m, the mean height
+};
+
+CellUnits cell_units(const HalfSpaceProblem& problem, double mean_pressure, bool flat) {
+  CellUnits units;
+  units.origin = mean(problem.heights->values());
+  units.height = flat ? mean_pressure / problem.modulus * problem.grid.hx() : problem.rms;
+  units.pressure = problem.modulus * (units.height / problem.grid.hx());
+  return units;
+}
+
+PressureLimit cell_limit(const YieldLaw& law, const CellUnits& units) {
+  if (!law.hardens()) return PressureCap{law.caps() ? law.cap / units.pressure : infinity};
+  LinearHardening limit;
+  limit.yield = law.yield ? law.yield->data() : nullptr;
+  limit.uniform = law.cap / units.pressure;
+  limit.factor = 1 / units.pressure;
+  limit.compliance = units.pressure / law.hardening / units.height;
+  return limit;
+}
+
+// √mean(slope²) by differences; a little less than the spectral slope.
+double rough_slope(const HalfSpaceProblem& problem) {
+  const Field& h = *problem.heights;
+  const int nx = h.nx(), ny = h.ny();
+  const double per_x = 1 / problem.grid.hx(), per_y = 1 / problem.grid.hy();
+  const auto sums = over_nodes<1>(h.size(), [&](std::size_t k, double* v) {
+    const int i = static_cast<int>(k % static_cast<std::size_t>(nx));
+    const std::size_t right = i + 1 < nx ? k + 1 : k + 1 - static_cast<std::size_t>(nx);
+    const std::size_t up = (k + static_cast<std::size_t>(nx)) % (static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+    const double x = (h[right] - h[k]) * per_x, y = (h[up] - h[k]) * per_y;
+    v[0] = x * x + y * y;
+  });
+  return std::sqrt(sums[0] / static_cast<double>(h.size()));
+}
+
+double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.yield)[k] : law.cap; }
+
+// Counts and certificate of the fields handed out.
+void complete(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
+  const YieldLaw& law = problem.yield;
+  const double cap = law.caps() ? law.cap : infinity;
+  const Field &p = answer.pressure, &g = answer.gap;
+  const double per_hardening = law.hardens() ? 1 / law.hardening : 0;
+  auto opened = [&](std::size_t k) {
+    return law.hardens() ? std::max(0.0, p[k] - yields_at(law, k)) * per_hardening : 0.0;
+  };
+  const auto found = over_nodes<5, 4>(p.size(), [&](std::size_t k, double* v) {
+    const double gap = g[k] + opened(k);
+    v[0] = p[k];
+    v[1] = p[k] > 0 ? 1.0 : 0.0;
+    v[2] = (law.hardens() ? p[k] > yields_at(law, k) : p[k] >= cap) ? 1.0 : 0.0;
+    v[3] = p[k] * gap;
+    v[4] = std::isfinite(cap) ? (gap > 0 ? p[k] * gap : (p[k] - cap) * gap) : 0.0;
+    v[5] = gap;
+    v[6] = p[k] < cap ? gap : infinity;
+    v[7] = p[k];
+    v[8] = -p[k];
+  });
+  answer.contacts = static_cast<std::int64_t>(found[1]);
+  answer.yielded = static_cast<std::int64_t>(found[2]);
+  answer.peak_pressure = -found[8];
+
+  Certificate& c = answer.certificate;
+  c = {};
+  const double total = found[0], n = static_cast<double>(p.size());
+  const double length = rough(problem, answer.mean_pressure) ? problem.rms : std::abs(answer.approach);
+  if (!(total > 0)) {
+    c.load = answer.mean_pressure > 0 ? 1 : 0;
+  } else {
+    c.complementarity = (std::isfinite(cap) ? found[4] : found[3] - found[5] * total) / total;
+    c.load = std::abs(total / n - answer.mean_pressure) / answer.mean_pressure;
+    c.tension = std::max(0.0, -found[7]) / answer.mean_pressure;
+    c.cap = std::isfinite(cap) ? std::max(0.0, answer.peak_pressure - cap) / cap : 0;
+  }
+  c.penetration = std::max(0.0, std::isfinite(found[6]) ? -found[6] : 0.0);
+  if (length > 0) {
+    c.complementarity = std::max(0.0, c.complementarity) / length;
+    c.penetration /= length;
+  }
+  answer.converged = c.worst() <= problem.tolerance;
+}
+
+HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
+  HalfSpaceAnswer answer;
+  answer.pressure = Field(problem.grid.nx, problem.grid.ny);
+  const double peak = range(problem.heights->values()).max;
+  answer.gap = *problem.heights;
+  for (double& g : answer.gap.values()) g = peak - g;
+  answer.offset = -peak;
+  answer.solver = "first touch";
+  complete(problem, answer);
+  return answer;
+}
+
+HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, double mean_pressure,
+                      const CellAnswer& cell) {
+  HalfSpaceAnswer answer;
+  const int nx = problem.grid.nx, ny = problem.grid.ny;
+  answer.pressure = Field(nx, ny);
+  answer.gap = Field(nx, ny);
+  const double cap = problem.yield.caps() ? problem.yield.cap : infinity;
+  const double cell_cap = problem.yield.caps() ? cap / units.pressure : infinity;
+  for_nodes(cell.pressure.size(), [&](std::size_t k) {
+    const double p = cell.pressure[k];
+    answer.pressure[k] = p >= cell_cap ? cap : std::min(p * units.pressure, cap);
+    answer.gap[k] = (cell.gap[k] - cell.offset) * units.height;
+  });
+  answer.mean_pressure = mean_pressure;
+  const double indentation = cell.offset * units.height;
+  answer.offset = indentation - units.origin;
+  answer.approach = (range(problem.heights->values()).max - units.origin) + indentation;
+  answer.iterations = cell.applications;
+  answer.solver = cell.stage;
+  if (cell.levels > 1) answer.solver += " on " + std::to_string(cell.levels) + " nested grids";
+  complete(problem, answer);
+  return answer;
+}
+
+// A warm start in cell units.
+struct Start {
+  Array<double> pressure, gap;
+};
+
+Start start_in_cells(const CellUnits& units, const HalfSpaceAnswer& from) {
+  Start start{Array<double>(from.pressure.size()), Array<double>(from.pressure.size())};
+  for_nodes(start.pressure.size(), [&](std::size_t k) {
+    start.pressure[k] = from.pressure[k] / units.pressure;
+    start.gap[k] = from.gap[k] / units.height;
+  });
+  return start;
+}
+
+}  // namespace
+
+HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,
+                                  const HalfSpaceAnswer* start, Monitor& monitor) {
+  check(problem, mean_pressure);
+  if (mean_pressure == 0) return first_touch(problem);
+  const bool flat = !rough(problem, mean_pressure);
+  const CellUnits units = cell_units(problem, mean_pressure, flat);
+  const Grid& grid = problem.grid;
+
+  CellProblem cell;
+  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, 1};
+  cell.heights = problem.heights->values();
+  cell.origin = units.origin;
+  cell.factor = 1 / units.height;
+  cell.limit = cell_limit(problem.yield, units);
+  cell.mean_pressure = mean_pressure / units.pressure;
+  if (flat) cell.length = std::sqrt(static_cast<double>(cell.shape.nodes()) * cell.shape.aspect);
+  // A little less, so that what rounding adds on the way to pascals stays within it.
+  cell.tolerance = 0.99 * problem.tolerance;
+
+  CellAnswer found;
+  const bool may_be_full =
+      problem.boundary == Boundary::periodic &&
+      (flat || mean_pressure >= 0.5 * problem.modulus * rough_slope(problem));
+  if (may_be_full) found = full_contact(cell, monitor);
+  int before = found.applications;
+  if (!found.converged) {
+    Start warm;
+    if (start && start->pressure.size() == grid.nodes() && start->mean_pressure > 0)
+      warm = start_in_cells(units, *start);
+    found = nested_descent(cell, warm.pressure, warm.gap, monitor);
+    found.applications += before;
+  }
+  HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, found);
+  if (!answer.converged && !problem.best_effort)
+    throw Error(ErrorCode::not_converged,
+                "the contact at " + pascals(mean_pressure) + " reached a residual of " +
+                    format_short(answer.certificate.worst(), 3) + " where `tolerance` asks for " +
+                    format_short(problem.tolerance, 3) + ", after " + std::to_string(answer.iterations) +
+                    " applications of the half-space",
+                "ask for a larger `tolerance`, a finer grid for the same surface, or accept the best reached with `on_failure = \"best\"`");
+  return answer;
+}
+
+}  // namespace asperity

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contact of an elastic half-space with a rough one under a prescribed mean pressure p̄: minimise
+// ½ p·Kp − h·p (+ Σ max(0, p − Y)²/(2K_h)) over 0 <= p <= H with mean p = p̄, K the compliance of the
+// boundary (periodic: 2/(E*|q|), Johnson 1985 §13; free: Love 1929), h the combined heights, peaks
+// up. Solved on nested grids by projected, preconditioned descents, and finished only by the certificate of
+// the pressures and gaps handed out, evaluated with a fresh application of K. Full contact is an exact
+// filter. No friction, no adhesion; half-space slopes are taken as small.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "engine/contact/boundary.hpp"
+#include "engine/contact/certificate.hpp"
+#include "engine/contact/elasticity/half_space/yield_law.hpp"
+#include "engine/core/grid.hpp"
+#include "engine/core/monitor.hpp"
+
+namespace asperity {
+
+struct HalfSpaceProblem {
+  Grid grid;
+  Boundary boundary = Boundary::periodic;
+  double modulus = 0;                    // E*, Pa
+  std::shared_ptr<const Field> heights;  // h, m
+  double rms = 0;                        // of h about its mean, m; 0 for a flat
+  YieldLaw yield;
+  double tolerance = 1e-6;   // greatest entry of the certificate
+  bool best_effort = false;  // hand out what was reached instead of throwing
+};
+
+struct HalfSpaceAnswer {
+  Field pressure;            // Pa; exactly 0 and exactly the cap at the bounds
+  Field gap;                 // m, Kp − h − δ: 0 where 0 < p < limit, >= 0 where p = 0, −w where it yielded
+  double offset = 0;         // δ, m
+  double mean_pressure = 0;  // Pa, as prescribed
+  double approach = 0;       // m, max h + δ
+  std::int64_t contacts = 0;  // nodes with p > 0
+  std::int64_t yielded = 0;   // nodes at the cap, or past their yield pressure
+  double peak_pressure = 0;   // Pa
+  // Hardening: complementarity and penetration of the gap with w added back, g + w.
+  Certificate certificate;
+  bool converged = false;
+  int iterations = 0;  // applications of K on the finest grid
+  std::string solver;  // the stage that finished
+};
+
+// Heights that are all equal have no rms; the certificate then takes the approach for its length.
+// Costs a fixed number of O(n log n) applications of K (some 20 to 40) and holds about ten fields besides
+// the answer. A null `start` begins from nested grids; otherwise from the pressures of `start`, an
+// answer on the same grid. Throws Error{infeasible} where p̄ >= cap, {bad_value} where p̄ is negative, not
+// finite or below 1e-280 of the modulus, {not_converged} unless best_effort, {interrupted} and the
+// like when asked to stop. p̄ = 0 is the first touch: no pressure, δ = −max h. Same bits for any number of threads.
+HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,
+                                  const HalfSpaceAnswer* start, Monitor& monitor);
+
+}  // namespace asperity

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/half_space_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/half_space/approach_solve.hpp"
+#include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
+#include "engine/contact/elasticity/half_space/half_space_solve.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+double rms_of(const Field& heights) {
+  const double middle = mean(heights.values());
+  Array<double> squares(heights.size());
+  std::transform(heights.values().begin(), heights.values().end(), squares.begin(),
+                 [&](double h) { return (h - middle) * (h - middle); });
+  return std::sqrt(block_sum(squares) / static_cast<double>(heights.size()));
+}
+
+StateCost elastic(const CostScope& scope) {
+  const Cost cost = scope.so_far();
+  return {cost, {{"elasticity", cost}}};
+}
+
+}  // namespace
+
+struct HalfSpaceSolver::Ready {
+  std::shared_ptr<const ContactGeometry> geometry;
+  HalfSpaceOperator half_space;
+  std::optional<PlannedYield> yield;
+  LocalHardness hardness;  // empty unless events have left fields of it
+  HalfSpaceProblem problem;
+  StateCost cost;
+
+  static std::shared_ptr<const Ready> make(const Plan& plan, const HalfSpaceOperator& half_space,
+                                           std::shared_ptr<const ContactGeometry> geometry) {
+    const CostScope scope;
+    auto ready = std::make_shared<Ready>();
+    ready->geometry = std::move(geometry);
+    ready->half_space = half_space;
+    ready->yield = plan.yield;
+    HalfSpaceProblem& problem = ready->problem;
+    problem.grid = ready->geometry->grid();
+    problem.boundary = ready->geometry->boundary();
+    problem.modulus = half_space.modulus;
+    problem.heights = {ready->geometry, &ready->geometry->combined()};
+    problem.rms = rms_of(*problem.heights);
+    problem.tolerance = plan.accuracy.tolerance;
+    problem.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
+    if (ready->yield && ready->yield->hardens())
+      ready->hardness = local_hardness(*ready->geometry, *ready->yield);
+    ready->cost = elastic(scope);
+    return ready;
+  }
+
+  // What limits the pressure when its hardness is `factor` of the one stated.
+  YieldLaw law(double factor) const {
+    YieldLaw law;
+    if (!yield || !std::isfinite(yield->hardness())) return law;
+    law.cap = factor * yield->hardness();
+    if (!yield->hardens()) return law;
+    law.hardening = yield->hardening;
+    if (!hardness.lower && !hardness.upper) return law;
+    Field limit(problem.grid.nx, problem.grid.ny);
+    for (std::size_t k = 0; k < limit.size(); ++k)
+      limit[k] = factor * std::min(hardness.lower ? (*hardness.lower)[k] : yield->lower_hardness,
+                                   hardness.upper ? (*hardness.upper)[k] : yield->upper_hardness);
+    law.yield = std::make_shared<const Field>(std::move(limit));
+    return law;
+  }
+};
+
+class HalfSpaceSolver::UnderLoad final : public Solution {
+ public:
+  // `problem` with the yield law that held; `factor` the softening by creep.
+  UnderLoad(std::shared_ptr<const Ready> ready, HalfSpaceProblem problem, HalfSpaceAnswer answer,
+            double factor)
+      : ready_(std::move(ready)), problem_(std::move(problem)), at_(std::move(answer)), factor_(factor) {}
+
+  const ContactGeometry& geometry() const override { return *ready_->geometry; }
+  double load() const override { return at_.mean_pressure * problem_.grid.area(); }
+  double pressure() const override { return at_.mean_pressure; }
+  double approach() const override { return at_.approach; }
+  std::int64_t contacts() const override { return at_.contacts; }
+  double peak_pressure() const override { return at_.peak_pressure; }
+  int iterations() const override { return at_.iterations; }
+  std::string_view solver() const override { return at_.solver; }
+  Certificate certificate() const override { return at_.certificate; }
+  double stiffness() const override {
+    return at_.contacts > 0 ? contact_stiffness(problem_, at_, Monitor::silent()) : 0.0;
+  }
+  double flatten() const override { return flattened(problem_, at_); }
+  double mean_gap() const override {
+    return sum([&](std::size_t k) { return std::max(0.0, at_.gap[k]); }) / nodes();
+  }
+  double energy() const override {
+    return 0.5 * sum([&](std::size_t k) { return at_.pressure[k] * displacement(k); }) *
+           problem_.grid.cell_area();
+  }
+  PressureSplit split(double threshold) const override;
+
+  std::int64_t bytes() const override {
+    return static_cast<std::int64_t>((at_.pressure.size() + at_.gap.size()) * sizeof(double));
+  }
+  std::int64_t yielded() const override { return at_.yielded; }
+  double plastic_volume() const override {
+    return sum([&](std::size_t k) { return yielded(k); }) * problem_.grid.cell_area();
+  }
+  std::optional<PlasticChange> plastic_change() const override;
+
+  Array<std::uint8_t> contact_mask() const override {
+    Array<std::uint8_t> mask(at_.pressure.size());
+    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = at_.pressure[k] > 0 ? 1 : 0;
+    return mask;
+  }
+  Field pressure_field() const override { return at_.pressure; }
+  Field gap_field() const override {
+    return field([&](std::size_t k) { return at_.pressure[k] > 0 ? 0.0 : std::max(0.0, at_.gap[k]); });
+  }
+  Field displacement_field() const override {
+    return field([&](std::size_t k) { return displacement(k); });
+  }
+  Field lower_under_load() const override;
+  Field upper_under_load() const override;
+
+ private:
+  double nodes() const { return static_cast<double>(at_.pressure.size()); }
+  // The elastic displacement of both bodies: what K p gives.
+  double displacement(std::size_t k) const { return at_.gap[k] + at_.offset + (*problem_.heights)[k]; }
+  // w: what the limit on the pressure leaves open.
+  double yielded(std::size_t k) const {
+    const YieldLaw& law = problem_.yield;
+    if (law.hardens()) {
+      const double limit = law.yield ? (*law.yield)[k] : law.cap;
+      return at_.pressure[k] > limit ? (at_.pressure[k] - limit) / law.hardening : 0.0;
+    }
+    return at_.pressure[k] >= law.cap ? std::max(0.0, -at_.gap[k]) : 0.0;
+  }
+  template <class Function>
+  Field field(Function function) const {
+    Field result(problem_.grid.nx, problem_.grid.ny);
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] = function(k);
+    return result;
+  }
+  template <class Function>
+  double sum(Function function) const {
+    return block_sum(field(function).values());
+  }
+
+  std::shared_ptr<const Ready> ready_;
+  HalfSpaceProblem problem_;
+  HalfSpaceAnswer at_;
+  double factor_;
+};
+
+PressureSplit HalfSpaceSolver::UnderLoad::split(double threshold) const {
+  PressureSplit result;
+  for (const double p : at_.pressure.values()) {
+    if (!(p > 0)) continue;
+    if (p >= threshold)
+      ++result.above;
+    else
+      ++result.below;
+  }
+  result.sum_below = sum([&](std::size_t k) {
+    const double p = at_.pressure[k];
+    return p > 0 && p < threshold ? p : 0.0;
+  });
+  return result;
+}
+
+std::optional<PlasticChange> HalfSpaceSolver::UnderLoad::plastic_change() const {
+  if (!problem_.yield.limits() || at_.yielded == 0) return {};
+  PlasticChange change{field([&](std::size_t k) { return yielded(k); }), {}};
+  if (range(change.approach.values()).max == 0) return {};
+  if (problem_.yield.hardens())
+    // At the reference dwell, so that the same press again finds nodes exactly as hard as it left them.
+    change.hardness = field([&](std::size_t k) { return yielded(k) > 0 ? at_.pressure[k] / factor_ : 0.0; });
+  return change;
+}
+
+Field HalfSpaceSolver::UnderLoad::lower_under_load() const {
+  Field z = geometry().lower().heights();
+  if (const double share = ready_->half_space.lower_share; share != 0)
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * displacement(k);
+  if (const auto change = plastic_change()) {
+    const YieldedBodies after = yielded_bodies(geometry(), *ready_->yield, *change);
+    const Field& before = geometry().lower().heights();
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= before[k] - after.lower.heights()[k];
+  }
+  return z;
+}
+
+Field HalfSpaceSolver::UnderLoad::upper_under_load() const {
+  const Grid& grid = problem_.grid;
+  const auto* rough = std::get_if<Surface>(&geometry().upper());
+  Field z = rough ? rough->heights() : Field(grid.nx, grid.ny);
+  if (const double share = 1 - ready_->half_space.lower_share; share != 0) {
+    const Field own = geometry().pose().to_upper(displacement_field(), grid);
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * own[k];
+  }
+  if (const auto change = plastic_change(); change && rough) {
+    const YieldedBodies after = yielded_bodies(geometry(), *ready_->yield, *change);
+    const Field& now = std::get<Surface>(after.upper).heights();
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= rough->heights()[k] - now[k];
+  }
+  return z;
+}
+
+HalfSpaceSolver::HalfSpaceSolver(const Plan& plan, const HalfSpaceOperator& half_space,
+                                 std::shared_ptr<const ContactGeometry> geometry)
+    : plan_(plan), ready_(Ready::make(plan, half_space, std::move(geometry))) {}
+
+const ContactGeometry& HalfSpaceSolver::geometry() const { return *ready_->geometry; }
+const StateCost& HalfSpaceSolver::preparation() const { return ready_->cost; }
+
+State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) const {
+  check(request);
+  const CostScope scope;
+  const double height = geometry().peak_to_valley();
+  if ((request.by == PressBy::indentation || request.by == PressBy::flatten) && !(height > 0))
+    throw Error(ErrorCode::bad_value,
+                quoted(name(request.by)) +
+                    " is a fraction of a peak-to-valley that is zero: all combined heights are equal",
+                "give `pressure`, `load` or `approach`");
+
+  const double factor =
+      ready_->yield && ready_->yield->creep ? softening(*ready_->yield->creep, request.dwell) : 1.0;
+  HalfSpaceProblem problem = ready_->problem;
+  problem.yield = ready_->law(factor);
+  HalfSpaceAnswer answer = [&] {
+    switch (request.by) {
+      case PressBy::load:
+        return solve_at_pressure(problem, request.value / problem.grid.area(), nullptr, monitor);
+      case PressBy::approach:
+        return solve_at_approach(problem, request.value, monitor);
+      case PressBy::indentation:
+        return solve_at_approach(problem, request.value * height, monitor);
+      case PressBy::flatten:
+        return solve_at_flattening(problem, request.value, monitor);
+      default:
+        return solve_at_pressure(problem, request.value, nullptr, monitor);
+    }
+  }();
+  auto solution = std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(answer), factor);
+  return State(std::move(solution), plan_, elastic(scope));
+}
+
+}  // namespace asperity

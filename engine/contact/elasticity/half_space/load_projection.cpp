@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/load_projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/contact/elasticity/half_space/node_loop.hpp"
+
+namespace asperity {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// No sum of a grid is better than this.
+constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
+
+struct Carried {
+  double load;      // Σ clip(y + λ)
+  double interior;  // nodes strictly between the bounds
+};
+
+Carried carried(std::span<const double> y, std::span<const std::uint8_t> where, double upper, double origin,
+                double shift) {
+  const auto sums = over_nodes<2>(y.size(), [&](std::size_t k, double* v) {
+    const double x = where.empty() || where[k] ? (y[k] - origin) + shift : y[k];
+    v[0] = std::min(std::max(x, 0.0), upper);
+    v[1] = (where.empty() || where[k]) && x > 0 && x < upper ? 1.0 : 0.0;
+  });
+  return {sums[0], sums[1]};
+}
+}  // namespace
+
+bool project_to_load(std::span<const double> y, std::span<const std::uint8_t> where, double upper,
+                     double load, std::span<double> target) {
+  const auto moved = over_nodes<2, 2>(y.size(), [&](std::size_t k, double* v) {
+    const bool here = where.empty() || where[k];
+    v[0] = here ? 1.0 : 0.0;
+    v[1] = here ? 0.0 : std::min(std::max(y[k], 0.0), upper);
+    v[2] = here ? y[k] : infinity;
+    v[3] = here ? -y[k] : infinity;
+  });
+  const double movable = moved[0], fixed = moved[1];
+  if (movable == 0 || load < fixed || load > fixed + upper * movable) return false;
+  if (!where.empty() && (load == fixed || load == fixed + upper * movable)) return false;
+
+  // At the one end all moved nodes are at 0, at the other all at the bound, or the least of them carries all.
+  // Where the load is small beside the values, shifts are counted from the greatest: the few nodes that carry it
+  // must not be what rounding leaves.
+  const double greatest = -moved[3], origin = load - fixed < 1e-6 * std::abs(greatest) ? greatest : 0.0;
+  double low = origin - greatest, high = std::min(upper, load) - (moved[2] - origin);
+  double shift = std::clamp(origin, low, std::max(low, high));
+  double best = infinity, best_shift = shift;
+  for (int step = 0; step < 200; ++step) {
+    const Carried at = carried(y, where, upper, origin, shift);
+    const double excess = at.load - load;
+    if (std::abs(excess) < best) {
+      best = std::abs(excess);
+      best_shift = shift;
+    }
+    if (std::abs(excess) <= round_off * load) break;
+    (excess > 0 ? high : low) = shift;
+    double next = shift - excess / at.interior;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (next == shift || !(next > low && next < high)) break;
+    shift = next;
+  }
+  for_nodes(y.size(), [&](std::size_t k) {
+    const double x = where.empty() || where[k] ? (y[k] - origin) + best_shift : y[k];
+    target[k] = std::min(std::max(x, 0.0), upper);
+  });
+  return true;
+}
+
+}  // namespace asperity

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/nested_descent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/contact/elasticity/half_space/contact_quality.hpp"
+#include "engine/contact/elasticity/half_space/level_transfer.hpp"
+#include "engine/contact/elasticity/half_space/load_projection.hpp"
+#include "engine/contact/elasticity/half_space/set_descent.hpp"
+#include "engine/contact/elasticity/half_space/spectral_gradient.hpp"
+#include "engine/core/error.hpp"
+
+namespace asperity {
+
+namespace {
+constexpr double coarse_tolerance = 1e-3;
+
+// Progress on a logarithmic scale of the residual, and the place where a stop is seen.
+class Progress {
+ public:
+  explicit Progress(Monitor& monitor) : task_(monitor, "contact", total) {}
+  void report(double begin, double end, double residual, double tolerance) {
+    double gained = 0;
+    if (residual > 0 && tolerance < 1)
+      gained = std::clamp(std::log(std::min(residual, 1.0)) / std::log(tolerance), 0.0, 1.0);
+    const auto now = static_cast<std::int64_t>(total * (begin + (end - begin) * gained));
+    task_.advance(std::max<std::int64_t>(0, now - done_));
+    done_ = std::max(done_, now);
+  }
+
+ private:
+  static constexpr std::int64_t total = 1000;
+  Task task_;
+  std::int64_t done_ = 0;
+};
+
+struct Step {  // one grid of the nest
+  std::optional<CoarserGrid> from;  // how it came from the finer one
+  LevelShape shape;
+  Array<double> heights;  // empty on the finest, whose heights are the caller's
+  Array<double> yield;
+  double pitch = 1;          // hx in cells of the finest grid
+  double mean_pressure = 0;  // cell units of this grid
+};
+
+double work(const LevelShape& shape) {
+  const double n = static_cast<double>(shape.nodes());
+  return n * std::log(std::max(n, 2.0));
+}
+
+PressureLimit limit_on(const PressureLimit& finest, const Step& step) {
+  if (const auto* cap = std::get_if<PressureCap>(&finest)) return PressureCap{cap->cap * step.pitch};
+  LinearHardening limit = std::get<LinearHardening>(finest);
+  if (!step.yield.empty()) limit.yield = step.yield.data();
+  limit.uniform *= step.pitch;
+  limit.factor *= step.pitch;
+  limit.compliance /= step.pitch;
+  return limit;
+}
+
+// In place of pressures at their bounds, how far their gaps are from leaving them.
+void to_level_set(double upper, double stiffness, double offset, std::span<const double> gap,
+                  std::span<double> p) {
+  for_nodes(p.size(), [&](std::size_t k) {
+    const double apart = stiffness * (gap[k] - offset);
+    if (p[k] <= 0)
+      p[k] = std::min(0.0, -apart);
+    else if (p[k] >= upper)
+      p[k] = upper + std::max(0.0, -apart);
+  });
+}
+
+double upper_of(const PressureLimit& limit) {
+  return std::visit([](const auto& law) { return law.upper(); }, limit);
+}
+
+struct ChainEnd {
+  StageEnd stage;
+  std::string name;
+};
+
+// The stages in turn until one converges.
+ChainEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, bool finest) {
+  constexpr int quick = 300, shake = 12, last_resort = 3000;
+  ChainEnd end;
+  for (int stage = 0; stage < 5; ++stage) {
+    if (!finest && stage > 2) break;
+    if (stage == 4) {
+      end.stage = spectral_gradient(level, fields, tolerance, last_resort);
+      end.name = "spectral projected gradients, after the descents stalled";
+    } else if (stage % 2 == 1) {
+      end.stage = spectral_gradient(level, fields, tolerance, shake);
+      end.name = "spectral projected gradients";
+    } else {
+      end.stage = set_descent(level, fields, tolerance, quick);
+      end.name = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
+    }
+    if (end.stage.converged) break;
+  }
+  return end;
+}
+
+std::vector<Step> nest(const CellProblem& problem, bool alone) {
+  std::vector<Step> steps(1);
+  steps[0].shape = problem.shape;
+  steps[0].shape.weight = 1;
+  steps[0].mean_pressure = problem.mean_pressure;
+  const auto* hardening = std::get_if<LinearHardening>(&problem.limit);
+  while (!alone) {
+    const Step& fine = steps.back();
+    const auto next = coarser(fine.shape);
+    if (!next) break;
+    Step step;
+    step.from = next;
+    step.shape = next->shape;
+    step.shape.weight = work(step.shape) / work(problem.shape);
+    step.pitch = fine.pitch * next->pitch_x;
+    const double cells = static_cast<double>(step.shape.nodes()) * next->pitch_x * next->pitch_y;
+    step.mean_pressure =
+        fine.mean_pressure * next->pitch_x * (static_cast<double>(fine.shape.nodes()) / cells);
+    step.heights = restrict_to(fine.shape, *next,
+                               fine.heights.empty() ? problem.heights : std::span<const double>(fine.heights));
+    if (hardening && hardening->yield)
+      step.yield = restrict_to(fine.shape, *next,
+                               fine.yield.empty()
+                                   ? std::span<const double>(hardening->yield, problem.shape.nodes())
+                                   : std::span<const double>(fine.yield));
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+}  // namespace
+
+CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
+                          std::span<const double> start_gap, Monitor& monitor) {
+  std::vector<Step> steps = nest(problem, !start_pressure.empty());
+  Progress progress(monitor);
+  CellAnswer answer;
+  answer.levels = static_cast<int>(steps.size());
+  Array<double> carried;  // the level-set field of the grid below
+  double all_work = 0, work_done = 0;
+  for (const Step& step : steps) all_work += step.shape.weight;
+
+  for (std::size_t l = steps.size(); l-- > 0;) {
+    Step& step = steps[l];
+    const bool finest = l == 0;
+    const std::size_t nodes = step.shape.nodes();
+    const PressureLimit limit = limit_on(problem.limit, step);
+    const double upper = upper_of(limit);
+    ContactLevel level(step.shape, finest ? problem.heights : std::span<const double>(step.heights),
+                       problem.origin, problem.factor, limit, step.mean_pressure);
+    level.length = problem.length;
+    const double tolerance = finest ? problem.tolerance : std::max(coarse_tolerance, problem.tolerance);
+    const double begin = work_done / all_work;
+    work_done += step.shape.weight;
+    level.report = [&](double residual) { progress.report(begin, work_done / all_work, residual, tolerance); };
+
+    DescentFields fields(nodes);
+    Array<double>& p = fields.pressure;
+    if (!start_pressure.empty()) {
+      std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
+      if (!start_gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, start_gap, p);
+    } else if (carried.empty()) {
+      std::fill(p.begin(), p.end(), step.mean_pressure);
+    } else {
+      const CoarserGrid& from = *steps[l + 1].from;
+      prolong(from, carried, 1 / from.pitch_x, step.shape, p);
+      carried = {};
+    }
+    project_to_load(p, {}, upper, level.total_load(), p);
+
+    const ChainEnd end = run_chain(level, fields, tolerance, finest);
+    if (!end.stage.converged) level.gap(p, fields.gap);
+    const ContactQuality at = contact_quality(level, p, fields.gap);
+    if (finest) {
+      answer.pressure = std::move(p);
+      answer.gap = std::move(fields.gap);
+      answer.offset = at.offset;
+      answer.residual = at.residual;
+      answer.converged = end.stage.converged;
+      answer.applications = level.applications;
+      answer.stage = end.name;
+    } else {
+      to_level_set(upper, level.short_wave_stiffness, at.interior_gap, fields.gap, p);
+      carried = std::move(p);
+      step.heights = {};
+    }
+  }
+  return answer;
+}
+
+CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
+  Progress progress(monitor);
+  const std::size_t nodes = problem.shape.nodes();
+  ContactLevel level(problem.shape, problem.heights, problem.origin, problem.factor, problem.limit,
+                     problem.mean_pressure);
+  level.length = problem.length;
+  CellAnswer answer;
+  answer.stage = "exact filter (full contact)";
+  answer.pressure.resize(nodes);
+  Array<double>& p = answer.pressure;
+  for_nodes(nodes, [&](std::size_t k) { p[k] = level.height(k); });
+  level.compliance.apply_inverse(p, p);
+  answer.applications = 1;
+  const auto found = over_nodes<1, 1>(nodes, [&](std::size_t k, double* v) {
+    p[k] += problem.mean_pressure;
+    v[0] = std::visit([&](const auto& law) { return p[k] >= law.upper() || law.opening(k, p[k]) > 0 ? 1.0 : 0.0; },
+                      problem.limit);
+    v[1] = p[k];
+  });
+  progress.report(0, 1, 1, 0.5);
+  if (!(found[0] == 0 && found[1] > 0)) return answer;
+  answer.gap.resize(nodes);
+  level.gap(p, answer.gap);
+  answer.applications = 2;
+  const ContactQuality at = contact_quality(level, p, answer.gap);
+  answer.offset = at.offset;
+  answer.residual = at.residual;
+  answer.converged = at.residual <= problem.tolerance;
+  return answer;
+}
+
+}  // namespace asperity

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The effect plasticity: what a plan reads from the materials, and what an event takes from each body.
+#include "engine/contact/effects/plasticity.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tests/contact/contacts.hpp"
+
+namespace asperity {
+namespace {
+
+using test::elastic;
+using test::error_of;
+using test::random_surface;
+using test::surface_of;
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+Material metal(double hardness) {
+  Material material = elastic(70e9, 0.33);
+  material.hardness = hardness;
+  return material;
+}
+
+Scene scene_of(Surface lower, UpperBody upper, PlasticityOptions plasticity = {},
+               Boundary boundary = Boundary::periodic) {
+  Scene scene{std::move(lower), std::move(upper), boundary, HalfSpaceOptions{}, Accuracy{}};
+  scene.plasticity = plasticity;
+  return scene;
+}
+
+ContactGeometry geometry_of(const Scene& scene, const Pose& pose) { return {scene, pose}; }
+ContactGeometry geometry_of(const Scene& scene) {
+  return {scene, LatticeIsometry(scene.lower.grid().nx, scene.lower.grid().ny)};
+}
+PlannedYield yield_of(const Scene& scene) {
+  check(scene);
+  return *make_plan(scene, geometry_of(scene)).yield;
+}
+
+const Surface rough = random_surface(6, 6, 1);
+
+TEST(Plasticity, TheSofterBodyLimitsThePressureAndTakesTheGreaterShare) {
+  const PlannedYield yield =
+      yield_of(scene_of(rough.with_material(metal(1e9)), rough.with_material(metal(3e9))));
+  EXPECT_EQ(yield.hardness(), 1e9);
+  EXPECT_DOUBLE_EQ(lower_plastic_share(yield.lower_hardness, yield.upper_hardness), 0.75);
+  EXPECT_FALSE(yield.hardens());
+}
+
+TEST(Plasticity, EqualBodiesShareHalfEach) { EXPECT_EQ(lower_plastic_share(1.1e9, 1.1e9), 0.5); }
+
+TEST(Plasticity, SharesHoldForHugeHardness) {
+  EXPECT_EQ(lower_plastic_share(1e308, 1e308), 0.5);
+  EXPECT_EQ(lower_plastic_share(never, 1e9), 0);
+  EXPECT_EQ(lower_plastic_share(1e9, never), 1);
+}
+
+TEST(Plasticity, AFlatCounterBodyAndARigidOneTakeNoShare) {
+  for (const UpperBody& upper : {UpperBody(metal(5e8)), UpperBody(rigid_material()),
+                                 UpperBody(rough.with_material(rigid_material()))}) {
+    const PlannedYield yield = yield_of(scene_of(rough.with_material(metal(1e9)), upper));
+    EXPECT_EQ(yield.hardness(), 1e9);
+    EXPECT_EQ(yield.upper_hardness, never);
+  }
+}
+
+TEST(Plasticity, AGivenHardnessHoldsForBothBodies) {
+  const PlannedYield yield =
+      yield_of(scene_of(rough.with_material(metal(1e9)), rough.with_material(metal(3e9)), {2e9, 5e13}));
+  EXPECT_EQ(yield.lower_hardness, 2e9);
+  EXPECT_EQ(yield.upper_hardness, 2e9);
+  EXPECT_TRUE(yield.hardens());
+}
+
+TEST(Plasticity, AMissingHardnessNamesEffectAndBody) {
+  EXPECT_EQ(error_of([] { yield_of(scene_of(rough.with_material(elastic(1, 0.3)), rigid_material())); }),
+            "the effect `plasticity` needs `hardness` of the lower body; its material has none; give it in "
+            "lab.material{...}, or to the effect");
+  EXPECT_NE(error_of([] {
+              yield_of(scene_of(rough.with_material(metal(1)), rough.with_material(elastic(1, 0.3))));
+            }).find("of the upper body"),
+            std::string::npos);
+}
+
+TEST(Plasticity, TwoBodiesThatCannotYieldAreRefused) {
+  EXPECT_NE(error_of([] {
+              yield_of(scene_of(rough.with_material(rigid_material()), metal(1e9)));
+            }).find("no body that can yield"),
+            std::string::npos);
+}
+
+TEST(Plasticity, OptionsOutOfRangeAreNamed) {
+  const Surface lower = rough.with_material(metal(1e9));
+  EXPECT_NE(error_of([&] {
+              check(scene_of(lower, rigid_material(), {-1.0, never}));
+            }).find("`hardness`"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] {
+              check(scene_of(lower, rigid_material(), {{}, 0}));
+            }).find("`hardening`"),
+            std::string::npos);
+}
+
+TEST(Plasticity, EachBodyLosesItsShareWhereItLay) {
+  const Grid grid{6, 6, 6, 6};
+  const Surface lower = surface_of(grid, [](int i, int j) { return i + 10.0 * j; }).with_material(metal(1e9));
+  const Surface upper = surface_of(grid, [](int i, int j) { return 0.5 * i * j; }).with_material(metal(3e9));
+  const Scene scene = scene_of(lower, upper);
+  const Pose pose(LatticeIsometry(6, 6).turned(1).shifted(2, 5));
+  const ContactGeometry geometry = geometry_of(scene, pose);
+  PlasticChange change{Field(6, 6), {}};
+  change.approach(4, 1) = 0.8;
+  change.approach(0, 3) = 0.4;
+  const YieldedBodies after = yielded_bodies(geometry, yield_of(scene), change);
+  EXPECT_DOUBLE_EQ(after.lower.height(4, 1), lower.height(4, 1) - 0.6);
+  EXPECT_DOUBLE_EQ(after.lower.height(0, 3), lower.height(0, 3) - 0.3);
+  const auto above = pose.lattice().to_upper(LatticeIsometry::Node{4, 1});
+  const Surface& upper_after = std::get<Surface>(after.upper);
+  EXPECT_DOUBLE_EQ(upper_after.height(above.i, above.j), upper.height(above.i, above.j) - 0.2);
+  // Nothing else moved, to the bit.
+  int moved = 0;
+  for (int j = 0; j < 6; ++j)
+    for (int i = 0; i < 6; ++i)
+      moved +=
+          (after.lower.height(i, j) != lower.height(i, j)) + (upper_after.height(i, j) != upper.height(i, j));
+  EXPECT_EQ(moved, 4);
+  // The faces meet as the gap says: what the pair lost together is w.
+  Scene then = scene;
+  then.lower = after.lower;
+  then.upper = after.upper;
+  const ContactGeometry closed = geometry_of(then, pose);
+  for (std::size_t k = 0; k < 36; ++k)
+    EXPECT_NEAR(geometry.combined()[k] - closed.combined()[k], change.approach[k], 1e-14);
+}
+
+TEST(Plasticity, ATurnOffTheLatticeKeepsTheVolume) {
+  const int n = 48;
+  const Surface body = random_surface(n, n, 2, n, n).with_material(metal(1e9));
+  const Scene scene = scene_of(body, body, {}, Boundary::free);
+  const Grid& grid = body.grid();
+  const Pose pose = Pose(LatticeIsometry(n, n)).turned(0.4, grid);
+  PlasticChange change{Field(n, n), {}};
+  for (int j = 15; j < 30; ++j)
+    for (int i = 12; i < 33; ++i) change.approach(i, j) = 0.01 * ((i + j) % 4);
+  const YieldedBodies after = yielded_bodies(geometry_of(scene, pose), yield_of(scene), change);
+  double lower_loss = 0, upper_loss = 0;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      lower_loss += body.height(i, j) - after.lower.height(i, j);
+      const double loss = body.height(i, j) - std::get<Surface>(after.upper).height(i, j);
+      EXPECT_GE(loss, 0);
+      upper_loss += loss;
+    }
+  EXPECT_NEAR(upper_loss / lower_loss, 1, 1e-12);
+  EXPECT_NEAR(after.mapped_volume, 1, 0.02);
+}
+
+TEST(Plasticity, HardeningIsRememberedInEachBodysFrame) {
+  const Surface body = rough.with_material(metal(1e9));
+  const Scene scene = scene_of(body, body, {{}, 5e13});
+  const Pose pose(LatticeIsometry(6, 6).shifted(1, 2));
+  PlasticChange change{Field(6, 6), Field(6, 6)};
+  change.approach(3, 3) = 1e-7;
+  change.hardness(3, 3) = 1.5e9;
+  const YieldedBodies after = yielded_bodies(geometry_of(scene, pose), yield_of(scene), change);
+  EXPECT_EQ((*after.hardness.lower)(3, 3), 1.5e9);
+  EXPECT_EQ((*after.hardness.lower)(0, 0), 1e9);
+  const auto above = pose.lattice().to_upper(LatticeIsometry::Node{3, 3});
+  EXPECT_EQ((*after.hardness.upper)(above.i, above.j), 1.5e9);
+  // Put down elsewhere, the hard node of each meets soft ground of the other.
+  const ContactGeometry elsewhere(scene, LatticeIsometry(6, 6).shifted(2, 2), after.hardness);
+  const LocalHardness local = local_hardness(elsewhere, yield_of(scene));
+  int both = 0;
+  for (std::size_t k = 0; k < 36; ++k) both += (*local.lower)[k] > 1e9 && (*local.upper)[k] > 1e9;
+  EXPECT_EQ(both, 0);
+}
+
+}  // namespace
+}  // namespace asperity

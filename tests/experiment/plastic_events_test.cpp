@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Events on a rough pair with plastic memory: what stays on the specimens, what a second press finds, and
+// that nothing but yielding ever changes a stored surface.
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "engine/experiment/specimen_pair.hpp"
+#include "engine/surface/generators/self_affine.hpp"
+#include "engine/surface/operations/heights.hpp"
+#include "tests/contact/contacts.hpp"
+
+namespace asperity {
+namespace {
+
+using test::error_of;
+
+constexpr double megapascal = 1e6, micrometre = 1e-6;
+
+Surface specimen(std::uint64_t seed, double hardness = 1.1e9, int cells = 64) {
+  SelfAffineOptions options;
+  options.grid = make_grid(cells, cells, 250 * micrometre, 250 * micrometre);
+  options.hurst = 0.8;
+  options.ra = 1 * micrometre;
+  options.short_wave = 250 * micrometre * 6 / cells;
+  options.seed = seed;
+  Material metal = test::elastic(70e9, 0.33);
+  metal.hardness = hardness;
+  return self_affine_surface(options).with_material(metal);
+}
+
+Scene scene_of(Boundary boundary = Boundary::periodic, PlasticityOptions plasticity = {},
+               double tolerance = 1e-9) {
+  Scene scene{specimen(1), specimen(2), boundary, HalfSpaceOptions{}, Accuracy{tolerance}};
+  scene.plasticity = plasticity;
+  return scene;
+}
+
+PressRequest pressure(double megapascals) { return {PressBy::pressure, megapascals * megapascal, {}}; }
+
+double volume_lost(const Surface& before, const Surface& after) {
+  double sum = 0;
+  for (std::size_t k = 0; k < before.heights().size(); ++k) sum += before.heights()[k] - after.heights()[k];
+  return sum * before.grid().cell_area();
+}
+
+class Warnings : public Monitor {
+ public:
+  void progress(std::string_view, double) override {}
+  void warn(std::string_view sentence) override { all.emplace_back(sentence); }
+  std::vector<std::string> all;
+};
+
+TEST(PlasticEvents, APressFlattensBothBodiesByWhatItReports) {
+  SpecimenPair pair(scene_of());
+  const Surface lower = pair.lower(), upper = pair.upper();
+  const State state = pair.press(pressure(100));
+  EXPECT_GT(state.plastic_volume(), 0);
+  EXPECT_GT(state.plastic_fraction(), 0);
+  EXPECT_LE(state.peak_pressure(), 1.1e9);
+  EXPECT_TRUE(state.converged());
+  const double lower_loss = volume_lost(lower, pair.lower()), upper_loss = volume_lost(upper, pair.upper());
+  EXPECT_NEAR((lower_loss + upper_loss) / state.plastic_volume(), 1, 1e-9);
+  EXPECT_NEAR(lower_loss / upper_loss, 1, 1e-9);
+  // The state still shows the bodies that it was found for.
+  EXPECT_EQ(state.geometry().lower().digest(), lower.digest());
+}
+
+TEST(PlasticEvents, ReleaseTakesNothingAndGivesNothingBack) {
+  SpecimenPair pair(scene_of());
+  pair.press(pressure(100));
+  const std::string lower = pair.lower().digest(), upper = pair.upper().digest();
+  pair.release();
+  EXPECT_EQ(pair.lower().digest(), lower);
+  EXPECT_EQ(pair.upper().digest(), upper);
+}
+
+TEST(PlasticEvents, WithoutPlasticityNothingStays) {
+  Scene scene = scene_of();
+  scene.plasticity.reset();
+  SpecimenPair pair(scene);
+  const std::string lower = pair.lower().digest();
+  const State state = pair.press(pressure(100));
+  EXPECT_EQ(pair.lower().digest(), lower);
+  EXPECT_NE(error_of([&] { state.plastic_volume(); }).find("needs the effect `plasticity`"),
+            std::string::npos);
+}
+
+// Hard case 11.
+TEST(PlasticEvents, ARepeatedEventWithoutTurningTakesNothingMore) {
+  SpecimenPair pair(scene_of());
+  const double first = pair.press(pressure(100)).plastic_volume();
+  pair.release();
+  const double second = pair.press(pressure(100)).plastic_volume();
+  EXPECT_LT(second, 1e-6 * first);
+}
+
+// Hard case 11.
+TEST(PlasticEvents, ALoadAndThenAGreaterOneEqualTheGreaterAlone) {
+  SpecimenPair in_steps(scene_of()), at_once(scene_of());
+  const Surface virgin = in_steps.lower();
+  in_steps.press(pressure(60));
+  in_steps.press(pressure(150));
+  at_once.press(pressure(150));
+  const double by_steps = volume_lost(virgin, in_steps.lower()), alone = volume_lost(virgin, at_once.lower());
+  EXPECT_NEAR(by_steps / alone, 1, 1e-6);
+}
+
+TEST(PlasticEvents, TurningBringsFreshGroundAndTakesMore) {
+  SpecimenPair pair(scene_of());
+  const double first = pair.press(pressure(100)).plastic_volume();
+  pair.release();
+  pair.place(5);
+  EXPECT_GT(pair.press(pressure(100)).plastic_volume(), 0.1 * first);
+}
+
+TEST(PlasticEvents, EightTurnsWithoutLoadLeaveEveryBitAsItWas) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
+    SpecimenPair pair(scene_of(boundary));
+    const std::string lower = pair.lower().digest(), upper = pair.upper().digest();
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      pair.place(seed);
+      if (boundary == Boundary::free) pair.rotate(0.37);
+      pair.press(pressure(0));
+      pair.release();
+    }
+    EXPECT_EQ(pair.lower().digest(), lower);
+    EXPECT_EQ(pair.upper().digest(), upper);
+  }
+}
+
+TEST(PlasticEvents, AFailedPressLeavesTheContactAsItWas) {
+  SpecimenPair pair(scene_of());
+  pair.press(pressure(50));
+  const std::string lower = pair.lower().digest(), upper = pair.upper().digest();
+  EXPECT_NE(error_of([&] { pair.press(pressure(1100)); }), "");
+  EXPECT_NE(error_of([&] { pair.press(pressure(-1)); }), "");
+  EXPECT_EQ(pair.lower().digest(), lower);
+  EXPECT_EQ(pair.upper().digest(), upper);
+  EXPECT_TRUE(pair.under_load());
+}
+
+TEST(PlasticEvents, ACopyLivesItsOwnLife) {
+  SpecimenPair pair(scene_of());
+  SpecimenPair copy = pair;
+  copy.press(pressure(100));
+  EXPECT_NE(copy.lower().digest(), pair.lower().digest());
+  pair.press(pressure(100));
+  EXPECT_EQ(copy.lower().digest(), pair.lower().digest());
+}
+
+TEST(PlasticEvents, TheSofterBodyLosesMore) {
+  Scene scene = scene_of();
+  scene.upper = specimen(2, 3.3e9);
+  SpecimenPair pair(scene);
+  const Surface lower = pair.lower(), upper = pair.upper();
+  pair.press(pressure(100));
+  EXPECT_NEAR(volume_lost(lower, pair.lower()) / volume_lost(upper, pair.upper()), 3, 1e-9);
+}
+
+TEST(PlasticEvents, AFlatCounterBodyStaysFlat) {
+  Scene scene = scene_of();
+  Material quartz = test::elastic(95e9, 0.08);
+  scene.upper = quartz;
+  SpecimenPair pair(scene);
+  const Surface lower = pair.lower();
+  const State state = pair.press(pressure(100));
+  EXPECT_NEAR(volume_lost(lower, pair.lower()) / state.plastic_volume(), 1, 1e-9);
+  EXPECT_EQ(pair.upper().peak_to_valley(), 0);
+}
+
+TEST(PlasticEvents, AHarderCounterBodyThatNeverYieldsIsNotCut) {
+  Scene scene = scene_of();
+  scene.upper = specimen(2).with_material(rigid_material());
+  SpecimenPair pair(scene);
+  const std::string upper = pair.upper().digest();
+  pair.press(pressure(100));
+  EXPECT_EQ(pair.upper().digest(), upper);
+}
+
+TEST(PlasticEvents, InfiniteHardnessIsElastic) {
+  Scene elastic_scene = scene_of();
+  elastic_scene.plasticity.reset();
+  SpecimenPair hard(scene_of(Boundary::periodic, {std::numeric_limits<double>::infinity(), 1e13})),
+      elastic(elastic_scene);
+  const State with = hard.press(pressure(100)), without = elastic.press(pressure(100));
+  EXPECT_EQ(with.digest(), without.digest());
+  EXPECT_EQ(with.plastic_volume(), 0);
+}
+
+TEST(PlasticEvents, HardenedNodesCarryTheSameLoadWithoutYieldingAgain) {
+  SpecimenPair pair(scene_of(Boundary::periodic, {{}, 8e13}));
+  const double first = pair.press(pressure(100)).plastic_volume();
+  ASSERT_NE(pair.hardness().lower, nullptr);
+  EXPECT_GT(range(pair.hardness().lower->values()).max, 1.1e9);
+  pair.release();
+  EXPECT_LT(pair.press(pressure(100)).plastic_volume(), 1e-5 * first);
+  pair.release();
+  pair.place(3);
+  EXPECT_GT(pair.press(pressure(100)).plastic_volume(), 0.1 * first);
+}
+
+TEST(PlasticEvents, ALongerDwellTakesMore) {
+  Scene scene = scene_of();
+  scene.creep = CreepOptions{};
+  std::vector<double> volumes;
+  for (const double dwell : {0.0, 600.0, 60000.0}) {
+    SpecimenPair pair(scene);
+    volumes.push_back(pair.press({PressBy::pressure, 100 * megapascal, dwell}).plastic_volume());
+  }
+  EXPECT_LT(volumes[0], volumes[1]);
+  EXPECT_LT(volumes[1], volumes[2]);
+  // The reference dwell is what a press without creep does.
+  SpecimenPair plain(scene_of());
+  EXPECT_EQ(plain.press(pressure(100)).plastic_volume(), volumes[1]);
+}
+
+TEST(PlasticEvents, AFreeTurnByAnyAngleMeetsFreshGroundAndNeverResamples) {
+  SpecimenPair pair(scene_of(Boundary::free, {}, 1e-7));
+  const Surface upper = pair.upper();
+  const double first = pair.press(pressure(60)).plastic_volume();
+  pair.release();
+  pair.rotate(30 * std::numbers::pi / 180);
+  const Surface before = pair.upper();
+  const State state = pair.press(pressure(60));
+  EXPECT_GT(state.plastic_volume(), 0.05 * first);
+  // Only lowered, never raised: an increment was mapped, not the heights.
+  for (std::size_t k = 0; k < before.heights().size(); ++k)
+    EXPECT_LE(pair.upper().heights()[k], before.heights()[k]);
+  EXPECT_NEAR(volume_lost(before, pair.upper()) / state.plastic_volume(), 0.5, 1e-6);
+}
+
+// Hard case 7.
+TEST(PlasticEvents, AStepAtTheRimOfAPeriodicHalfSpaceIsWarnedOfOnce) {
+  Scene scene = scene_of();
+  const Surface& body = scene.lower;
+  scene.lower = Surface(body.grid(), body.heights(), SurfaceTraits{body.material(), false, {}});
+  SpecimenPair pair(scene);
+  Warnings monitor;
+  pair.press(pressure(10), monitor);
+  pair.press(pressure(20), monitor);
+  ASSERT_EQ(monitor.all.size(), 1U);
+  EXPECT_NE(monitor.all[0].find("the lower body does not continue across the rim"), std::string::npos);
+  EXPECT_NE(monitor.all[0].find("boundary=\"free\""), std::string::npos);
+  scene.boundary = Boundary::free;
+  Warnings quiet;
+  SpecimenPair free(scene);
+  free.press(pressure(10), quiet);
+  EXPECT_TRUE(quiet.all.empty());
+}
+
+TEST(PlasticEvents, CostIsToldByEffect) {
+  SpecimenPair pair(scene_of());
+  const StateCost cost = pair.press(pressure(100)).cost();
+  ASSERT_EQ(cost.by_effect.size(), 2U);
+  EXPECT_EQ(cost.by_effect[0].first, "elasticity");
+  EXPECT_GT(cost.by_effect[0].second.transforms, 0);
+  EXPECT_EQ(cost.by_effect[1].first, "plasticity");
+  EXPECT_GT(cost.by_effect[1].second.bytes, 0);
+}
+
+}  // namespace
+}  // namespace asperity

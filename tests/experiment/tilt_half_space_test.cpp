@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The tilt stage on a half-space contact: solved at probe pressures, carried down to the weight.
+#include <cmath>
+#include <numbers>
+
+#include "engine/experiment/tilt_trials.hpp"
+#include "engine/surface/generators/self_affine.hpp"
+#include "tests/contact/contacts.hpp"
+
+namespace asperity {
+namespace {
+
+using test::error_of;
+
+constexpr double megapascal = 1e6;
+
+SpecimenPair on_quartz() {
+  SelfAffineOptions options;
+  options.grid = make_grid(64, 64, 250e-6, 250e-6);
+  options.hurst = 0.8;
+  options.ra = 1e-6;
+  options.short_wave = 24e-6;
+  options.seed = 7;
+  Scene scene{self_affine_surface(options).with_material(named_material("Al-2011")), named_material("quartz"),
+              Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
+  return SpecimenPair(scene);
+}
+
+TiltTrialOptions stage(std::vector<double> probes) {
+  TiltTrialOptions options;
+  options.stage.mass = 4.3e-3;
+  options.probe_pressures = std::move(probes);
+  return options;
+}
+
+const JunctionLaw law({500 * megapascal, 0.2, {}, {}});
+
+TEST(TiltHalfSpace, SlipsAtTheRealAreaPerLoadOfTheProbe) {
+  const SpecimenPair pair = on_quartz();
+  const TiltResult result = raise(pair, law, stage({30 * megapascal}));
+  SpecimenPair copy = pair;
+  const State probe = copy.press({PressBy::pressure, 30 * megapascal, {}});
+  ASSERT_GE(probe.contacts(), 50);
+  const double c = probe.corrected_area_fraction() / probe.pressure();
+  ASSERT_TRUE(result.area_per_load.has_value());
+  EXPECT_DOUBLE_EQ(*result.area_per_load, c);
+  EXPECT_LT(probe.corrected_area_fraction(), probe.area_fraction());
+  EXPECT_NEAR(std::tan(result.angle), 0.2 + 500 * megapascal * c, 1e-9);
+  EXPECT_TRUE(result.slipped);
+  EXPECT_NE(result.note.find("calibrated"), std::string::npos);
+}
+
+TEST(TiltHalfSpace, TheAngleDoesNotDependOnTheWeight) {
+  const SpecimenPair pair = on_quartz();
+  TiltTrialOptions light = stage({30 * megapascal}), heavy = light;
+  light.stage.mass = 1e-6;
+  heavy.stage.mass = 10;
+  EXPECT_NEAR(raise(pair, law, light).angle, raise(pair, law, heavy).angle, 1e-12);
+}
+
+TEST(TiltHalfSpace, AProbeUnderFiftyNodesIsRaisedAndSaysSo) {
+  const TiltResult result = raise(on_quartz(), law, stage({0.1 * megapascal}));
+  ASSERT_EQ(result.probes.size(), 1U);
+  EXPECT_GT(result.probes[0].pressure, 0.1 * megapascal);
+  EXPECT_GE(result.probes[0].contacts, 50);
+  EXPECT_NE(result.note.find("the probe pressure was raised to"), std::string::npos);
+}
+
+TEST(TiltHalfSpace, ProbesAreAveraged) {
+  const SpecimenPair pair = on_quartz();
+  const double one = *raise(pair, law, stage({30 * megapascal})).area_per_load,
+               other = *raise(pair, law, stage({60 * megapascal})).area_per_load;
+  EXPECT_DOUBLE_EQ(*raise(pair, law, stage({30 * megapascal, 60 * megapascal})).area_per_load,
+                   (one + other) / 2);
+}
+
+TEST(TiltHalfSpace, AFlatIsSolvedOnceForAllTrials) {
+  TiltTrialOptions options = stage({30 * megapascal});
+  options.scatter = 0.1;
+  const TiltResult result = raise(on_quartz(), law, options);
+  EXPECT_EQ(result.trials.size(), 5U);
+  EXPECT_EQ(result.probes.size(), 1U);
+  EXPECT_GT(result.spread, 0);
+}
+
+TEST(TiltHalfSpace, ACapOfTheLawHoldsOnTheProbe) {
+  const JunctionLaw capped({500 * megapascal, 0.2, 600 * megapascal, {}});
+  EXPECT_LT(raise(on_quartz(), capped, stage({30 * megapascal})).angle,
+            raise(on_quartz(), law, stage({30 * megapascal})).angle);
+}
+
+TEST(TiltHalfSpace, ProbesOutOfRangeAreNamed) {
+  for (const double probe : {0.0, -1.0, std::nan("")})
+    EXPECT_NE(error_of([&] { raise(on_quartz(), law, stage({probe})); }).find("`probe_pressure`"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace asperity
