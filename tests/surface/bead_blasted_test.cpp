@@ -93,16 +93,16 @@ TEST(BeadBlasted, ADentIsAParaboloidOnTheGroundWithHalfItsVolumeAroundIt) {
   };
   const double ground = at(200e-6, 0);
   EXPECT_NEAR(at(0, 200e-6), ground, 1e-6 * (ground - z[deepest]));
-  // Heights before scaling: a²/2R deep, less the rim that reaches the centre (7e-8 of its crest).
+  // Heights before scaling: a²/2R deep, less the rim that reaches the centre (4e-15 of its crest).
   const double depth = 40e-6 * 40e-6 / (2 * 125e-6);
   const double scale = (ground - z[deepest]) / depth;
   // Rim: crest c with c · ∫ rim = half of the paraboloid's volume, π a⁴ / 8R.
   const double a = 40e-6, width = 0.2 * a, radius = 1.15 * a;
-  const double rim_area = 2 * pi * radius * width * std::sqrt(2 * pi);
+  const double rim_area = 2 * pi * radius * width * std::sqrt(pi);
   const double crest = 0.5 * pi * std::pow(a, 4) / (8 * 125e-6) * 2 / rim_area;
   for (const double r : {5e-6, 10e-6, 20e-6, 30e-6, 40e-6, 46.25e-6, 52.5e-6, 60e-6, 75e-6}) {
     const double floor = std::min(0.0, (r * r - a * a) / (2 * 125e-6));
-    const double rim = crest * std::exp(-0.5 * std::pow((r - radius) / width, 2));
+    const double rim = crest * std::exp(-std::pow((r - radius) / width, 2));
     // The centre lies up to half a cell from the deepest node: r is known to 0.9 µm, slopes reach 0.4.
     EXPECT_NEAR((at(r, 0) + at(-r, 0) + at(0, r) + at(0, -r)) / 4 - ground, scale * (floor + rim),
                 0.02 * scale * depth)

@@ -23,8 +23,8 @@ namespace {
 
 constexpr double floor_reach = 2.2;  // of r²/a²
 constexpr double rim_radius = 1.15, rim_width = 0.2, rim_share = 0.5;
-// Past six widths the rim is 1e-8 of its crest.
-constexpr double rim_reach = rim_radius + 6 * rim_width;
+// Past 4.3 widths the rim is 1e-8 of its crest.
+constexpr double rim_reach = rim_radius + 4.3 * rim_width;
 
 std::string metres(double value) { return format_quantity(value, dimension::length); }
 
@@ -101,7 +101,7 @@ class Ground {
     if (removed == 0) return;
     const auto rim = [&](double r2) {
       const double t = (std::sqrt(r2) / dent.radius - rim_radius) / rim_width;
-      return std::exp(-0.5 * t * t);
+      return std::exp(-t * t);
     };
     const double total = visit(dent, rim_reach, [&](double&, double r2) {
       return std::array{rim(r2), 0.0};

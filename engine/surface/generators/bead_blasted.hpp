@@ -6,7 +6,7 @@
 //
 //   z(r) = mean of the ground within a + (r² - a²)/2R      where that is lower and r² < 2.2 a²
 //
-// and half of the volume it takes away rises around it as a Gaussian rim, exp(-((r - 1.15a)/0.2a)²/2).
+// and half of the volume it takes away rises around it as a Gaussian rim, exp(-((r - 1.15a)/0.2a)²).
 // Ground that stands above the floor at r² = 2.2 a² is left there as a step, so the slope of single nodes
 // grows with the number of cells; Ra does not. Not modelled: the speed of the beads, hardening of the ground,
 // oblique hits.
