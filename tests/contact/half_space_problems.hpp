@@ -110,7 +110,8 @@ inline std::vector<double> dense_displacement(const HalfSpaceProblem& problem, c
         const double qx = 2 * std::numbers::pi * std::min(a, nx - a) / problem.grid.size_x;
         const double qy = 2 * std::numbers::pi * std::min(b, ny - b) / problem.grid.size_y;
         sum += 2 / (problem.modulus * std::hypot(qx, qy)) *
-               std::cos(2 * std::numbers::pi * (static_cast<double>(a) * i / nx + static_cast<double>(b) * j / ny));
+               std::cos(2 * std::numbers::pi *
+                        (static_cast<double>(a) * i / nx + static_cast<double>(b) * j / ny));
       }
     return sum / (static_cast<double>(nx) * ny);
   };

@@ -29,8 +29,8 @@ struct Tile {
   int nx, ny;
   double size_x, size_y;
 };
-const Tile small_tiles[] = {{8, 8, 1, 1},   {16, 16, 1, 1}, {7, 5, 1, 1},  {13, 13, 2, 1}, {16, 8, 1, 1},
-                            {1, 16, .1, 1}, {16, 1, 1, .1}, {2, 2, 1, 1},  {1, 2, 1, 1},   {12, 20, 1, .5}};
+const Tile small_tiles[] = {{8, 8, 1, 1},   {16, 16, 1, 1}, {7, 5, 1, 1}, {13, 13, 2, 1}, {16, 8, 1, 1},
+                            {1, 16, .1, 1}, {16, 1, 1, .1}, {2, 2, 1, 1}, {1, 2, 1, 1},   {12, 20, 1, .5}};
 
 TEST(HalfSpaceSolve, MeetsEveryConditionByDenseSums) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
@@ -88,11 +88,10 @@ struct Hertz {
 class HertzContact : public testing::TestWithParam<Hertz> {
  protected:
   HalfSpaceProblem sphere() const {
-    return problem_from(make_grid(GetParam().nx, GetParam().ny, 5, 5), Boundary::free,
-                        [](double x, double y) {
-                          return -((x - 2.5) * (x - 2.5) + (y - 2.5) * (y - 2.5)) / (2 * 20.0);
-                        },
-                        102, 1e-8);
+    return problem_from(
+        make_grid(GetParam().nx, GetParam().ny, 5, 5), Boundary::free,
+        [](double x, double y) { return -((x - 2.5) * (x - 2.5) + (y - 2.5) * (y - 2.5)) / (2 * 20.0); }, 102,
+        1e-8);
   }
 };
 TEST_P(HertzContact, ApproachPeakAreaAndEnergyFollowTheForce) {
@@ -116,9 +115,9 @@ INSTANTIATE_TEST_SUITE_P(Grids, HertzContact, testing::Values(Hertz{512, 512}, H
 TEST(HalfSpaceSolve, FlatPunchHasTheStiffnessOfItsRadius) {
   const int n = 256;
   const double radius = .2;
-  const HalfSpaceProblem problem = problem_from(make_grid(n, n, 1, 1), Boundary::free, [&](double x, double y) {
-    return std::hypot(x - .5, y - .5) < radius ? 0.0 : -10.0;
-  });
+  const HalfSpaceProblem problem =
+      problem_from(make_grid(n, n, 1, 1), Boundary::free,
+                   [&](double x, double y) { return std::hypot(x - .5, y - .5) < radius ? 0.0 : -10.0; });
   const HalfSpaceAnswer answer = solve(problem, .01);
   const double a = std::sqrt(static_cast<double>(answer.contacts) / (n * n) / pi);
   EXPECT_NEAR(.01 / (2 * a * answer.approach), 1, 5e-3);
@@ -206,8 +205,7 @@ TEST(HalfSpaceSolve, FullContactIsTheExactFilter) {
     double worst = 0;
     for (int j = 0; j < 64; ++j)
       for (int i = 0; i < 64; ++i) {
-        const double exact =
-            f * full + full * std::cos(2 * pi * i / 64.0) * std::cos(2 * pi * j / 64.0);
+        const double exact = f * full + full * std::cos(2 * pi * i / 64.0) * std::cos(2 * pi * j / 64.0);
         worst = std::max(worst, std::abs(answer.pressure(i, j) - exact));
       }
     EXPECT_LT(worst, 1e-12 * f * full);
@@ -236,7 +234,8 @@ TEST(HalfSpaceSolve, CappedBiSinusoidMatchesReference) {
     double over, area, capped, gap, energy;
   };
   const double pressure = .00888577;
-  for (const Known& known : {Known{3, .41806, .26944, .0017541, 1.31773e-5}, Known{1.5, .67282, .65927, -1, 3.45966e-6}}) {
+  for (const Known& known :
+       {Known{3, .41806, .26944, .0017541, 1.31773e-5}, Known{1.5, .67282, .65927, -1, 3.45966e-6}}) {
     HalfSpaceProblem problem = bi_sinusoid(256);
     problem.yield.cap = known.over * pressure;
     const HalfSpaceAnswer answer = solve(problem, pressure);
@@ -392,7 +391,8 @@ TEST(HalfSpaceSolve, EverythingAtTheCapTakesTheMiddleOfTheBracket) {
   EXPECT_EQ(answer.yielded, 12);
   double open = std::numeric_limits<double>::infinity(), capped = -open;
   for (std::size_t k = 0; k < 16; ++k)
-    (answer.pressure[k] > 0 ? capped = std::max(capped, answer.gap[k]) : open = std::min(open, answer.gap[k]));
+    (answer.pressure[k] > 0 ? capped = std::max(capped, answer.gap[k])
+                            : open = std::min(open, answer.gap[k]));
   EXPECT_NEAR(open, -capped, 1e-12 * open);
 }
 
@@ -431,7 +431,8 @@ TEST(HalfSpaceSolve, RefusesLoadsTooSmallToMeanAnything) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_value);
   }
-  for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+  for (const double bad :
+       {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(solve(problem, bad), Error);
 }
 
@@ -470,22 +471,22 @@ TEST(HalfSpaceSolve, SaysWhatItReachedWhenToleranceIsBelowRoundOff) {
 // Hard case 12.
 TEST(HalfSpaceSolve, OddPrimeAndOblongGrids) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free})
-    for (const Tile& tile : {Tile{101, 101, 1, 1}, Tile{96, 150, 1, 1}, Tile{64, 256, 1, 1}, Tile{127, 64, 2, 1},
-                             Tile{100, 100, 1, 3}, Tile{1, 509, 1, 1}, Tile{200, 2, 1, .01}}) {
+    for (const Tile& tile :
+         {Tile{101, 101, 1, 1}, Tile{96, 150, 1, 1}, Tile{64, 256, 1, 1}, Tile{127, 64, 2, 1},
+          Tile{100, 100, 1, 3}, Tile{1, 509, 1, 1}, Tile{200, 2, 1, .01}}) {
       const Grid grid = make_grid(tile.nx, tile.ny, tile.size_x, tile.size_y);
-      HalfSpaceProblem problem = problem_from(
-          grid, boundary,
-          [&](double x, double y) {
-            const double u = 2 * pi * x / grid.size_x, v = 2 * pi * y / grid.size_y;
-            return .01 * (std::cos(u + 1) + .4 * std::sin(3 * u + v) + .3 * std::cos(2 * v) + .1 * std::cos(9 * u));
-          });
+      HalfSpaceProblem problem = problem_from(grid, boundary, [&](double x, double y) {
+        const double u = 2 * pi * x / grid.size_x, v = 2 * pi * y / grid.size_y;
+        return .01 *
+               (std::cos(u + 1) + .4 * std::sin(3 * u + v) + .3 * std::cos(2 * v) + .1 * std::cos(9 * u));
+      });
       for (const double over : {0.0, 2.0}) {
         if (over > 0) problem.yield.cap = over * .01;
         const CostScope scope;
         const HalfSpaceAnswer answer = solve(problem, .01);
         EXPECT_TRUE(answer.converged);
-        EXPECT_LE(scope.so_far().transforms / 2, 90) << tile.nx << " x " << tile.ny << " " << name(boundary) << " "
-                                                     << over << " " << answer.solver;
+        EXPECT_LE(scope.so_far().transforms / 2, 90)
+            << tile.nx << " x " << tile.ny << " " << name(boundary) << " " << over << " " << answer.solver;
       }
     }
 }

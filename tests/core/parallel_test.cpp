@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "engine/core/cost.hpp"
@@ -87,6 +91,48 @@ TEST_P(Parallel, NestedLoopsRunOnTheirOwnThread) {
   });
   EXPECT_EQ(inner.load(), 20);
   EXPECT_EQ(thread_count(), GetParam());
+}
+
+TEST_P(Parallel, SeveralCallersAtOnce) {
+  std::atomic<std::int64_t> sum{0};
+  std::atomic<int> failures{0};
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 3; ++caller)
+    callers.emplace_back([&] {
+      for (int repeat = 0; repeat < 200; ++repeat) {
+        parallel_for(17, [&](std::int64_t k) { sum += k; });
+        try {
+          parallel_for(17, [](std::int64_t k) {
+            if (k > 4) throw std::runtime_error("no");
+          });
+        } catch (const std::runtime_error&) {
+          ++failures;
+        }
+      }
+    });
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(sum.load(), 3 * 200 * 136);
+  EXPECT_EQ(failures.load(), 3 * 200);
+}
+
+// Blocks long enough that the helpers come, and many loops, so that they sleep and wake between.
+TEST_P(Parallel, HelpersComeBack) {
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    std::atomic<int> waiting{0};
+    parallel_for(GetParam(), [&](std::int64_t) {
+      {
+        const std::lock_guard lock(mutex);
+        seen.insert(std::this_thread::get_id());
+      }
+      // Each block waits until all of them run.
+      ++waiting;
+      while (waiting.load() < GetParam()) std::this_thread::yield();
+    });
+    EXPECT_EQ(static_cast<int>(seen.size()), GetParam());
+    if (repeat % 5 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Parallel, ::testing::Values(1, 2, 7));

@@ -27,8 +27,8 @@ constexpr std::size_t coarse_nodes = 64 * 64;
 struct Prescribed {
   std::function<double(const HalfSpaceProblem&, const HalfSpaceAnswer&)> measure;
   double target = 0;
-  double least_tolerance = 0;  // of the solves, so that the measure is as exact as the target asks
-  std::string what;            // "`approach` of 3 um"
+  double sharpness = 1;  // of the solves: their tolerance for each of the measure's
+  std::string what;      // "`approach` of 3 um"
 };
 
 // The same contact on the next coarser grid.
@@ -50,6 +50,7 @@ std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem)
   result.heights = on_coarse(*problem.heights);
   if (problem.yield.yield) result.yield.yield = on_coarse(*problem.yield.yield);
   result.best_effort = true;
+  result.tolerance = infinity;
   return result;
 }
 
@@ -80,10 +81,10 @@ Search search(const HalfSpaceProblem& problem, const Prescribed& wanted, Root ro
   const double highest = problem.yield.caps() ? problem.yield.cap * (1 - 1e-12) : infinity;
   HalfSpaceProblem now = problem;
   now.best_effort = true;
-  const double tightest = std::min(problem.tolerance, std::max(wanted.least_tolerance, 1e-13));
+  const double tightest = std::min(problem.tolerance, std::max(accuracy * wanted.sharpness, 1e-13));
   now.tolerance = std::max(tightest, loosest);
   Tried low, high{infinity, infinity};
-  std::optional<Tried> last;
+  Tried last;  // by a solve as tight; no pressure: none
   Search result;
   result.root = root;
   double pressure = std::min(root.pressure, highest);
@@ -99,10 +100,9 @@ Search search(const HalfSpaceProblem& problem, const Prescribed& wanted, Root ro
       result.reached = true;
       return result;
     }
-    if (last && at.pressure != last->pressure && at.measure > 0 && last->measure > 0 &&
-        at.measure != last->measure) {
-      const double slope =
-          std::log(at.pressure / last->pressure) / std::log(at.measure / last->measure);
+    if (last.pressure > 0 && at.pressure != last.pressure && at.measure > 0 && last.measure > 0 &&
+        at.measure != last.measure) {
+      const double slope = std::log(at.pressure / last.pressure) / std::log(at.measure / last.measure);
       if (slope > 0 && std::isfinite(slope)) result.root.slope = slope;
     }
     last = at;
@@ -111,11 +111,16 @@ Search search(const HalfSpaceProblem& problem, const Prescribed& wanted, Root ro
       now.tolerance = tightest;
       continue;
     }
-    // The bracket moves only as far as the solve can be trusted.
-    if (at.measure < wanted.target)
+    if (tighter < now.tolerance) {
+      // What a looser solve put on one side may belong to the other.
+      low = {};
+      high = {infinity, infinity};
+      last = {};
+    } else if (at.measure < wanted.target) {
       low = at.pressure > low.pressure ? at : low;
-    else
+    } else {
       high = at.pressure < high.pressure ? at : high;
+    }
     now.tolerance = tighter;
     double next = at.measure > 0 ? pressure * std::pow(wanted.target / at.measure,
                                                        std::clamp(result.root.slope, 0.05, 50.0))
@@ -145,7 +150,7 @@ HalfSpaceAnswer solve_for(const HalfSpaceProblem& problem, const Prescribed& wan
     grids.push_back(std::move(*next));
   Root root{first_guess(problem, length), 1.5};
   for (std::size_t g = grids.size(); g-- > 0;) {
-    const Search found = search(grids[g], wanted, root, 1e-2, 1e-3, Monitor::silent());
+    const Search found = search(grids[g], wanted, root, 1e-2, 1e-2, Monitor::silent());
     if (found.reached) root = found.root;
     grids.pop_back();
   }
@@ -173,8 +178,7 @@ HalfSpaceAnswer solve_for(const HalfSpaceProblem& problem, const Prescribed& wan
 
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor) {
   if (!(approach >= 0) || !std::isfinite(approach))
-    throw Error(ErrorCode::bad_value,
-                "`approach` is " + format_quantity(approach, dimension::length),
+    throw Error(ErrorCode::bad_value, "`approach` is " + format_quantity(approach, dimension::length),
                 "an approach is finite and not negative, measured from first touch");
   const auto heights = problem.heights->values();
   const Range span = range(heights);
@@ -184,8 +188,7 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
       throw Error(ErrorCode::infeasible,
                   "an approach of " + format_quantity(approach, dimension::length) +
                       " cannot be reached: this periodic tile is in full contact at " +
-                      format_quantity(most, dimension::length) +
-                      ", and more load brings it no nearer",
+                      format_quantity(most, dimension::length) + ", and more load brings it no nearer",
                   "ask for a smaller `approach`, or press by `pressure`");
   }
   Prescribed wanted;
@@ -194,8 +197,7 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
     return answer.approach + (peak - range(on.heights->values()).max);
   };
   wanted.target = approach;
-  wanted.least_tolerance =
-      problem.rms > 0 ? 0.5 * problem.tolerance * std::min(1.0, approach / problem.rms) : problem.tolerance;
+  if (problem.rms > 0) wanted.sharpness = 0.5 * std::min(1.0, approach / problem.rms);
   wanted.what = "an approach of " + format_quantity(approach, dimension::length);
   return solve_for(problem, wanted, approach, monitor);
 }
@@ -222,7 +224,7 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
     return flattened(on, answer);
   };
   wanted.target = fraction;
-  wanted.least_tolerance = 0.5 * problem.tolerance * fraction;
+  wanted.sharpness = 0.5 * fraction;
   wanted.what = "a flattening of " + format_short(fraction);
   return solve_for(problem, wanted, fraction * range(problem.heights->values()).span(), monitor);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact problem on one of the nested grids, in its own cell units: hx = 1, hy = aspect, E* = 1,
 // heights divided by the rms of the finest grid, pressures by E*·rms/hx. Holds the operator and
-// its preconditioner on the free nodes; the descents read the heights from the caller's field, so that none are copied.
+// its preconditioner on the free nodes; the descents read the heights from the caller's field, so that none
+// are copied.
 #pragma once
 
 #include <cstddef>

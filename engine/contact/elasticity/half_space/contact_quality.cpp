@@ -17,7 +17,7 @@ ContactQuality measure(const ContactLevel& level, const Limit& limit, std::span<
   const auto found = over_nodes<7, 3>(p.size(), [&](std::size_t k, double* v) {
     const double q = limit.settle(k, p[k], g[k], balance);
     const double opening = limit.opening(k, q), gap = g[k] + opening;
-    const bool inside = q > 0 && q < upper, yields = opening > 0;
+    const bool inside = q > 0 && q<upper, yields = opening> 0;
     v[0] = inside && !yields ? 1.0 : 0.0;
     v[1] = inside && !yields ? gap : 0.0;
     v[2] = yields ? 1.0 : 0.0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far pressures are from the solution on one grid: the offset δ that suits them best, and the
 // greatest of the certificate's penetration and complementarity for it. With a cap the penetration is
-// pointwise; without one the two agree when δ is the pressure-weighted mean gap. Pressures outside their bounds are
-// judged as if settled on them; the load is not judged here.
+// pointwise; without one the two agree when δ is the pressure-weighted mean gap. Pressures outside their
+// bounds are judged as if settled on them; the load is not judged here.
 #pragma once
 
 #include <limits>
@@ -15,17 +15,18 @@ namespace asperity {
 struct ContactQuality {
   double residual = 0;  // greatest relative entry of penetration and complementarity
   double penetration = 0, complementarity = 0;
-  double offset = 0;         // δ by which the residual is measured and the answer given
-  double interior_gap = 0;   // mean of g over the elastic interior; the bracket's middle where it is empty
-  double interior = 0;       // nodes strictly between the bounds that do not yield
-  double yielded = 0;        // nodes past their yield pressure
-  double load = 0;           // Σ p, settled
-  double settled = 0;        // nodes that had to be settled
-  bool within = true;        // nothing had to be settled
+  double offset = 0;        // δ by which the residual is measured and the answer given
+  double interior_gap = 0;  // mean of g over the elastic interior; the bracket's middle where it is empty
+  double interior = 0;      // nodes strictly between the bounds that do not yield
+  double yielded = 0;       // nodes past their yield pressure
+  double load = 0;          // Σ p, settled
+  double settled = 0;       // nodes that had to be settled
+  bool within = true;       // nothing had to be settled
 };
 
 // One pass over the nodes, two with a cap. g = K p − h for p as given. `balance` as in PressureLimit::settle.
-ContactQuality contact_quality(const ContactLevel& level, std::span<const double> p, std::span<const double> g,
+ContactQuality contact_quality(const ContactLevel& level, std::span<const double> p,
+                               std::span<const double> g,
                                double balance = std::numeric_limits<double>::quiet_NaN());
 
 }  // namespace asperity

@@ -37,7 +37,8 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   });
   const double free = counts[0] + counts[1], n = static_cast<double>(nodes);
   if (free == 0) return 0;
-  if (problem.boundary == Boundary::periodic && counts[0] == n) return std::numeric_limits<double>::infinity();
+  if (problem.boundary == Boundary::periodic && counts[0] == n)
+    return std::numeric_limits<double>::infinity();
   const auto in = [&](std::size_t k) { return elastic[k] || (!yields.empty() && yields[k]); };
 
   HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary);
@@ -55,9 +56,8 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
        ++step) {
     task.advance();
     preconditioner.apply(r, z);
-    const double level = constant * over_nodes<1>(nodes, [&](std::size_t k, double* v) {
-                           v[0] = elastic[k] ? r[k] : 0.0;
-                         })[0];
+    const double level =
+        constant * over_nodes<1>(nodes, [&](std::size_t k, double* v) { v[0] = elastic[k] ? r[k] : 0.0; })[0];
     const double rz = over_nodes<1>(nodes, [&](std::size_t k, double* v) {
       if (elastic[k])
         z[k] += level;

@@ -12,7 +12,13 @@ namespace asperity {
 
 struct DescentFields {
   explicit DescentFields(std::size_t nodes)
-      : pressure(nodes), gap(nodes), step(nodes), direction(nodes), residual(nodes), free(nodes), old_free(nodes) {}
+      : pressure(nodes),
+        gap(nodes),
+        step(nodes),
+        direction(nodes),
+        residual(nodes),
+        free(nodes),
+        old_free(nodes) {}
 
   Array<double> pressure;  // p: feasible between stages
   Array<double> gap;       // K p − h

@@ -42,7 +42,9 @@ FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balan
                       std::span<const double> g, std::span<const std::uint8_t> before,
                       std::span<std::uint8_t> free) {
   const double upper = limit.upper(), offset = at.interior_gap;
-  const auto sums = over_nodes<6>(p.size(), [&](std::size_t k, double* v) {
+  // By value: a store of a byte could change anything that is reached by a reference.
+  const auto sums = over_nodes<6>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
+                                             free = free.data(), limit = limit](std::size_t k, double* v) {
     const double q = limit.settle(k, p[k], g[k], balance);
     const bool inside = q > 0 && q < upper;
     const bool enters = q <= 0 ? g[k] < offset && p[k] >= 0 : g[k] > offset && p[k] <= upper;

@@ -44,7 +44,8 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
 bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
   if (!(problem.rms > 0) || range(problem.heights->values()).span() == 0) return false;
   const double side = std::max(problem.grid.size_x, problem.grid.size_y);
-  return problem.boundary == Boundary::periodic || problem.rms > 1e-6 * mean_pressure / problem.modulus * side;
+  return problem.boundary == Boundary::periodic ||
+         problem.rms > 1e-6 * mean_pressure / problem.modulus * side;
 }
 
 // The scale of heights and pressures that makes the problem one of cell units.
@@ -80,7 +81,8 @@ double rough_slope(const HalfSpaceProblem& problem) {
   const auto sums = over_nodes<1>(h.size(), [&](std::size_t k, double* v) {
     const int i = static_cast<int>(k % static_cast<std::size_t>(nx));
     const std::size_t right = i + 1 < nx ? k + 1 : k + 1 - static_cast<std::size_t>(nx);
-    const std::size_t up = (k + static_cast<std::size_t>(nx)) % (static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+    const std::size_t up =
+        (k + static_cast<std::size_t>(nx)) % (static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
     const double x = (h[right] - h[k]) * per_x, y = (h[up] - h[k]) * per_y;
     v[0] = x * x + y * y;
   });
@@ -206,9 +208,8 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   cell.tolerance = 0.99 * problem.tolerance;
 
   CellAnswer found;
-  const bool may_be_full =
-      problem.boundary == Boundary::periodic &&
-      (flat || mean_pressure >= 0.5 * problem.modulus * rough_slope(problem));
+  const bool may_be_full = problem.boundary == Boundary::periodic &&
+                           (flat || mean_pressure >= 0.5 * problem.modulus * rough_slope(problem));
   if (may_be_full) found = full_contact(cell, monitor);
   int before = found.applications;
   if (!found.converged) {
@@ -225,7 +226,8 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
                     format_short(answer.certificate.worst(), 3) + " where `tolerance` asks for " +
                     format_short(problem.tolerance, 3) + ", after " + std::to_string(answer.iterations) +
                     " applications of the half-space",
-                "ask for a larger `tolerance`, a finer grid for the same surface, or accept the best reached with `on_failure = \"best\"`");
+                "ask for a larger `tolerance`, a finer grid for the same surface, or accept the best reached "
+                "with `on_failure = \"best\"`");
   return answer;
 }
 

@@ -31,11 +31,11 @@ struct HalfSpaceProblem {
 };
 
 struct HalfSpaceAnswer {
-  Field pressure;            // Pa; exactly 0 and exactly the cap at the bounds
-  Field gap;                 // m, Kp − h − δ: 0 where 0 < p < limit, >= 0 where p = 0, −w where it yielded
-  double offset = 0;         // δ, m
-  double mean_pressure = 0;  // Pa, as prescribed
-  double approach = 0;       // m, max h + δ
+  Field pressure;     // Pa; exactly 0 and exactly the cap at the bounds
+  Field gap;          // m, Kp − h − δ: 0 where 0 < p < limit, >= 0 where p = 0, −w where it yielded
+  double offset = 0;  // δ, m
+  double mean_pressure = 0;   // Pa, as prescribed
+  double approach = 0;        // m, max h + δ
   std::int64_t contacts = 0;  // nodes with p > 0
   std::int64_t yielded = 0;   // nodes at the cap, or past their yield pressure
   double peak_pressure = 0;   // Pa
@@ -51,7 +51,8 @@ struct HalfSpaceAnswer {
 // the answer. A null `start` begins from nested grids; otherwise from the pressures of `start`, an
 // answer on the same grid. Throws Error{infeasible} where p̄ >= cap, {bad_value} where p̄ is negative, not
 // finite or below 1e-280 of the modulus, {not_converged} unless best_effort, {interrupted} and the
-// like when asked to stop. p̄ = 0 is the first touch: no pressure, δ = −max h. Same bits for any number of threads.
+// like when asked to stop. p̄ = 0 is the first touch: no pressure, δ = −max h. Same bits for any number of
+// threads.
 HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,
                                   const HalfSpaceAnswer* start, Monitor& monitor);
 

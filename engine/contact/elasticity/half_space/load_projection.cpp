@@ -16,17 +16,23 @@ constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
 
 struct Carried {
   double load;      // Σ clip(y + λ)
-  double interior;  // nodes strictly between the bounds
+  double interior;  // moved nodes strictly between the bounds
+  double values;    // Σ y over them
+  double bound;     // what the moved nodes at the upper bound carry
 };
 
 Carried carried(std::span<const double> y, std::span<const std::uint8_t> where, double upper, double origin,
                 double shift) {
-  const auto sums = over_nodes<2>(y.size(), [&](std::size_t k, double* v) {
-    const double x = where.empty() || where[k] ? (y[k] - origin) + shift : y[k];
+  const auto sums = over_nodes<4>(y.size(), [&](std::size_t k, double* v) {
+    const bool here = where.empty() || where[k];
+    const double value = here ? y[k] - origin : y[k], x = here ? value + shift : value;
+    const bool inside = here && x > 0 && x < upper;
     v[0] = std::min(std::max(x, 0.0), upper);
-    v[1] = (where.empty() || where[k]) && x > 0 && x < upper ? 1.0 : 0.0;
+    v[1] = inside ? 1.0 : 0.0;
+    v[2] = inside ? value : 0.0;
+    v[3] = here && x >= upper ? upper : 0.0;
   });
-  return {sums[0], sums[1]};
+  return {sums[0], sums[1], sums[2], sums[3]};
 }
 }  // namespace
 
@@ -41,11 +47,16 @@ bool project_to_load(std::span<const double> y, std::span<const std::uint8_t> wh
   });
   const double movable = moved[0], fixed = moved[1];
   if (movable == 0 || load < fixed || load > fixed + upper * movable) return false;
-  if (!where.empty() && (load == fixed || load == fixed + upper * movable)) return false;
+  if (load == fixed + upper * movable) {
+    if (!where.empty()) return false;
+    for_nodes(y.size(), [&](std::size_t k) { target[k] = upper; });
+    return true;
+  }
+  if (!where.empty() && load == fixed) return false;
 
   // At the one end all moved nodes are at 0, at the other all at the bound, or the least of them carries all.
-  // Where the load is small beside the values, shifts are counted from the greatest: the few nodes that carry it
-  // must not be what rounding leaves.
+  // Where the load is small beside the values, shifts are counted from the greatest: the few nodes that carry
+  // it must not be what rounding leaves.
   const double greatest = -moved[3], origin = load - fixed < 1e-6 * std::abs(greatest) ? greatest : 0.0;
   double low = origin - greatest, high = std::min(upper, load) - (moved[2] - origin);
   double shift = std::clamp(origin, low, std::max(low, high));
@@ -59,7 +70,8 @@ bool project_to_load(std::span<const double> y, std::span<const std::uint8_t> wh
     }
     if (std::abs(excess) <= round_off * load) break;
     (excess > 0 ? high : low) = shift;
-    double next = shift - excess / at.interior;
+    // Newton's step, with nothing cancelled.
+    double next = (load - fixed - at.bound - at.values) / at.interior;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (next == shift || !(next > low && next < high)) break;
     shift = next;

@@ -38,7 +38,7 @@ class Progress {
   std::int64_t done_ = 0;
 };
 
-struct Step {  // one grid of the nest
+struct Step {                       // one grid of the nest
   std::optional<CoarserGrid> from;  // how it came from the finer one
   LevelShape shape;
   Array<double> heights;  // empty on the finest, whose heights are the caller's
@@ -122,13 +122,13 @@ std::vector<Step> nest(const CellProblem& problem, bool alone) {
     const double cells = static_cast<double>(step.shape.nodes()) * next->pitch_x * next->pitch_y;
     step.mean_pressure =
         fine.mean_pressure * next->pitch_x * (static_cast<double>(fine.shape.nodes()) / cells);
-    step.heights = restrict_to(fine.shape, *next,
-                               fine.heights.empty() ? problem.heights : std::span<const double>(fine.heights));
+    step.heights = restrict_to(
+        fine.shape, *next, fine.heights.empty() ? problem.heights : std::span<const double>(fine.heights));
     if (hardening && hardening->yield)
-      step.yield = restrict_to(fine.shape, *next,
-                               fine.yield.empty()
-                                   ? std::span<const double>(hardening->yield, problem.shape.nodes())
-                                   : std::span<const double>(fine.yield));
+      step.yield =
+          restrict_to(fine.shape, *next,
+                      fine.yield.empty() ? std::span<const double>(hardening->yield, problem.shape.nodes())
+                                         : std::span<const double>(fine.yield));
     steps.push_back(std::move(step));
   }
   return steps;
@@ -158,7 +158,9 @@ CellAnswer nested_descent(const CellProblem& problem, std::span<const double> st
     const double tolerance = finest ? problem.tolerance : std::max(coarse_tolerance, problem.tolerance);
     const double begin = work_done / all_work;
     work_done += step.shape.weight;
-    level.report = [&](double residual) { progress.report(begin, work_done / all_work, residual, tolerance); };
+    level.report = [&](double residual) {
+      progress.report(begin, work_done / all_work, residual, tolerance);
+    };
 
     DescentFields fields(nodes);
     Array<double>& p = fields.pressure;
@@ -209,8 +211,9 @@ CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   answer.applications = 1;
   const auto found = over_nodes<1, 1>(nodes, [&](std::size_t k, double* v) {
     p[k] += problem.mean_pressure;
-    v[0] = std::visit([&](const auto& law) { return p[k] >= law.upper() || law.opening(k, p[k]) > 0 ? 1.0 : 0.0; },
-                      problem.limit);
+    v[0] = std::visit(
+        [&](const auto& law) { return p[k] >= law.upper() || law.opening(k, p[k]) > 0 ? 1.0 : 0.0; },
+        problem.limit);
     v[1] = p[k];
   });
   progress.report(0, 1, 1, 0.5);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact problem on nested grids: solved roughly on the coarsest, carried up as a field whose level
 // sets are the edges of contact and of the capped ground, and finished on the finest by a chain of stages,
-// each starting from the feasible pressures of the one before. Cell units of the finest grid throughout its interface.
+// each starting from the feasible pressures of the one before. Cell units of the finest grid throughout its
+// interface.
 #pragma once
 
 #include <span>
@@ -34,8 +35,8 @@ struct CellAnswer {
   std::string stage;
 };
 
-// `start`: pressures and gaps (the offset taken off) of a nearby state in cell units, or empty for nested grids. Does
-// not throw for lack of convergence.
+// `start`: pressures and gaps (the offset taken off) of a nearby state in cell units, or empty for nested
+// grids. Does not throw for lack of convergence.
 CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
                           std::span<const double> start_gap, Monitor& monitor);
 

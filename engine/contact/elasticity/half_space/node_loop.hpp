@@ -53,11 +53,13 @@ std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
     double lanes[size][lanes_a_block];
     for (std::size_t i = 0; i < size; ++i)
       for (double& lane : lanes[i]) lane = i < sums ? 0.0 : none;
+    const Term own = term;
     auto take = [&](std::size_t k, std::size_t lane) {
       double v[size];
-      term(k, v);
+      own(k, v);
       for (std::size_t i = 0; i < sums; ++i) lanes[i][lane] += v[i];
-      for (std::size_t i = sums; i < size; ++i) lanes[i][lane] = v[i] < lanes[i][lane] ? v[i] : lanes[i][lane];
+      for (std::size_t i = sums; i < size; ++i)
+        lanes[i][lane] = v[i] < lanes[i][lane] ? v[i] : lanes[i][lane];
     };
     std::size_t k = begin;
     for (; k + lanes_a_block <= end; k += lanes_a_block)

@@ -20,6 +20,8 @@ constexpr double enough_reduction = 0.1;  // of the residual's norm within a pas
 constexpr int passes_without_gain = 4;
 constexpr double slow = 0.7;  // a pass that leaves more than this of the best residual is slow
 constexpr int slow_passes = 2;
+constexpr double jump = 10;  // a pass whose residual is so many times the one before has gone back
+constexpr int jumps_in_a_cycle = 2;
 
 template <class Limit>
 class Descent {
@@ -40,15 +42,15 @@ class Descent {
   // The gap of a free node with the opening it would have if it went on yielding, or not, as marked.
   double total_gap(std::size_t k) const {
     if constexpr (Limit::hardens)
-      return f_.free[k] == yielding
-                 ? f_.gap[k] + limit_.compliance * (f_.pressure[k] - limit_.yields_at(k))
-                 : f_.gap[k];
+      return f_.free[k] == yielding ? f_.gap[k] + limit_.compliance * (f_.pressure[k] - limit_.yields_at(k))
+                                    : f_.gap[k];
     else
       return f_.gap[k];
   }
   bool moves(std::size_t k) const { return f_.free[k] == elastic || f_.free[k] == yielding; }
 
-  // What the pressures lack of feasible ones: each settled, those of the elastic interior shifted to the load.
+  // What the pressures lack of feasible ones: each settled, those of the elastic interior shifted to the
+  // load.
   bool shifts(std::size_t k, double q, const ContactQuality& at) const {
     if constexpr (Limit::hardens)
       return q > 0 && (q < limit_.yields_at(k) || at.interior == 0);
@@ -232,7 +234,8 @@ StageEnd Descent<Limit>::run() {
   fresh_ = true;
   StageEnd end;
   double least = end.best;
-  int without_gain = 0, slow_ones = 0;
+  int without_gain = 0, slow_ones = 0, jumps = 0;
+  double before = end.best;
   bool have_old = false;
   f_.old_free.assign(nodes(), 255);
   for (;;) {
@@ -257,19 +260,21 @@ StageEnd Descent<Limit>::run() {
     }
     slow_ones = at.residual > slow * least ? slow_ones + 1 : 0;
     least = std::min(least, at.residual);
+    if (at.residual > jump * before) ++jumps;
+    before = at.residual;
     if (without_gain > passes_without_gain || level_.applications > most_ || !std::isfinite(at.residual)) {
       project(at, f_.pressure);
       return end;
     }
-    if (slow_ones >= slow_passes && have_old) {
+    if ((slow_ones >= slow_passes || jumps >= jumps_in_a_cycle) && have_old) {
       for_nodes(nodes(), [&](std::size_t k) {
         f_.pressure[k] = 0.5 * (f_.pressure[k] + f_.old_pressure[k]);
         f_.gap[k] = 0.5 * (f_.gap[k] + f_.old_gap[k]);
       });
       have_direction_ = have_old = fresh_ = false;
-      slow_ones = 0;
+      slow_ones = jumps = 0;
       at = contact_quality(level_, f_.pressure, f_.gap, balance_);
-    } else if ((have_old = slow_ones + 1 >= slow_passes)) {
+    } else if ((have_old = slow_ones + 1 >= slow_passes || jumps + 1 >= jumps_in_a_cycle)) {
       f_.old_pressure = f_.pressure;
       f_.old_gap = f_.gap;
     }

@@ -11,7 +11,8 @@
 
 namespace asperity {
 
-// From fields.pressure, feasible. Ends converged (residual < tolerance, fresh gap) or with feasible pressures.
+// From fields.pressure, feasible. Ends converged (residual < tolerance, fresh gap) or with feasible
+// pressures.
 StageEnd set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications);
 
 }  // namespace asperity

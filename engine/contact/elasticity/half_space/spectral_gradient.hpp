@@ -9,7 +9,8 @@
 
 namespace asperity {
 
-// From fields.pressure, feasible. Ends converged (residual < tolerance, fresh gap) or after the applications given.
+// From fields.pressure, feasible. Ends converged (residual < tolerance, fresh gap) or after the applications
+// given.
 StageEnd spectral_gradient(ContactLevel& level, DescentFields& fields, double tolerance,
                            int most_applications);
 

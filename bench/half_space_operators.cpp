@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The operators of the half-space against FFTW's own two-dimensional transforms. Run as
+//   bench_half_space_operators --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true
+// Arguments: cells a side, threads. `bare_pair` is an in-place r2c and c2r of a plan that FFTW took the
+// time to measure, without a multiplication; `free_compliance` works on the padded grid of twice the
+// side. The free set of the preconditioner is two fifths of the nodes, in patches of some 8 cells, the
+// kind with the longest edge. Compare times of one run.
+#include <benchmark/benchmark.h>
+#include <fftw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "engine/contact/elasticity/half_space/contact_preconditioner.hpp"
+#include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
+#include "engine/core/fourier_filter.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/random.hpp"
+
+namespace {
+
+using namespace asperity;
+
+// Waves of 16 cells and longer.
+Array<double> smooth_heights(int cells) {
+  const Stream stream(1, "bench heights");
+  Array<double> z(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));
+  for (std::size_t k = 0; k < z.size(); ++k) z[k] = stream.normal(k);
+  FourierFilter filter(cells, cells, cells, cells);
+  filter.apply(z, z, [cells](int a, std::span<double> factors) {
+    for (std::size_t b = 0; b < factors.size(); ++b) {
+      const double wave = std::hypot(a, b) / cells;
+      factors[b] = wave > 0 && wave < 1.0 / 16 ? std::pow(wave * cells, -1.8) : 0;
+    }
+  });
+  return z;
+}
+
+void bare_pair(benchmark::State& run) {
+  const auto n = static_cast<int>(run.range(0));
+  fftw_init_threads();
+  fftw_plan_with_nthreads(static_cast<int>(run.range(1)));
+  Array<double> values(static_cast<std::size_t>(n) * static_cast<std::size_t>(n + 2));
+  auto* const bins = reinterpret_cast<fftw_complex*>(values.data());
+  const fftw_plan forward = fftw_plan_dft_r2c_2d(n, n, values.data(), bins, FFTW_MEASURE);
+  const fftw_plan inverse = fftw_plan_dft_c2r_2d(n, n, bins, values.data(), FFTW_MEASURE);
+  std::fill(values.begin(), values.end(), 0.0);
+  for (auto _ : run) {
+    fftw_execute(forward);
+    fftw_execute(inverse);
+  }
+  fftw_destroy_plan(forward);
+  fftw_destroy_plan(inverse);
+  fftw_plan_with_nthreads(1);
+}
+
+void compliance(benchmark::State& run, Boundary boundary) {
+  const auto n = static_cast<int>(run.range(0));
+  set_thread_count(static_cast<int>(run.range(1)));
+  HalfSpaceCompliance k(n, n, 1, boundary);
+  const Array<double> p = smooth_heights(n);
+  Array<double> u(p.size());
+  for (auto _ : run) k.apply(p, u);
+  run.counters["bytes"] = static_cast<double>(HalfSpaceCompliance::bytes(n, n, boundary));
+  set_thread_count(0);
+}
+
+void periodic_compliance(benchmark::State& run) { compliance(run, Boundary::periodic); }
+void free_compliance(benchmark::State& run) { compliance(run, Boundary::free); }
+
+struct FreeSet {
+  Array<double> residual;
+  Array<std::uint8_t> free;
+  explicit FreeSet(int cells) : residual(smooth_heights(cells)), free(residual.size()) {
+    Array<double> sorted = residual;
+    const auto cut = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 5 * 3);
+    std::nth_element(sorted.begin(), cut, sorted.end());
+    std::transform(residual.begin(), residual.end(), free.begin(),
+                   [cut](double height) { return static_cast<std::uint8_t>(height >= *cut); });
+  }
+};
+
+void preconditioner(benchmark::State& run) {
+  const auto n = static_cast<int>(run.range(0));
+  set_thread_count(static_cast<int>(run.range(1)));
+  ContactPreconditioner m(n, n, 1, Boundary::periodic);
+  const FreeSet set(n);
+  m.set_free(set.free);
+  Array<double> z(set.residual.size());
+  for (auto _ : run) m.apply(set.residual, z);
+  run.counters["bytes"] = static_cast<double>(ContactPreconditioner::bytes(n, n, 1, Boundary::periodic));
+  set_thread_count(0);
+}
+
+void new_free_set(benchmark::State& run) {
+  const auto n = static_cast<int>(run.range(0));
+  set_thread_count(static_cast<int>(run.range(1)));
+  ContactPreconditioner m(n, n, 1, Boundary::periodic);
+  const FreeSet set(n);
+  for (auto _ : run) m.set_free(set.free);
+  set_thread_count(0);
+}
+
+void cells_and_threads(benchmark::internal::Benchmark* bench) {
+  for (const int cells : {256, 512, 1024, 2048, 4096})
+    for (const int threads : {1, 2}) bench->Args({cells, threads});
+  bench->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+BENCHMARK(bare_pair)->Apply(cells_and_threads);
+BENCHMARK(periodic_compliance)->Apply(cells_and_threads);
+BENCHMARK(free_compliance)->Apply(cells_and_threads);
+BENCHMARK(preconditioner)->Apply(cells_and_threads);
+BENCHMARK(new_free_set)->Apply(cells_and_threads);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Approach and flattening prescribed: Hertz, consistency with the load they were found at, the limits a
+// periodic tile and a cap set, and grids of any shape.
+#include "engine/contact/elasticity/half_space/approach_solve.hpp"
+
+#include <gtest/gtest.h>
+
+#include "engine/core/error.hpp"
+#include "tests/contact/half_space_problems.hpp"
+
+namespace asperity {
+namespace {
+
+using namespace half_space_test;
+constexpr double pi = std::numbers::pi;
+
+HalfSpaceAnswer by_approach(const HalfSpaceProblem& problem, double approach) {
+  return solve_at_approach(problem, approach, Monitor::silent());
+}
+
+// Case V2.
+TEST(ApproachSolve, HertzForceFollowsTheApproach) {
+  for (const int nx : {256, 255}) {
+    const HalfSpaceProblem problem = problem_from(
+        make_grid(nx, 256, 5, 5), Boundary::free,
+        [](double x, double y) { return -((x - 2.5) * (x - 2.5) + (y - 2.5) * (y - 2.5)) / (2 * 20.0); }, 102,
+        1e-6);
+    const HalfSpaceAnswer answer = by_approach(problem, .1);
+    EXPECT_NEAR(answer.mean_pressure * 25, 19.233304448, 1e-3 * 19.233304448);
+    // 511 nodes across have none at the top of the sphere: the approach counts from the highest there is.
+    EXPECT_NEAR(answer.approach, .1, 1e-6 * .1);
+    EXPECT_NEAR(answer.peak_pressure, 4.591613212, 3e-3 * 4.591613212);
+    EXPECT_LE(answer.certificate.worst(), 1e-6);
+  }
+}
+
+TEST(ApproachSolve, IsTheInverseOfTheLoad) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+    for (const double over : {0.0, 2.0})
+      for (const double pressure : {1e-5, .003, .05}) {
+        HalfSpaceProblem problem = rough_problem(128, boundary, 1);
+        if (over > 0) problem.yield.cap = over * pressure;
+        const double approach = solve(problem, pressure).approach;
+        const HalfSpaceAnswer answer = by_approach(problem, approach);
+        EXPECT_NEAR(answer.approach, approach, 1e-8 * approach);
+        EXPECT_NEAR(answer.mean_pressure, pressure, 1e-5 * pressure) << name(boundary) << " " << over;
+        EXPECT_LE(answer.certificate.worst(), problem.tolerance);
+      }
+}
+
+TEST(ApproachSolve, WorksUnderHardening) {
+  HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 1);
+  problem.yield.cap = .05;
+  problem.yield.hardening = .05 / problem.grid.hx();
+  const double approach = solve(problem, .03).approach;
+  EXPECT_NEAR(by_approach(problem, approach).mean_pressure, .03, 1e-6);
+  // Yielding ground goes on past full contact.
+  const Range span = range(problem.heights->values());
+  EXPECT_NEAR(by_approach(problem, 2 * span.max).approach, 2 * span.max, 1e-7);
+}
+
+TEST(ApproachSolve, FirstTouchAndTinyApproaches) {
+  const HalfSpaceProblem problem = rough_problem(64, Boundary::free, 1);
+  EXPECT_EQ(by_approach(problem, 0).contacts, 0);
+  const HalfSpaceAnswer answer = by_approach(problem, 1e-6 * problem.rms);
+  EXPECT_EQ(answer.contacts, 1);
+  EXPECT_NEAR(answer.approach, 1e-6 * problem.rms, 1e-14 * problem.rms);
+  // One cell by itself, Love (1929).
+  EXPECT_NEAR(answer.peak_pressure * 1.122199704678 / 64, 1e-6 * problem.rms, 1e-12 * problem.rms);
+}
+
+TEST(ApproachSolve, SaysWhereAPeriodicTileIsFull) {
+  const HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 1);
+  const Range span = range(problem.heights->values());
+  try {
+    by_approach(problem, 1.01 * span.max);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::infeasible);
+    EXPECT_NE(error.sentence().find("full contact"), std::string::npos);
+  }
+  EXPECT_NEAR(by_approach(problem, .99 * span.max).approach, .99 * span.max, 1e-8);
+  EXPECT_THROW(by_approach(problem, -1), Error);
+  EXPECT_THROW(by_approach(problem, std::numeric_limits<double>::quiet_NaN()), Error);
+}
+
+TEST(ApproachSolve, SaysThatACapCannotGoOn) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
+    HalfSpaceProblem problem = rough_problem(32, boundary, 1, 1e-6);
+    problem.yield.cap = .01;
+    try {
+      by_approach(problem, 100 * range(problem.heights->values()).span());
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::infeasible) << error.what();
+    }
+  }
+}
+
+TEST(FlatteningSolve, PressesTheShareAskedFor) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
+    const HalfSpaceProblem problem = rough_problem(64, boundary, 2, 1e-6);
+    for (const double share : {.01, .3, .8}) {
+      const HalfSpaceAnswer answer = solve_at_flattening(problem, share, Monitor::silent());
+      EXPECT_NEAR(flattened(problem, answer), share, 1e-6 * share);
+      // h − u by its definition.
+      double low = 1e9, high = -1e9;
+      for (std::size_t k = 0; k < answer.gap.size(); ++k) {
+        low = std::min(low, -answer.gap[k] - answer.offset);
+        high = std::max(high, -answer.gap[k] - answer.offset);
+      }
+      EXPECT_NEAR(1 - (high - low) / range(problem.heights->values()).span(), share, 2e-6 * share);
+    }
+    EXPECT_EQ(solve_at_flattening(problem, 0, Monitor::silent()).contacts, 0);
+    EXPECT_THROW(solve_at_flattening(problem, 1.1, Monitor::silent()), Error);
+  }
+}
+
+TEST(FlatteningSolve, OneIsFullContactOfAPeriodicTile) {
+  const HalfSpaceProblem problem = problem_from(
+      make_grid(32, 32, 1, 1), Boundary::periodic,
+      [](double x, double y) { return .01 * std::cos(2 * pi * x) * std::cos(2 * pi * y); }, 1, 1e-6);
+  const HalfSpaceAnswer answer = solve_at_flattening(problem, 1, Monitor::silent());
+  EXPECT_NEAR(flattened(problem, answer), 1, 1e-6);
+}
+
+}  // namespace
+}  // namespace asperity
