@@ -120,6 +120,8 @@ double bare_pair(int n, int threads) {
   fftw_destroy_plan(forward);
   fftw_destroy_plan(back);
   fftw_free(data);
+  // Plans made from here on, the engine's own, are for one thread each.
+  fftw_plan_with_nthreads(1);
   return best;
 }
 
@@ -220,7 +222,7 @@ Ours ours(std::shared_ptr<const Field> h, double mean_pressure, double cap, Boun
 
 void table(const Settings& settings) {
   const bool free = settings.boundary == Boundary::free;
-  std::printf("%s boundary, complementarity %g, median of %d seeds, %d thread(s)\n",
+  std::printf("%s boundary, complementarity %g, median of %d seeds, each the best of three, %d thread(s)\n",
               free ? "free" : "periodic", tolerance, settings.seeds, thread_count());
   std::printf("%6s %6s %6s | %11s %9s | %7s %9s %9s | %9s %10s %6s\n", "n", "load", "cap", "plain its", "s",
               "pairs", "s", "ms/pair", "bare ms", "ms/pair :", "grids");
@@ -244,7 +246,10 @@ void table(const Settings& settings) {
       std::vector<int> iterations;
       for (int seed = 1; seed <= settings.seeds; ++seed) {
         const auto h = std::make_shared<const Field>(heights(n, static_cast<std::uint64_t>(seed)));
-        const Ours mine = ours(h, pressure, cap, settings.boundary);
+        // The best of three: another program may have had the processor.
+        Ours mine = ours(h, pressure, cap, settings.boundary);
+        for (int again = 0; again < 2; ++again)
+          mine.seconds = std::min(mine.seconds, ours(h, pressure, cap, settings.boundary).seconds);
         pairs.push_back(mine.pairs);
         seconds.push_back(mine.seconds);
         grids.push_back(mine.grids);
