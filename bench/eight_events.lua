@@ -13,7 +13,7 @@ local lower, upper = laboratory.specimens{ kind = "self_affine", pair = 1, cells
 local stylus = lab.stylus{ tip = "2 um", spacing = "0.25 um", length = "2 mm" }
 local bench = laboratory.bench(lower, upper)
 local book = lab.notebook "events"
-print "event  pairs   press    grids   Ra of map   Ra of traces   D - 1 of map   dents"
+print "event  pairs   press    grids   Ra of map   Ra of traces   D - 1 of map   yielded"
 for N = 1, options.events do
   if N > 1 then bench:place{ seed = N } end
   local st = bench:press(laboratory.event)
