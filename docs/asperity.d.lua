@@ -306,14 +306,14 @@ function Contact:press(options) end
 ---@return fun(): asperity.State
 function Contact:sweep(options) end
 
----Takes the load off.
+---Takes the load off. The bodies recover elastically; what yielded stays.
 function Contact:release() end
 
 ---Lifts the upper body and puts it down turned by a multiple of 90 degrees and, on a periodic tile, shifted by whole cells, as drawn from the seed; heights are never resampled.
 ---@param options asperity.options.contact.place
 function Contact:place(options) end
 
----Turns the upper body about the centre of the nodes, counter-clockwise seen from above, by a multiple of 90 degrees.
+---Turns the upper body about the centre of the nodes, counter-clockwise seen from above; turns add up. A periodic contact turns by multiples of 90 degrees only.
 ---@param angle number|string to turn by
 function Contact:rotate(angle) end
 
@@ -329,7 +329,7 @@ function Contact:copy() end
 ---@return string
 function Contact:explain() end
 
----The lower body's surface as it is now.
+---The lower body's surface as it is now, with all that yielded.
 ---@return asperity.Surface
 function Contact:lower() end
 
@@ -358,6 +358,7 @@ function Contact:close() end
 ---@field spots integer regions of contact joined by an edge
 ---@field spots8 integer regions of contact joined by an edge or a corner
 ---@field peak_pressure number greatest pressure
+---@field separation number of the mean planes of the bodies, undeformed, as they stand under this load
 ---@field mean_gap number mean over the tile of the gap where it is open
 ---@field stiffness number d pressure / d approach at this contact set
 ---@field secant_stiffness number pressure over approach
@@ -379,7 +380,7 @@ local State = {}
 ---@return number[]
 function State:spot_areas() end
 
----A field over the tile: pressure, gap, contact or displacement.
+---A field over the tile: pressure, gap, contact, displacement, or the plastic part of the approach.
 ---@param name "pressure"|"gap"|"contact"|"displacement"|"plastic" which
 ---@return asperity.Field
 function State:field(name) end
@@ -427,6 +428,71 @@ function Field:values() end
 ---@param options? asperity.options.field.picture
 ---@return string
 function Field:picture(path, options) end
+
+---@class asperity.options.stylus.scan
+---@field count? integer number of traces (integer from 1 to 100000, default 5)
+---@field seed? integer of their places and angles: the same seed goes over the same lines of a surface of that size (integer at least 0, default 1)
+
+---A stylus profiler; an immutable value.
+---@class asperity.Stylus
+---@field tip number radius of the tip
+---@field spacing number distance between samples
+---@field length number of a trace
+---@field samples integer number of samples of a trace: the whole spacings in its length
+---@field speed number of the tip; nil where only the spacing is known
+---@field rate number of the samples; nil where only the spacing is known
+---@field digest string equal styluses have equal digests
+local Stylus = {}
+
+---Traces at random places and angles, as the tip gives them: nothing is levelled or filtered. On a periodic surface they go on past the rim; on any other they stay inside. The list also holds tip_effect, what the tip changed against a needle on the same lines (Ra_ratio, rms_slope_ratio, amplitude_ratio, mean_lift, greatest_lift), and lines, where each trace begins (x, y) and its angle.
+---@param surface asperity.Surface what is measured
+---@param options? asperity.options.stylus.scan
+---@return asperity.Profile[]|table
+function Stylus:scan(surface, options) end
+
+---The whole map as the tip gives it, touching at nodes.
+---@param surface asperity.Surface what is measured
+---@return asperity.Surface
+function Stylus:dilated(surface) end
+
+---The part of the map that the tip could touch, what it cannot enter filled (dilation, then erosion, at the nodes; the closing of ISO 16610-85).
+---@param surface asperity.Surface what is measured
+---@return asperity.Surface
+function Stylus:closed(surface) end
+
+---@class asperity.options.protocol.repeated
+---@field times integer how often it is done (integer at least 1, required)
+
+---What is done to a contact, event by event; an immutable value that any number of contacts may go through. #p is the number of its events.
+---@class asperity.Protocol
+---@field count integer number of events
+---@field presses integer number of presses among them
+---@field digest string equal protocols have equal digests
+local Protocol = {}
+
+---Does one event after another to a contact, one a turn of a for loop: an event (index, total, kind, text, and pressure, load, approach, indentation, flatten, dwell, seed, angle, x, y, time where they apply, else nil) and the state of a press, nil after any other. An event that fails raises an error, and leaves the contact as it was before that event; a loop that is broken off leaves the rest undone.
+---@param contact asperity.Contact what it is done to
+---@return fun(): table, asperity.State|nil
+function Protocol:on(contact) end
+
+---All events as a list, as p:on gives them.
+---@return table[]
+function Protocol:events() end
+
+---The same events several times over, without recorded times.
+---@param options asperity.options.protocol.repeated
+---@return asperity.Protocol
+function Protocol:repeated(options) end
+
+---One protocol after another, without recorded times.
+---@param next asperity.Protocol what is done after this one
+---@return asperity.Protocol
+function Protocol:plus(next) end
+
+---Writes a press log, which lab.protocol.read reads back as this protocol: rows of turn, pressure or load, and dwell. Shifts, and presses to anything else, are an error.
+---@param path string under the run directory
+---@return string
+function Protocol:write(path) end
 
 ---A friction law of junctions.
 ---@class asperity.Law
@@ -517,11 +583,18 @@ function Notebook:chart(options) end
 ---@field density? number|string mass per volume (a density above 0)
 ---@field name? string what to call it (string)
 
+---@class asperity.options.lab.stylus
+---@field tip? number|string radius of the spherical tip; 0 is a needle that follows the surface (a length at least 0, default "2 um")
+---@field spacing? number|string distance between samples; or give `speed` and `rate` (a length above 0, default "0.25 um")
+---@field length? number|string of a trace (a length above 0, default "2 mm")
+---@field speed? number|string of the tip; spacing = speed/rate (a speed above 0)
+---@field rate? number|string of the samples; spacing = speed/rate (a frequency above 0)
+
 ---@class asperity.options.lab.contact
 ---@field lower asperity.Surface the lower body, rough side up (Surface, required)
 ---@field upper asperity.Surface|asperity.Material the upper body: a rough surface that is turned over to face down, a flat of a material, or lab.rigid (Surface|Material, required)
----@field boundary? "free"|"periodic" whether the tile goes on beyond its rim ("free"|"periodic", default "free")
----@field effects table what the scene computes, by name, e.g. { elasticity="box" }; nothing else is ({ elasticity="box"|{ model="box", stiffness= } }, required)
+---@field boundary? "free"|"periodic" whether the tile goes on beyond its rim; required for a half-space ("free"|"periodic", default "free" for boxes)
+---@field effects table what the scene computes, by name, e.g. { elasticity="box" }; nothing else is (table, required)
 ---@field accuracy? table how close a solve must come, and what if it does not (table)
 
 ---@class asperity.options.lab.friction
@@ -538,7 +611,7 @@ function Notebook:chart(options) end
 ---@field step? number|string the stage is raised in (an angle above 0, default "0.1 deg")
 ---@field limit? number|string greatest angle of the stage (an angle above 0 to 90 deg, default "90 deg")
 ---@field gravity? number|string acceleration of free fall (an acceleration above 0, default "9.81 m/s^2")
----@field probe_pressure? number|string[] at which a half-space contact is solved; a box contact is solved at its weight (a pressure[], default {"1 MPa", "3 MPa"})
+---@field probe_pressure? number|string[] at which a half-space contact is solved, each raised until enough nodes touch; a box contact is solved at its weight (a pressure[], default {"1 MPa", "3 MPa"})
 ---@field scatter? number relative standard deviation of the friction force from trial to trial (number at least 0, default 0)
 
 ---@class asperity.options.lab.ensemble
@@ -558,6 +631,11 @@ local lab = {}
 ---@param options asperity.options.lab.material
 ---@return asperity.Material
 function lab.material(options) end
+
+---A stylus profiler with a spherical tip, which rests on the surface wherever it first touches (grey-scale dilation).
+---@param options? asperity.options.lab.stylus
+---@return asperity.Stylus
+function lab.stylus(options) end
 
 ---Puts two bodies on the bench. Only the effects that are named are computed.
 ---@param options asperity.options.lab.contact
@@ -637,6 +715,17 @@ lab.units = {}
 ---@field seed? integer of the random waves (integer at least 0, default 1)
 ---@field material? asperity.Material what the body is made of (Material)
 
+---@class asperity.options.lab.surface.bead_blasted
+---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
+---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
+---@field ra number|string mean absolute height, met exactly (a length above 0, required)
+---@field bead? number|string|table diameters of the beads, uniform between the two (a length|{a length, a length} above 0, default {"250 um", "300 um"})
+---@field dent? number|string|table radii of the dents, uniform between the two (a length|{a length, a length} above 0, default {"25 um", "60 um"})
+---@field coverage? number area of all dents over that of the surface (number above 0, default 4)
+---@field fine? table|any the fine self-affine texture on top of the dents; false leaves it out (table|false, default {})
+---@field seed? integer of the dents and the texture (integer at least 0, default 1)
+---@field material? asperity.Material what the body is made of (Material)
+
 ---@class asperity.options.lab.surface.flat
 ---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
 ---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
@@ -697,6 +786,11 @@ function lab.surface.weierstrass_mandelbrot(options) end
 ---@return asperity.Surface
 function lab.surface.self_affine(options) end
 
+---A surface blasted with glass beads, as the specimens of the source paper: overlapping dents with piled-up rims, and a fine self-affine texture.
+---@param options asperity.options.lab.surface.bead_blasted
+---@return asperity.Surface
+function lab.surface.bead_blasted(options) end
+
 ---A flat surface at height 0.
 ---@param options asperity.options.lab.surface.flat
 ---@return asperity.Surface
@@ -748,5 +842,22 @@ lab.profile = {}
 ---@param options? asperity.options.lab.profile.read
 ---@return asperity.Profile
 function lab.profile.read(path, options) end
+
+---@class asperity.options.lab.protocol
+---@field press? table puts a load on, as c:press does (table)
+---@field release? boolean true: takes it off (boolean)
+---@field place? table lifts the upper body and puts it down afresh, as c:place does (table)
+---@field rotate? number|string turns the upper body by an angle, as c:rotate does (an angle)
+---@field shift? table shifts the upper body, as c:shift does (table)
+
+---Loading protocols: what is done to a contact, event by event, from tables or press logs.
+---@class asperity.lab.protocol
+---@overload fun(options: asperity.options.lab.protocol[]): asperity.Protocol
+lab.protocol = {}
+
+---A protocol from a press log, a row an event: its columns are named with units, such as time [s], pressure [MPa] or load [N], rotation [deg], dwell [min], and place for a seed. A row turns the upper body by its rotation from where it lies, then presses for its dwell; no pressure takes the load off, and so does a turn under load. Cells are parted by commas, semicolons or tabs; other columns are left out with a warning. Nothing is looked for in a recording sampled all the time: each of its rows would be a press.
+---@param path string the file
+---@return asperity.Protocol
+function lab.protocol.read(path) end
 
 return lab
