@@ -8,19 +8,16 @@ namespace asperity::lua {
 
 const std::vector<const Module*>& modules() {
   static const std::vector<const Module*> all = {
-      &lab_module(),
-      &units_module(),
-      &surface_module(),
-      &profile_module(),
-      &protocol_module(),
+      &lab_module(), &units_module(), &surface_module(), &profile_module(), &protocol_module(),
   };
   return all;
 }
 
 const std::vector<const Class*>& classes() {
   static const std::vector<const Class*> all = {
-      &material_class(), &surface_class(), &profile_class(), &contact_class(), &state_class(),
-      &field_class(),    &stylus_class(),  &protocol_class(), &law_class(),     &stage_class(),   &notebook_class(),
+      &material_class(), &surface_class(), &profile_class(),  &contact_class(),
+      &state_class(),    &field_class(),   &stylus_class(),   &protocol_class(),
+      &law_class(),      &stage_class(),   &notebook_class(),
   };
   return all;
 }

@@ -23,9 +23,8 @@ void plan_box(const BoxOptions& options, const ContactGeometry& geometry, Plan& 
     const Grid& grid = geometry.grid();
     box.reference_pressure = box.stiffness * (height > 0 ? height : std::min(grid.hx(), grid.hy()));
   } else {
-    const double modulus =
-        contact_modulus(geometry, "box elements need `young` and `poisson`", "to set their stiffness",
-                        "`stiffness` to the box elements");
+    const double modulus = contact_modulus(geometry, "box elements need `young` and `poisson`",
+                                           "to set their stiffness", "`stiffness` to the box elements");
     if (!(height > 0))
       throw Error(ErrorCode::bad_value,
                   "all combined heights are equal, so E*/peak-to-valley gives box elements no stiffness",
