@@ -2,6 +2,7 @@
 #include "bindings/lua/notebook.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/session.hpp"
@@ -92,13 +93,15 @@ Values units(Call& call) {
   if (!table.is_table())
     throw Error(ErrorCode::bad_value, "book:units was given " + table.describe(),
                 "write book:units{ Ra=\"m\", p=\"Pa\" }");
+  std::map<std::string, std::string> declared;  // in the order of the names, as for a row
   table.each([&](const Argument& key, const Argument& value) {
     if (!key.is_text() || !value.is_text())
       throw Error(ErrorCode::bad_value, "book:units met " + key.describe() + " = " + value.describe(),
                   "write book:units{ Ra=\"m\", p=\"Pa\" }");
     parse_unit(value.text());
-    call.self<Notebook>().declare_unit(key.text(), value.text());
+    declared.emplace(key.text(), value.text());
   });
+  for (const auto& [column, unit] : declared) call.self<Notebook>().declare_unit(column, unit);
   return {};
 }
 

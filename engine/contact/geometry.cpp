@@ -73,6 +73,22 @@ ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, HardnessM
                 "heights this large leave the range of a double; check the unit of the surfaces");
 }
 
+ContactGeometry::ContactGeometry(const Scene& scene, const ContactGeometry& before, HardnessMemory hardness,
+                                 const Field& yielded)
+    : ContactGeometry(before) {
+  if (pose_.on_lattice() || upper_is_flat()) {
+    *this = ContactGeometry(scene, pose_, std::move(hardness));
+    return;
+  }
+  lower_ = scene.lower;
+  upper_ = scene.upper;
+  hardness_ = std::move(hardness);
+  Field combined = before.combined();
+  for (std::size_t k = 0; k < combined.size(); ++k) combined[k] -= yielded[k];
+  range_ = range(combined.values());
+  combined_ = std::make_shared<const Field>(std::move(combined));
+}
+
 const Material* lower_material(const Surface& lower) {
   return lower.material() ? &*lower.material() : nullptr;
 }

@@ -26,6 +26,12 @@ class ContactGeometry {
   // when the sums of heights leave the range of a double.
   ContactGeometry(const Scene& scene, const Pose& pose, HardnessMemory hardness = {});
 
+  // The bodies after an event that took `yielded` from both together, still lying as in `before`. Off the
+  // lattice each body keeps its share only as well as its nodes map onto the other's; what they lost
+  // together here is kept exactly until they are moved.
+  ContactGeometry(const Scene& scene, const ContactGeometry& before, HardnessMemory hardness,
+                  const Field& yielded);
+
   const Grid& grid() const { return lower_.grid(); }
   const Surface& lower() const { return lower_; }
   const UpperBody& upper() const { return upper_; }

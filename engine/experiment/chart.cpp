@@ -176,8 +176,9 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
                              " pointsize 0.7 linecolor rgb '#80" + colour.substr(6) + " notitle");
     if (points[static_cast<std::size_t>(k)].empty()) continue;
     if (!series.y_error.empty())
-      layers.push_back("$line" + number + " using 1:2:3:4 with yerrorbars pointtype " + shape +
-                       " pointsize 0 linewidth 1.4 linecolor " + colour + " notitle");
+      layers.push_back("$line" + number +
+                       " using 1:2:3:4 with yerrorbars pointtype -1 linewidth 1.4 linecolor " + colour +
+                       " notitle");
     const std::string style = series.line ? (series.points ? "linespoints" : "lines") : "points";
     std::string layer = "$line" + number + " using 1:2 with " + style + " linecolor " + colour;
     if (series.line)

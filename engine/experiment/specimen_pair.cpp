@@ -68,10 +68,11 @@ StateCost SpecimenPair::flatten_for_good(const State& state, Monitor& monitor) {
     Scene scene = scene_;
     scene.lower = std::move(after.lower);
     scene.upper = std::move(after.upper);
-    auto geometry = std::make_shared<const ContactGeometry>(scene, geometry_->pose(), after.hardness);
+    auto geometry =
+        std::make_shared<const ContactGeometry>(scene, *geometry_, after.hardness, change->approach);
     Plan plan = make_plan(scene, *geometry);
     constexpr double noticeable = 0.05;
-    if (std::abs(after.mapped_volume - 1) > noticeable)
+    if (std::abs(after.mapped_volume - 1) > noticeable && !std::exchange(warned_of_mapping_, true))
       monitor.warn("at this angle the nodes of the bodies map " + format_short(100 * after.mapped_volume, 3) +
                    " % of the volume that yielded onto the upper body; it was scaled to all of it, so "
                    "finer cells would tell more");

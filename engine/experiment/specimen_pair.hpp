@@ -71,6 +71,7 @@ class SpecimenPair {
   std::shared_ptr<const Solver> solver_;  // none until the first press after a placement
   bool under_load_ = false;
   bool warned_of_rim_ = false;
+  bool warned_of_mapping_ = false;
 };
 
 }  // namespace asperity

@@ -42,7 +42,8 @@ TiltProbe probe(const Solver& contact, const JunctionLaw& law, double pressure, 
     if (state.contacts() < std::min(enough, nodes)) continue;
     const FrictionResult friction = law.on(state);
     const double corrected = state.corrected_area_fraction() / state.area_fraction();
-    return {pressure, state.contacts(), state.corrected_area_fraction() / state.pressure(),
+    return {pressure, state.contacts(), state.plastic_change().has_value(),
+            state.corrected_area_fraction() / state.pressure(),
             (friction.adhesive_force * corrected + friction.load_force) / state.load()};
   }
 }
@@ -103,8 +104,12 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
     const double asked = *std::max_element(options.probe_pressures.begin(), options.probe_pressures.end());
     if (raised->pressure > asked)
       add_sentence(note, "the probe pressure was raised to " +
-                             format_quantity(raised->pressure, dimension::pressure) +
-                             " until enough nodes touched");
+                             format_quantity(raised->pressure, dimension::pressure) + " until " +
+                             std::to_string(raised->contacts) + " nodes touched");
+    if (std::any_of(result.probes.begin(), result.probes.end(), [](const TiltProbe& p) { return p.yields; }))
+      add_sentence(note,
+                   "spots yield under the probe pressure, which bounds area per load by one over the "
+                   "hardness; without `plasticity` the probe is elastic");
     add_sentence(note,
                  "real area per load is taken from the probe pressures down to the weight; tau0 is an "
                  "effective, calibrated number, so only ratios of mu are predictions");

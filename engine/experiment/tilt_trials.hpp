@@ -34,6 +34,7 @@ struct TiltTrialOptions {
 struct TiltProbe {
   double pressure = 0;        // Pa
   std::int64_t contacts = 0;  // nodes
+  bool yields = false;        // some node carries the limit of the pressure
   double area_per_load = 0;   // 1/Pa, of the corrected area
   double mu = 0;              // friction over load, its adhesive part on the corrected area
 };

@@ -164,9 +164,9 @@ HalfSpaceAnswer solve_for(const HalfSpaceProblem& problem, const Prescribed& wan
   if (answer.converged || problem.best_effort) return std::move(answer);
   if (measure < wanted.target && answer.certificate.load > problem.tolerance)
     throw Error(ErrorCode::infeasible,
-                wanted.what + " is not reached: at a mean pressure of " +
-                    format_quantity(answer.mean_pressure, dimension::pressure) + " it is " +
-                    format_short(measure / wanted.target) + " of it and rises no more",
+                wanted.what + " is not reached: a mean pressure of " +
+                    format_quantity(answer.mean_pressure, dimension::pressure) + " brings " +
+                    format_short(100 * measure / wanted.target, 6) + " % of it, and no more can be had",
                 "ask for less, or press by `pressure`");
   throw Error(ErrorCode::not_converged,
               wanted.what + " was met to " + format_short(answer.certificate.load, 3) +
@@ -205,12 +205,19 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
 double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
   const Field& h = *problem.heights;
   const Field& g = answer.gap;
-  // h − u = −(g + δ).
+  const YieldLaw& law = problem.yield;
+  // h − u − w = −(g + w + δ), w what yielded.
+  const auto closed = [&](std::size_t k) {
+    const double p = answer.pressure[k];
+    if (law.hardens())
+      return g[k] + std::max(0.0, p - (law.yield ? (*law.yield)[k] : law.cap)) / law.hardening;
+    return p >= law.cap ? std::max(0.0, g[k]) : g[k];
+  };
   const auto ends = over_nodes<0, 4>(h.size(), [&](std::size_t k, double* v) {
     v[0] = h[k];
     v[1] = -h[k];
-    v[2] = g[k];
-    v[3] = -g[k];
+    v[2] = closed(k);
+    v[3] = -v[2];
   });
   const double before = -ends[1] - ends[0], after = -ends[3] - ends[2];
   return before > 0 ? 1 - after / before : 0;

@@ -34,18 +34,24 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
   const YieldLaw& law = problem.yield;
   if (law.caps() && mean_pressure >= law.cap)
     throw Error(ErrorCode::infeasible,
-                "a mean pressure of " + pascals(mean_pressure) + " cannot be carried: `hardness` allows " +
-                    pascals(law.cap) + " at every node at most",
+                "a mean pressure of " + format_short(mean_pressure, 17) +
+                    " Pa cannot be carried: `hardness` is " + pascals(law.cap) +
+                    ", and every node would have to carry as much or more",
                 "press with less than the hardness, or give `hardening`");
 }
 
+// What gaps are measured by where heights say nothing: the displacement of the tile as one punch, about.
+double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
+  return mean_pressure / problem.modulus * std::sqrt(problem.grid.area());
+}
+
 // Whether the heights say more than rounding. On a free tile a punch whose heights differ by a millionth of
-// its approach is a flat one: no pressure can be so exact as to fill its roughness to the tolerance.
+// its approach is a flat one: no pressure can be so exact as to fill its roughness to the tolerance. On a
+// periodic one that is so only where rounding alone would be seen.
 bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
   if (!(problem.rms > 0) || range(problem.heights->values()).span() == 0) return false;
-  const double side = std::max(problem.grid.size_x, problem.grid.size_y);
-  return problem.boundary == Boundary::periodic ||
-         problem.rms > 1e-6 * mean_pressure / problem.modulus * side;
+  const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
+  return problem.rms > least * punch_length(problem, mean_pressure);
 }
 
 // The scale of heights and pressures that makes the problem one of cell units.
@@ -119,7 +125,8 @@ void complete(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   Certificate& c = answer.certificate;
   c = {};
   const double total = found[0], n = static_cast<double>(p.size());
-  const double length = rough(problem, answer.mean_pressure) ? problem.rms : std::abs(answer.approach);
+  const double length =
+      rough(problem, answer.mean_pressure) ? problem.rms : punch_length(problem, answer.mean_pressure);
   if (!(total > 0)) {
     c.load = answer.mean_pressure > 0 ? 1 : 0;
   } else {
@@ -164,7 +171,9 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   answer.mean_pressure = mean_pressure;
   const double indentation = cell.offset * units.height;
   answer.offset = indentation - units.origin;
-  answer.approach = (range(problem.heights->values()).max - units.origin) + indentation;
+  answer.approach = std::isnan(cell.approach)
+                        ? (range(problem.heights->values()).max - units.origin) + indentation
+                        : cell.approach * units.height;
   answer.iterations = cell.applications;
   answer.solver = cell.stage;
   if (cell.levels > 1) answer.solver += " on " + std::to_string(cell.levels) + " nested grids";

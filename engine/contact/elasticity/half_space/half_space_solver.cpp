@@ -133,8 +133,10 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
 
  private:
   double nodes() const { return static_cast<double>(at_.pressure.size()); }
-  // The elastic displacement of both bodies: what K p gives.
-  double displacement(std::size_t k) const { return at_.gap[k] + at_.offset + (*problem_.heights)[k]; }
+  // The elastic displacement of both bodies: what K p gives. Near a light contact all terms are small.
+  double displacement(std::size_t k) const {
+    return at_.gap[k] + (at_.approach - (geometry().combined_range().max - (*problem_.heights)[k]));
+  }
   // w: what the limit on the pressure leaves open.
   double yielded(std::size_t k) const {
     const YieldLaw& law = problem_.yield;

@@ -134,6 +134,29 @@ std::vector<Step> nest(const CellProblem& problem, bool alone) {
   return steps;
 }
 
+// A pressure within rounding of a bound is at the bound: left off it, it would count as free ground, and
+// alone fix an offset that nothing else determines.
+void snap_to_bounds(double upper, std::span<double> p) {
+  constexpr double rounding = 1e-14;
+  for_nodes(p.size(), [&](std::size_t k) {
+    if (p[k] < rounding * upper)
+      p[k] = 0;
+    else if (p[k] > upper * (1 - rounding))
+      p[k] = upper;
+  });
+}
+
+// The approach of a light contact. max h + offset is then a small difference of large heights; the mean over
+// the load of u + (max h − h), the same by complementarity, is a sum of small ones. One application.
+double light_approach(ContactLevel& level, std::span<const double> p, double peak, std::span<double> u) {
+  level.apply(p, u);
+  const auto sums = over_nodes<2>(p.size(), [&](std::size_t k, double* v) {
+    v[0] = p[k];
+    v[1] = p[k] > 0 ? p[k] * (u[k] + (peak - level.height(k))) : 0.0;
+  });
+  return sums[1] / sums[0];
+}
+
 }  // namespace
 
 CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
@@ -178,8 +201,14 @@ CellAnswer nested_descent(const CellProblem& problem, std::span<const double> st
 
     const ChainEnd end = run_chain(level, fields, tolerance, finest);
     if (!end.stage.converged) level.gap(p, fields.gap);
+    if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
     const ContactQuality at = contact_quality(level, p, fields.gap);
     if (finest) {
+      constexpr double few_digits = 1e-6;  // of the rms
+      const double peak =
+          -over_nodes<0, 1>(nodes, [&](std::size_t k, double* v) { v[0] = -level.height(k); })[0];
+      if (peak + at.offset < few_digits * level.length && !std::isfinite(upper))
+        answer.approach = light_approach(level, p, peak, fields.step);
       answer.pressure = std::move(p);
       answer.gap = std::move(fields.gap);
       answer.offset = at.offset;

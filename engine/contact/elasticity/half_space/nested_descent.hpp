@@ -5,6 +5,7 @@
 // interface.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 
@@ -28,6 +29,8 @@ struct CellAnswer {
   Array<double> pressure;  // feasible, bounds exact
   Array<double> gap;       // K p − h, without offset, from an application to `pressure`
   double offset = 0;
+  // From first touch, where max h + offset has lost its digits; NaN elsewhere.
+  double approach = std::numeric_limits<double>::quiet_NaN();
   double residual = 0;
   bool converged = false;
   int applications = 0;  // on the finest grid
