@@ -22,7 +22,9 @@ ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double
 
 void ContactLevel::gap(std::span<const double> p, std::span<double> g) {
   apply(p, g);
-  for_nodes(nodes(), [&](std::size_t k) { g[k] -= height(k); });
+  for_nodes(nodes(), [to = g.data(), h = heights_.data(), origin = origin_, factor = factor_](std::size_t k) {
+    to[k] -= (h[k] - origin) * factor;
+  });
 }
 
 }  // namespace asperity

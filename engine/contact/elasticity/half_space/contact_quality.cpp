@@ -10,24 +10,40 @@ namespace asperity {
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// What one node adds to the sums and minima of measure().
 template <class Limit>
+void weigh(const Limit& limit, std::size_t k, double p, double g, double balance, double upper, double* v) {
+  const double q = limit.settle(k, p, g, balance);
+  const double opening = limit.opening(k, q), gap = g + opening;
+  bool yields = opening > 0, open = q <= 0, full = q >= upper, settles = q != p;
+  if constexpr (!Limit::hardens) {  // the same, in comparisons that do not wait for q
+    yields = false;
+    open = p <= 0;
+    full = p >= upper;
+    settles = (p < 0) | (p > upper);
+  }
+  const bool interior = !open & !full & !yields;
+  v[0] = interior ? 1.0 : 0.0;
+  v[1] = interior ? gap : 0.0;
+  v[2] = yields ? 1.0 : 0.0;
+  v[3] = yields ? gap : 0.0;
+  v[4] = q;
+  v[5] = q * gap;
+  v[6] = settles ? 1.0 : 0.0;
+  v[7] = gap;
+  v[8] = open ? gap : infinity;
+  v[9] = full ? -gap : infinity;
+}
+
+// take(k, p, g) gives the pressure and gap of a node.
+template <class Limit, class Take>
 ContactQuality measure(const ContactLevel& level, const Limit& limit, std::span<const double> p,
-                       std::span<const double> g, double balance) {
+                       std::span<const double> g, double balance, Take take) {
   const double upper = limit.upper();
-  const auto found = over_nodes<7, 3>(p.size(), [&](std::size_t k, double* v) {
-    const double q = limit.settle(k, p[k], g[k], balance);
-    const double opening = limit.opening(k, q), gap = g[k] + opening;
-    const bool inside = q > 0 && q<upper, yields = opening> 0;
-    v[0] = inside && !yields ? 1.0 : 0.0;
-    v[1] = inside && !yields ? gap : 0.0;
-    v[2] = yields ? 1.0 : 0.0;
-    v[3] = yields ? gap : 0.0;
-    v[4] = q;
-    v[5] = q * gap;
-    v[6] = q == p[k] ? 0.0 : 1.0;
-    v[7] = gap;
-    v[8] = q <= 0 ? gap : infinity;
-    v[9] = q >= upper ? -gap : infinity;
+  const auto found = over_nodes<7, 3>(p.size(), [=, limit = limit](std::size_t k, double* v) {
+    double pressure, gap;
+    take(k, pressure, gap);
+    weigh(limit, k, pressure, gap, balance, upper, v);
   });
   ContactQuality quality;
   quality.interior = found[0];
@@ -54,9 +70,9 @@ ContactQuality measure(const ContactLevel& level, const Limit& limit, std::span<
     return quality;
   }
   const double offset = quality.offset = quality.interior_gap;
-  const auto apart = over_nodes<1, 1>(p.size(), [&](std::size_t k, double* v) {
+  const auto apart = over_nodes<1, 1>(p.size(), [=, p = p.data(), g = g.data()](std::size_t k, double* v) {
     const double q = std::min(std::max(p[k], 0.0), upper), gap = g[k] - offset;
-    v[0] = gap > 0 ? q * gap : (q - upper) * gap;
+    v[0] = (gap > 0 ? q : q - upper) * gap;
     v[1] = q < upper ? gap : infinity;
   });
   quality.complementarity = apart[0] / (quality.load * level.length);
@@ -69,7 +85,24 @@ ContactQuality measure(const ContactLevel& level, const Limit& limit, std::span<
 
 ContactQuality contact_quality(const ContactLevel& level, std::span<const double> p,
                                std::span<const double> g, double balance) {
-  return std::visit([&](const auto& limit) { return measure(level, limit, p, g, balance); }, level.limit);
+  const auto take = [p = p.data(), g = g.data()](std::size_t k, double& pressure, double& gap) {
+    pressure = p[k];
+    gap = g[k];
+  };
+  return std::visit([&](const auto& limit) { return measure(level, limit, p, g, balance, take); },
+                    level.limit);
+}
+
+ContactQuality contact_quality(const ContactLevel& level, std::span<double> p, std::span<double> g,
+                               const PressureStep& step, double balance) {
+  if (step.length == 0) return contact_quality(level, p, g, balance);
+  const auto take = [p = p.data(), g = g.data(), d = step.direction.data(), image = step.image.data(),
+                     length = step.length](std::size_t k, double& pressure, double& gap) {
+    pressure = p[k] = p[k] + length * d[k];
+    gap = g[k] = g[k] + length * image[k];
+  };
+  return std::visit([&](const auto& limit) { return measure(level, limit, p, g, balance, take); },
+                    level.limit);
 }
 
 }  // namespace asperity

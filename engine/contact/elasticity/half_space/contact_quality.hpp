@@ -24,9 +24,19 @@ struct ContactQuality {
   bool within = true;       // nothing had to be settled
 };
 
+// A step still to be taken: p += length · direction, g += length · image.
+struct PressureStep {
+  double length = 0;
+  std::span<const double> direction, image;
+};
+
 // One pass over the nodes, two with a cap. g = K p − h for p as given. `balance` as in PressureLimit::settle.
 ContactQuality contact_quality(const ContactLevel& level, std::span<const double> p,
                                std::span<const double> g,
                                double balance = std::numeric_limits<double>::quiet_NaN());
+
+// The same after a step, which the pass takes on its way.
+ContactQuality contact_quality(const ContactLevel& level, std::span<double> p, std::span<double> g,
+                               const PressureStep& step, double balance);
 
 }  // namespace asperity

@@ -46,19 +46,23 @@ FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balan
   const auto sums = over_nodes<6>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
                                              free = free.data(), limit = limit](std::size_t k, double* v) {
     const double q = limit.settle(k, p[k], g[k], balance);
-    const bool inside = q > 0 && q < upper;
-    const bool enters = q <= 0 ? g[k] < offset && p[k] >= 0 : g[k] > offset && p[k] <= upper;
-    std::uint8_t kind = inside || enters ? elastic : fixed;
+    const double pressure = p[k], gap = g[k];
+    const bool inside = (q > 0) & (q < upper);
+    const bool enters =
+        ((q <= 0) & (gap < offset) & (pressure >= 0)) | ((q > 0) & (gap > offset) & (pressure <= upper));
+    std::uint8_t kind = (inside | enters) ? elastic : fixed;
     if constexpr (Limit::hardens) {
-      if (p[k] > limit.yields_at(k)) kind = q != p[k] ? settling : yielding;
+      const std::uint8_t past = q != pressure ? settling : yielding;
+      kind = pressure > limit.yields_at(k) ? past : kind;
     }
     free[k] = kind;
     v[0] = kind == elastic ? 1.0 : 0.0;
     v[1] = kind == yielding ? 1.0 : 0.0;
     v[2] = kind == settling ? 1.0 : 0.0;
     v[3] = kind == before[k] ? 0.0 : 1.0;
-    v[4] = kind == elastic ? g[k] : 0.0;
-    v[5] = kind == yielding ? g[k] + limit.opening(k, q) : 0.0;
+    const double total_gap = gap + limit.opening(k, q);
+    v[4] = kind == elastic ? gap : 0.0;
+    v[5] = kind == yielding ? total_gap : 0.0;
   });
   FreeSet set{sums[0], sums[1], sums[2], sums[4], sums[5], sums[3] != 0};
   constexpr std::size_t few = 9;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
 
@@ -21,38 +22,48 @@ struct Carried {
   double bound;     // what the moved nodes at the upper bound carry
 };
 
-Carried carried(std::span<const double> y, std::span<const std::uint8_t> where, double upper, double origin,
-                double shift) {
-  const auto sums = over_nodes<4>(y.size(), [&](std::size_t k, double* v) {
-    const bool here = where.empty() || where[k];
-    const double value = here ? y[k] - origin : y[k], x = here ? value + shift : value;
-    const bool inside = here && x > 0 && x < upper;
+// Where the shift moves a node: everywhere, or where a mark is.
+struct Everywhere {
+  bool operator()(std::size_t) const { return true; }
+};
+struct Somewhere {
+  const std::uint8_t* marks;
+  bool operator()(std::size_t k) const { return marks[k] != 0; }
+};
+
+template <class Where>
+Carried carried(std::span<const double> y, Where where, double upper, double origin, double shift) {
+  const auto sums = over_nodes<4>(y.size(), [=, y = y.data()](std::size_t k, double* v) {
+    const bool here = where(k);
+    const double value = y[k] - (here ? origin : 0.0), x = value + (here ? shift : 0.0);
+    const bool inside = here & (x > 0) & (x < upper);
     v[0] = std::min(std::max(x, 0.0), upper);
     v[1] = inside ? 1.0 : 0.0;
     v[2] = inside ? value : 0.0;
-    v[3] = here && x >= upper ? upper : 0.0;
+    v[3] = (here & (x >= upper)) ? upper : 0.0;
   });
   return {sums[0], sums[1], sums[2], sums[3]};
 }
-}  // namespace
 
-bool project_to_load(std::span<const double> y, std::span<const std::uint8_t> where, double upper,
-                     double load, std::span<double> target) {
-  const auto moved = over_nodes<2, 2>(y.size(), [&](std::size_t k, double* v) {
-    const bool here = where.empty() || where[k];
+template <class Where>
+bool project(std::span<const double> y, Where where, double upper, double load, std::span<double> target) {
+  constexpr bool all = std::is_same_v<Where, Everywhere>;
+  const auto moved = over_nodes<2, 2>(y.size(), [=, y = y.data()](std::size_t k, double* v) {
+    const bool here = where(k);
+    const double value = y[k], clipped = std::min(std::max(value, 0.0), upper);
     v[0] = here ? 1.0 : 0.0;
-    v[1] = here ? 0.0 : std::min(std::max(y[k], 0.0), upper);
-    v[2] = here ? y[k] : infinity;
-    v[3] = here ? -y[k] : infinity;
+    v[1] = here ? 0.0 : clipped;
+    v[2] = here ? value : infinity;
+    v[3] = here ? -value : infinity;
   });
   const double movable = moved[0], fixed = moved[1];
   if (movable == 0 || load < fixed || load > fixed + upper * movable) return false;
   if (load == fixed + upper * movable) {
-    if (!where.empty()) return false;
-    for_nodes(y.size(), [&](std::size_t k) { target[k] = upper; });
+    if (!all) return false;
+    std::fill(target.begin(), target.end(), upper);
     return true;
   }
-  if (!where.empty() && load == fixed) return false;
+  if (!all && load == fixed) return false;
 
   // At the one end all moved nodes are at 0, at the other all at the bound, or the least of them carries all.
   // Where the load is small beside the values, shifts are counted from the greatest: the few nodes that carry
@@ -76,11 +87,19 @@ bool project_to_load(std::span<const double> y, std::span<const std::uint8_t> wh
     if (next == shift || !(next > low && next < high)) break;
     shift = next;
   }
-  for_nodes(y.size(), [&](std::size_t k) {
-    const double x = where.empty() || where[k] ? (y[k] - origin) + best_shift : y[k];
+  for_nodes(y.size(), [=, y = y.data(), target = target.data()](std::size_t k) {
+    const bool here = where(k);
+    const double x = (y[k] - (here ? origin : 0.0)) + (here ? best_shift : 0.0);
     target[k] = std::min(std::max(x, 0.0), upper);
   });
   return true;
+}
+}  // namespace
+
+bool project_to_load(std::span<const double> y, std::span<const std::uint8_t> where, double upper,
+                     double load, std::span<double> target) {
+  if (where.empty()) return project(y, Everywhere{}, upper, load, target);
+  return project(y, Somewhere{where.data()}, upper, load, target);
 }
 
 }  // namespace asperity

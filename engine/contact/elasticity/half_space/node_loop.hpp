@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loops over the nodes of a grid in fixed blocks shared over threads, with sums and minima taken in fixed
-// lanes and blocks: the same bits for any number of threads. A term may also write to its own node, so
-// that an update and the sums over its result cost one pass over memory.
+// lanes and blocks: the same bits for any number of threads and any width of vector. A term may also write
+// to its own node, so that an update and the sums over its result cost one pass over memory. Within a
+// block nodes are taken in chunks: those of a chunk go through the term as one loop that a compiler turns
+// into vector code, and a chunk that holds no marked node can be left out. For that a body or term should
+// capture by value (a store of a byte could change what a reference reaches), read before it
+// decides, and choose between values rather than branch.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <span>
 
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
@@ -16,6 +22,7 @@
 namespace asperity {
 
 inline constexpr std::size_t nodes_a_block = 8192;
+inline constexpr std::size_t nodes_a_chunk = 64;
 inline constexpr std::size_t lanes_a_block = 8;
 
 // body(begin, end) for each block.
@@ -28,55 +35,139 @@ void for_node_blocks(std::size_t nodes, Body body) {
   });
 }
 
+namespace node_loop {
+
+// Every chunk is taken.
+struct All {
+  bool operator()(std::size_t, std::size_t) const { return true; }
+};
+
+// The chunks where some byte is not 0.
+struct Marked {
+  const std::uint8_t* marks;
+  bool operator()(std::size_t begin, std::size_t end) const {
+    if (end - begin < nodes_a_chunk) return true;
+    std::uint64_t words[nodes_a_chunk / 8], any = 0;
+    std::memcpy(words, marks + begin, sizeof words);
+    for (const std::uint64_t word : words) any |= word;
+    return any != 0;
+  }
+};
+
+template <class Take, class Body>
+void visit(std::size_t nodes, Take take, const Body& body) {
+  for_node_blocks(nodes, [&](std::size_t begin, std::size_t end) {
+    const Body own = body;
+    std::size_t k = begin;
+    for (; k + nodes_a_chunk <= end; k += nodes_a_chunk)
+      if (take(k, k + nodes_a_chunk))
+        for (std::size_t j = 0; j < nodes_a_chunk; ++j) own(k + j);
+    for (; k < end; ++k) own(k);
+  });
+}
+
+// The lanes of a block.
+template <std::size_t sums, std::size_t minima>
+struct Lanes {
+  static constexpr std::size_t size = sums + minima;
+  using Parts = std::array<double, size>;
+  double lanes[size][lanes_a_block];
+
+  static constexpr double none(std::size_t i) {
+    return i < sums ? 0.0 : std::numeric_limits<double>::infinity();
+  }
+  static double merge(std::size_t i, double into, double from) {
+    return i < sums ? into + from : (from < into ? from : into);
+  }
+  Lanes() {
+    for (std::size_t i = 0; i < size; ++i)
+      for (double& lane : lanes[i]) lane = none(i);
+  }
+  // `k` is a whole number of lanes from the beginning of the block.
+  template <class Term>
+  void take_chunk(std::size_t k, const Term& term) {
+    alignas(64) double values[size][nodes_a_chunk];
+    for (std::size_t j = 0; j < nodes_a_chunk; ++j) {
+      double v[size];
+      term(k + j, v);
+      for (std::size_t i = 0; i < size; ++i) values[i][j] = v[i];
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      double* const into = lanes[i];
+      for (std::size_t j = 0; j < nodes_a_chunk; j += lanes_a_block) {
+        const double* const from = values[i] + j;
+        if (i < sums)
+          for (std::size_t lane = 0; lane < lanes_a_block; ++lane) into[lane] += from[lane];
+        else
+          for (std::size_t lane = 0; lane < lanes_a_block; ++lane)
+            into[lane] = from[lane] < into[lane] ? from[lane] : into[lane];
+      }
+    }
+  }
+  template <class Term>
+  void take(std::size_t k, std::size_t lane, const Term& term) {
+    double v[size];
+    term(k, v);
+    for (std::size_t i = 0; i < size; ++i) lanes[i][lane] = merge(i, lanes[i][lane], v[i]);
+  }
+  Parts total() const {
+    Parts total;
+    for (std::size_t i = 0; i < size; ++i) {
+      total[i] = lanes[i][0];
+      for (std::size_t lane = 1; lane < lanes_a_block; ++lane) total[i] = merge(i, total[i], lanes[i][lane]);
+    }
+    return total;
+  }
+};
+
+template <std::size_t sums, std::size_t minima, class Take, class Term>
+std::array<double, sums + minima> gather(std::size_t nodes, Take take, const Term& term) {
+  using Block = Lanes<sums, minima>;
+  const std::size_t blocks = (nodes + nodes_a_block - 1) / nodes_a_block;
+  Array<typename Block::Parts> parts(blocks);
+  for_node_blocks(nodes, [&](std::size_t begin, std::size_t end) {
+    const Term own = term;
+    Block block;
+    std::size_t k = begin;
+    for (; k + nodes_a_chunk <= end; k += nodes_a_chunk)
+      if (take(k, k + nodes_a_chunk)) block.take_chunk(k, own);
+    for (std::size_t lane = 0; k < end; ++k, lane = (lane + 1) % lanes_a_block) block.take(k, lane, own);
+    parts[begin / nodes_a_block] = block.total();
+  });
+  typename Block::Parts total;
+  for (std::size_t i = 0; i < Block::size; ++i) {
+    total[i] = Block::none(i);
+    for (const auto& part : parts) total[i] = Block::merge(i, total[i], part[i]);
+  }
+  return total;
+}
+
+}  // namespace node_loop
+
 // body(k) for each node.
 template <class Body>
 void for_nodes(std::size_t nodes, Body body) {
-  for_node_blocks(nodes, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) body(k);
-  });
+  node_loop::visit(nodes, node_loop::All{}, body);
+}
+
+// body(k) for each node with a mark that is not 0, and for some of the others.
+template <class Body>
+void for_marked_nodes(std::span<const std::uint8_t> marks, Body body) {
+  node_loop::visit(marks.size(), node_loop::Marked{marks.data()}, body);
 }
 
 // term(k, v) sets v[0 … sums) to what node k adds to each sum, and the rest to what it offers to each
 // minimum; both are returned in that order. A minimum over nothing is +∞.
 template <std::size_t sums, std::size_t minima = 0, class Term>
 std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
-  constexpr std::size_t size = sums + minima;
-  constexpr double none = std::numeric_limits<double>::infinity();
-  using Parts = std::array<double, size>;
-  const std::size_t blocks = (nodes + nodes_a_block - 1) / nodes_a_block;
-  Array<Parts> parts(blocks);
-  auto merge = [](Parts& into, const Parts& from) {
-    for (std::size_t i = 0; i < sums; ++i) into[i] += from[i];
-    for (std::size_t i = sums; i < size; ++i) into[i] = from[i] < into[i] ? from[i] : into[i];
-  };
-  for_node_blocks(nodes, [&](std::size_t begin, std::size_t end) {
-    double lanes[size][lanes_a_block];
-    for (std::size_t i = 0; i < size; ++i)
-      for (double& lane : lanes[i]) lane = i < sums ? 0.0 : none;
-    const Term own = term;
-    auto take = [&](std::size_t k, std::size_t lane) {
-      double v[size];
-      own(k, v);
-      for (std::size_t i = 0; i < sums; ++i) lanes[i][lane] += v[i];
-      for (std::size_t i = sums; i < size; ++i)
-        lanes[i][lane] = v[i] < lanes[i][lane] ? v[i] : lanes[i][lane];
-    };
-    std::size_t k = begin;
-    for (; k + lanes_a_block <= end; k += lanes_a_block)
-      for (std::size_t lane = 0; lane < lanes_a_block; ++lane) take(k + lane, lane);
-    for (std::size_t lane = 0; k < end; ++k, ++lane) take(k, lane);
-    Parts& part = parts[begin / nodes_a_block];
-    for (std::size_t i = 0; i < size; ++i) part[i] = lanes[i][0];
-    for (std::size_t lane = 1; lane < lanes_a_block; ++lane) {
-      Parts other;
-      for (std::size_t i = 0; i < size; ++i) other[i] = lanes[i][lane];
-      merge(part, other);
-    }
-  });
-  Parts total;
-  for (std::size_t i = 0; i < size; ++i) total[i] = i < sums ? 0.0 : none;
-  for (const Parts& part : parts) merge(total, part);
-  return total;
+  return node_loop::gather<sums, minima>(nodes, node_loop::All{}, term);
+}
+
+// Sums over the nodes with a mark that is not 0. `term` is also called for some of the others, for which it
+// must give 0.
+template <std::size_t sums, class Term>
+std::array<double, sums> over_marked_nodes(std::span<const std::uint8_t> marks, Term term) {
+  return node_loop::gather<sums, 0>(marks.size(), node_loop::Marked{marks.data()}, term);
 }
 
 }  // namespace asperity

@@ -23,7 +23,10 @@ struct PressureCap {
   double opening(std::size_t, double) const { return 0; }
   double yielding_slope() const { return 0; }
   // p without overshoot; g is the gap without w, `balance` the gap of the nodes in contact (NaN: unknown).
-  double settle(std::size_t, double p, double, double) const { return std::min(std::max(p, 0.0), cap); }
+  double settle(std::size_t, double p, double, double) const {
+    const double positive = p > 0 ? p : 0.0;
+    return p < cap ? positive : cap;
+  }
 };
 
 struct LinearHardening {

@@ -23,6 +23,40 @@ constexpr int slow_passes = 2;
 constexpr double jump = 10;  // a pass whose residual is so many times the one before has gone back
 constexpr int jumps_in_a_cycle = 2;
 
+// The fields by plain pointers and the law by value: what the loops over the nodes take along.
+template <class Limit>
+struct Nodes {
+  double *pressure, *gap, *step, *direction, *residual;
+  std::uint8_t* free;
+  Limit limit;
+  double balance;
+
+  double settled(std::size_t k) const { return limit.settle(k, pressure[k], gap[k], balance); }
+  // The gap of a free node with the opening it would have if it went on yielding, or not, as marked.
+  double total_gap(std::size_t k) const {
+    const double elastic_gap = gap[k];
+    if constexpr (Limit::hardens) {
+      const double opening = limit.compliance * (pressure[k] - limit.yields_at(k));
+      return elastic_gap + (free[k] == yielding ? opening : 0.0);
+    } else {
+      return elastic_gap;
+    }
+  }
+  bool moves(std::size_t k) const {
+    if constexpr (Limit::hardens)
+      return free[k] == elastic || free[k] == yielding;
+    else
+      return free[k] != fixed;
+  }
+  // Whether pressure q, settled, belongs to the elastic interior, which is shifted to the load.
+  bool shifts(std::size_t k, [[maybe_unused]] double q, [[maybe_unused]] bool any_interior) const {
+    if constexpr (Limit::hardens)
+      return q > 0 && (q < limit.yields_at(k) || !any_interior);
+    else  // the same of the pressure as of q, without waiting for it
+      return (pressure[k] > 0) & (pressure[k] < limit.upper());
+  }
+};
+
 template <class Limit>
 class Descent {
  public:
@@ -38,27 +72,15 @@ class Descent {
 
  private:
   std::size_t nodes() const { return f_.pressure.size(); }
-  double settled(std::size_t k) const { return limit_.settle(k, f_.pressure[k], f_.gap[k], balance_); }
-  // The gap of a free node with the opening it would have if it went on yielding, or not, as marked.
-  double total_gap(std::size_t k) const {
-    if constexpr (Limit::hardens)
-      return f_.free[k] == yielding ? f_.gap[k] + limit_.compliance * (f_.pressure[k] - limit_.yields_at(k))
-                                    : f_.gap[k];
-    else
-      return f_.gap[k];
+  Nodes<Limit> view() {
+    return {f_.pressure.data(), f_.gap.data(),  f_.step.data(), f_.direction.data(),
+            f_.residual.data(), f_.free.data(), limit_,         balance_};
   }
-  bool moves(std::size_t k) const { return f_.free[k] == elastic || f_.free[k] == yielding; }
-
+  ContactQuality quality();
   // What the pressures lack of feasible ones: each settled, those of the elastic interior shifted to the
   // load.
-  bool shifts(std::size_t k, double q, const ContactQuality& at) const {
-    if constexpr (Limit::hardens)
-      return q > 0 && (q < limit_.yields_at(k) || at.interior == 0);
-    else
-      return q > 0 && q < limit_.upper();
-  }
   void project(const ContactQuality& at, Array<double>& target);
-  std::optional<double> shift_to_load(const ContactQuality& at) const;
+  std::optional<double> shift_to_load(const ContactQuality& at);
   // Feasible pressures and their gap.
   void renew(const ContactQuality& at) {
     project(at, f_.pressure);
@@ -66,12 +88,8 @@ class Descent {
     fresh_ = true;
     balance_ = std::numeric_limits<double>::quiet_NaN();
   }
-  double residual_norm();
+  double form_residual();
   double precondition();
-  // M r with the load kept, after precondition().
-  double preconditioned(std::size_t k) const {
-    return f_.free[k] == set_.balancing() ? f_.residual[k] - surplus_ : f_.residual[k];
-  }
   void settle_step(const ContactQuality& at);
   bool descend(int steps);
 
@@ -85,27 +103,37 @@ class Descent {
   double mean_gap_ = 0;  // of the balancing nodes
   double surplus_ = 0;   // of load in `residual`, a balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
+  double untaken_ = 0;  // length along `direction` that the pressures and gaps have yet to go
   bool fresh_ = false;
   bool have_direction_ = false;
   double direction_rz_ = 0;
 };
+
+// Takes the last step on the way.
+template <class Limit>
+ContactQuality Descent<Limit>::quality() {
+  const PressureStep step{untaken_, f_.direction, f_.step};
+  untaken_ = 0;
+  return contact_quality(level_, f_.pressure, f_.gap, step, balance_);
+}
 
 // target = the settled pressures, those of the elastic interior shifted to the load; where it cannot carry
 // the load all nodes move, in the order of their gaps.
 template <class Limit>
 void Descent<Limit>::project(const ContactQuality& at, Array<double>& target) {
   const double upper = limit_.upper();
-  for_nodes(nodes(), [&](std::size_t k) {
-    const double q = settled(k);
-    f_.free[k] = shifts(k, q, at) ? 1 : 0;
-    target[k] = q;
+  const bool any_interior = at.interior > 0;
+  for_nodes(nodes(), [n = view(), to = target.data(), any_interior](std::size_t k) {
+    const double q = n.settled(k);
+    n.free[k] = n.shifts(k, q, any_interior) ? 1 : 0;
+    to[k] = q;
   });
   if (project_to_load(target, f_.free, upper, level_.total_load(), target)) return;
-  for_nodes(nodes(), [&](std::size_t k) {
-    const double q = target[k], apart = f_.gap[k] + limit_.opening(k, q) - at.interior_gap;
-    double stiffness = level_.short_wave_stiffness;
-    if (limit_.opening(k, q) > 0) stiffness /= 1 + stiffness * limit_.yielding_slope();
-    target[k] = q - stiffness * apart;
+  const double elastic_stiffness = level_.short_wave_stiffness;
+  const double yielding_stiffness = elastic_stiffness / (1 + elastic_stiffness * limit_.yielding_slope());
+  for_nodes(nodes(), [=, n = view(), to = target.data(), middle = at.interior_gap](std::size_t k) {
+    const double q = to[k], opening = n.limit.opening(k, q), apart = n.gap[k] + opening - middle;
+    to[k] = q - (opening > 0 ? yielding_stiffness : elastic_stiffness) * apart;
   });
   project_to_load(target, {}, upper, level_.total_load(), target);
 }
@@ -113,41 +141,44 @@ void Descent<Limit>::project(const ContactQuality& at, Array<double>& target) {
 // The shift of project(), two Newton steps from none: what it misses of the load the next pass makes good.
 // Nothing where that is not small.
 template <class Limit>
-std::optional<double> Descent<Limit>::shift_to_load(const ContactQuality& at) const {
+std::optional<double> Descent<Limit>::shift_to_load(const ContactQuality& at) {
   const double load = level_.total_load(), upper = limit_.upper();
   if (at.interior == 0) return {};
   const double first = (load - at.load) / at.interior;
-  const auto found = over_nodes<2>(nodes(), [&](std::size_t k, double* v) {
-    const double q = settled(k);
-    const bool here = shifts(k, q, at);
-    const double x = here ? q + first : q;
-    v[0] = std::min(std::max(x, 0.0), upper);
-    v[1] = here && x > 0 && x < upper ? 1.0 : 0.0;
+  const auto found = over_nodes<2>(nodes(), [=, n = view()](std::size_t k, double* v) {
+    const double q = n.settled(k);
+    const bool here = n.shifts(k, q, true);
+    const double x = q + (here ? first : 0.0);
+    const bool above = x > 0, below = x < upper;
+    const double positive = above ? x : 0.0;
+    v[0] = below ? positive : upper;
+    v[1] = (here & above & below) ? 1.0 : 0.0;
   });
   if (!(std::abs(found[0] - load) < 0.01 * load) || found[1] == 0) return {};
   return first - (found[0] - load) / found[1];
 }
 
-// The norm of the residual over the free nodes.
+// residual = what the gaps of the free nodes lack of their mean; off them it means nothing. Returns its norm.
 template <class Limit>
-double Descent<Limit>::residual_norm() {
-  const auto squares = over_nodes<1>(nodes(), [&](std::size_t k, double* v) {
-    const double r = moves(k) ? total_gap(k) - mean_gap_ : 0.0;
-    v[0] = r * r;
-  });
+double Descent<Limit>::form_residual() {
+  const auto squares =
+      over_marked_nodes<1>(f_.free, [n = view(), mean = mean_gap_](std::size_t k, double* v) {
+        const double all = mean - n.total_gap(k), r = n.moves(k) ? all : 0.0;
+        n.residual[k] = r;
+        v[0] = r * r;
+      });
   return std::sqrt(squares[0]);
 }
 
-// residual = M r, the load not yet kept; returns r·(M r with the load kept).
+// From the residual: residual = M r, the load not yet kept, 0 off the free nodes; returns r·(M r with the
+// load kept).
 template <class Limit>
 double Descent<Limit>::precondition() {
-  Array<double>& z = f_.residual;
-  for_nodes(nodes(), [&](std::size_t k) { z[k] = moves(k) ? mean_gap_ - total_gap(k) : 0.0; });
-  preconditioner_.apply(f_.free, z);
-  const auto sums = over_nodes<2>(nodes(), [&](std::size_t k, double* v) {
-    const double here = moves(k) ? z[k] : 0.0;
+  preconditioner_.apply(f_.free, f_.residual);
+  const auto sums = over_marked_nodes<2>(f_.free, [n = view(), mean = mean_gap_](std::size_t k, double* v) {
+    const double all = n.residual[k], r = mean - n.total_gap(k), here = n.moves(k) ? all : 0.0;
     v[0] = here;
-    v[1] = here * (mean_gap_ - total_gap(k));
+    v[1] = here * r;
   });
   surplus_ = sums[0] / set_.balancing_count();
   return sums[1];
@@ -162,19 +193,24 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
     project(at, f_.step);
     std::swap(f_.free, f_.old_free);
   }
+  form_residual();
   precondition();
-  const double upper = limit_.upper();
-  for_nodes(nodes(), [&](std::size_t k) {
-    double x = f_.step[k];
-    if (shift) {
-      const double q = settled(k);
-      x = shifts(k, q, at) ? std::min(std::max(q + *shift, 0.0), upper) : q;
-    }
-    x -= f_.pressure[k];
-    if (moves(k)) x += richardson_step * preconditioned(k);
-    f_.step[k] = x;
-    f_.pressure[k] += x;
-  });
+  const Freedom balancing = set_.balancing();
+  const auto advance = [=, n = view(), surplus = surplus_](std::size_t k, double target) {
+    const double p = n.pressure[k], z = n.residual[k] - (n.free[k] == balancing ? surplus : 0.0);
+    const double descent = richardson_step * z, x = (target - p) + (n.moves(k) ? descent : 0.0);
+    n.step[k] = x;
+    n.pressure[k] = p + x;
+  };
+  if (shift) {
+    for_nodes(nodes(), [=, n = view(), by = *shift, upper = limit_.upper()](std::size_t k) {
+      const double q = n.settled(k), moved = q + by, positive = moved > 0 ? moved : 0.0;
+      const double shifted = moved < upper ? positive : upper;
+      advance(k, n.shifts(k, q, true) ? shifted : q);
+    });
+  } else {
+    for_nodes(nodes(), [=, n = view()](std::size_t k) { advance(k, n.step[k]); });
+  }
   level_.apply(f_.step, f_.step);
   if (set_.settling_count > 0) {
     for (std::uint8_t& kind : f_.free)
@@ -183,10 +219,11 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
     set_.settling_count = 0;
     preconditioner_.set_free(f_.free);
   }
-  const Freedom balancing = set_.balancing();
-  const auto sums = over_nodes<1>(nodes(), [&](std::size_t k, double* v) {
-    f_.gap[k] += f_.step[k];
-    v[0] = f_.free[k] == balancing ? total_gap(k) : 0.0;
+  const Freedom balances = set_.balancing();
+  const auto sums = over_nodes<1>(nodes(), [n = view(), balances](std::size_t k, double* v) {
+    n.gap[k] += n.step[k];
+    const double gap = n.total_gap(k);
+    v[0] = n.free[k] == balances ? gap : 0.0;
   });
   mean_gap_ = sums[0] / set_.balancing_count();
 }
@@ -195,35 +232,48 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
 template <class Limit>
 bool Descent<Limit>::descend(int steps) {
   const Freedom balancing = set_.balancing();
-  // A pass that begins with conjugate gradients ends when it has gained enough for this free set.
-  const double start = steps == 0 ? residual_norm() : 0;
+  double start = 0;
   while (steps < steps_a_pass) {
+    const double norm = form_residual();
+    // A pass that begins with conjugate gradients ends when it has gained enough for this free set.
+    if (steps == 0)
+      start = norm;
+    else if (norm < enough_reduction * start)
+      break;
     const double rz = precondition();
     const double keep = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
     direction_rz_ = rz;
-    for_nodes(nodes(), [&](std::size_t k) {
-      const double old = keep != 0 ? keep * f_.direction[k] : 0.0;
-      f_.direction[k] = moves(k) ? preconditioned(k) + old : 0.0;
-    });
+    const auto turn = [=, n = view(), surplus = surplus_](std::size_t k) {
+      const double z = n.residual[k] - (n.free[k] == balancing ? surplus : 0.0);
+      const double old = n.direction[k], next = z + (keep != 0 ? keep * old : 0.0);
+      n.direction[k] = n.moves(k) ? next : 0.0;
+    };
+    // An old direction is of the same free set, and 0 off it.
+    have_direction_ ? for_marked_nodes(f_.free, turn) : for_nodes(nodes(), turn);
     have_direction_ = true;
     level_.apply(f_.direction, f_.step);
-    const auto curvature = over_nodes<1>(nodes(), [&](std::size_t k, double* v) {
-      const double d = f_.direction[k];
-      v[0] = d * (f_.step[k] + (f_.free[k] == yielding ? limit_.yielding_slope() * d : 0.0));
+    const double slope = limit_.yielding_slope();
+    const auto sums = over_marked_nodes<2>(f_.free, [=, n = view()](std::size_t k, double* v) {
+      const double d = n.direction[k];
+      double image = n.step[k];
+      if constexpr (Limit::hardens) image += n.free[k] == yielding ? slope * d : 0.0;
+      v[0] = d * image;
+      v[1] = n.free[k] == balancing ? image : 0.0;
     });
-    if (!(curvature[0] > 0) || !(rz > 0)) {
+    if (!(sums[0] > 0) || !(rz > 0)) {
       have_direction_ = false;
       break;
     }
-    const double length = rz / curvature[0];
-    const auto sums = over_nodes<1>(nodes(), [&](std::size_t k, double* v) {
-      f_.pressure[k] += length * f_.direction[k];
-      f_.gap[k] += length * f_.step[k];
-      v[0] = f_.free[k] == balancing ? total_gap(k) : 0.0;
-    });
-    mean_gap_ = sums[0] / set_.balancing_count();
-    ++steps;
-    if (steps < steps_a_pass && residual_norm() < enough_reduction * start) break;
+    const double length = rz / sums[0];
+    mean_gap_ += length * (sums[1] / set_.balancing_count());
+    if (++steps == steps_a_pass) {
+      untaken_ = length;  // until the pressures and gaps are read again
+    } else {
+      for_nodes(nodes(), [=, n = view()](std::size_t k) {
+        n.pressure[k] += length * n.direction[k];
+        n.gap[k] += length * n.step[k];
+      });
+    }
   }
   return steps > 0;
 }
@@ -239,7 +289,7 @@ StageEnd Descent<Limit>::run() {
   bool have_old = false;
   f_.old_free.assign(nodes(), 255);
   for (;;) {
-    ContactQuality at = contact_quality(level_, f_.pressure, f_.gap, balance_);
+    ContactQuality at = quality();
     end.residual = at.residual;
     if (level_.report) level_.report(at.residual);
     if (at.residual < tolerance_) {
@@ -267,13 +317,13 @@ StageEnd Descent<Limit>::run() {
       return end;
     }
     if ((slow_ones >= slow_passes || jumps >= jumps_in_a_cycle) && have_old) {
-      for_nodes(nodes(), [&](std::size_t k) {
-        f_.pressure[k] = 0.5 * (f_.pressure[k] + f_.old_pressure[k]);
-        f_.gap[k] = 0.5 * (f_.gap[k] + f_.old_gap[k]);
+      for_nodes(nodes(), [n = view(), p = f_.old_pressure.data(), g = f_.old_gap.data()](std::size_t k) {
+        n.pressure[k] = 0.5 * (n.pressure[k] + p[k]);
+        n.gap[k] = 0.5 * (n.gap[k] + g[k]);
       });
       have_direction_ = have_old = fresh_ = false;
       slow_ones = jumps = 0;
-      at = contact_quality(level_, f_.pressure, f_.gap, balance_);
+      at = quality();
     } else if ((have_old = slow_ones + 1 >= slow_passes || jumps + 1 >= jumps_in_a_cycle)) {
       f_.old_pressure = f_.pressure;
       f_.old_gap = f_.gap;
