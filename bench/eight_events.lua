@@ -9,7 +9,7 @@ local laboratory = require "asperity.laboratory"
 local options = require "asperity.arguments"({ cells = 1024, events = 8 }, ...)
 
 local begun = os.time()
-local lower, upper = laboratory.specimens{ kind = "self_affine", pair = 1, cells = options.cells }
+local lower, upper = laboratory.specimens{ kind = "self-affine", pair = 1, cells = options.cells }
 local stylus = lab.stylus{ tip = "2 um", spacing = "0.25 um", length = "2 mm" }
 local bench = laboratory.bench(lower, upper)
 local book = lab.notebook "events"

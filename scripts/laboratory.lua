@@ -6,31 +6,35 @@
 local lab = require "asperity"
 local laboratory = {}
 
--- The paper's nominal stresses for ten minutes, and the one it repeated up to eight times.
+-- The paper's nominal stresses, and the one it repeated up to eight times. It pressed for ten minutes, which
+-- is the time that hardness is given for: no creep is named, and no dwell.
 local MPa = lab.units.MPa
 laboratory.stresses = { 20.37 * MPa, 40.74 * MPa, 61.11 * MPa, 101.86 * MPa, 152.78 * MPa, 203.72 * MPa }
-laboratory.event = { pressure = 152.78 * MPa, dwell = "10 min" }
-laboratory.kinds = { "self_affine", "bead_blasted" }
-laboratory.names = { self_affine = "self-affine", bead_blasted = "bead-blasted" }
-laboratory.tile = 1000 * lab.units.um
+laboratory.event = { pressure = 152.78 * MPa }
+
+laboratory.kinds = { "self-affine", "bead-blasted" }
 laboratory.probe = "3 MPa" -- on quartz: enough nodes touch, and area still grows in proportion to load
 
--- Two specimens of a kind; pair k has seeds of its own. A grid of 256 cells leaves its shortest wave four
--- cells, too few to resolve it: ratios hold, absolute areas need finer cells.
-function laboratory.specimens(given)
-  local function specimen(seed)
-    local options = {
-      cells = given.cells or 256, size = laboratory.tile, ra = "3 um", seed = seed,
-      material = lab.material "Al-2011",
-    }
-    if given.kind == "bead_blasted" then
-      options.fine = { short_wave = "16 um" }
-      return lab.surface.bead_blasted(options)
-    end
+-- A tile of one millimetre with Ra = 3 um. A grid of 256 cells leaves the shortest wave four cells, too few
+-- to resolve it: ratios hold, absolute areas need finer cells.
+local function specimen(kind, cells, seed)
+  local options = {
+    cells = cells or 256, size = "1 mm", ra = "3 um", seed = seed, material = lab.material "Al-2011",
+  }
+  if kind == "self-affine" then
     options.hurst, options.roll_off, options.short_wave = 0.8, "250 um", "16 um"
     return lab.surface.self_affine(options)
+  elseif kind == "bead-blasted" then
+    options.fine = { short_wave = "16 um" }
+    return lab.surface.bead_blasted(options)
   end
-  return specimen(2 * given.pair - 1), specimen(2 * given.pair)
+  error(("`kind` is `%s`; give self-affine or bead-blasted"):format(kind), 0)
+end
+
+-- Two specimens, lower and upper, of a kind; pair k has seeds of its own.
+function laboratory.specimens(given)
+  local kind, cells, seed = given.kind, given.cells, 2 * given.pair
+  return specimen(kind, cells, seed - 1), specimen(kind, cells, seed)
 end
 
 -- Both on the bench: elastic half-spaces whose pressure is capped by hardness. Off its axis a disc that is
@@ -39,11 +43,10 @@ function laboratory.bench(lower, upper)
   return lab.contact{
     lower = lower, upper = upper, boundary = "periodic",
     effects = { elasticity = "half_space", plasticity = {} },
-    accuracy = { tolerance = 1e-6 },
   }
 end
 
--- The specimen on flat quartz, touched elastically; with a `hardness` its spots yield as well.
+-- The specimen on flat quartz, touched elastically; with a `hardness` (Pa) its spots yield as well.
 function laboratory.on_quartz(specimen, hardness)
   return lab.contact{
     lower = specimen, upper = lab.material "quartz", boundary = "periodic",
@@ -51,50 +54,49 @@ function laboratory.on_quartz(specimen, hardness)
   }
 end
 
--- 24 spacings in equal ratios from one cell to a quarter of a millimetre, rounded to whole cells.
-local function steps_for(surface)
-  local h = surface.size[1] / surface.cells[1]
-  local longest, steps = 250 * lab.units.um / h, {}
+-- Profile length over the whole area, along both directions, at 24 steps in equal ratios from one cell to a
+-- quarter of a millimetre, rounded to whole cells.
+local function by_length(surface)
+  local longest, steps = 250 * lab.units.um / (surface.size[1] / surface.cells[1]), {}
   for k = 0, 23 do
     local step = math.floor(longest ^ (k / 23) + 0.5)
     if step ~= steps[#steps] then steps[#steps + 1] = step end
   end
-  return steps
+  return surface:fractal_dimension{
+    method = "length", along = "both", wrap = true, offsets = true, pooled = true, steps = steps,
+  }
 end
 
--- Profile length against resolution: L/L0 - 1 at every step, and the steps in metres.
+-- D - 1 by the paper's profile length (eq. 3).
+function laboratory.excess(surface) return by_length(surface).D - 1 end
+
+-- Profile length against resolution: the steps in metres, and at each by what share the profiles are longer
+-- than straight lines, L/L0 - 1.
 function laboratory.lengths(surface)
-  local d = surface:fractal_dimension{
-    method = "length", along = "both", wrap = true, offsets = true, pooled = true, steps = steps_for(surface),
-  }
-  local h, steps, stretch = surface.size[1] / surface.cells[1], {}, {}
-  for k, step in ipairs(d.steps) do steps[k], stretch[k] = step * h, d.lengths[k] - 1 end
+  local found, h, steps, stretch = by_length(surface), surface.size[1] / surface.cells[1], {}, {}
+  for k, step in ipairs(found.steps) do steps[k], stretch[k] = step * h, found.lengths[k] - 1 end
   return steps, stretch
 end
 
--- D - 1 by the paper's profile length (eq. 3), over the whole area and both directions.
-function laboratory.excess(surface)
-  return surface:fractal_dimension{
-    method = "length", along = "both", wrap = true, offsets = true, pooled = true, steps = steps_for(surface),
-  }.D - 1
-end
-
--- Real area over load on quartz, 1/Pa, corrected for the outlines of its spots.
+-- Real area over load on quartz (1/Pa), corrected for the outlines of its spots.
 function laboratory.area_per_load(surface, hardness)
   local st = laboratory.on_quartz(surface, hardness):press{ pressure = laboratory.probe }
   return st.corrected_area_fraction / st.pressure
 end
 
--- Ra and amplitude as the paper read them: the mean of five traces of 2 mm by a tip of 2 um, a sample every
--- quarter of a micrometre, each levelled. The same seed goes over the same lines of every specimen.
-function laboratory.traced(surface, seed)
+-- Ra and amplitude (m) over the whole map, and as the paper read them: the mean of five traces of 2 mm by a
+-- tip of 2 um, a sample every quarter of a micrometre, each levelled. The same seed goes over the same
+-- lines of every specimen.
+function laboratory.roughness(surface, seed)
   local stylus = lab.stylus{ tip = "2 um", length = "2 mm", speed = "50 um/s", rate = "200 Hz" }
-  local traces, Ra, amplitude = stylus:scan(surface, { count = 5, seed = seed }), 0, 0
+  local map, traces = surface:roughness(), stylus:scan(surface, { count = 5, seed = seed })
+  local row = { Ra = map.Ra, amplitude = map.amplitude, traced_Ra = 0, traced_amplitude = 0 }
   for _, trace in ipairs(traces) do
-    local roughness = trace:levelled():roughness()
-    Ra, amplitude = Ra + roughness.Ra / #traces, amplitude + roughness.amplitude / #traces
+    local along = trace:levelled():roughness()
+    row.traced_Ra = row.traced_Ra + along.Ra / #traces
+    row.traced_amplitude = row.traced_amplitude + along.amplitude / #traces
   end
-  return Ra, amplitude
+  return row
 end
 
 -- The lower specimen after one event at each stress, every one from the same virgin pair.
@@ -102,15 +104,15 @@ function laboratory.after_stress(lower, upper)
   local found = {}
   for k, stress in ipairs(laboratory.stresses) do
     local bench = laboratory.bench(lower, upper)
-    bench:press{ pressure = stress, dwell = "10 min" }
+    bench:press{ pressure = stress }
     bench:release()
     found[k] = bench:lower()
   end
   return found
 end
 
--- The lower specimen after each of N events, put down afresh before all but the first; with
--- `turning = false`, always as it lay.
+-- The lower specimen after each of `events` (8) at 152.78 MPa, put down afresh from a `seed` before all but
+-- the first; with `turning = false`, always as it lay.
 function laboratory.after_events(lower, upper, given)
   local bench, found = laboratory.bench(lower, upper), {}
   for N = 1, given.events or 8 do
@@ -124,15 +126,16 @@ end
 
 -- Controls, which must not show what the paper found.
 
--- The lower face cut by one plane that takes as much as its share of what yielded node by node.
+-- The lower face cut by one plane that takes as much volume as `stress` (Pa) would node by node.
 function laboratory.cut_to_a_plane(lower, upper, stress)
-  local st = laboratory.bench(lower, upper):press{ pressure = stress, dwell = "10 min" }
+  local st = laboratory.bench(lower, upper):press{ pressure = stress }
   local taken = st.plastic_volume / 2 / (lower.size[1] * lower.size[2]) -- a mean height
   local mean = lower:roughness().mean
   local less, more = 0, 1 -- shares of the amplitude
   for _ = 1, 30 do
     local middle = (less + more) / 2
-    if mean - lower:cut{ fraction = middle }:roughness().mean < taken then less = middle else more = middle end
+    local cut = mean - lower:cut{ fraction = middle }:roughness().mean
+    if cut < taken then less = middle else more = middle end
   end
   return lower:cut{ fraction = more }
 end
@@ -161,6 +164,26 @@ function laboratory.average(numbers)
   local mean = sum / #numbers
   for _, x in ipairs(numbers) do squares = squares + (x - mean) ^ 2 end
   return mean, #numbers > 1 and math.sqrt(squares / (#numbers - 1)) or 0
+end
+
+-- What is left of every number of the first row in the last: last / first, column by column.
+function laboratory.left(rows)
+  local first, last, ratios = rows[1], rows[#rows], {}
+  for column, number in pairs(first) do ratios[column] = last[column] / number end
+  return ratios
+end
+
+-- A column of a row of `paper.means`, as text: the mean, and its scatter over specimens where there is one.
+function laboratory.with_scatter(row, column)
+  local scatter = row[column .. "_sd"]
+  return ("%.3f"):format(row[column]) .. (scatter and (" +- %.3f"):format(scatter) or "")
+end
+
+-- A line of a printed table: a name, then a column of every row, in a unit and with so many decimals.
+function laboratory.across(name, rows, column, unit, decimals)
+  local text = { ("  %-21s"):format(name) }
+  for _, row in ipairs(rows) do text[#text + 1] = ("%8." .. decimals .. "f"):format(row[column] / unit) end
+  return table.concat(text)
 end
 
 -- The least-squares line y = intercept + slope x, and the share r2 of the variance of y that it explains.

@@ -55,7 +55,8 @@ function paper.where(rows, wanted)
 end
 
 -- One row for each combination of the columns `keys`, in order of first appearance: the mean of every
--- other column of numbers but the seed, and beside it, as NAME_sd, the standard deviation (n - 1).
+-- other column of numbers but what names a specimen, `seed` or `pair`, and beside it, as NAME_sd, the
+-- standard deviation (n - 1).
 function paper.means(rows, keys)
   local groups, order, is_key = {}, {}, {}
   for _, key in ipairs(keys) do is_key[key] = true end
@@ -75,7 +76,7 @@ function paper.means(rows, keys)
     for column, value in pairs(group[1]) do
       if is_key[column] then
         mean[column] = value
-      elseif math.type(value) and column ~= "seed" then
+      elseif math.type(value) and column ~= "seed" and column ~= "pair" then
         local sum, squares = 0, 0
         for _, row in ipairs(group) do sum = sum + row[column] end
         local centre = sum / #group
