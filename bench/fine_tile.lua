@@ -18,7 +18,7 @@ local c = lab.contact{
   effects = { elasticity = "half_space", plasticity = {} },
 }
 print(c:explain())
-local st = c:press{ pressure = "152.78 MPa", dwell = "10 min" }
+local st = c:press{ pressure = "152.78 MPa" }
 print(st)
 print(("%d cells: %.0f s, %.0f pairs of transforms, %.1f GiB above the surfaces at the peak"):format(
   options.cells, st.cost.seconds, st.cost.transforms / 2, st.cost.bytes / 2 ^ 30))

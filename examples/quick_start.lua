@@ -12,7 +12,7 @@ local function disc(seed)
   return lab.surface.bead_blasted{ cells=256, size="1 mm", ra="3 um", seed=seed, material=aluminium }
 end
 local pair = lab.contact{ lower=disc(1), upper=disc(2), boundary="periodic",
-                          effects={ elasticity="half_space", plasticity={} } }
+                          effects={ elasticity="half_space", plasticity={}, creep={} } }
 local law, book = lab.friction{ tau0="500 MPa", alpha=0.2 }, lab.notebook "events"
 for N = 1, 8 do
   pair:place{ seed=N }

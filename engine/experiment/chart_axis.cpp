@@ -49,22 +49,29 @@ Scale scale_for(std::string_view unit, double largest, bool logarithmic) {
   return {printed_unit(unit), 1};
 }
 
+std::string with_minus_sign(std::string label) {
+  if (label.starts_with('-')) label.replace(0, 1, "−");
+  return label;
+}
+
 // `value` with the digits that a step of `step` needs.
 std::string tic_label(double value, double step) {
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
   if (decimals > 6 || std::abs(value) >= 1e7) {
     const double ratio = std::abs(value) < step ? 1 : std::abs(value) / step;
-    return format_short(std::abs(value) < step / 2 ? 0.0 : value,
-                        static_cast<int>(std::log10(ratio) + 1e-6) + 2);
+    return with_minus_sign(format_short(std::abs(value) < step / 2 ? 0.0 : value,
+                                        static_cast<int>(std::log10(ratio) + 1e-6) + 2));
   }
   std::array<char, 48> text{};
   std::snprintf(text.data(), text.size(), "%.*f", decimals, value == 0 ? 0.0 : value);
   std::string label = text.data();
-  return label.find_first_of("123456789") == std::string::npos ? label.substr(label[0] == '-') : label;
+  const bool zero = label.find_first_of("123456789") == std::string::npos;
+  return zero ? label.substr(label[0] == '-') : with_minus_sign(label);
 }
 
-std::vector<Tic> linear_tics(double low, double high, int wanted) {
+std::vector<Tic> linear_tics(double low, double high, int wanted, bool whole = false) {
   double step = round_below((high - low) / wanted);
+  if (whole) step = std::max(step, 1.0);
   // The next round step up, where this one would crowd.
   if ((high - low) / step > 1.5 * wanted) step = round_below(2.6 * step);
   std::vector<Tic> tics;
@@ -202,7 +209,10 @@ AxisLayout lay_out(const ChartAxis& axis, std::span<const double> values, double
     const double room = axis.range ? 0 : margin * (high - low);
     layout.low = low - room;
     layout.high = high + room;
-    layout.tics = linear_tics(layout.low, layout.high, axis.tics);
+    const bool counts = high - low >= 2 && scale.factor == 1 &&
+                        std::all_of(values.begin(), values.end(),
+                                    [](double v) { return !std::isfinite(v) || v == std::floor(v); });
+    layout.tics = linear_tics(layout.low, layout.high, axis.tics, counts);
   }
   return layout;
 }

@@ -69,6 +69,11 @@ TEST(ChartAxis, LabelsDecades) {
   EXPECT_GE(labels(lay(axis("x", "", true), {1, 1.5})).size(), 3U);
 }
 
+TEST(ChartAxis, CountsInWholeNumbers) {
+  EXPECT_EQ(labels(lay(axis("N", ""), {1, 2, 3, 4, 5})), (std::vector<std::string>{"1", "2", "3", "4", "5"}));
+  EXPECT_EQ(labels(lay(axis("x", ""), {-1, 1.5}))[0], "−1.0");
+}
+
 TEST(ChartAxis, GivesRoomToOneValue) {
   for (const double value : {0.0, 3.0, -1e-9, 1e250}) {
     const AxisLayout layout = lay(axis("x", ""), {value});
