@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "engine/core/text.hpp"
+
 namespace asperity {
 
 std::string_view name(ErrorCode code) {
@@ -36,7 +38,7 @@ std::string_view name(ErrorCode code) {
 }
 
 Error::Error(ErrorCode code, std::string sentence, std::string hint)
-    : code_(code), sentence_(std::move(sentence)), hint_(std::move(hint)) {
+    : code_(code), sentence_(plain_text(std::move(sentence))), hint_(plain_text(std::move(hint))) {
   text_ = hint_.empty() ? sentence_ : sentence_ + "; " + hint_;
 }
 

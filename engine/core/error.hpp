@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The one exception type of the engine: a code, a sentence and a hint. The sentence says what was
 // asked and what was found; the hint says what would work. The binding layer adds the script line.
+// Both are plain text (plain_text in text.hpp), whatever bytes of a file or a script they repeat.
 #pragma once
 
 #include <exception>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -20,6 +21,12 @@ Grid make_grid(double nx, double ny, double size_x, double size_y) {
       throw Error(ErrorCode::bad_value, "`size` is " + format_short(size) + " m",
                   "give a finite length above zero");
   }
+  for (const auto& [size, n] : {std::pair{size_x, nx}, std::pair{size_y, ny}})
+    if (!(size / n > 0))
+      throw Error(
+          ErrorCode::bad_value,
+          "`size` is " + format_short(size) + " m, which leaves its " + format_short(n) + " cells no width",
+          "check its unit");
   return Grid{static_cast<int>(nx), static_cast<int>(ny), size_x, size_y};
 }
 

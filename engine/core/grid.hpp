@@ -27,7 +27,7 @@ struct Grid {
 inline constexpr int max_cells = 65536;
 
 // A grid whose numbers make sense. Throws Error{bad_value} naming `cells` or `size` otherwise:
-// 1 <= nx, ny <= max_cells; sizes finite and positive.
+// 1 <= nx, ny <= max_cells; sizes finite and so far above zero that cells have a width.
 Grid make_grid(double nx, double ny, double size_x, double size_y);
 
 // Values on a grid; copying copies the numbers.

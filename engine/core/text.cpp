@@ -41,6 +41,40 @@ std::string joined(std::span<const std::string> items, std::string_view last) {
 
 namespace {
 
+// Bytes of the UTF-8 character at the front, 0 if there is none or it would steer a terminal.
+std::size_t shown_bytes(std::string_view text) {
+  const auto byte = [&](std::size_t k) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k]));
+  };
+  const std::uint32_t lead = byte(0);
+  if (lead < 0x80) return lead == '\n' || lead == '\t' || (lead >= 0x20 && lead != 0x7F) ? 1 : 0;
+  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return 0;
+  std::uint32_t point = lead & (0x7FU >> bytes);
+  for (std::size_t k = 1; k < bytes; ++k) {
+    if ((byte(k) & 0xC0) != 0x80) return 0;
+    point = point << 6 | (byte(k) & 0x3F);
+  }
+  // Control characters, more bytes than needed, halves of a pair, beyond the last.
+  if (point < 0xA0 || (bytes == 3 && point < 0x800) || (bytes == 4 && point < 0x10000) || point > 0x10FFFF ||
+      (point >= 0xD800 && point < 0xE000))
+    return 0;
+  return bytes;
+}
+
+}  // namespace
+
+std::string plain_text(std::string text) {
+  for (std::size_t k = 0; k < text.size();) {
+    const std::size_t bytes = shown_bytes(std::string_view(text).substr(k));
+    if (bytes == 0) text[k] = '?';
+    k += std::max<std::size_t>(bytes, 1);
+  }
+  return text;
+}
+
+namespace {
+
 // Optimal string alignment distance: insert, delete, substitute, transpose neighbours.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const std::size_t columns = b.size() + 1;

@@ -23,6 +23,10 @@ inline std::string quoted(const char* name) { return quoted(std::string_view(nam
 // "a", "a or b", "a, b or c".
 std::string joined(std::span<const std::string> items, std::string_view last = " or ");
 
+// The text as any terminal shows it: control characters other than tabs and line ends, and bytes that are
+// not UTF-8, become question marks. Linear in its length.
+std::string plain_text(std::string text);
+
 // The candidate nearest to `name` by edit distance (a transposition counts one, case does not
 // count), if it is near enough to be a likely slip; otherwise empty.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);

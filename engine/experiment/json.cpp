@@ -116,13 +116,23 @@ std::string Json::text(int indent) const {
 }
 
 Json Json::parse(std::string_view text, std::string_view what) {
+  // Lists in lists use the stack when they are taken apart; no record comes near this.
+  constexpr int deepest = 256;
+  const auto refuse = [&](const std::string& finding) {
+    throw Error(ErrorCode::bad_file, std::string(what) + " " + finding, "the file was cut short or damaged");
+  };
+  const auto look = [&](int depth, Library::parse_event_t, Library&) {
+    if (depth > deepest) refuse("holds lists in lists deeper than " + std::to_string(deepest));
+    return true;
+  };
   try {
-    return JsonCodec::decode(Library::parse(text));
+    return JsonCodec::decode(Library::parse(text, look));
   } catch (const Library::parse_error& error) {
-    throw Error(ErrorCode::bad_file,
-                std::string(what) + " is not JSON past byte " + std::to_string(error.byte),
-                "the file was cut short or damaged");
+    refuse("is not JSON past byte " + std::to_string(error.byte));
+  } catch (const Library::out_of_range&) {
+    refuse("holds a number beyond any double");
   }
+  return {};
 }
 
 Json JsonCodec::decode(const Library& value) {

@@ -61,7 +61,8 @@ class Json {
 
   // On one line, or with `indent` spaces a level. Bytes that are not UTF-8 become U+FFFD.
   std::string text(int indent = -1) const;
-  // Throws Error{bad_file} naming `what` and the byte where the text stops being JSON.
+  // Throws Error{bad_file} naming `what` and the byte where the text stops being JSON, or for a number
+  // beyond any double, or lists in lists more than 256 deep.
   static Json parse(std::string_view text, std::string_view what);
 
   bool operator==(const Json&) const = default;

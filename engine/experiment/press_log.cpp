@@ -115,11 +115,10 @@ bool is_blank(const std::vector<LogCell>& cells) {
 
 class LogReader {
  public:
-  LogReader(const std::string& path, Monitor& monitor)
-      : file_(path, monitor), monitor_(monitor), lines_(file_.text()) {
+  LogReader(const SourceFile& file, Monitor& monitor) : file_(file), monitor_(monitor), lines_(file_.text()) {
     if (!file_.looks_like_text())
       refuse_file(file_, "is not text: it holds zero bytes", "save the log as comma-separated text (UTF-8)");
-    log_name_ = std::filesystem::path(path).filename().string();
+    log_name_ = std::filesystem::path(file.path()).filename().string();
   }
 
   Protocol read() {
@@ -346,7 +345,7 @@ class LogReader {
                     "all the time becomes as many presses");
   }
 
-  SourceFile file_;
+  const SourceFile& file_;
   Monitor& monitor_;
   LineReader lines_;
   std::string log_name_;
@@ -363,6 +362,10 @@ class LogReader {
 
 }  // namespace
 
-Protocol read_press_log(const std::string& path, Monitor& monitor) { return LogReader(path, monitor).read(); }
+Protocol read_press_log(const std::string& path, Monitor& monitor) {
+  return read_press_log(SourceFile(path, monitor), monitor);
+}
+
+Protocol read_press_log(const SourceFile& file, Monitor& monitor) { return LogReader(file, monitor).read(); }
 
 }  // namespace asperity

@@ -21,6 +21,8 @@
 
 namespace asperity {
 
+class SourceFile;
+
 // The first line that is neither blank nor a comment (#) names the columns in any order and case, with the
 // unit of each quantity in [] or (). Cells are parted by commas, semicolons or tabs, whichever the first
 // line uses, and may be quoted; with any but commas a decimal comma is read. Columns of another name are
@@ -28,6 +30,7 @@ namespace asperity {
 // a column without its unit or given twice, both pressure and load or neither, a row of another length, a
 // cell that is no number, a negative pressure, load or dwell, a time that is missing or runs backwards.
 Protocol read_press_log(const std::string& path, Monitor& monitor = Monitor::silent());
+Protocol read_press_log(const SourceFile& file, Monitor& monitor = Monitor::silent());
 
 // The log that reads back as this protocol, to the last bit of every number: in MPa, N, deg and min if
 // they can say them, else in SI units. Times are kept if every event has one. A release that was not

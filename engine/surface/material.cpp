@@ -73,7 +73,7 @@ double plane_strain_modulus(const Material& m) {
                   "the material " + (m.name.empty() ? std::string("given") : quoted(m.name)) + " has no " +
                       quoted(key),
                   "give it in lab.material{...}");
-  return *m.young / (1.0 - *m.poisson * *m.poisson);
+  return *m.young / ((1.0 - *m.poisson) * (1.0 + *m.poisson));  // exact to rounding near -1 too
 }
 
 double contact_modulus(const Material& a, const Material& b) {

@@ -23,6 +23,13 @@ TEST(Error, StandsWithoutAHint) {
   EXPECT_STREQ(Error(ErrorCode::interrupted, "interrupted").what(), "interrupted");
 }
 
+TEST(Error, WhatItRepeatsIsPlainText) {
+  const Error error(ErrorCode::bad_file, "\"\x1b[31m\xC2\"", "a\tb\n\xC2\xB5m\r");
+  EXPECT_EQ(error.sentence(), "\"?[31m?\"");
+  EXPECT_EQ(error.hint(), "a\tb\n\xC2\xB5m?");
+  EXPECT_STREQ(error.what(), "\"?[31m?\"; a\tb\n\xC2\xB5m?");
+}
+
 TEST(Error, EveryCodeHasItsOwnName) {
   std::set<std::string_view> names;
   for (int code = 0; code <= static_cast<int>(ErrorCode::internal); ++code)

@@ -36,6 +36,17 @@ TEST(Grid, NodesAndCells) {
   EXPECT_DOUBLE_EQ(grid.area(), 20e-12);
 }
 
+// With cells of no width the filling of holes once halved its lattice for ever.
+TEST(Grid, CellsHaveAWidth) {
+  const double least = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(refusal(3, 2, least, 1),
+            "`size` is 4.94066e-324 m, which leaves its 3 cells no width; check its unit");
+  EXPECT_EQ(refusal(2, 2, 1, least),
+            "`size` is 4.94066e-324 m, which leaves its 2 cells no width; check its unit");
+  EXPECT_EQ(make_grid(1, 1, least, least).hx(), least);
+  EXPECT_EQ(make_grid(2, 3, 2 * least, 3 * least).hy(), least);
+}
+
 TEST(Grid, LimitsOfCells) {
   EXPECT_EQ(make_grid(1, max_cells, 1, 1).ny, max_cells);
   const std::string hint = "; give a whole number from 1 to 65536";

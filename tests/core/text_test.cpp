@@ -78,5 +78,17 @@ TEST(Text, DidYouMean) {
   EXPECT_EQ(did_you_mean("poisson", keys), "");
 }
 
+TEST(Text, PlainTextKeepsWholeCharactersOnly) {
+  for (const std::string text :
+       {"", "a\tb\n", "250 \xC2\xB5m", "\xE2\x81\xBB\xC2\xB2", "\xF0\x9F\x98\x80", "\xC2\xA0"})
+    EXPECT_EQ(plain_text(text), text);
+  EXPECT_EQ(plain_text(std::string("a\0b\x1b\x7f\r", 6)), "a?b???");
+  EXPECT_EQ(plain_text("\xC2\x9B"), "??");                   // a control character in two bytes
+  EXPECT_EQ(plain_text("\xC0\xAF \xE0\x80\xAF"), "?? ???");  // more bytes than needed
+  EXPECT_EQ(plain_text("\xED\xA0\x80 \xF4\x90\x80\x80 \xFF"), "??? ???? ?");
+  EXPECT_EQ(plain_text("um \xC2"), "um ?");  // cut in the middle
+  EXPECT_EQ(plain_text("\xE2\x82z"), "??z");
+}
+
 }  // namespace
 }  // namespace asperity

@@ -50,6 +50,19 @@ TEST(Json, SaysWhereTextStopsBeingJson) {
             "bad_file: manifest.json is not JSON past byte 6; the file was cut short or damaged");
 }
 
+TEST(Json, NumbersBeyondAnyDoubleAreRefused) {
+  EXPECT_EQ(error_of([] { Json::parse("[1e999]", "journal.jsonl"); }),
+            "bad_file: journal.jsonl holds a number beyond any double; the file was cut short or damaged");
+  EXPECT_EQ(Json::parse("[1e-999]", "j").list()[0].number(), 0);
+}
+
+TEST(Json, ListsInListsAreTakenApartOnlySoDeep) {
+  const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  EXPECT_EQ(Json::parse(nested(256), "j").text(), nested(256));
+  EXPECT_NE(error_of([&] { Json::parse(nested(258), "j"); }).find("deeper than 256"), std::string::npos);
+  EXPECT_NE(error_of([&] { Json::parse(nested(1000000), "j"); }).find("deeper than 256"), std::string::npos);
+}
+
 TEST(Json, SaysWhatItHoldsInsteadOfWhatWasWanted) {
   EXPECT_EQ(error_of([] { Json(true).number(); }),
             "bad_file: a record holds a boolean where a number should stand; the file was written by another "

@@ -146,6 +146,19 @@ TEST(Holes, NothingMissingAndNothingMeasured) {
             std::string::npos);
 }
 
+TEST(Holes, HeightsWhoseRangeIsBeyondAnyDoubleAreRefused) {
+  Field field(3, 2, 0.0);
+  field(0, 0) = 1e308;
+  field(1, 1) = -1e308;
+  field(2, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(testing::message_of([&] { fill_harmonic(field, 1, 1, Monitor::silent()); }),
+            "the heights run from -1e+308 m to 1e+308 m, too far apart to interpolate between; mark missing "
+            "points with nan, and check the unit");
+  field(1, 1) = -7e307;
+  fill_harmonic(field, 1, 1, Monitor::silent());
+  EXPECT_TRUE(std::isfinite(field(2, 0)));
+}
+
 // Raises the stop flag at its first report and notes what was reported.
 class Stopper final : public Monitor {
  public:

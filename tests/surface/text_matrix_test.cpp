@@ -135,6 +135,19 @@ TEST(TextMatrix, DecimalCommaSample) {
   EXPECT_EQ(heights_of(read_surface(sample("semicolon.csv"), options)), (Heights{1.5, 2.25, -3, 4, 0, 0.65}));
 }
 
+TEST(TextMatrix, AKeyThatIsNoTextIsNotRepeated) {
+  EXPECT_NE(message_of([] {
+              read_text("h=1 w=2\nheight conversion factor (-\xFE\x1B> m)=0\n1 2\n");
+            }).find("has a header whose `height conversion factor` is \"0\"; it must be"),
+            std::string::npos);
+}
+
+// Each was once looked for to the end of its run: hours for a file of a few megabytes.
+TEST(TextMatrix, CarriageReturnsAloneTakeOnePass) {
+  const Surface surface = read_text(std::string(std::size_t{4} << 20, '\r') + "1 2\r\r\n3 4\r\n");
+  EXPECT_EQ(heights_of(surface), (Heights{1, 2, 3, 4}));
+}
+
 TEST(TextMatrix, DamagedBytesGiveErrors) {
   const Scratch scratch;
   for (const char* name : {"instrument.txt", "semicolon.csv"}) {

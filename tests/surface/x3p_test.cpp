@@ -148,6 +148,14 @@ TEST(X3p, Md5IsCompared) {
             std::string::npos);
 }
 
+TEST(X3p, AChecksumThatIsNoneIsShownAsPlainText) {
+  Recipe recipe;
+  recipe.content =
+      "<DataLink><PointDataLink>bindata/data.bin</PointDataLink><MD5ChecksumPointData>\xC3\xA9 a\xA0\x1B"
+      "</MD5ChecksumPointData></DataLink>";
+  EXPECT_NE(message_of([&] { read_with(recipe, six); }).find(", not \"?? a??\"; "), std::string::npos);
+}
+
 TEST(X3p, MatrixAndDataDisagree) {
   for (const char* columns : {"4", "2", "60000"}) {
     Recipe recipe;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -323,6 +324,11 @@ int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
     for (double& h : heights.values()) h = low;
     return 0;
   }
+  if (!std::isfinite(high - low))
+    throw Error(ErrorCode::bad_value,
+                "the heights run from " + format_short(low) + " m to " + format_short(high) +
+                    " m, too far apart to interpolate between",
+                "mark missing points with nan, and check the unit");
   nodes.close_rows();
 
   constexpr std::int64_t parts = 1000;

@@ -14,7 +14,7 @@ namespace asperity {
 // multigrid to 1e-12 of the height range. Returns the number of iterations: some ten to twenty for
 // holes of any width, so the cost grows as the number of missing points; about 150 bytes for each.
 // The same bits for any number of threads. Reports progress and stops when asked. Throws
-// Error{bad_value} if nothing but holes is given.
+// Error{bad_value} if nothing but holes is given, or heights whose range is beyond any double.
 int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor);
 
 }  // namespace asperity

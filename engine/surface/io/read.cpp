@@ -23,6 +23,19 @@ void check_positive(const std::optional<double>& value, const std::string& key) 
                 "give a finite length above zero");
 }
 
+// A call that cannot be right is told so before the file is looked for.
+void check_call(const ReadOptions& options) {
+  check_positive(options.size_x, "size");
+  check_positive(options.size_y, "size");
+  check_positive(options.unit, "unit");
+  if (options.material) check(*options.material);
+}
+
+void check_call(const ReadProfileOptions& options) {
+  check_positive(options.spacing, "spacing");
+  check_positive(options.unit, "unit");
+}
+
 // The call's value, else the file's; a warning when the call overrules the file.
 std::optional<double> settled(const std::optional<double>& asked, const std::optional<double>& found,
                               const SourceFile& file, const std::string& key, Monitor& monitor) {
@@ -105,11 +118,12 @@ void fold_positions(HeightMap& map, const SourceFile& file) {
 }  // namespace
 
 Surface read_surface(const std::string& path, const ReadOptions& options, Monitor& monitor) {
-  check_positive(options.size_x, "size");
-  check_positive(options.size_y, "size");
-  check_positive(options.unit, "unit");
-  if (options.material) check(*options.material);
-  const SourceFile file(path, monitor);
+  check_call(options);
+  return read_surface(SourceFile(path, monitor), options, monitor);
+}
+
+Surface read_surface(const SourceFile& file, const ReadOptions& options, Monitor& monitor) {
+  check_call(options);
   HeightMap map = choose_format(file, options.format).read(file, monitor);
 
   const std::optional<double> unit = settled(options.unit, map.unit, file, "unit", monitor);
@@ -133,9 +147,12 @@ Surface read_surface(const std::string& path, const ReadOptions& options, Monito
 }
 
 Profile read_profile(const std::string& path, const ReadProfileOptions& options, Monitor& monitor) {
-  check_positive(options.spacing, "spacing");
-  check_positive(options.unit, "unit");
-  const SourceFile file(path, monitor);
+  check_call(options);
+  return read_profile(SourceFile(path, monitor), options, monitor);
+}
+
+Profile read_profile(const SourceFile& file, const ReadProfileOptions& options, Monitor& monitor) {
+  check_call(options);
   const Format& format = choose_format(file, options.format);
   HeightMap map = format.read(file, monitor);
   if (!map.trace && map.heights.nx() == 2 && map.heights.ny() > 2 && &format == &text_format())

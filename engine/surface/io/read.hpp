@@ -16,6 +16,8 @@
 
 namespace asperity {
 
+class SourceFile;
+
 // What to do with missing points.
 struct HoleFill {
   enum class Kind { none, interpolate, value };  // an error, harmonic from the neighbours, one height
@@ -47,10 +49,14 @@ struct ReadProfileOptions {
 // `size` or `unit`, or for more than 65536 cells a side; unknown_name for `format`.
 Surface read_surface(const std::string& path, const ReadOptions& options = {},
                      Monitor& monitor = Monitor::silent());
+Surface read_surface(const SourceFile& file, const ReadOptions& options = {},
+                     Monitor& monitor = Monitor::silent());
 
 // A trace, a single row or a single column of heights, or two columns of text: position and height.
 // A map of several rows is an error that points to reading it as a surface.
 Profile read_profile(const std::string& path, const ReadProfileOptions& options = {},
+                     Monitor& monitor = Monitor::silent());
+Profile read_profile(const SourceFile& file, const ReadProfileOptions& options = {},
                      Monitor& monitor = Monitor::silent());
 
 }  // namespace asperity

@@ -63,6 +63,15 @@ SourceFile::SourceFile(std::string path, Monitor& monitor)
     task.advance(stream.gcount());
   }
   if (stream.bad()) throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be read to its end");
+  refuse_empty();
+}
+
+SourceFile::SourceFile(std::string name, std::string_view bytes)
+    : path_(std::move(name)), extension_(file_extension(path_)), bytes_(bytes.begin(), bytes.end()) {
+  refuse_empty();
+}
+
+void SourceFile::refuse_empty() const {
   if (bytes_.empty()) throw Error(ErrorCode::bad_file, file_name(path_) + " is empty", "write it again");
 }
 

@@ -17,6 +17,9 @@ class SourceFile {
   // Throws Error{bad_file} for a path that is missing, a directory, not a plain file, not readable
   // or empty; Error{out_of_memory} when it does not fit.
   SourceFile(std::string path, Monitor& monitor);
+  // The same of bytes that did not come from a disk; they are copied. `name` is what errors call it, and
+  // its ending counts. Throws Error{bad_file} if there are none.
+  SourceFile(std::string name, std::string_view bytes);
 
   const std::string& path() const { return path_; }
   // The ending of the name in lower case without the dot: "x3p"; empty if there is none.
@@ -28,6 +31,7 @@ class SourceFile {
   bool looks_like_text() const;
 
  private:
+  void refuse_empty() const;
   std::string path_;
   std::string extension_;
   Array<char> bytes_;

@@ -57,7 +57,9 @@ void take_in(Header& header, const SourceFile& file, std::string_view key_text, 
     header.columns = needed(plain_number(value), file, key, value);
   } else if (key == "pixel size") {
     header.pixel = needed(length_of(value), file, key, value);
-  } else if (key.starts_with("height conversion factor") || key == "unit [m]") {
+  } else if (key.starts_with("height conversion factor")) {
+    header.unit = needed(plain_number(value), file, "height conversion factor", value);
+  } else if (key == "unit [m]") {
     header.unit = needed(plain_number(value), file, key, value);
   } else if (key == "cells" || key == "size [m]") {
     const std::string_view both = trimmed(value);

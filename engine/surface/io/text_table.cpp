@@ -68,8 +68,9 @@ bool LineReader::next(std::string_view& line) {
   line = text_.substr(position_, end - position_);
   position_ = end + 1;
   if (text_[end] == '\r') {
-    const std::size_t after = text_.find_first_not_of('\r', end);
-    if (after != std::string_view::npos && text_[after] == '\n') position_ = after + 1;
+    // Looked for once a run, or a file of nothing else would take the square of its length.
+    if (end >= run_end_) run_end_ = std::min(text_.find_first_not_of('\r', end), text_.size());
+    if (run_end_ < text_.size() && text_[run_end_] == '\n') position_ = run_end_ + 1;
   }
   return true;
 }

@@ -30,6 +30,7 @@ class LineReader {
   std::string_view text_;
   std::size_t position_ = 0;
   std::size_t number_ = 0;
+  std::size_t run_end_ = 0;  // of the last run of CR
 };
 
 std::string_view trimmed(std::string_view text);

@@ -5,6 +5,7 @@
 // An absolute x or y axis stores its coordinate with every point; it must be evenly spaced. NaN, an
 // empty datum or a cleared bit of the valid-points file is a hole. Offsets of x and y, rotation,
 // layers and point clouds are not read; md5checksum.hex, wrong in many files, is not compared.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -13,6 +14,7 @@
 #include <cstring>
 #include <limits>
 #include <pugixml.hpp>
+#include <span>
 #include <vector>
 
 #include "engine/core/error.hpp"
@@ -145,10 +147,12 @@ double raw_value(const char* at, char type) {
 void compare_md5(const SourceFile& file, ArchiveEntry& entry, std::string_view wanted) {
   if (wanted.empty()) return;
   const std::string found = entry.md5().hex();
-  if (found != lower_case(wanted))
-    refuse_file(file,
-                "is damaged: the MD5 of its data is " + found + ", not " + lower_case(wanted.substr(0, 32)),
-                "copy the file again from its source");
+  if (found == lower_case(wanted)) return;
+  const bool digits = wanted.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
+  refuse_file(file,
+              "is damaged: the MD5 of its data is " + found + ", not " +
+                  (digits ? lower_case(wanted.substr(0, 32)) : shown(wanted)),
+              "copy the file again from its source");
 }
 
 void read_binary(const SourceFile& file, const Archive& archive, pugi::xml_node link, Map& map,
@@ -242,6 +246,27 @@ double size_of(const SourceFile& file, const Axis& axis, std::span<const double>
   return spacing * static_cast<double>(count);
 }
 
+// Counts, while it lives, the most that the tree of a document can take: pugixml has memory of its own.
+// A tag begins one node and the text after it another, an equals sign one attribute.
+class TreeMemory {
+ public:
+  explicit TreeMemory(std::span<const char> xml) {
+    constexpr std::int64_t node = 64, attribute = 40, page = 65536;
+    const auto count = [&](char c) { return std::count(xml.begin(), xml.end(), c); };
+    bytes_ = 2 * node * count('<') + attribute * count('=') + page;
+    if (!memory::account(bytes_))
+      throw Error(ErrorCode::out_of_memory,
+                  "out of memory for a main.xml of " + std::to_string(xml.size()) + " bytes",
+                  "pack the heights in binary");
+  }
+  ~TreeMemory() { memory::account(-bytes_); }
+  TreeMemory(const TreeMemory&) = delete;
+  TreeMemory& operator=(const TreeMemory&) = delete;
+
+ private:
+  std::int64_t bytes_;
+};
+
 bool recognises(const SourceFile& file) {
   if (!file.bytes().starts_with(std::string_view("PK\x03\x04", 4))) return false;
   try {
@@ -257,12 +282,14 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
   const std::int64_t index = archive.find("main.xml");
   if (index < 0) refuse_file(file, "is a zip archive without main.xml, so it is not X3P");
   // Text packs no better than some twenty times; more is not a list of numbers.
-  const std::uint64_t limit =
-      (std::uint64_t{16} << 20) + 16 * static_cast<std::uint64_t>(file.bytes().size());
+  const std::uint64_t limit = (std::uint64_t{1} << 20) + 32 * static_cast<std::uint64_t>(file.bytes().size());
   Array<char> xml = archive.contents(index, limit);
+  const TreeMemory tree(xml);
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer_inplace(
       xml.data(), xml.size(), pugi::parse_minimal | pugi::parse_escapes | pugi::parse_cdata);
+  if (parsed.status == pugi::status_out_of_memory)
+    throw Error(ErrorCode::out_of_memory, "there is no memory for the main.xml of " + file_name(file.path()));
   if (!parsed) refuse_file(file, std::string("has a damaged main.xml (") + parsed.description() + ")");
   const pugi::xml_node root = document.document_element();
   const pugi::xml_node record1 = child(root, "Record1"), record3 = child(root, "Record3");
