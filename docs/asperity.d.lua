@@ -349,7 +349,7 @@ function Contact:close() end
 ---@field load number force on the whole tile
 ---@field pressure number load over the nominal area
 ---@field approach number from first touch
----@field indentation number approach over the peak-to-valley of the combined heights
+---@field indentation number approach over the peak-to-valley of the combined heights; of flats none, an error
 ---@field flatten number share of that peak-to-valley pressed away
 ---@field area number real contact area
 ---@field area_fraction number nodes in contact over all nodes
@@ -360,7 +360,7 @@ function Contact:close() end
 ---@field peak_pressure number greatest pressure
 ---@field separation number of the mean planes of the bodies, undeformed, as they stand under this load
 ---@field mean_gap number mean over the tile of the gap where it is open
----@field stiffness number d pressure / d approach at this contact set
+---@field stiffness number d pressure / d approach at this contact set; math.huge where all of a periodic tile touches
 ---@field secant_stiffness number pressure over approach
 ---@field energy number elastic energy in the tile
 ---@field plastic_volume number volume this press took from both bodies; needs plasticity

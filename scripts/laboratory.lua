@@ -151,6 +151,7 @@ function laboratory.interpolated(surface, times)
       :plus(weighted(surface:shifted{ x = hx }, a * (1 - b)))
       :plus(weighted(surface:shifted{ y = hy }, (1 - a) * b))
       :plus(weighted(surface:shifted{ x = hx, y = hy }, a * b))
+      :levelled{ degree = 0 } -- `scaled` keeps the mean, so that the sum has four of them
   end
   return surface
 end

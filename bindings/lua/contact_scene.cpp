@@ -60,7 +60,7 @@ const Block<Accuracy>& accuracy_block() {
               "bound on every relative entry of the certificate"),
        choice("precision", &O::precision,
               {{"double", O::Precision::double_}, {"single", O::Precision::single}},
-              "of the fields inside a solve"),
+              "of the fields inside a solve; this version computes \"double\" alone"),
        choice("on_failure", &O::on_failure, {{"error", O::OnFailure::error}, {"best", O::OnFailure::best}},
               "what a solve that misses its tolerance does: raise an error, or return the best it got")}};
   return block;

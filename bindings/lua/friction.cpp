@@ -84,7 +84,8 @@ const Block<StageKeys>& stage_block() {
                    };
                    if (!value.is_table()) return read(value);
                    if (value.length() == 0)
-                     return detail::wrong_type(value, info, "a pressure or a list of them", problems);
+                     return problems.push_back(
+                         "`probe_pressure` is an empty list; give one pressure or more");
                    for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, read);
                  })
            .defaults_to("{\"1 MPa\", \"3 MPa\"}"),

@@ -43,8 +43,10 @@ void wrong_type(const Argument& value, const OptionInfo& info, std::string_view 
 }
 
 namespace {
-std::string wanted_quantity(const OptionInfo& info, const NumberRange& range) {
+// `finite`: say so, of a value whose one fault that is.
+std::string wanted_quantity(const OptionInfo& info, const NumberRange& range, bool finite = false) {
   std::string wanted = info.dimension == dimension::number ? "a number" : describe(info.dimension);
+  if (finite) wanted = "a finite" + wanted.substr(wanted.find(' '));
   if (const std::string limits = range.text(info.dimension); !limits.empty()) wanted += " " + limits;
   if (info.dimension != dimension::number) wanted += ", e.g. \"" + example_quantity(info.dimension) + "\"";
   return wanted;
@@ -73,9 +75,10 @@ std::optional<double> read_quantity(const Argument& value, const OptionInfo& inf
     return {};
   }
   if (!range.contains(number)) {
-    problems.push_back(
-        quoted(info.name) + " is " + found + "; give " +
-        (range.text(info.dimension).empty() ? "a finite number" : wanted_quantity(info, range)));
+    problems.push_back(quoted(info.name) + " is " + found + "; give " +
+                       (range.text(info.dimension).empty()
+                            ? "a finite number"
+                            : wanted_quantity(info, range, std::isinf(number) && std::isinf(range.high))));
     return {};
   }
   return number;

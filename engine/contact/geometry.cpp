@@ -45,6 +45,9 @@ Field combine_turned(const Field& lower, const Field& upper, const Pose& pose, c
     sum[k] += lower[k];
     if (sum[k] < lowest) lowest = sum[k];
   }
+  if (std::isinf(lowest))
+    throw Error(ErrorCode::bad_value, "turned and shifted like this, no node of one body lies over the other",
+                "turn or shift it less");
   for (double& height : sum.values())
     if (std::isnan(height)) height = lowest;
   return sum;
@@ -58,6 +61,7 @@ ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, HardnessM
       boundary_(scene.boundary),
       pose_(pose),
       hardness_(std::move(hardness)) {
+  hardness_.upper_here.reset();
   if (const auto* rough = std::get_if<Surface>(&upper_)) {
     combined_ = std::make_shared<const Field>(
         pose_.on_lattice() ? combine(lower_.heights(), rough->heights(), pose_.lattice())

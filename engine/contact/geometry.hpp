@@ -16,14 +16,18 @@ namespace asperity {
 // own frame. None until a body has hardened: its material then says how hard it is.
 struct HardnessMemory {
   std::shared_ptr<const Field> lower, upper;
+  // Off the lattice, after events there: the upper body's as the nodes of the lower one meet it, exact until
+  // the bodies are moved.
+  std::shared_ptr<const Field> upper_here;
 };
 
 class ContactGeometry {
  public:
   // The bodies of `scene` (which must have passed check) lying as `pose` says. O(n), and one field of
   // memory for two rough bodies. Nodes of the lower body over which the upper one, turned off the lattice,
-  // has no node lie as low as the lowest of the others: they are the last to touch. Throws Error{bad_value}
-  // when the sums of heights leave the range of a double.
+  // has no node lie as low as the lowest of the others: they are the last to touch. The bodies are taken as
+  // put down afresh: `hardness` counts in each body's own frame. Throws Error{bad_value} when the sums of
+  // heights leave the range of a double.
   ContactGeometry(const Scene& scene, const Pose& pose, HardnessMemory hardness = {});
 
   // The bodies after an event that took `yielded` from both together, still lying as in `before`. Off the

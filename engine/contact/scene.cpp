@@ -59,6 +59,12 @@ void check(const CreepOptions& options) {
 std::string_view name(Boundary boundary) { return boundary == Boundary::periodic ? "periodic" : "free"; }
 
 void check(const Scene& scene) {
+  const Grid& grid = scene.lower.grid();
+  if (!std::isnormal(grid.cell_area()) || !std::isnormal(grid.area()))
+    throw Error(ErrorCode::bad_value,
+                "the lower body is " + format_short(grid.size_x) + " m by " + format_short(grid.size_y) +
+                    " m, an area beyond the range of a double",
+                "check the unit of `size`");
   if (const auto* rough = std::get_if<Surface>(&scene.upper)) check_tiles(scene.lower.grid(), rough->grid());
   if (const auto* flat = std::get_if<Material>(&scene.upper)) check(*flat);
   const double tolerance = scene.accuracy.tolerance;

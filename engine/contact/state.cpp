@@ -121,7 +121,16 @@ const std::vector<std::string>& State::effects_off() const { return shared_->eff
 const StateCost& State::cost() const { return *cost_; }
 bool State::converged() const { return residual() <= shared_->tolerance; }
 
-double State::indentation() const { return approach() > 0 ? approach() / geometry().peak_to_valley() : 0.0; }
+double State::indentation() const {
+  if (!(approach() > 0)) return 0;
+  const double height = geometry().peak_to_valley();
+  if (!(height > 0))
+    throw Error(
+        ErrorCode::bad_state,
+        "`indentation` is a fraction of a peak-to-valley that is zero: all combined heights are equal",
+        "read `approach`");
+  return approach() / height;
+}
 double State::flatten() const {
   return shared_->flatten.get([&] { return shared_->solution->flatten(); });
 }
@@ -273,8 +282,9 @@ std::string State::text() const {
   const Cost& total = cost().total;
   std::string result = "contact under " + format_quantity(pressure(), dimension::pressure) + " (" +
                        format_quantity(load(), dimension::force) + ")\n";
-  result += "  approach      " + format_quantity(approach(), dimension::length) + ", indentation " +
-            format_short(indentation(), 4) + "\n";
+  result += "  approach      " + format_quantity(approach(), dimension::length);
+  if (geometry().peak_to_valley() > 0) result += ", indentation " + format_short(indentation(), 4);
+  result += "\n";
   result += "  contact       area fraction " + format_short(area_fraction(), 4) + ", " +
             std::to_string(contacts()) + (contacts() == 1 ? " node\n" : " nodes\n");
   if (shared_->runs("plasticity"))

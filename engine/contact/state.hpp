@@ -32,11 +32,13 @@ class State {
  public:
   State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCost cost);
 
-  double load() const;                     // N on the tile
-  double pressure() const;                 // Pa, load over nominal area
-  double approach() const;                 // m from first touch
-  double separation() const;               // m, of the mean planes of the undeformed bodies
-  double indentation() const;              // approach / peak-to-valley of the combined heights
+  double load() const;        // N on the tile
+  double pressure() const;    // Pa, load over nominal area
+  double approach() const;    // m from first touch
+  double separation() const;  // m, of the mean planes of the undeformed bodies
+  // approach / peak-to-valley of the combined heights; throws Error{bad_state} for pressed flats, which have
+  // none.
+  double indentation() const;
   double flatten() const;                  // share of that peak-to-valley pressed away, 0 … 1
   double area() const;                     // m²
   double area_fraction() const;            // contacts over nodes
@@ -47,9 +49,10 @@ class State {
   std::vector<double> spot_areas() const;  // m² of each region joined by edges, largest first
   double peak_pressure() const;            // Pa
   double mean_gap() const;                 // m, mean over the tile of max(gap, 0)
-  double stiffness() const;                // Pa/m, d pressure / d approach at this contact set
-  double secant_stiffness() const;         // Pa/m, pressure / approach; 0 without approach
-  double energy() const;                   // J in the tile, elastic
+  // Pa/m, d pressure / d approach at this contact set; infinite where all of a periodic tile touches.
+  double stiffness() const;
+  double secant_stiffness() const;  // Pa/m, pressure / approach; 0 without approach
+  double energy() const;            // J in the tile, elastic
 
   int iterations() const;
   const Certificate& certificate() const;

@@ -52,6 +52,11 @@ std::shared_ptr<const Solver> SpecimenPair::solver() {
 State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
   check(request);
   warn_of_a_step_at_the_rim(monitor);
+  if (request.dwell && !scene_.creep && !std::exchange(warned_of_dwell_, true))
+    monitor.warn(
+        "`dwell` does nothing without creep: this scene does not name the effect `creep`, so no press "
+        "depends "
+        "on how long it lasts");
   const bool first = solver_ == nullptr;
   const std::shared_ptr<const Solver> ready = solver();
   State state = ready->press(request, monitor);
@@ -114,6 +119,7 @@ void SpecimenPair::lay(const Pose& pose) {
   // Under a rigid flat every placement is the same contact, and what was prepared for it stays good.
   const Material* flat = std::get_if<Material>(&scene_.upper);
   if (flat == nullptr || !flat->rigid) solver_.reset();
+  hardness_ = geometry->hardness();
   geometry_ = std::move(geometry);
   plan_ = std::move(plan);
   under_load_ = false;

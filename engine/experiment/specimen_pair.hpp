@@ -26,8 +26,8 @@ class SpecimenPair {
   explicit SpecimenPair(const Scene& scene);
 
   // The state under this load. The bodies come back elastically at release; what yielded stays. Warns once
-  // where bodies that do not continue across the rim lie on a periodic half-space, and where a turn off the
-  // lattice maps the yielded volume badly (it is scaled to be kept).
+  // where bodies that do not continue across the rim lie on a periodic half-space, where a dwell is named and
+  // creep is not, and where a turn off the lattice maps the yielded volume badly (it is scaled to be kept).
   State press(const PressRequest& request, Monitor& monitor = Monitor::silent());
   // Takes the load off.
   void release();
@@ -72,6 +72,7 @@ class SpecimenPair {
   bool under_load_ = false;
   bool warned_of_rim_ = false;
   bool warned_of_mapping_ = false;
+  bool warned_of_dwell_ = false;
 };
 
 }  // namespace asperity

@@ -82,6 +82,10 @@ TEST_F(Help, FindsATopicByItsLastNameInAnyCase) {
   EXPECT_NE(both.find("profile:roughness"), std::string::npos);
 }
 
+TEST_F(Help, SaysWhichPrecisionIsNotComputed) {
+  EXPECT_NE(help_text("lab.contact").find("this version computes \"double\" alone"), std::string::npos);
+}
+
 TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {
   EXPECT_NE(run("lab.help 'weierstras'").find("(did you mean `weierstrass_mandelbrot`?)"), std::string::npos);
   EXPECT_EQ(

@@ -103,7 +103,8 @@ TEST_F(Options, RangesHoldToTheLastBit) {
 
 TEST_F(Options, NotANumberAndInfinityAreNoLengths) {
   EXPECT_NE(run("lab.surface.flat{ cells=4, size=0/0 }").find("`size` is "), std::string::npos);
-  EXPECT_NE(run("lab.surface.flat{ cells=4, size=math.huge }").find("`size` is inf m; give a length above 0"),
+  EXPECT_NE(run("lab.surface.flat{ cells=4, size=math.huge }")
+                .find("`size` is inf m; give a finite length above 0"),
             std::string::npos);
   EXPECT_NE(run("lab.surface.flat{ cells=4, size='1e999 um' }").find("`size`"), std::string::npos);
   EXPECT_NE(run("lab.surface.flat{ cells=4, size=0 }").find("`size` is 0 m; give a length above 0"),

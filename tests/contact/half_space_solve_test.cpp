@@ -213,6 +213,16 @@ TEST(HalfSpaceSolve, FullContactIsTheExactFilter) {
   }
 }
 
+// The mean pressure moves nothing, however much larger it is than what flattens the surface.
+TEST(HalfSpaceSolve, FullContactKeepsItsGapsUnderAnyMeanPressure) {
+  const HalfSpaceProblem problem = bi_sinusoid(64, 1e-12);
+  for (const double pressure : {1e3, 1e15, 1e100}) {
+    const HalfSpaceAnswer answer = solve(problem, pressure);
+    EXPECT_EQ(answer.contacts, 64 * 64);
+    EXPECT_LT(range(answer.gap.values()).span(), 1e-16) << pressure;  // measured: 2e-17, of heights of 0.01
+  }
+}
+
 // Hard case 1: the last open nodes close one by one.
 TEST(HalfSpaceSolve, NearFullContactDoesNotChatter) {
   const HalfSpaceProblem problem = bi_sinusoid(128);

@@ -32,6 +32,14 @@ TEST(Scene, SizesEqualButForRoundingAreTheSame) {
   EXPECT_NO_THROW(check(scene_of(random_surface(4, 4, 1, 0.3, 1), random_surface(4, 4, 2, 0.1 * 3, 1))));
 }
 
+TEST(Scene, AreasAreWithinTheRangeOfADouble) {
+  for (const double size : {1e-200, 1e200})
+    EXPECT_NE(error_of([&] { check(test::boxes(random_surface(3, 3, 1, size, size), 1)); })
+                  .find("an area beyond the range of a double; check the unit of `size`"),
+              std::string::npos)
+        << size;
+}
+
 TEST(Scene, StiffnessMustBeFiniteAndPositive) {
   for (const double stiffness :
        {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})

@@ -95,6 +95,28 @@ TEST(PlasticEvents, ARepeatedEventWithoutTurningTakesNothingMore) {
   EXPECT_LT(second, 1e-6 * first);
 }
 
+// Off the lattice the share of the upper body is mapped between nodes that do not meet, but what both lost
+// together stays where they lie.
+TEST(PlasticEvents, ARepeatedEventOffTheLatticeTakesNothingMore) {
+  for (const double hardening : {std::numeric_limits<double>::infinity(), 8e13})
+    for (const double degrees : {37.0, 10.0, 45.0}) {
+      SpecimenPair pair(scene_of(Boundary::free, {{}, hardening}));
+      pair.rotate(degrees * std::numbers::pi / 180);
+      const State first = pair.press(pressure(100));
+      ASSERT_GT(first.plastic_volume(), 0);
+      for (int event = 0; event < 3; ++event) {
+        pair.release();
+        const State again = pair.press(pressure(100));
+        EXPECT_LT(again.plastic_volume() / first.plastic_volume(), 1e-6) << degrees << " deg, " << hardening;
+        EXPECT_NEAR(again.area_fraction(), first.area_fraction(), 1e-3) << degrees << " deg, " << hardening;
+      }
+      // Put down afresh, each body counts in its own frame again.
+      pair.rotate(-degrees * std::numbers::pi / 180);
+      EXPECT_EQ(pair.hardness().upper_here, nullptr);
+      EXPECT_GT(pair.press(pressure(100)).plastic_volume(), 0.1 * first.plastic_volume());
+    }
+}
+
 // Hard case 11.
 TEST(PlasticEvents, ALoadAndThenAGreaterOneEqualTheGreaterAlone) {
   SpecimenPair in_steps(scene_of()), at_once(scene_of());
@@ -246,6 +268,27 @@ TEST(PlasticEvents, AStepAtTheRimOfAPeriodicHalfSpaceIsWarnedOfOnce) {
   Warnings quiet;
   SpecimenPair free(scene);
   free.press(pressure(10), quiet);
+  EXPECT_TRUE(quiet.all.empty());
+}
+
+TEST(PlasticEvents, ADwellWithoutCreepIsWarnedOfOnce) {
+  Warnings monitor;
+  SpecimenPair pair(scene_of());
+  pair.press(pressure(10), monitor);
+  EXPECT_TRUE(monitor.all.empty());
+  EXPECT_EQ(pair.press({PressBy::pressure, 20 * megapascal, 600.0}, monitor).digest(), [&] {
+    SpecimenPair other(scene_of());
+    other.press(pressure(10));
+    return other.press(pressure(20)).digest();
+  }());
+  pair.press({PressBy::pressure, 30 * megapascal, 60.0}, monitor);
+  ASSERT_EQ(monitor.all.size(), 1U);
+  EXPECT_NE(monitor.all[0].find("`dwell` does nothing without creep"), std::string::npos);
+  Scene scene = scene_of();
+  scene.creep = CreepOptions{};
+  SpecimenPair creeping(scene);
+  Warnings quiet;
+  creeping.press({PressBy::pressure, 10 * megapascal, 600.0}, quiet);
   EXPECT_TRUE(quiet.all.empty());
 }
 

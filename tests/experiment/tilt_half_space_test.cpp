@@ -66,6 +66,31 @@ TEST(TiltHalfSpace, AProbeUnderFiftyNodesIsRaisedAndSaysSo) {
   EXPECT_NE(result.note.find("the probe pressure was raised to"), std::string::npos);
 }
 
+TEST(TiltHalfSpace, SpotsThatYieldUnderTheProbeAreTold) {
+  const std::string told = "spots yield under the probe pressure";
+  Scene scene = on_quartz().scene();
+  const TiltResult elastic = raise(SpecimenPair(scene), law, stage({30 * megapascal}));
+  EXPECT_EQ(elastic.note.find(told), std::string::npos);
+  EXPECT_FALSE(elastic.probes.at(0).yields);
+  scene.plasticity = PlasticityOptions{};  // the softer of Al-2011 and quartz
+  SpecimenPair pair(scene);
+  const std::string before = pair.lower().digest();
+  const TiltResult plastic = raise(pair, law, stage({30 * megapascal}));
+  EXPECT_NE(plastic.note.find(told), std::string::npos) << plastic.note;
+  EXPECT_TRUE(plastic.probes.at(0).yields);
+  EXPECT_GT(*plastic.area_per_load, *elastic.area_per_load);
+  EXPECT_EQ(pair.lower().digest(), before);
+  // So hard that nothing yields: nothing to tell.
+  scene.plasticity = PlasticityOptions{1e12, std::numeric_limits<double>::infinity()};
+  EXPECT_EQ(raise(SpecimenPair(scene), law, stage({30 * megapascal})).note.find(told), std::string::npos);
+}
+TEST(TiltHalfSpace, ARaisedProbeTellsHowManyNodesTouched) {
+  const TiltResult result = raise(on_quartz(), law, stage({0.1 * megapascal}));
+  EXPECT_NE(result.note.find("until " + std::to_string(result.probes.at(0).contacts) + " nodes touched"),
+            std::string::npos)
+      << result.note;
+}
+
 TEST(TiltHalfSpace, ProbesAreAveraged) {
   const SpecimenPair pair = on_quartz();
   const double one = *raise(pair, law, stage({30 * megapascal})).area_per_load,

@@ -48,6 +48,23 @@ local law = lab.friction{ tau0="500 MPa", alpha=0.2 }
 refused(function() law:on(c) end, "`st` is a contact; give a state")
 refused(function() lab.tilt_stage{ contact=c, friction=law } end, "`mass` is missing")
 refused(function() lab.tilt_stage{ contact=c, friction=law, mass="4 g", limit="95 deg" } end, "`limit` is")
+refused(function() lab.tilt_stage{ contact=c, friction=law, mass="4 g", probe_pressure={} } end, "`probe_pressure` is an empty list; give one pressure or more")
+refused(function() lab.tilt_stage{ contact=c, friction=law, mass="4 g", probe_pressure={ math.huge } } end, "`probe_pressure` is inf Pa; give a finite pressure above 0")
+-- A flat has no peak-to-valley to be a fraction of.
+local flat = S.flat{ cells=8, size="1 mm", material=steel }
+for _, boundary in ipairs{ "periodic", "free" } do
+  local even = lab.contact{ lower=flat, upper=lab.rigid, boundary=boundary, effects={ elasticity="half_space" } }
+  refused(function() even:press{ indentation=0.1 } end, "`indentation` is a fraction of a peak-to-valley that is zero")
+  refused(function() even:press{ flatten=0.1 } end, "`flatten` is a fraction of a peak-to-valley that is zero")
+  local st = even:press{ pressure="1 MPa" }
+  assert(st.area_fraction == 1 and st.converged)
+  if boundary == "periodic" then
+    assert(st.approach == 0 and st.indentation == 0 and st.peak_pressure == 1e6 and st.stiffness == math.huge)
+  else
+    refused(function() return st.indentation end, "`indentation` is a fraction of a peak-to-valley that is zero", "read `approach`")
+    assert(not tostring(st):find "indentation" and not tostring(st):find "inf")
+  end
+end
 c:close()
 refused(function() c:press{ pressure=1 } end, "a contact was used after it was closed")
 print "all refused"

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Work of over a second says how far it is and how long it will take, on standard error.
---! flags: --limit-time 2500ms
+--! flags: --limit-time 5s
 --! exit: 1
 --! error:  %, about 
 --! error:  left

@@ -92,7 +92,9 @@ LocalHardness local_hardness(const ContactGeometry& geometry, const PlannedYield
   const HardnessMemory& memory = geometry.hardness();
   LocalHardness local;
   local.lower = memory.lower;
-  if (memory.upper) {
+  if (memory.upper_here) {
+    local.upper = memory.upper_here;
+  } else if (memory.upper) {
     Field seen = geometry.pose().to_lower(*memory.upper, geometry.grid());
     // Where the turned upper body has no node it cannot be touched; it is as hard there as it began.
     for (double& value : seen.values())
@@ -143,9 +145,12 @@ YieldedBodies yielded_bodies(const ContactGeometry& geometry, const PlannedYield
   if (hardens) {
     if (std::isfinite(yield.lower_hardness))
       after.hardness.lower = hardened(after.hardness.lower, yield.lower_hardness, change.hardness, grid);
-    if (rough != nullptr && std::isfinite(yield.upper_hardness))
+    if (rough != nullptr && std::isfinite(yield.upper_hardness)) {
       after.hardness.upper = hardened(after.hardness.upper, yield.upper_hardness,
                                       geometry.pose().to_upper(change.hardness, grid), grid);
+      if (!geometry.pose().on_lattice())
+        after.hardness.upper_here = hardened(local.upper, yield.upper_hardness, change.hardness, grid);
+    }
   }
   return after;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/level_transfer.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
 #include "engine/core/error.hpp"
@@ -27,6 +28,7 @@ constexpr std::size_t coarse_nodes = 64 * 64;
 struct Prescribed {
   std::function<double(const HalfSpaceProblem&, const HalfSpaceAnswer&)> measure;
   double target = 0;
+  double length = 1;     // how far the bodies must close for each of the measure, where nothing gives way
   double sharpness = 1;  // of the solves: their tolerance for each of the measure's
   std::string what;      // "`approach` of 3 um"
 };
@@ -74,17 +76,50 @@ struct Search {
   HalfSpaceAnswer answer;
   Root root;
   bool reached = false;
+  bool enough = false;  // some load brings what is asked for, or more
 };
+
+// Where every node in contact is at the cap the load says nothing of the offset: any that lets the nodes at
+// the cap overlap and the others gape is a solution. Takes the one nearest to what is wanted.
+void close_within_reach(const HalfSpaceProblem& problem, const Prescribed& wanted, HalfSpaceAnswer& answer) {
+  const auto nodes = static_cast<std::int64_t>(problem.grid.nodes());
+  if (!problem.yield.caps() || answer.contacts != answer.yielded || answer.contacts == nodes) return;
+  const auto ends = over_nodes<0, 2>(problem.grid.nodes(), [&](std::size_t k, double* v) {
+    const bool touches = answer.pressure[k] > 0;
+    v[0] = touches ? infinity : answer.gap[k];
+    v[1] = touches ? -answer.gap[k] : infinity;
+  });
+  const double least = -ends[1], most = ends[0];
+  if (!(least <= most)) return;
+  const double further =
+      std::clamp(wanted.length * (wanted.target - wanted.measure(problem, answer)), least, most);
+  for (double& gap : answer.gap.values()) gap -= further;
+  answer.offset += further;
+  answer.approach += further;
+  certify(problem, answer);
+}
+
+// The load of whole nodes at the cap that is nearest to `pressure` and strictly between two others; none, 0.
+double whole_nodes(const HalfSpaceProblem& problem, double pressure, double low, double high) {
+  const double nodes = static_cast<double>(problem.grid.nodes()), cap = problem.yield.cap;
+  const auto load = [&](double whole) { return whole * cap / nodes; };
+  const double nearest = std::round(pressure * nodes / cap);
+  for (const double whole : {nearest, nearest - 1, nearest + 1})
+    if (load(whole) > low && load(whole) < high) return load(whole);
+  return 0;
+}
 
 Search search(const HalfSpaceProblem& problem, const Prescribed& wanted, Root root, double accuracy,
               double loosest, Monitor& monitor) {
   const double highest = problem.yield.caps() ? problem.yield.cap * (1 - 1e-12) : infinity;
   HalfSpaceProblem now = problem;
   now.best_effort = true;
-  const double tightest = std::min(problem.tolerance, std::max(accuracy * wanted.sharpness, 1e-13));
+  constexpr double by_rounding = 1e-13;
+  double tightest = std::min(problem.tolerance, std::max(accuracy * wanted.sharpness, by_rounding));
   now.tolerance = std::max(tightest, loosest);
   Tried low, high{infinity, infinity};
   Tried last;  // by a solve as tight; no pressure: none
+  double last_error = infinity;
   Search result;
   result.root = root;
   double pressure = std::min(root.pressure, highest);
@@ -93,8 +128,10 @@ Search search(const HalfSpaceProblem& problem, const Prescribed& wanted, Root ro
     // Only a near state is worth starting from; a far one is found quicker on nested grids.
     if (start && std::abs(std::log(pressure / start->mean_pressure)) > 0.2) start = nullptr;
     result.answer = solve_at_pressure(now, pressure, start, monitor);
+    close_within_reach(problem, wanted, result.answer);
     const Tried at{pressure, wanted.measure(problem, result.answer)};
     const double error = std::abs(at.measure - wanted.target) / wanted.target;
+    result.enough = result.enough || at.measure >= wanted.target;
     if (error <= accuracy && now.tolerance <= tightest) {
       result.root.pressure = pressure;
       result.reached = true;
@@ -106,12 +143,16 @@ Search search(const HalfSpaceProblem& problem, const Prescribed& wanted, Root ro
       if (slope > 0 && std::isfinite(slope)) result.root.slope = slope;
     }
     last = at;
-    const double tighter = std::max(tightest, std::min(now.tolerance, 0.01 * error));
+    // What is left of an error that a solve as loose as the last did not lessen may be its own.
+    const bool stalls = error < 0.1 && error > 0.25 * last_error;
+    last_error = error;
+    const double tighter =
+        std::max(tightest, std::min((stalls ? 0.1 : 1.0) * now.tolerance, 0.02 * wanted.sharpness * error));
     if (error <= accuracy) {  // right by a loose solve: the same load again, to the end
       now.tolerance = tightest;
       continue;
     }
-    if (tighter < now.tolerance) {
+    if (tighter < result.answer.certificate.worst()) {
       // What a looser solve put on one side may belong to the other.
       low = {};
       high = {infinity, infinity};
@@ -126,13 +167,25 @@ Search search(const HalfSpaceProblem& problem, const Prescribed& wanted, Root ro
                                                        std::clamp(result.root.slope, 0.05, 50.0))
                                  : 4 * pressure;
     next = std::clamp(next, pressure / 100, pressure * 100);
-    const bool bracketed = high.pressure < infinity && low.pressure > 0;
-    if (bracketed && !(next > low.pressure && next < high.pressure))
+    bool bracketed = high.pressure < infinity && low.pressure > 0;
+    // Loads that hardly differ, and yet what is wanted is far off: one of them was put on the wrong side, by
+    // a node that weighs nothing in the residual of many.
+    if (bracketed && stalls && high.pressure - low.pressure < 1e-6 * pressure &&
+        now.tolerance > by_rounding) {
+      tightest = now.tolerance = std::min(tightest, by_rounding);
+      low = {};
+      high = {infinity, infinity};
+      bracketed = false;
+    }
+    if (bracketed && (stalls || !(next > low.pressure && next < high.pressure)))
       next = std::sqrt(low.pressure) * std::sqrt(high.pressure);
     else if (next >= high.pressure)
       next = 0.5 * high.pressure;
     else if (next <= low.pressure)
       next = 2 * low.pressure;
+    if (bracketed && problem.yield.caps() && result.answer.contacts - result.answer.yielded <= 1)
+      if (const double whole = whole_nodes(problem, next, low.pressure, high.pressure); whole > 0)
+        next = whole;
     if (next >= highest) next = pressure + 0.5 * (highest - pressure);
     if (next == pressure || !(next > 0) || !std::isfinite(next)) break;
     if (bracketed && high.pressure <= low.pressure * (1 + 4e-16)) break;
@@ -162,7 +215,7 @@ HalfSpaceAnswer solve_for(const HalfSpaceProblem& problem, const Prescribed& wan
   answer.converged = answer.certificate.worst() <= problem.tolerance;
   answer.solver += ", load sought";
   if (answer.converged || problem.best_effort) return std::move(answer);
-  if (measure < wanted.target && answer.certificate.load > problem.tolerance)
+  if (!found.enough && answer.certificate.load > problem.tolerance)
     throw Error(ErrorCode::infeasible,
                 wanted.what + " is not reached: a mean pressure of " +
                     format_quantity(answer.mean_pressure, dimension::pressure) + " brings " +
@@ -202,25 +255,49 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
   return solve_for(problem, wanted, approach, monitor);
 }
 
+namespace {
+
+// What a node past its yield pressure has given way.
+double hardened(const YieldLaw& law, const HalfSpaceAnswer& answer, std::size_t k) {
+  return law.hardens()
+             ? std::max(0.0, answer.pressure[k] - (law.yield ? (*law.yield)[k] : law.cap)) / law.hardening
+             : 0.0;
+}
+
+// How far the highest point and the lowest of h − u − w lie below those of h, from u itself: sums of small
+// terms where a light load moves little. One application.
+double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Range span) {
+  const Field& h = *problem.heights;
+  const Grid& grid = problem.grid;
+  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary);
+  Array<double> u(h.size());
+  compliance.apply(answer.pressure.values(), u);
+  const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
+  const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
+    const double down = length * u[k] + hardened(problem.yield, answer, k);
+    const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
+    v[0] = capped ? answer.approach : (span.max - h[k]) + down;
+    v[1] = capped ? span.span() - answer.approach : (h[k] - span.min) - down;
+  });
+  return ends[0] + ends[1];
+}
+
+}  // namespace
+
 double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
   const Field& h = *problem.heights;
   const Field& g = answer.gap;
-  const YieldLaw& law = problem.yield;
+  const Range span = range(h.values());
+  if (!(span.span() > 0) || answer.contacts == 0) return 0;
+  constexpr double few_digits = 1e-4;
+  if (answer.approach < few_digits * span.span()) return sunk_lightly(problem, answer, span) / span.span();
   // h − u − w = −(g + w + δ), w what yielded.
-  const auto closed = [&](std::size_t k) {
-    const double p = answer.pressure[k];
-    if (law.hardens())
-      return g[k] + std::max(0.0, p - (law.yield ? (*law.yield)[k] : law.cap)) / law.hardening;
-    return p >= law.cap ? std::max(0.0, g[k]) : g[k];
-  };
-  const auto ends = over_nodes<0, 4>(h.size(), [&](std::size_t k, double* v) {
-    v[0] = h[k];
-    v[1] = -h[k];
-    v[2] = closed(k);
-    v[3] = -v[2];
+  const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
+    const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
+    v[0] = capped ? std::max(0.0, g[k]) : g[k] + hardened(problem.yield, answer, k);
+    v[1] = -v[0];
   });
-  const double before = -ends[1] - ends[0], after = -ends[3] - ends[2];
-  return before > 0 ? 1 - after / before : 0;
+  return 1 - (-ends[1] - ends[0]) / span.span();
 }
 
 HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double fraction, Monitor& monitor) {
@@ -231,6 +308,7 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
     return flattened(on, answer);
   };
   wanted.target = fraction;
+  wanted.length = range(problem.heights->values()).span();
   wanted.sharpness = 0.5 * fraction;
   wanted.what = "a flattening of " + format_short(fraction);
   return solve_for(problem, wanted, fraction * range(problem.heights->values()).span(), monitor);

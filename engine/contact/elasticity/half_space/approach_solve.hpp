@@ -14,10 +14,11 @@ namespace asperity {
 // at the cap.
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor);
 
-// The share of the peak-to-valley of h pressed away, 0 … 1: 1 − span(h − u)/span(h).
+// The share of the peak-to-valley of h pressed away, 0 … 1: 1 − span(h − u − w)/span(h), w what yielded.
 HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double fraction, Monitor& monitor);
 
-// That share for an answer; 0 for flat heights.
+// That share for an answer; 0 for flat heights. One application of K where the approach is less than a
+// ten-thousandth of the heights, and O(n) elsewhere.
 double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer);
 
 }  // namespace asperity

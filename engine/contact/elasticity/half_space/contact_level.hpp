@@ -48,6 +48,8 @@ class ContactLevel {
 
   std::size_t nodes() const { return shape.nodes(); }
   double height(std::size_t k) const { return (heights_[k] - origin_) * factor_; }
+  // Heights, and with them gaps, are counted from `height_origin` from now on.
+  void count_from(double height_origin) { origin_ = height_origin; }
   double total_load() const { return mean_pressure * static_cast<double>(nodes()); }
 
   void apply(std::span<const double> p, std::span<double> u) {

@@ -9,6 +9,10 @@ namespace asperity {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
+// Complementarity averages over the load: a single node in contact may be far off. But where ground that
+// yields carries nearly all of the load, the few other nodes fix the offset and with it all that yields: so
+// each node's opening counts for itself too, by this much.
+constexpr double open_weight = 0.125;
 
 // What one node adds to the sums and minima of measure().
 template <class Limit>
@@ -33,6 +37,7 @@ void weigh(const Limit& limit, std::size_t k, double p, double g, double balance
   v[7] = gap;
   v[8] = open ? gap : infinity;
   v[9] = full ? -gap : infinity;
+  if constexpr (Limit::hardens) v[10] = open ? infinity : -gap;
 }
 
 // take(k, p, g) gives the pressure and gap of a node.
@@ -40,7 +45,8 @@ template <class Limit, class Take>
 ContactQuality measure(const ContactLevel& level, const Limit& limit, std::span<const double> p,
                        std::span<const double> g, double balance, Take take) {
   const double upper = limit.upper();
-  const auto found = over_nodes<7, 3>(p.size(), [=, limit = limit](std::size_t k, double* v) {
+  constexpr std::size_t minima = Limit::hardens ? 4 : 3;
+  const auto found = over_nodes<7, minima>(p.size(), [=, limit = limit](std::size_t k, double* v) {
     double pressure, gap;
     take(k, pressure, gap);
     weigh(limit, k, pressure, gap, balance, upper, v);
@@ -66,18 +72,23 @@ ContactQuality measure(const ContactLevel& level, const Limit& limit, std::span<
     quality.offset = weighted;
     quality.penetration = std::max(0.0, weighted - least) / level.length;
     quality.complementarity = quality.penetration;
-    quality.residual = weighted - least == weighted - least ? quality.penetration : infinity;
+    quality.residual = quality.penetration;
+    if constexpr (Limit::hardens)
+      quality.residual = std::max(quality.residual, open_weight * (-found[10] - weighted) / level.length);
+    if (!(weighted - least == weighted - least)) quality.residual = infinity;
     return quality;
   }
   const double offset = quality.offset = quality.interior_gap;
-  const auto apart = over_nodes<1, 1>(p.size(), [=, p = p.data(), g = g.data()](std::size_t k, double* v) {
+  const auto apart = over_nodes<1, 2>(p.size(), [=, p = p.data(), g = g.data()](std::size_t k, double* v) {
     const double q = std::min(std::max(p[k], 0.0), upper), gap = g[k] - offset;
     v[0] = (gap > 0 ? q : q - upper) * gap;
     v[1] = q < upper ? gap : infinity;
+    v[2] = q > 0 ? -gap : infinity;
   });
   quality.complementarity = apart[0] / (quality.load * level.length);
   quality.penetration = std::isfinite(apart[1]) ? std::max(0.0, -apart[1]) / level.length : 0.0;
-  quality.residual = std::max(quality.complementarity, quality.penetration);
+  const double open = std::isfinite(apart[2]) ? std::max(0.0, -apart[2]) / level.length : 0.0;
+  quality.residual = std::max({quality.complementarity, quality.penetration, open_weight * open});
   if (!(quality.residual == quality.residual)) quality.residual = infinity;
   return quality;
 }

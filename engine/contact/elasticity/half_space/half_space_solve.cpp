@@ -32,12 +32,15 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
                     " Pa, less than 1e-280 of the contact modulus: no double holds its gaps",
                 "give a larger pressure, or none");
   const YieldLaw& law = problem.yield;
-  if (law.caps() && mean_pressure >= law.cap)
+  if (law.caps() && mean_pressure >= law.cap) {
+    // To the last digit where fewer would not tell the two apart.
+    const bool alike = mean_pressure != law.cap && pascals(mean_pressure) == pascals(law.cap);
+    const auto shown = [&](double p) { return alike ? format_exact(p) + " Pa" : pascals(p); };
     throw Error(ErrorCode::infeasible,
-                "a mean pressure of " + format_short(mean_pressure, 17) +
-                    " Pa cannot be carried: `hardness` is " + pascals(law.cap) +
-                    ", and every node would have to carry as much or more",
+                "a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
+                    shown(law.cap) + ", and every node would have to carry as much or more",
                 "press with less than the hardness, or give `hardening`");
+  }
 }
 
 // What gaps are measured by where heights say nothing: the displacement of the tile as one punch, about.
@@ -97,8 +100,9 @@ double rough_slope(const HalfSpaceProblem& problem) {
 
 double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.yield)[k] : law.cap; }
 
-// Counts and certificate of the fields handed out.
-void complete(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
+}  // namespace
+
+void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   const YieldLaw& law = problem.yield;
   const double cap = law.caps() ? law.cap : infinity;
   const Field &p = answer.pressure, &g = answer.gap;
@@ -143,6 +147,8 @@ void complete(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   answer.converged = c.worst() <= problem.tolerance;
 }
 
+namespace {
+
 HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
   HalfSpaceAnswer answer;
   answer.pressure = Field(problem.grid.nx, problem.grid.ny);
@@ -151,7 +157,25 @@ HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
   for (double& g : answer.gap.values()) g = peak - g;
   answer.offset = -peak;
   answer.solver = "first touch";
-  complete(problem, answer);
+  certify(problem, answer);
+  return answer;
+}
+
+// Whether a flat lies on all of a periodic tile and nothing yields: every node then carries the mean
+// pressure, and a uniform pressure moves nothing.
+bool evenly_loaded(const HalfSpaceProblem& problem, double mean_pressure) {
+  return problem.boundary == Boundary::periodic && range(problem.heights->values()).span() == 0 &&
+         (!problem.yield.limits() || (!problem.yield.yield && mean_pressure < problem.yield.cap));
+}
+
+HalfSpaceAnswer even_load(const HalfSpaceProblem& problem, double mean_pressure) {
+  HalfSpaceAnswer answer;
+  answer.pressure = Field(problem.grid.nx, problem.grid.ny, mean_pressure);
+  answer.gap = Field(problem.grid.nx, problem.grid.ny);
+  answer.offset = -(*problem.heights)[0];
+  answer.mean_pressure = mean_pressure;
+  answer.solver = "even pressure of a flat";
+  certify(problem, answer);
   return answer;
 }
 
@@ -169,15 +193,14 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
     answer.gap[k] = (cell.gap[k] - cell.offset) * units.height;
   });
   answer.mean_pressure = mean_pressure;
-  const double indentation = cell.offset * units.height;
-  answer.offset = indentation - units.origin;
-  answer.approach = std::isnan(cell.approach)
-                        ? (range(problem.heights->values()).max - units.origin) + indentation
-                        : cell.approach * units.height;
+  const double offset = cell.offset * units.height;
+  const double peak = range(problem.heights->values()).max;
+  answer.approach = cell.from_peak ? offset : (peak - units.origin) + offset;
+  answer.offset = cell.from_peak ? offset - peak : offset - units.origin;
   answer.iterations = cell.applications;
   answer.solver = cell.stage;
   if (cell.levels > 1) answer.solver += " on " + std::to_string(cell.levels) + " nested grids";
-  complete(problem, answer);
+  certify(problem, answer);
   return answer;
 }
 
@@ -201,6 +224,7 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
                                   const HalfSpaceAnswer* start, Monitor& monitor) {
   check(problem, mean_pressure);
   if (mean_pressure == 0) return first_touch(problem);
+  if (evenly_loaded(problem, mean_pressure)) return even_load(problem, mean_pressure);
   const bool flat = !rough(problem, mean_pressure);
   const CellUnits units = cell_units(problem, mean_pressure, flat);
   const Grid& grid = problem.grid;

@@ -46,7 +46,8 @@ struct HalfSpaceAnswer {
   std::string solver;  // the stage that finished
 };
 
-// Heights that are all equal have no rms; the certificate then takes the approach for its length.
+// Heights that are all equal, or differ by rounding alone, have no rms; the certificate then takes p̄√area/E*
+// for its length, about what the tile would sink as one punch.
 // Costs a fixed number of O(n log n) applications of K (some 20 to 40) and holds about ten fields besides
 // the answer. A null `start` begins from nested grids; otherwise from the pressures of `start`, an
 // answer on the same grid. Throws Error{infeasible} where p̄ >= cap, {bad_value} where p̄ is negative, not
@@ -55,5 +56,8 @@ struct HalfSpaceAnswer {
 // threads.
 HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,
                                   const HalfSpaceAnswer* start, Monitor& monitor);
+
+// Counts, peak pressure and certificate anew, of the pressures and gaps that `answer` holds. O(n).
+void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer);
 
 }  // namespace asperity

@@ -9,6 +9,7 @@
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/approach_solve.hpp"
 #include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
+#include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -97,14 +98,11 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
   double stiffness() const override {
     return at_.contacts > 0 ? contact_stiffness(problem_, at_, Monitor::silent()) : 0.0;
   }
-  double flatten() const override { return flattened(problem_, at_); }
+  double flatten() const override { return std::max(0.0, flattened(problem_, at_)); }  // rounding apart
   double mean_gap() const override {
     return sum([&](std::size_t k) { return std::max(0.0, at_.gap[k]); }) / nodes();
   }
-  double energy() const override {
-    return 0.5 * sum([&](std::size_t k) { return at_.pressure[k] * displacement(k); }) *
-           problem_.grid.cell_area();
-  }
+  double energy() const override;
   PressureSplit split(double threshold) const override;
 
   std::int64_t bytes() const override {
@@ -162,6 +160,22 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
   HalfSpaceAnswer at_;
   double factor_;
 };
+
+// Half the product of pressures and displacements. Where all of a periodic tile touches, the mean pressure
+// moves nothing and may be so large that pressures beside it keep no digit of what differs; that is
+// taken from the displacements then.
+double HalfSpaceSolver::UnderLoad::energy() const {
+  Field pressure = at_.pressure;
+  if (problem_.boundary == Boundary::periodic && static_cast<double>(at_.contacts) == nodes() &&
+      yielded() == 0) {
+    const Grid& grid = problem_.grid;
+    HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem_.boundary);
+    compliance.apply_inverse(displacement_field().values(), pressure.values());
+    for (double& p : pressure.values()) p *= problem_.modulus / grid.hx();
+  }
+  const double twice = sum([&](std::size_t k) { return pressure[k] * displacement(k); });
+  return std::max(0.0, 0.5 * twice * problem_.grid.cell_area());  // a sum of squares, but for rounding
+}
 
 PressureSplit HalfSpaceSolver::UnderLoad::split(double threshold) const {
   PressureSplit result;

@@ -14,6 +14,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // No sum of a grid is better than this.
 constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
+constexpr double noticed = 1e-13;  // of the load
 
 struct Carried {
   double load;      // Σ clip(y + λ)
@@ -87,10 +88,23 @@ bool project(std::span<const double> y, Where where, double upper, double load, 
     if (next == shift || !(next > low && next < high)) break;
     shift = next;
   }
-  for_nodes(y.size(), [=, y = y.data(), target = target.data()](std::size_t k) {
+  const auto clipped = [=, y = y.data()](std::size_t k, double by) {
     const bool here = where(k);
-    const double x = (y[k] - (here ? origin : 0.0)) + (here ? best_shift : 0.0);
-    target[k] = std::min(std::max(x, 0.0), upper);
+    const double x = (y[k] - (here ? origin : 0.0)) + (here ? by : 0.0);
+    return std::min(std::max(x, 0.0), upper);
+  };
+  if (best <= noticed * load) {
+    for_nodes(y.size(), [=, target = target.data()](std::size_t k) { target[k] = clipped(k, best_shift); });
+    return true;
+  }
+  // Values so large beside the load that two neighbouring shifts carry too little and too much: between the
+  // two.
+  const double least = carried(y, where, upper, origin, low).load;
+  const double most = carried(y, where, upper, origin, high).load;
+  const double share = most > least ? std::clamp((load - least) / (most - least), 0.0, 1.0) : 0.0;
+  for_nodes(y.size(), [=, target = target.data()](std::size_t k) {
+    const double from = clipped(k, low);
+    target[k] = from + share * (clipped(k, high) - from);
   });
   return true;
 }

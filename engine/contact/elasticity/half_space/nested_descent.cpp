@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -78,6 +79,10 @@ double upper_of(const PressureLimit& limit) {
   return std::visit([](const auto& law) { return law.upper(); }, limit);
 }
 
+double greatest(std::span<const double> values) {
+  return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
+}
+
 struct ChainEnd {
   StageEnd stage;
   std::string name;
@@ -135,32 +140,109 @@ std::vector<Step> nest(const CellProblem& problem, bool alone) {
 }
 
 // A pressure within rounding of a bound is at the bound: left off it, it would count as free ground, and
-// alone fix an offset that nothing else determines.
+// alone fix an offset that nothing else determines. Rounding is that of the sum of the pressures there are:
+// under a light load all of them are nothing beside the bound.
 void snap_to_bounds(double upper, std::span<double> p) {
-  constexpr double rounding = 1e-14;
+  const double rounding =
+      std::max(1e-14, static_cast<double>(p.size()) * std::numeric_limits<double>::epsilon());
+  const double least = rounding * std::min(upper, greatest(p));
   for_nodes(p.size(), [&](std::size_t k) {
-    if (p[k] < rounding * upper)
+    if (p[k] < least)
       p[k] = 0;
     else if (p[k] > upper * (1 - rounding))
       p[k] = upper;
   });
 }
 
-// The approach of a light contact. max h + offset is then a small difference of large heights; the mean over
-// the load of u + (max h − h), the same by complementarity, is a sum of small ones. One application.
-double light_approach(ContactLevel& level, std::span<const double> p, double peak, std::span<double> u) {
-  level.apply(p, u);
-  const auto sums = over_nodes<2>(p.size(), [&](std::size_t k, double* v) {
-    v[0] = p[k];
-    v[1] = p[k] > 0 ? p[k] * (u[k] + (peak - level.height(k))) : 0.0;
-  });
-  return sums[1] / sums[0];
+// Where the ground moves by far less than the rms, what is right to a share of the rms says nothing of how
+// the load is shared. So the solve goes on, its gaps counted from the height that matters, where they are
+// sums of small terms and not small differences of large heights, and measured by how far the ground there
+// moves.
+class LightContact {
+ public:
+  LightContact(ContactLevel& level, DescentFields& fields, const CellProblem& problem)
+      : level_(level), fields_(fields), problem_(problem) {}
+
+  // What it cannot better stays as it was. Returns whether gaps and offset are counted from the highest node.
+  bool refine(ChainEnd& end);
+
+ private:
+  static constexpr double light = 0.01;  // an approach, of what gaps are measured by
+  static constexpr double soft = 1e-3;   // what one node at the cap sinks, of the same
+
+  // Once more from the pressures there are; false, and they stay, where that does not converge.
+  bool again(double length, ChainEnd& end);
+  void by_approach(double approach, ChainEnd& end);
+  void at_the_cap(double cap, ChainEnd& end);
+  double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
+  // What one node sinks, about, under the pressure `p` on it alone.
+  double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
+
+  ContactLevel& level_;
+  DescentFields& fields_;
+  const CellProblem& problem_;
+};
+
+bool LightContact::again(double length, ChainEnd& end) {
+  level_.length = length;
+  const Array<double> before = fields_.pressure;
+  const ChainEnd finer = run_chain(level_, fields_, problem_.tolerance, false);
+  if (finer.stage.converged)
+    end = finer;
+  else
+    fields_.pressure = before;
+  return finer.stage.converged;
 }
 
-}  // namespace
+void LightContact::by_approach(double approach, ChainEnd& end) {
+  constexpr double right = 0.5;  // of the approach that gaps were measured by
+  constexpr int most_rounds = 60;
+  // Without a limit on its pressure the highest node alone would sink so far; the first approach is perhaps
+  // only what the tolerance left.
+  const double alone = sunk(level_.total_load());
+  const bool elastic =
+      !std::isfinite(upper_of(level_.limit)) && std::holds_alternative<PressureCap>(level_.limit);
+  if (!(approach > 0) || elastic) approach = std::min(approach > 0 ? approach : alone, alone);
+  for (int round = 0; round < most_rounds; ++round) {
+    if (!again(approach, end)) return;
+    approach = offset();
+    if (!(approach > 0) || approach > right * level_.length) return;
+  }
+}
 
-CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
-                          std::span<const double> start_gap, Monitor& monitor) {
+// Soft ground: all is at the cap above some height, and all is open below; nodes at that height share the
+// rest.
+void LightContact::at_the_cap(double cap, ChainEnd& end) {
+  const Array<double>& p = fields_.pressure;
+  for (std::size_t k = 0; k < p.size(); ++k)
+    if (p[k] > 0 && p[k] < cap) {
+      level_.count_from(problem_.heights[k]);
+      again(sunk(cap), end);
+      return;
+    }
+}
+
+bool LightContact::refine(ChainEnd& end) {
+  const double highest = greatest(problem_.heights), length = level_.length;
+  const double cap = upper_of(level_.limit);
+  const double approach = (highest - problem_.origin) * problem_.factor + offset();
+  const bool from_peak = approach < light * length;
+  if (from_peak) {
+    level_.count_from(highest);
+    by_approach(approach, end);
+  }
+  const bool is_soft = std::isfinite(cap) && sunk(cap) < soft * length;
+  if (is_soft) {
+    at_the_cap(cap, end);
+    level_.count_from(from_peak ? highest : problem_.origin);
+  }
+  if (from_peak || is_soft) level_.gap(fields_.pressure, fields_.gap);
+  level_.length = length;
+  return from_peak;
+}
+
+CellAnswer descend_nest(const CellProblem& problem, std::span<const double> start_pressure,
+                        std::span<const double> start_gap, Monitor& monitor) {
   std::vector<Step> steps = nest(problem, !start_pressure.empty());
   Progress progress(monitor);
   CellAnswer answer;
@@ -199,16 +281,12 @@ CellAnswer nested_descent(const CellProblem& problem, std::span<const double> st
     }
     project_to_load(p, {}, upper, level.total_load(), p);
 
-    const ChainEnd end = run_chain(level, fields, tolerance, finest);
+    ChainEnd end = run_chain(level, fields, tolerance, finest);
     if (!end.stage.converged) level.gap(p, fields.gap);
+    answer.from_peak = finest && LightContact(level, fields, problem).refine(end);
     if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
     const ContactQuality at = contact_quality(level, p, fields.gap);
     if (finest) {
-      constexpr double few_digits = 1e-6;  // of the rms
-      const double peak =
-          -over_nodes<0, 1>(nodes, [&](std::size_t k, double* v) { v[0] = -level.height(k); })[0];
-      if (peak + at.offset < few_digits * level.length && !std::isfinite(upper))
-        answer.approach = light_approach(level, p, peak, fields.step);
       answer.pressure = std::move(p);
       answer.gap = std::move(fields.gap);
       answer.offset = at.offset;
@@ -225,6 +303,51 @@ CellAnswer nested_descent(const CellProblem& problem, std::span<const double> st
   return answer;
 }
 
+// The least load of all, or the softest ground: products of pressures and displacements, and their squares,
+// must stay within the range of a double. The power of two to multiply heights and pressures by; rounds
+// nothing.
+int power_within_range(const CellProblem& problem) {
+  constexpr double least = 1e-100;
+  const double load = problem.mean_pressure * static_cast<double>(problem.shape.nodes());
+  const double pressure = std::min(load, upper_of(problem.limit));
+  return pressure > 0 && pressure < least ? -std::ilogb(pressure) / 2 : 0;
+}
+
+CellProblem times_power_of_two(const CellProblem& problem, int power) {
+  CellProblem result = problem;
+  for (double* value : {&result.factor, &result.mean_pressure, &result.length})
+    *value = std::ldexp(*value, power);
+  if (auto* cap = std::get_if<PressureCap>(&result.limit)) {
+    cap->cap = std::ldexp(cap->cap, power);
+  } else {
+    auto& hardening = std::get<LinearHardening>(result.limit);
+    hardening.uniform = std::ldexp(hardening.uniform, power);
+    hardening.factor = std::ldexp(hardening.factor, power);
+  }
+  return result;
+}
+
+Array<double> times_power_of_two(std::span<const double> values, int power) {
+  Array<double> result(values.begin(), values.end());
+  for (double& value : result) value = std::ldexp(value, power);
+  return result;
+}
+
+}  // namespace
+
+CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
+                          std::span<const double> start_gap, Monitor& monitor) {
+  const int power = power_within_range(problem);
+  if (power == 0) return descend_nest(problem, start_pressure, start_gap, monitor);
+  CellAnswer answer =
+      descend_nest(times_power_of_two(problem, power), times_power_of_two(start_pressure, power),
+                   times_power_of_two(start_gap, power), monitor);
+  answer.pressure = times_power_of_two(answer.pressure, -power);
+  answer.gap = times_power_of_two(answer.gap, -power);
+  answer.offset = std::ldexp(answer.offset, -power);
+  return answer;
+}
+
 CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   Progress progress(monitor);
   const std::size_t nodes = problem.shape.nodes();
@@ -238,6 +361,9 @@ CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   for_nodes(nodes, [&](std::size_t k) { p[k] = level.height(k); });
   level.compliance.apply_inverse(p, p);
   answer.applications = 1;
+  // The mean moves nothing, and may be so large that beside it pressures lose their digits: gaps come from
+  // what they differ by.
+  answer.gap = p;
   const auto found = over_nodes<1, 1>(nodes, [&](std::size_t k, double* v) {
     p[k] += problem.mean_pressure;
     v[0] = std::visit(
@@ -247,8 +373,7 @@ CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   });
   progress.report(0, 1, 1, 0.5);
   if (!(found[0] == 0 && found[1] > 0)) return answer;
-  answer.gap.resize(nodes);
-  level.gap(p, answer.gap);
+  level.gap(answer.gap, answer.gap);
   answer.applications = 2;
   const ContactQuality at = contact_quality(level, p, answer.gap);
   answer.offset = at.offset;

@@ -5,7 +5,6 @@
 // interface.
 #pragma once
 
-#include <limits>
 #include <span>
 #include <string>
 
@@ -29,8 +28,9 @@ struct CellAnswer {
   Array<double> pressure;  // feasible, bounds exact
   Array<double> gap;       // K p − h, without offset, from an application to `pressure`
   double offset = 0;
-  // From first touch, where max h + offset has lost its digits; NaN elsewhere.
-  double approach = std::numeric_limits<double>::quiet_NaN();
+  // A light contact, where h + offset is a small difference of large heights: gap and offset are counted
+  // from the highest node, and the offset is the approach.
+  bool from_peak = false;
   double residual = 0;
   bool converged = false;
   int applications = 0;  // on the finest grid

@@ -22,6 +22,7 @@ constexpr double slow = 0.7;  // a pass that leaves more than this of the best r
 constexpr int slow_passes = 2;
 constexpr double jump = 10;  // a pass whose residual is so many times the one before has gone back
 constexpr int jumps_in_a_cycle = 2;
+constexpr int most_renewals = 50;
 
 // The fields by plain pointers and the law by value: what the loops over the nodes take along.
 template <class Limit>
@@ -284,7 +285,7 @@ StageEnd Descent<Limit>::run() {
   fresh_ = true;
   StageEnd end;
   double least = end.best;
-  int without_gain = 0, slow_ones = 0, jumps = 0;
+  int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
   double before = end.best;
   bool have_old = false;
   f_.old_free.assign(nodes(), 255);
@@ -296,6 +297,10 @@ StageEnd Descent<Limit>::run() {
       if (at.within && fresh_ && std::abs(at.load - level_.total_load()) < tolerance_ * level_.total_load()) {
         end.converged = true;
         end.best = at.residual;
+        return end;
+      }
+      if (++renewals > most_renewals) {  // feasible pressures are worse again each time
+        project(at, f_.pressure);
         return end;
       }
       renew(at);
