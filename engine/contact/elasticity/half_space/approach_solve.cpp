@@ -164,7 +164,7 @@ Search search(const HalfSpaceProblem& problem, const Prescribed& wanted, Root ro
     }
     now.tolerance = tighter;
     double next = at.measure > 0 ? pressure * std::pow(wanted.target / at.measure,
-                                                       std::clamp(result.root.slope, 0.05, 50.0))
+                                                       std::clamp(result.root.slope, 0.05, 1e6))
                                  : 4 * pressure;
     next = std::clamp(next, pressure / 100, pressure * 100);
     bool bracketed = high.pressure < infinity && low.pressure > 0;
@@ -215,7 +215,8 @@ HalfSpaceAnswer solve_for(const HalfSpaceProblem& problem, const Prescribed& wan
   answer.converged = answer.certificate.worst() <= problem.tolerance;
   answer.solver += ", load sought";
   if (answer.converged || problem.best_effort) return std::move(answer);
-  if (!found.enough && answer.certificate.load > problem.tolerance)
+  constexpr double nearly = 1e-3;  // nearer than this it is a matter of digits
+  if (!found.enough && answer.certificate.load > std::max(problem.tolerance, nearly))
     throw Error(ErrorCode::infeasible,
                 wanted.what + " is not reached: a mean pressure of " +
                     format_quantity(answer.mean_pressure, dimension::pressure) + " brings " +
@@ -233,6 +234,11 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
   if (!(approach >= 0) || !std::isfinite(approach))
     throw Error(ErrorCode::bad_value, "`approach` is " + format_quantity(approach, dimension::length),
                 "an approach is finite and not negative, measured from first touch");
+  if (approach > 0 && approach < 1e-280 * std::max(problem.grid.size_x, problem.grid.size_y))
+    throw Error(ErrorCode::bad_value,
+                "`approach` is " + format_short(approach) +
+                    " m, less than 1e-280 of the tile: no double holds the pressures it takes",
+                "give a larger approach, or none");
   const auto heights = problem.heights->values();
   const Range span = range(heights);
   if (problem.boundary == Boundary::periodic && !problem.yield.hardens()) {

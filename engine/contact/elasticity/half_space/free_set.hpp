@@ -27,12 +27,16 @@ struct FreeSet {
   double elastic_count = 0, yielding_count = 0, settling_count = 0;
   double elastic_gap = 0, yielding_gap = 0;  // Σ of the total gap
   bool changed = true;
+  double yielding_worth = 0;  // of a yielding node beside an elastic one, in balancing the load
 
   double count() const { return elastic_count + yielding_count; }
-  // Who balances the load.
-  Freedom balancing() const { return elastic_count > 0 ? elastic : yielding; }
-  double balancing_count() const { return elastic_count > 0 ? elastic_count : yielding_count; }
-  double balancing_gap() const { return elastic_count > 0 ? elastic_gap : yielding_gap; }
+  // Who balances the load: a few elastic nodes among many that yield would have to take too much of it.
+  bool elastic_balance() const {
+    return elastic_count > 0 && elastic_count >= yielding_worth * yielding_count;
+  }
+  Freedom balancing() const { return elastic_balance() ? elastic : yielding; }
+  double balancing_count() const { return elastic_balance() ? elastic_count : yielding_count; }
+  double balancing_gap() const { return elastic_balance() ? elastic_gap : yielding_gap; }
 };
 
 // Marks `free` with Freedom values, comparing with `before`. At least two nodes are free, the nearest to
@@ -65,6 +69,8 @@ FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balan
     v[5] = kind == yielding ? total_gap : 0.0;
   });
   FreeSet set{sums[0], sums[1], sums[2], sums[4], sums[5], sums[3] != 0};
+  if constexpr (Limit::hardens)
+    set.yielding_worth = Limit::own_compliance / (limit.yielding_slope() + Limit::own_compliance);
   constexpr std::size_t few = 9;
   if (set.count() + set.settling_count >= 2 || p.size() < 2) return set;
   Array<double> distance(p.size());
