@@ -5,8 +5,8 @@
 //
 //   bench_half_space                                   256² … 1024², five seeds
 //   bench_half_space sizes=512,2048 seeds=1 threads=2  what is asked
-//   bench_half_space plain=1024                        plain conjugate gradients up to this size (default
-//   512) bench_half_space boundary=free                     the same heights on a free boundary
+//   bench_half_space plain=1024                        plain conjugate gradients up to this size; default 512
+//   bench_half_space boundary=free                     the same heights on a free boundary
 //
 // A pair is one transform forward and one back, of the finest grid; coarser grids are counted by n ln n.
 // Plain conjugate gradients (Polonsky & Keer 1999) apply the operator twice an iteration. The bare pair is

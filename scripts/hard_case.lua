@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
--- What the hard cases of tests/stability/cases share: each says what it sweeps and what goes wrong elsewhere, then
--- shows its evidence, and leaves its part of docs/stability.md in the run directory: `section.md`, and
+-- What the hard cases of tests/stability/cases share: each says what it sweeps and what goes wrong elsewhere,
+-- then shows its evidence, and leaves its part of docs/stability.md in the run directory: `section.md`, and
 -- `row.md` for the contents. `require "asperity.hard_case"`. It computes nothing.
 local lab = require "asperity"
 local Case = {}
@@ -32,11 +32,11 @@ local function text_of(format, value)
   if type(value) ~= "number" then return tostring(value) end
   if value ~= value or value == math.huge then return tostring(value) end
   if value == 0 then return "0" end -- of an error: nothing at all
-  return (format:format(value):gsub("e([-+])0(%d)", "e%1%2"):gsub("e%+", "e"))
+  return (format:format(value):gsub("e([-+])0(%d)", "e%1%2"):gsub("e%+", "e"):gsub("e0$", ""))
 end
 
--- The rows of a notebook as a table, on the page and as printed: every column is { name, format, heading }, of
--- which the heading may be left out. `where` chooses rows.
+-- The rows of a notebook as a table, on the page and as printed: every column is { name, format, heading },
+-- of which the heading may be left out. `where` chooses rows.
 function Case:evidence(book, caption, columns, where)
   local heads, rules, width, rows = {}, {}, {}, {}
   for k, column in ipairs(columns) do
@@ -55,7 +55,8 @@ function Case:evidence(book, caption, columns, where)
       table.insert(rows, cells)
     end
   end
-  add(self, "", caption, "", "| " .. table.concat(heads, " | ") .. " |", "| " .. table.concat(rules, " | ") .. " |")
+  add(self, "", caption, "", "| " .. table.concat(heads, " | ") .. " |", "| " .. table.concat(rules, " | ")
+    .. " |")
   print("\n  " .. caption)
   table.insert(rows, 1, heads)
   for r, cells in ipairs(rows) do
@@ -88,7 +89,9 @@ function Case:refused(what, call, ...)
   local accepted, message = pcall(call)
   local named = not accepted and type(message) == "string"
   for _, part in ipairs{ ... } do named = named and message:find(part, 1, true) ~= nil end
-  message = accepted and "was accepted" or tostring(message):gsub("^[^\n]-%.lua:%d+: ", ""):gsub("\nstack traceback.*", "")
+  message = accepted and "was accepted" or tostring(message):gsub("^[^\n]-%.lua:%d+: ",
+    ""):gsub("\nstack traceback.*", "")
+    :gsub('"[^"]*/([^"/]+)"', '"%1"') -- a file's name without the folder of this run
   self.book_of_refusals:write{ what = what, refused = named and 1 or 0, error = message }
   self:expect(self.book_of_refusals, "refused", { where = { what = what }, at_least = 1, label = what })
   table.insert(self.refusals, { what = what, message = message, named = named })
@@ -115,14 +118,17 @@ function Case:finish(given)
     end
   end
   local anchor = self.title:lower():gsub("[^%w%s-]", ""):gsub("%s", "-")
-  write("row.md", { ("%03d| [%s](#%s) | %s | %s | %s |"):format(self.number, self.title, anchor, self.edge, given.worst,
+  write("row.md", { ("%03d| [%s](#%s) | %s | %s | %s |"):format(self.number, self.title, anchor, self.edge,
+    given.worst,
     verdict) })
-  table.move(self.lines, 1, #self.lines, 7)
+  table.move(self.lines, 1, #self.lines, 8)
   local head = { "## " .. self.title, "", "*What goes wrong elsewhere.* " .. self.elsewhere, "",
-    "*What happens here.* " .. self.here, ("Script: `tests/stability/cases/%s.lua`."):format(self.name) }
+    "*What happens here.* " .. self.here, "",
+    ("Script: `tests/stability/cases/%s.lua`."):format(self.name) }
   table.move(head, 1, #head, 1, self.lines)
   write("section.md", self.lines)
-  print(("\n  exact facts: %d, refusals: %d; worst: %s; verdict: %s"):format(#self.facts, #self.refusals, given.worst,
+  print(("\n  exact facts: %d, refusals: %d; worst: %s; verdict: %s"):format(#self.facts, #self.refusals,
+    given.worst,
     verdict))
 end
 

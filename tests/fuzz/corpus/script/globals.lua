@@ -1,0 +1,2 @@
+lab = require "asperity"
+function f() y = 1 end f()

@@ -1,0 +1,1 @@
+require "asperity".surface.flat{ cells=65536, size=1 }

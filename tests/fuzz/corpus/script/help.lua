@@ -1,0 +1,1 @@
+help() help "lab.contact" help "nonsense" print(require "asperity".help "surface")

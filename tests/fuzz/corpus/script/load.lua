@@ -1,0 +1,1 @@
+print(load("return 1 + ...")(2)) print(load(string.dump(function() end))) load(function() return nil end)

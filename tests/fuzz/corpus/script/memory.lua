@@ -1,0 +1,1 @@
+local t = {} for k = 1, 1e9 do t[k] = ("x"):rep(1000) .. k end

@@ -1,0 +1,1 @@
+local x = "x" while true do x = x .. x end

@@ -1,0 +1,2 @@
+local lab = require "asperity"
+print(lab.surfce)

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The readers of measured files share their questions: as a surface and as a profile, with nothing said
+// in the call, with what is usual, and with sizes at the ends of the doubles. What comes out has finite
+// heights on a grid of positive size.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/surface/io/read.hpp"
+#include "engine/surface/io/source_file.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace asperity::fuzz {
+
+inline void require_finite(std::span<const double> heights) {
+  require(!heights.empty(), "there are heights");
+  require(std::all_of(heights.begin(), heights.end(), [](double h) { return std::isfinite(h); }),
+          "heights are finite");
+}
+
+struct Knobs {
+  std::string format{};                       // "" finds out
+  std::string name = "input";                 // whose ending counts
+  std::size_t bytes_per_byte = 512;           // counted memory per byte of the file
+  std::size_t beside = std::size_t{1} << 16;  // and whatever its size
+  HoleFill fill = HoleFill::interpolate();
+};
+
+inline void read_every_way(std::string_view bytes, const Knobs& knobs) {
+  const std::size_t room = knobs.beside + knobs.bytes_per_byte * bytes.size();
+  ListeningMonitor monitor;
+  ReadOptions surface;
+  ReadProfileOptions profile;
+  surface.format = profile.format = knobs.format;
+  // Nothing, what is usual, and what nobody means but may write.
+  for (const int told : {0, 1, 2}) {
+    if (told > 0) {
+      surface.size_x = told == 1 ? 1e-3 : 5e-324;
+      surface.size_y = told == 1 ? 1e-3 : 1e308;
+      surface.unit = profile.unit = told == 1 ? 1e-6 : 1.0;
+      profile.spacing = surface.size_x;
+      surface.fill = profile.fill = knobs.fill;
+    }
+    refused(room, [&] {
+      const Surface found = read_surface(SourceFile(knobs.name, bytes), surface, monitor);
+      const Grid& grid = found.grid();
+      require(grid.nx >= 1 && grid.ny >= 1 && grid.hx() > 0 && grid.hy() > 0, "the grid has cells");
+      require(grid.nodes() == found.heights().size(), "the heights fill the grid");
+      require_finite(found.heights().values());
+    });
+    refused(room, [&] {
+      const Profile found = read_profile(SourceFile(knobs.name, bytes), profile, monitor);
+      require(found.spacing() > 0 && std::isfinite(found.spacing()), "the spacing is a length");
+      require_finite(found.heights());
+    });
+  }
+}
+
+inline std::string_view view(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+}  // namespace asperity::fuzz

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The records of a run (manifest.json, lines of journal.jsonl) read back as they were written.
+#include "engine/experiment/json.hpp"
+
+#include "tests/fuzz/target.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace asperity;
+  fuzz::refused(0, [&] {
+    const Json value = Json::parse({reinterpret_cast<const char*>(data), size}, "input.json");
+    const std::string text = value.text();
+    fuzz::require(Json::parse(text, "text") == value, "a record reads back as it was written: " + text);
+    fuzz::require(Json::parse(value.text(2), "text") == value, "also with line ends");
+  });
+  return 0;
+}

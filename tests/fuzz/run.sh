@@ -1,0 +1,69 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Builds the fuzzing targets and runs each for a while from its corpus; stops at the first crash, broken
+# promise, leak, time-out or excess of memory, keeps the input that made it and says how to run it again.
+# What grows out of a corpus stays in the build folder, where the next run goes on.
+# usage: run.sh [--seconds N] [--build FOLDER] [--jobs N] [TARGET...]
+set -eu
+cd "$(dirname -- "$0")/../.."
+
+seconds=10 build=build/fuzz jobs=$(nproc) targets=
+while [ $# -gt 0 ]; do
+  case $1 in
+    --seconds) seconds=$2; shift 2 ;;
+    --build) build=$2; shift 2 ;;
+    --jobs) jobs=$2; shift 2 ;;
+    -*) sed -n 's/^# usage: //p' "$0"; exit 2 ;;
+    *) targets="$targets $1"; shift ;;
+  esac
+done
+
+[ -f "$build/CMakeCache.txt" ] || cmake -S . -B "$build" -DCMAKE_CXX_COMPILER=clang++ -DASPERITY_FUZZ=ON \
+  -DASPERITY_BENCH=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" >/dev/null
+[ -n "$targets" ] || targets=$(ls tests/fuzz/corpus)
+cmake --build "$build" --parallel "$jobs" --target $(printf 'fuzz_%s ' $targets)
+
+# The words of the language, as its own pages have them.
+words() {
+  sed -n -e 's/^### `\(.*\)`$/"\1"/p' -e 's/^| `\([a-z_A-Z.]*\)` .*/"\1"/p' docs/reference.md
+  grep -o '"[a-z_-]*"|' docs/asperity.d.lua | sed 's/|$//'
+}
+
+run() {
+  target=$1
+  program=$build/tests/fuzz/fuzz_$target
+  place=$build/fuzz/$target
+  mkdir -p "$place/corpus"
+  set -- "$place/corpus" "tests/fuzz/corpus/$target"
+  dictionary=tests/fuzz/dictionaries/$target.txt
+  case $target in
+    options | script)
+      dictionary=$place/dictionary.txt
+      words | sort -u >"$dictionary"
+      ;;
+  esac
+  if [ -f "$dictionary" ]; then set -- "-dict=$dictionary" "$@"; fi
+  if ASAN_OPTIONS=quarantine_size_mb=32 "$program" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 \
+    -malloc_limit_mb=512 -artifact_prefix="$place/" -close_fd_mask=1 -print_final_stats=1 "$@" \
+    </dev/null >/dev/null 2>"$place/log.txt"; then
+    awk -v target="$target" '
+      / cov: / {
+        for (k = 1; k < NF; ++k) {
+          if ($k == "cov:") now = $(k + 1)
+          if ($k == "corp:") inputs = $(k + 1) + 0
+        }
+        if (/INITED/) first = now
+      }
+      /number_of_executed_units/ { runs = $2 }
+      /peak_rss_mb/ { memory = $2 }
+      END { printf "%-12s %9d runs, coverage %5d -> %5d, %5d inputs, %4d MiB\n", target, runs, first, now, inputs, memory }
+    ' "$place/log.txt"
+    return
+  fi
+  found=$(sed -n 's/.*Test unit written to //p' "$place/log.txt" | tail -n 1)
+  grep -av '^#[0-9]*[[:space:]]' "$place/log.txt" | tail -n 60
+  echo "fuzz_$target found something: ${found:-see above}"
+  echo "again: $program $found"
+  return 1
+}
+for target in $targets; do run "$target"; done

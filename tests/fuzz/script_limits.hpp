@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What holds a script of the fuzzer: a prelude that takes away what reaches files and library functions
+// that work long without a look at the clock (the program ends the process for those), a clock, and a
+// count of instructions. The limits raise the stop flag, as those of the program do.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "bindings/lua/lua_api.hpp"
+#include "bindings/lua/state.hpp"
+#include "engine/core/monitor.hpp"
+
+namespace asperity::fuzz {
+
+inline constexpr const char* prelude = R"(
+io, dofile, loadfile, os.remove, os.rename, os.exit, package.path = nil, nil, nil, nil, nil, nil, ""
+string.find, string.match, string.gmatch, string.gsub, table.move = nil, nil, nil, nil, nil
+local set, rawset = setmetatable, rawset
+function setmetatable(t, meta)
+  if type(meta) == "table" then rawset(meta, "__gc", nil) rawset(meta, "__len", nil) end
+  return set(t, meta)
+end)";
+
+class TimeLimit {
+ public:
+  explicit TimeLimit(std::chrono::milliseconds limit)
+      : thread_([this, limit](const std::stop_token& over) {
+          std::unique_lock lock(mutex_);
+          changed_.wait_for(lock, over, limit, [] { return false; });
+          if (!over.stop_requested()) stop_flag().raise(StopReason::time_limit);
+        }) {}
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::jthread thread_;
+};
+
+// Calls look() every thousand instructions, in coroutines too.
+inline int turns = 0;
+
+inline void look(lua_State* L, lua_Debug*) {
+  if (++turns > 30) stop_flag().raise(StopReason::time_limit);
+  if (stop_flag().reason() != StopReason::none) lua::interrupt(L);
+}
+
+inline void count_instructions(lua_State* L) {
+  turns = 0;
+  lua_sethook(L, look, LUA_MASKCOUNT, 1000);
+}
+
+}  // namespace asperity::fuzz

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an X3P archive holds, packed afresh so that no change of a byte spoils a checksum. The input is
+// main.xml, a zero byte, the number of valid-point bytes (two bytes, little end first), those, and the
+// points.
+#include "tests/fuzz/height_map.hpp"
+#include "tests/surface/stored_zip.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace asperity::fuzz;
+  const std::string_view input = view(data, size);
+  const std::size_t end = std::min(input.find('\0'), size);
+  std::string_view rest = input.substr(std::min(end + 1, size));
+  std::size_t valid = 0;
+  if (rest.size() >= 2) {
+    valid = static_cast<unsigned char>(rest[0]) |
+            static_cast<std::size_t>(static_cast<unsigned char>(rest[1])) << 8;
+    rest.remove_prefix(2);
+  }
+  const std::string archive =
+      asperity::testing::zip_of({{"main.xml", std::string(input.substr(0, end))},
+                                 {"points", std::string(rest.substr(std::min(valid, rest.size())))},
+                                 {"valid", std::string(rest.substr(0, valid))}});
+  read_every_way(archive, {.format = "x3p"});
+  return 0;
+}

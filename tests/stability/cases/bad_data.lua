@@ -1,0 +1,165 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Measured data as it comes: holes, infinities, outliers, files cut short, wrong units, headers that lie
+-- about size.
+--
+-- Files are written, damaged in one way at a time, and read back. Each must either give the heights that were
+-- written or an error that names the file and what is wrong. A binary file is cut at every one of its bytes.
+
+local lab = require "asperity"
+local case = require "asperity.hard_case"{
+  number = 13, title = "Bad data", edge = "files cut at every byte; sizes in a header from 0 to 2^62;"
+    .. " not-a-number, infinities and outliers up to 1e308; every wrong unit",
+  elsewhere = "A hole becomes 0 or -32768 and the deepest pit of the map; a header is believed and"
+    .. " memory for it asked; nanometres are read as metres; a cut file is read as far as it goes.",
+  here = "What a file does not say is asked for, what it says wrongly is an error that names the file,"
+    .. " and holes are filled only when the call says how. Memory asked for is bounded by the file.",
+}
+
+local nx, ny = 9, 7
+local made = lab.surface.self_affine{ cells = { nx, ny }, size = { "90 um", "70 um" }, hurst = 0.8,
+  rms_height = "1 um", short_wave = "30 um" }
+local function bytes_of(name)
+  local f <close> = assert(io.open(name, "rb"))
+  return f:read "a"
+end
+local function write(name, bytes)
+  local f <close> = assert(io.open(name, "wb"))
+  f:write(bytes)
+  return name
+end
+local function same(a, b)
+  if a.cells[1] ~= b.cells[1] or a.cells[2] ~= b.cells[2] then return false end
+  local p, q = a:heights(), b:heights()
+  for j = 1, #p do
+    for i = 1, #p[j] do if math.abs(p[j][i] - q[j][i]) > 1e-15 * made.peak_to_valley then return false end end
+  end
+  return true
+end
+
+-- 1. Every length from nothing to the whole file.
+local given = { npy = { size = { "90 um", "70 um" }, unit = "m" }, x3p = {},
+  txt = { size = { "90 um", "70 um" }, unit = "m" } }
+local cuts = lab.notebook "cuts"
+for extension, options in lab.sorted(given) do
+  local whole = bytes_of(made:write("whole." .. extension))
+  local refused, read, other, unnamed = 0, 0, 0, 0
+  for length = 0, #whole do
+    local name = write("cut." .. extension, whole:sub(1, length))
+    local ok, s = pcall(lab.surface.read, name, options)
+    if not ok then
+      refused = refused + 1
+      if not s:find("cut." .. extension, 1, true) then unnamed = unnamed + 1 end
+    elseif same(s, made) then read = read + 1
+    else other = other + 1 end
+  end
+  cuts:write{ format = extension, bytes = #whole, cuts = #whole + 1, refused = refused, ["read whole"] = read,
+    other = other, unnamed = unnamed }
+end
+case:evidence(cuts, "A map of 9 x 7 heights, cut at every byte. Of a text matrix no reader can know"
+  .. " that a row or the last digits of the last number are missing; what is read is always a whole"
+  .. " number of rows.", { { "format", "%s" }, { "bytes", "%d" }, { "cuts", "%d" }, { "refused", "%d" },
+  { "read whole", "%d", "read as written" }, { "other", "%d", "read as another map" } })
+case:expect(cuts, "unnamed", { at_most = 0 })
+for _, format in ipairs{ "npy", "x3p" } do case:expect(cuts, "other",
+  { where = { format = format }, at_most = 0 }) end
+case:expect(cuts, "read whole", { at_least = 1 })
+
+-- 2. One byte changed, at every place and to several values: never a crash, never other heights from a
+-- checked format.
+local flips = lab.notebook "flips"
+for _, extension in ipairs{ "x3p", "npy" } do
+  local whole = bytes_of("whole." .. extension)
+  local refused, read, other = 0, 0, 0
+  for place = 1, #whole, extension == "x3p" and 7 or 1 do
+    for _, mask in ipairs{ 0x01, 0x80, 0xff } do
+      local bytes = whole:sub(1, place - 1) .. string.char(whole:byte(place) ~ mask) .. whole:sub(place + 1)
+      local ok, s = pcall(lab.surface.read, write("flipped." .. extension, bytes), given[extension])
+      if not ok then refused = refused + 1 elseif same(s,
+        made) then read = read + 1 else other = other + 1 end
+    end
+  end
+  flips:write{ format = extension, changed = refused + read + other, refused = refused, ["read whole"] = read,
+    other = other }
+end
+case:evidence(flips, "One byte changed, at every place of an NPY file and every seventh of an X3P file,"
+  .. " in three ways. A changed height of an NPY file is a height; an X3P file has checksums.",
+  { { "format", "%s" }, { "changed", "%d", "files" }, { "refused", "%d" },
+  { "read whole", "%d", "read as written" }, { "other", "%d", "read as another map" } })
+case:expect(flips, "other", { where = { format = "x3p" }, at_most = 0 })
+
+-- 3. Headers that lie.
+local function npy(shape, count, order)
+  local head = ("{'descr': '<f8', 'fortran_order': %s, 'shape': %s, }"):format(order or "False", shape)
+  head = head .. (" "):rep((64 - (11 + #head) % 64) % 64) .. "\n"
+  return "\x93NUMPY\x01\x00" .. string.pack("<I2", #head) .. head .. string.pack("<d", 1e-6):rep(count)
+end
+local size = { size = "1 mm", unit = "m" }
+case:holds("an NPY file of shape (3, 4) with its 12 heights is read",
+  lab.surface.read(write("good.npy", npy("(3, 4)", 12)), size).cells[1] == 4)
+for _, lie in ipairs{ { "(3, 4)", 11 }, { "(3, 4)", 13 }, { "(0, 4)", 0 }, { "(-3, 4)", 12 },
+  { "(65536, 65536)", 12 }, { "(4611686018427387904, 4)", 12 },
+  { "(4294967296, 4294967296)", 12 }, { "(99999999999999999999, 1)", 12 }, { "(3, 4, 1, 1)", 12 },
+  { "3.5", 12 } } do
+  case:refused(("NPY of shape %s with %d heights"):format(lie[1], lie[2]),
+    function() lab.surface.read(write("lie.npy", npy(lie[1], lie[2])), size) end, "lie.npy")
+end
+
+-- 4. Holes, infinities, outliers.
+local function matrix(word)
+  local rows = {}
+  for j = 1, 5 do
+    local row = {}
+    for i = 1, 6 do row[i] = (i == 3 and j == 2) and word or ("%.3f"):format(math.sin(i * j)) end
+    rows[j] = table.concat(row, " ")
+  end
+  return table.concat(rows, "\n") .. "\n"
+end
+local um = { size = { "60 um", "50 um" }, unit = "um" }
+local function with(options) for key, value in pairs(um) do options[key] = value end return options end
+for _, word in ipairs{ "nan", "NaN", "inf", "-inf", "1e999" } do
+  local name = write("holes.txt", matrix(word))
+  case:refused("`" .. word .. "` in a text matrix", function() lab.surface.read(name, um) end, "holes.txt")
+end
+local holed = lab.surface.read(write("holes.txt", matrix "nan"), with{ fill = "interpolate" })
+local around = (holed:height(1, 1) + holed:height(3, 1) + holed:height(2, 0) + holed:height(2, 2)) / 4
+case:holds("a hole filled by interpolation lies among its neighbours",
+  math.abs(holed:height(2, 1) - around) < 1e-6)
+case:holds("a hole filled with a height has that height", lab.surface.read("holes.txt",
+  with{ fill = "0.5 um" }):height(2, 1) == 0.5e-6)
+case:refused("a map of nothing but holes", function() lab.surface.read(write("void.txt",
+  "nan nan\nnan nan\n"), with{ fill = "interpolate" }) end, "void.txt")
+local outlier = lab.notebook "outlier"
+for _, height in ipairs{ 10, 1e6, 1e30, 1e100, 1e150, 1e200, 1e300 } do
+  local ok, s = pcall(lab.surface.read, write("outlier.txt", matrix(("%g"):format(height))), um)
+  local r = ok and s:roughness()
+  local z = height * 1e-6
+  -- one of thirty, where the rest is nothing beside it
+  local Rq = ok and math.abs(r.Rq / (z * math.sqrt(29) / 30) - 1) or nil
+  outlier:write{ height = z, answer = not ok and "refused" or "read", Rq = ok and height > 1e5 and Rq or nil,
+    finite = not ok and 1 or (r.Rq < math.huge and r.Ra < math.huge and r.kurtosis < math.huge) and 1 or 0,
+    kurtosis = ok and r.kurtosis or nil }
+end
+case:evidence(outlier, "One outlier among thirty heights of a micrometre: statistics stay finite,"
+  .. " kurtosis goes to 28.03.", { { "height", "%.0e", "outlier (m)" },
+  { "answer", "%s" }, { "Rq", "%.0e", "error of Rq" }, { "kurtosis", "%.3f" } })
+case:expect(outlier, "finite", { at_least = 1 })
+
+-- 5. Units.
+for _, unit in ipairs{ "", "N", "Pa", "parsec", "um um", "1e400 m", "0 m", "-1 um", "um/" } do
+  case:refused(("unit = %q"):format(unit), function() lab.surface.read("good.npy",
+    { size = "1 mm", unit = unit }) end, "`unit`")
+end
+case:refused("a text matrix without size and unit", function() lab.surface.read(write("bare.txt",
+  matrix "1")) end, "`size`")
+case:refused("rows of unequal length", function() lab.surface.read(write("ragged.txt", "1 2 3\n1 2\n1 2 3\n"),
+  um) end, "ragged.txt")
+case:refused("a word among numbers", function() lab.surface.read(write("word.txt", "1 2 3\n1 two 3\n"),
+  um) end, "word.txt")
+case:refused("an empty file", function() lab.surface.read(write("empty.txt", ""), um) end, "empty.txt")
+case:refused("a file that is not there", function() lab.surface.read("nowhere.txt", um) end, "nowhere.txt")
+for _, height in ipairs{ 0 / 0, math.huge, -math.huge } do
+  case:refused("from_function returning " .. tostring(height):gsub("^-nan", "nan"), function()
+    lab.surface.from_function{ cells = 4, size = 1, height = function(x) return x == 0.5 and height or 0 end }
+  end, "height")
+end
+case:finish{ worst = "refused, naming the file", verdict = "clear error" }

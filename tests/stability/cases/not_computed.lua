@@ -1,0 +1,58 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Adhesion and what else this version does not compute: is a scene that asks for it refused, or computed
+-- without?
+--
+-- An adhesive contact jumps in and pulls off, and its cohesive zone has to be resolved by the grid. None of
+-- that is in this version. A scene that names it must not be pressed as if it had not: the effect is refused
+-- by name, whatever its numbers.
+
+local lab = require "asperity"
+local case = require "asperity.hard_case"{
+  number = 14, title = "Adhesion, and what else is not computed",
+  edge = "work of adhesion from 1e-30 to 1e30 J/m^2, every effect that has a name, single precision,"
+    .. " any boundary",
+  elsewhere = "A key that the program does not know, or knows and has not written yet, is passed over:"
+    .. " the run ends well and the effect was never there.",
+  here = "Every effect that is not computed is refused by name when the scene is made, before any"
+    .. " press; a misspelt one is answered with the nearest name.",
+}
+local s = lab.surface.sphere{ cells = 16, size = 1, radius = 10, material = lab.material "Al-2011" }
+local function scene(effects, boundary, accuracy)
+  return function() lab.contact{ lower = s, upper = lab.rigid, boundary = boundary or "free",
+    effects = effects, accuracy = accuracy } end
+end
+local refused, asked = 0, 0
+for decade = -30, 30, 5 do
+  for _, elasticity in ipairs{ "half_space", "box" } do
+    for _, boundary in ipairs{ "free", "periodic" } do
+      for _, model in ipairs{ "exponential", "dugdale" } do
+        asked = asked + 1
+        local ok, message = pcall(scene({ elasticity = elasticity,
+          adhesion = { work = 10.0 ^ decade, range = 1e-9, model = model } }, boundary))
+        if not ok and message:find("adhesion", 1, true) and message:find("not computed", 1,
+          true) then refused = refused + 1 end
+      end
+    end
+  end
+end
+local book = lab.notebook "adhesion"
+book:write{ asked = asked, refused = refused, share = refused / asked }
+case:evidence(book, "Scenes with adhesion: half-spaces and boxes, either boundary, either law.",
+  { { "asked", "%d", "scenes" }, { "refused", "%d" } })
+case:expect(book, "share", { near = 1, within = 0 })
+case:refused("adhesion", scene{ elasticity = "half_space", adhesion = { work = 0.05, range = 1e-9,
+  model = "exponential" } }, "adhesion", "not computed")
+for _, effect in ipairs{ "capillarity", "ageing", "interlocking", "tangential" } do
+  case:refused(effect, scene{ elasticity = "half_space", [effect] = {} }, effect, "not computed")
+end
+case:refused("rigid bodies", scene{ elasticity = "rigid" }, "rigid", "not computed")
+case:refused("boxes that yield", scene{ elasticity = "box", plasticity = {} }, "plasticity", "not computed")
+case:refused("single precision", scene({ elasticity = "half_space" }, "periodic", { precision = "single" }),
+  "single")
+case:refused("`adhesoin`", scene{ elasticity = "half_space", adhesoin = {} }, "did you mean `adhesion`")
+case:refused("a half-space without a boundary", function()
+  lab.contact{ lower = s, upper = lab.rigid, effects = { elasticity = "half_space" } }
+end, "`boundary`")
+case:refused("a tolerance that no double can meet", scene({ elasticity = "half_space" }, "periodic",
+  { tolerance = 9e-16 }), "`tolerance`")
+case:finish{ worst = "refused by name", verdict = "clear error" }

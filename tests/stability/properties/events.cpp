@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a contact remembers: the same event again takes nothing more, a load and then a greater one end where
+// the greater alone ends, and turns without load change nothing. Gaps are right to the tolerance times the
+// rms height, and what yields is a gap: volumes are compared with that of an rms over the ground that yielded
+// where that is more than what yielded.
+#include <cmath>
+
+#include "engine/core/error.hpp"
+#include "engine/core/random.hpp"
+#include "tests/stability/properties/property.hpp"
+
+namespace asperity::stability {
+
+namespace {
+
+PressRequest under(double pressure) { return {PressBy::pressure, pressure, {}}; }
+
+bool same_heights(const Surface& a, const Surface& b) { return a.digest() == b.digest(); }
+
+Verdict turns_change_nothing(const Trial& trial, const Stream& stream) {
+  SpecimenPair pair(trial.scene);
+  const Surface lower = pair.lower(), upper = pair.upper();
+  const State before = pair.press(under(0));
+  for (std::uint64_t n = 0; n < 5; ++n) {
+    pair.place(stream.bits(n));
+    pair.press(under(0));
+    pair.release();
+  }
+  if (trial.scene.boundary == Boundary::free) try {
+      for (std::uint64_t n = 10; n < 13; ++n) {
+        pair.rotate(stream.uniform(n, -3, 3));
+        pair.press(under(0));
+      }
+    } catch (const Error& error) {  // a strip may be turned so that it meets nothing
+      if (error.code() != ErrorCode::bad_value || error.sentence().find("turned") == std::string::npos) throw;
+    }
+  if (!same_heights(pair.lower(), lower) || !same_heights(pair.upper(), upper))
+    return Broken{"turns without load change no bit", "a body changed"};
+  return {};
+}
+
+constexpr double allowed = 10;  // tolerances
+// An rms so small beside the approach is a flat's, by rounding.
+constexpr double flat = 1e-3;
+
+double greatest(const Surface& surface) {
+  const Range heights = surface.height_range();
+  return std::max(std::abs(heights.min), std::abs(heights.max));
+}
+
+// The volume within which a solve cannot tell yielding from none: of a gap of its tolerance, and of what
+// rounding leaves of heights, over the ground at its limit.
+double unseen(const Trial& trial, const State& state) {
+  const double rms = rms_height(state), length = rms > flat * state.approach() ? rms : state.approach();
+  const double ground = state.plastic_fraction() * state.geometry().grid().area();
+  const auto* rough = std::get_if<Surface>(&trial.scene.upper);
+  const double heights = greatest(trial.scene.lower) + (rough ? greatest(*rough) : 0.0);
+  return allowed * trial.scene.accuracy.tolerance * std::max(state.plastic_volume(), length * ground) +
+         0x1p-52 * heights * ground;
+}
+
+Trial taking_the_best(const Trial& trial) {
+  Trial result = trial;
+  result.scene.accuracy.on_failure = Accuracy::OnFailure::best;
+  return result;
+}
+
+// Ground once flattened may be too even for its tolerance of the rms to mean anything in doubles: then there
+// is nothing to compare.
+std::optional<Broken> press(SpecimenPair& pair, const Trial& trial, double pressure,
+                            std::optional<State>& state) {
+  state = pair.press(under(pressure));
+  if (state->converged()) return {};
+  if (doubles_hold_no_more(trial, *state)) {
+    state.reset();
+    return {};
+  }
+  return Broken{"the certificate is met", exact(state->residual()) + " by " + std::string(state->solver())};
+}
+
+Verdict a_repeat_takes_nothing(const Trial& trial) {
+  SpecimenPair pair(trial.scene);
+  std::optional<State> first, again;
+  if (auto broken = press(pair, trial, trial.pressure, first)) return broken;
+  pair.release();
+  if (auto broken = press(pair, trial, trial.pressure, again)) return broken;
+  if (!first || !again || again->plastic_volume() <= unseen(trial, *first)) return {};
+  return Broken{"a repeated event takes nothing more",
+                exact(again->plastic_volume() / first->plastic_volume()) + " of the first at tolerance " +
+                    exact(trial.scene.accuracy.tolerance),
+                "c:release()\nlocal again = c:press{ pressure=st.pressure }\n"
+                "print(again.plastic_volume / st.plastic_volume)\n"};
+}
+
+Verdict the_greater_load_decides(const Trial& trial, const Stream& stream) {
+  const double less = trial.pressure * stream.uniform(20, 0.05, 0.99);
+  SpecimenPair twice(trial.scene), once(trial.scene);
+  std::optional<State> first, second, alone;
+  if (auto broken = press(twice, trial, less, first)) return broken;
+  twice.release();
+  if (auto broken = press(twice, trial, trial.pressure, second)) return broken;
+  if (auto broken = press(once, trial, trial.pressure, alone)) return broken;
+  if (!first || !second || !alone) return {};
+  const double both = first->plastic_volume() + second->plastic_volume();
+  if (std::abs(both - alone->plastic_volume()) <= unseen(trial, *alone) + unseen(trial, *first)) return {};
+  return Broken{"a load and then a greater one take what the greater takes alone",
+                exact(both) + " against " + exact(alone->plastic_volume()) + " m^3 at tolerance " +
+                    exact(trial.scene.accuracy.tolerance)};
+}
+
+Verdict check(const Trial& given, std::uint64_t salt) {
+  const Trial trial = taking_the_best(given);
+  const Stream stream(salt, "events");
+  if (auto broken = turns_change_nothing(trial, stream)) return broken;
+  if (!trial.scene.plasticity) return {};
+  if (auto broken = a_repeat_takes_nothing(trial)) return broken;
+  return the_greater_load_decides(trial, stream);
+}
+
+}  // namespace
+
+const Family events{
+    "events", {.model = Wanted::Model::half_space, .yields = true, .heaviest = 10}, check, 1000};
+
+}  // namespace asperity::stability

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Properties of contacts over random scenes. A scene that breaks one is made smaller as long as it goes on
+// breaking it, and printed as a script to run.
+//
+//   test_properties                              every family, as many scenes each as in CI
+//   test_properties family=events scenes=100000  one family for a night
+//   test_properties family=events seed=7 first=42 scenes=1   one scene again
+//
+// ASPERITY_SCENES and ASPERITY_SEED stand for scenes= and seed= where those are not given.
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+
+#include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/random.hpp"
+#include "tests/stability/properties/property.hpp"
+
+namespace asperity::stability {
+namespace {
+
+const Family* const families[] = {&conditions, &monotony, &rescaling, &symmetry, &events, &threads};
+
+struct Settings {
+  std::string family;
+  std::uint64_t seed = 1, first = 0;
+  int scenes = 0;  // as the family says
+};
+
+[[noreturn]] void usage(const std::string& word) {
+  std::fprintf(stderr, "%s is none of family=, scenes=, seed=, first=\n", word.c_str());
+  std::exit(2);
+}
+
+Settings read(int count, char** words) {
+  Settings settings;
+  if (const char* value = std::getenv("ASPERITY_SCENES")) settings.scenes = std::atoi(value);
+  if (const char* value = std::getenv("ASPERITY_SEED")) settings.seed = std::strtoull(value, nullptr, 10);
+  for (int k = 1; k < count; ++k) {
+    const std::string word = words[k];
+    const auto equals = word.find('=');
+    const std::string key = word.substr(0, equals),
+                      value = equals < word.size() ? word.substr(equals + 1) : "";
+    if (key == "family")
+      settings.family = value;
+    else if (key == "scenes")
+      settings.scenes = std::atoi(value.c_str());
+    else if (key == "seed")
+      settings.seed = std::strtoull(value.c_str(), nullptr, 10);
+    else if (key == "first")
+      settings.first = std::strtoull(value.c_str(), nullptr, 10);
+    else
+      usage(word);
+  }
+  return settings;
+}
+
+Verdict judged(const Family& family, const Trial& trial, std::uint64_t salt) {
+  try {
+    return family.check(trial, salt);
+  } catch (const Error& error) {
+    return Broken{"no " + std::string(name(error.code())) + " error", error.what()};
+  }
+}
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Failure {
+  Trial trial;
+  Broken broken;
+};
+
+// The smallest scene found that breaks the same property.
+Failure shrunk(const Family& family, Failure failure, std::uint64_t salt) {
+  const double begin = seconds();
+  constexpr double patience = 20;  // s
+  for (bool smaller = true; smaller && seconds() - begin < patience;) {
+    smaller = false;
+    for (const Trial& next : simpler(failure.trial)) {
+      const Verdict verdict = judged(family, next, salt);
+      if (!verdict || verdict->property != failure.broken.property) continue;
+      failure = {next, *verdict};
+      smaller = true;
+      break;
+    }
+  }
+  return failure;
+}
+
+// Returns how many scenes broke a property.
+int run(const Family& family, const Settings& settings) {
+  constexpr int shown_of_each = 1;
+  const double begin = seconds();
+  const int scenes = settings.scenes > 0 ? settings.scenes : family.scenes;
+  std::map<std::string, int> broken;
+  int count = 0;
+  for (int n = 0; n < scenes; ++n) {
+    const std::uint64_t index = settings.first + static_cast<std::uint64_t>(n);
+    const std::uint64_t salt = splitmix64(settings.seed, index);
+    const Trial trial = draw_trial(settings.seed, index, family.wanted);
+    const Verdict verdict = judged(family, trial, salt);
+    if (!verdict) continue;
+    ++count;
+    const std::string scene = "scene " + std::to_string(index) + " of seed " + std::to_string(settings.seed);
+    std::printf("%s: broken by %s (%s): %s: %s\n", family.name, scene.c_str(), trial.heights.c_str(),
+                verdict->property.c_str(), verdict->how.c_str());
+    if (broken[verdict->property]++ >= shown_of_each) continue;
+    const Failure least = shrunk(family, {trial, *verdict}, salt);
+    std::printf("---- the smallest scene found that breaks it\n%s----\n",
+                script(least.trial,
+                       std::string(family.name) + ", " + scene + ", made smaller: " + least.broken.property +
+                           "\n-- found: " + least.broken.how,
+                       least.broken.lines)
+                    .c_str());
+    std::fflush(stdout);
+  }
+  std::printf("%s: %d scenes, %d broken, %.1f s\n", family.name, scenes, count, seconds() - begin);
+  for (const auto& [property, times] : broken) std::printf("  %5d  %s\n", times, property.c_str());
+  std::fflush(stdout);
+  return count;
+}
+
+}  // namespace
+}  // namespace asperity::stability
+
+int main(int count, char** words) {
+  using namespace asperity::stability;
+  const Settings settings = read(count, words);
+  asperity::set_thread_count(1);  // the scenes are small; several families run side by side instead
+  int broken = 0;
+  bool known = settings.family.empty();
+  for (const Family* family : families)
+    if (settings.family.empty() || settings.family == family->name) {
+      known = true;
+      broken += run(*family, settings);
+    }
+  if (!known) usage("family=" + settings.family);
+  return broken == 0 ? 0 : 1;
+}

@@ -1,0 +1,525 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/stability/properties/scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "engine/contact/elastic_bodies.hpp"
+#include "engine/contact/geometry.hpp"
+#include "engine/core/random.hpp"
+#include "engine/surface/generators/self_affine.hpp"
+
+namespace asperity::stability {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Draws in sequence, one scene a stream.
+class Draws {
+ public:
+  Draws(std::uint64_t seed, std::uint64_t index) : stream_(splitmix64(seed, index), "stability scene") {}
+  double uniform(double low, double high) { return stream_.uniform(next_++, low, high); }
+  double decades(double low, double high) { return std::pow(10.0, uniform(low, high)); }
+  int below(int n) { return static_cast<int>(stream_.below(next_++, static_cast<std::uint64_t>(n))); }
+  int between(int low, int high) { return low + below(high - low + 1); }
+  bool chance(double share) { return uniform(0, 1) < share; }
+  std::uint64_t bits() { return stream_.bits(next_++); }
+  double normal() {
+    next_ += 2 - next_ % 2;
+    return stream_.normal(next_ / 2 - 1);
+  }
+
+ private:
+  Stream stream_;
+  std::uint64_t next_ = 0;
+};
+
+Grid draw_grid(Draws& draw, int most) {
+  const int least = std::min(8, most);
+  int nx = draw.between(least, most), ny = draw.between(least, most);
+  const int shape = draw.below(20);
+  if (shape < 4) ny = nx;
+  if (shape == 4) nx = draw.between(1, 3);
+  if (shape == 5) ny = draw.between(1, 3);
+  if (shape > 14) {  // two's powers, whose transforms and nested grids are others
+    constexpr std::array sides = {8, 16, 32, 48};
+    nx = std::min(most, sides[static_cast<std::size_t>(draw.below(4))]);
+    ny = std::min(most, sides[static_cast<std::size_t>(draw.below(4))]);
+  }
+  const double hx = draw.decades(-9, 2);
+  const double aspect = draw.chance(0.6) ? 1 : draw.decades(-1.5, 1.5);
+  return make_grid(nx, ny, nx * hx, ny * (hx * aspect));
+}
+
+// --- heights, of the order of 1
+
+using Heights = Field (*)(Draws&, const Grid&);
+
+template <class Height>
+Field filled(const Grid& grid, Height height) {
+  Field z(grid.nx, grid.ny);
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) z(i, j) = height(i, j);
+  return z;
+}
+
+Field self_affine(Draws& draw, const Grid& grid) {
+  SelfAffineOptions options;
+  options.grid = grid;
+  options.hurst = draw.uniform(0.05, 1);
+  options.rms_height = 1;
+  const double cell = std::max(grid.hx(), grid.hy()), side = std::max(grid.size_x, grid.size_y);
+  options.short_wave = std::min(side, draw.uniform(2, 8) * cell);
+  if (options.short_wave < 2 * cell) return filled(grid, [&](int, int) { return draw.normal(); });
+  options.seed = draw.bits();
+  try {
+    return self_affine_surface(options).heights();
+  } catch (const std::exception&) {  // no wave lies in the band on this grid
+    return filled(grid, [&](int, int) { return draw.normal(); });
+  }
+}
+
+Field white_noise(Draws& draw, const Grid& grid) {
+  return filled(grid, [&](int, int) { return draw.normal(); });
+}
+
+// Rough ground with a few nodes far above or below it, as outliers of a measurement are.
+Field spikes(Draws& draw, const Grid& grid) {
+  Field z = self_affine(draw, grid);
+  const double height = draw.decades(0, 5) * (draw.chance(0.3) ? -1 : 1);
+  for (int n = draw.between(1, 5); n > 0; --n) z(draw.below(grid.nx), draw.below(grid.ny)) += height;
+  return z;
+}
+
+Field step(Draws& draw, const Grid& grid) {
+  const int edge = draw.below(grid.nx);
+  const double high = draw.decades(-3, 2), roughness = draw.chance(0.5) ? 0 : draw.decades(-6, 0);
+  return filled(grid, [&](int i, int) { return (i < edge ? high : 0.0) + roughness * draw.normal(); });
+}
+
+// Few levels: many nodes are exactly as high as each other.
+Field terraces(Draws& draw, const Grid& grid) {
+  Field z = self_affine(draw, grid);
+  const double rise = draw.decades(-1, 0.3);
+  for (double& value : z.values()) value = rise * std::floor(value / rise);
+  return z;
+}
+
+// A floor with a few peaks, some of them equal.
+Field few_peaks(Draws& draw, const Grid& grid) {
+  Field z(grid.nx, grid.ny);
+  const bool equal = draw.chance(0.5);
+  for (int n = draw.between(1, 10); n > 0; --n)
+    z(draw.below(grid.nx), draw.below(grid.ny)) = equal ? 1 : draw.uniform(0, 1);
+  return z;
+}
+
+Field flat(Draws& draw, const Grid& grid) {
+  const double level = draw.chance(0.5) ? 0 : draw.normal();
+  return filled(grid, [&](int, int) { return level; });
+}
+
+Field cosine(Draws& draw, const Grid& grid) {
+  const int x = draw.between(0, 3), y = draw.between(0, 3);
+  return filled(grid, [&](int i, int j) {
+    return std::cos(2 * std::numbers::pi * x * i / grid.nx) *
+           std::cos(2 * std::numbers::pi * y * j / grid.ny);
+  });
+}
+
+Field dome(Draws& draw, const Grid& grid) {
+  const double x0 = draw.uniform(0, grid.nx), y0 = draw.uniform(0, grid.ny);
+  return filled(grid, [&](int i, int j) {
+    const double x = (i - x0) / grid.nx, y = (j - y0) / grid.ny;
+    return -x * x - y * y;
+  });
+}
+
+struct Kind {
+  const char* name;
+  Heights heights;
+};
+constexpr Kind kinds[] = {
+    {"self-affine", self_affine},
+    {"self-affine", self_affine},
+    {"self-affine", self_affine},
+    {"white noise", white_noise},
+    {"spikes", spikes},
+    {"step", step},
+    {"terraces", terraces},
+    {"few peaks", few_peaks},
+    {"flat", flat},
+    {"cosine", cosine},
+    {"dome", dome},
+};
+
+Field draw_heights(Draws& draw, const Grid& grid, double amplitude, std::string& name) {
+  const Kind& kind = kinds[draw.below(static_cast<int>(std::size(kinds)))];
+  name += (name.empty() ? "" : " on ") + std::string(kind.name);
+  Field z = kind.heights(draw, grid);
+  for (double& value : z.values()) value *= amplitude;
+  return z;
+}
+
+// --- bodies and effects
+
+Material draw_material(Draws& draw) {
+  Material material;
+  material.young = draw.decades(2, 13);
+  material.poisson = draw.chance(0.2) ? 0 : draw.uniform(-0.3, 0.5);
+  return material;
+}
+
+Surface surface(const Grid& grid, Field heights, const std::optional<Material>& material) {
+  SurfaceTraits traits;
+  traits.material = material;
+  traits.periodic = true;  // or a step at the rim would be warned of
+  return Surface(grid, std::move(heights), std::move(traits));
+}
+
+ContactGeometry geometry_of(const Scene& scene) {
+  return ContactGeometry(scene, LatticeIsometry(scene.lower.grid().nx, scene.lower.grid().ny));
+}
+
+double rms_slope(const Grid& grid, const Field& h) {
+  double sum = 0;
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) {
+      const double x = (h((i + 1) % grid.nx, j) - h(i, j)) / grid.hx();
+      const double y = (h(i, (j + 1) % grid.ny) - h(i, j)) / grid.hy();
+      sum += x * x + y * y;
+    }
+  return std::sqrt(sum / static_cast<double>(grid.nodes()));
+}
+
+Material* material_of(UpperBody& upper) { return std::get_if<Material>(&upper); }
+
+void set_hardness(Scene& scene, double lower, double upper) {
+  Material material = *scene.lower.material();
+  material.hardness = lower;
+  if (!material.rigid) scene.lower = scene.lower.with_material(material);
+  if (const auto* rough = std::get_if<Surface>(&scene.upper)) {
+    material = *rough->material();
+    material.hardness = upper;
+    if (!material.rigid) scene.upper = rough->with_material(material);
+  }
+}
+
+void draw_yield(Draws& draw, Trial& trial, double modulus) {
+  Scene& scene = trial.scene;
+  PlasticityOptions options;
+  const Grid& grid = scene.lower.grid();
+  const bool hardens = draw.chance(0.35);
+  if (hardens) options.hardening = modulus / grid.hx() * draw.decades(-3, 3);
+  const double hardness = trial.pressure * (hardens ? draw.decades(-2, 2) : 1 + draw.decades(-4, 2.5));
+  if (draw.chance(0.3)) {
+    options.hardness = hardness;
+  } else {
+    const double other = draw.chance(0.3) ? hardness : hardness * draw.decades(0, 1.5);
+    draw.chance(0.5) && trial.rough_pair() ? set_hardness(scene, other, hardness)
+                                           : set_hardness(scene, hardness, other);
+  }
+  scene.plasticity = options;
+}
+
+}  // namespace
+
+double Trial::hardness() const {
+  if (!scene.plasticity) return infinity;
+  const auto of = [&](const Material* material) {
+    if (material == nullptr || material->rigid) return infinity;
+    return scene.plasticity->hardness.value_or(material->hardness.value_or(infinity));
+  };
+  const auto* rough = std::get_if<Surface>(&scene.upper);
+  return std::min(of(lower_material(scene.lower)), rough ? of(&*rough->material()) : infinity);
+}
+bool Trial::hardens() const { return scene.plasticity && std::isfinite(scene.plasticity->hardening); }
+double Trial::cap() const { return hardens() ? infinity : hardness(); }
+
+Trial draw_trial(std::uint64_t seed, std::uint64_t index, const Wanted& wanted) {
+  Draws draw(seed, index);
+  const Grid grid = draw_grid(draw, wanted.most_cells);
+  const double amplitude = grid.hx() * draw.decades(-5, 0.5);
+  std::string names;
+  Field lower = draw_heights(draw, grid, amplitude, names);
+  Trial trial{Scene{surface(grid, std::move(lower), draw_material(draw)), rigid_material()}, 0, {}};
+  Scene& scene = trial.scene;
+  if (wanted.pair || draw.chance(0.35)) {
+    const double other = draw.chance(0.5) ? amplitude : amplitude * draw.decades(-3, 3);
+    Field upper = draw_heights(draw, grid, other, names);
+    scene.upper = surface(grid, std::move(upper), draw.chance(0.15) ? rigid_material() : draw_material(draw));
+  } else if (draw.chance(0.4)) {
+    scene.upper = draw_material(draw);
+  }
+  trial.heights = names;
+  scene.boundary = draw.chance(0.5) ? Boundary::periodic : Boundary::free;
+  const bool half_space =
+      wanted.model == Wanted::Model::any ? draw.chance(0.75) : wanted.model == Wanted::Model::half_space;
+  constexpr std::array tolerances = {1e-4, 1e-6, 1e-6, 1e-8, 1e-10};
+  scene.accuracy.tolerance =
+      wanted.tolerance.value_or(tolerances[static_cast<std::size_t>(draw.below(tolerances.size()))]);
+
+  const ContactGeometry geometry = geometry_of(scene);
+  const double modulus = contact_modulus(geometry, {}, {}, {});
+  // Most loads where contacts grow from a few nodes to all; some far outside.
+  const double share = draw.chance(0.75)
+                           ? draw.decades(-3.5, 0.7)
+                           : draw.decades(std::log10(wanted.lightest), std::log10(wanted.heaviest));
+  if (half_space) {
+    scene.elasticity = HalfSpaceOptions{};
+    const double slope = rms_slope(grid, geometry.combined());
+    trial.pressure = modulus * (slope > 0 ? slope : amplitude / grid.hx()) * share;
+    if (wanted.yields || draw.chance(0.45)) draw_yield(draw, trial, modulus);
+  } else {
+    const double span = geometry.peak_to_valley();
+    BoxOptions box;
+    if (!(span > 0) || draw.chance(0.5)) box.stiffness = modulus / amplitude * draw.decades(-2, 2);
+    scene.elasticity = box;
+    trial.pressure = box.stiffness.value_or(modulus / span) * (span > 0 ? span : amplitude) * share;
+  }
+  return trial;
+}
+
+Scene with_heights(const Scene& scene, const Grid& grid, Field lower, Field upper) {
+  Scene result = scene;
+  result.lower = surface(grid, std::move(lower), scene.lower.material());
+  if (const auto* rough = std::get_if<Surface>(&scene.upper))
+    result.upper = surface(grid, std::move(upper), rough->material());
+  return result;
+}
+
+// --- smaller scenes
+
+namespace {
+
+Field upper_heights(const Scene& scene) {
+  const auto* rough = std::get_if<Surface>(&scene.upper);
+  return rough ? rough->heights() : Field();
+}
+
+// The cells from (x, y) on, each as large as before. The upper body keeps what lay over them.
+Trial cropped(const Trial& trial, int x, int y, int nx, int ny) {
+  const Grid& old = trial.scene.lower.grid();
+  const Grid grid = make_grid(nx, ny, nx * old.hx(), ny * old.hy());
+  const Field& lower = trial.scene.lower.heights();
+  const Field upper = upper_heights(trial.scene);
+  Trial result = trial;
+  result.scene = with_heights(
+      trial.scene, grid, filled(grid, [&](int i, int j) { return lower(x + i, y + j); }),
+      upper.empty() ? Field()
+                    : filled(grid, [&](int i, int j) { return upper(old.nx - x - nx + i, y + j); }));
+  return result;
+}
+
+Trial with_each_height(const Trial& trial, const std::function<double(double)>& change) {
+  Field lower = trial.scene.lower.heights(), upper = upper_heights(trial.scene);
+  for (Field* field : {&lower, &upper})
+    for (double& z : field->values()) z = change(z);
+  Trial result = trial;
+  result.scene = with_heights(trial.scene, trial.scene.lower.grid(), std::move(lower), std::move(upper));
+  return result;
+}
+
+bool same(const Trial& a, const Trial& b) { return script(a, "", "") == script(b, "", ""); }
+
+void crop_cells(const Trial& trial, std::vector<Trial>& found) {
+  const int nx = trial.scene.lower.grid().nx, ny = trial.scene.lower.grid().ny;
+  for (const int x : {nx / 2, nx / 4, 1})
+    if (x > 0 && nx > x) {
+      found.push_back(cropped(trial, x, 0, nx - x, ny));
+      found.push_back(cropped(trial, 0, 0, nx - x, ny));
+    }
+  for (const int y : {ny / 2, ny / 4, 1})
+    if (y > 0 && ny > y) {
+      found.push_back(cropped(trial, 0, y, nx, ny - y));
+      found.push_back(cropped(trial, 0, 0, nx, ny - y));
+    }
+}
+
+void fewer_bodies_and_effects(const Trial& trial, std::vector<Trial>& found) {
+  const auto add = [&](auto change) {
+    Trial next = trial;
+    change(next.scene);
+    found.push_back(std::move(next));
+  };
+  add([](Scene& s) { s.upper = rigid_material(); });
+  add([](Scene& s) { s.plasticity.reset(); });
+  if (trial.scene.plasticity) {
+    add([](Scene& s) { s.plasticity->hardening = infinity; });
+    add([&](Scene& s) {
+      if (std::isfinite(trial.hardness())) s.plasticity->hardness = trial.hardness();
+    });
+  }
+}
+
+// As multiples of a power of two, of at most so many bits.
+double rounded(double value, double greatest, int bits) {
+  const double unit = std::ldexp(1.0, std::ilogb(greatest) - bits + 1);
+  return unit * std::round(value / unit);
+}
+
+void plainer_heights(const Trial& trial, std::vector<Trial>& found) {
+  const Range lower = trial.scene.lower.height_range();
+  const Field upper = upper_heights(trial.scene);
+  const double greatest = std::max({std::abs(lower.min), std::abs(lower.max),
+                                    upper.empty() ? 0.0 : std::abs(range(upper.values()).min),
+                                    upper.empty() ? 0.0 : std::abs(range(upper.values()).max)});
+  if (!(greatest > 0)) return;
+  found.push_back(with_each_height(trial, [](double) { return 0.0; }));
+  for (const int bits : {1, 3, 6, 12, 24})
+    found.push_back(with_each_height(trial, [=](double z) { return rounded(z, greatest, bits); }));
+  // Low ground all at one level.
+  const double middle = 0.5 * (lower.min + lower.max);
+  found.push_back(with_each_height(trial, [=](double z) { return z < middle ? lower.min : z; }));
+}
+
+// Lengths, moduli and pressures in new units, and then as few digits as will do.
+void rounder_numbers(const Trial& trial, std::vector<Trial>& found) {
+  const Grid& grid = trial.scene.lower.grid();
+  const auto rescaled = [&](double length, double stress) {
+    Trial next = with_each_height(trial, [=](double z) { return z * length; });
+    Scene& s = next.scene;
+    s = with_heights(s, make_grid(grid.nx, grid.ny, grid.size_x * length, grid.size_y * length),
+                     s.lower.heights(), upper_heights(s));
+    next.pressure *= stress;
+    const auto material = [&](Material m) {
+      if (m.young) *m.young *= stress;
+      if (m.hardness) *m.hardness *= stress;
+      return m;
+    };
+    s.lower = s.lower.with_material(material(*s.lower.material()));
+    if (const auto* rough = std::get_if<Surface>(&s.upper))
+      s.upper = rough->with_material(material(*rough->material()));
+    else
+      s.upper = material(*material_of(s.upper));
+    if (auto* box = std::get_if<BoxOptions>(&s.elasticity); box && box->stiffness)
+      *box->stiffness *= stress / length;
+    if (s.plasticity) {
+      if (s.plasticity->hardness) *s.plasticity->hardness *= stress;
+      s.plasticity->hardening *= stress / length;
+    }
+    return next;
+  };
+  if (grid.hx() != 1) found.push_back(rescaled(1 / grid.hx(), 1));
+  if (const Material& m = *trial.scene.lower.material(); m.young && *m.young != 1)
+    found.push_back(rescaled(1, 1 / *m.young));
+  const auto add = [&](auto change) {
+    Trial next = trial;
+    change(next);
+    found.push_back(std::move(next));
+  };
+  add([](Trial& t) {
+    Material m = *t.scene.lower.material();
+    if (m.poisson) m.poisson = 0;
+    t.scene.lower = t.scene.lower.with_material(m);
+  });
+  add([&](Trial& t) {
+    t.scene = with_heights(t.scene, make_grid(grid.nx, grid.ny, grid.nx, grid.ny), t.scene.lower.heights(),
+                           upper_heights(t.scene));
+  });
+  for (const int bits : {1, 4, 10}) {
+    add([=](Trial& t) { t.pressure = rounded(t.pressure, t.pressure, bits); });
+    add([=](Trial& t) {
+      auto& plasticity = t.scene.plasticity;
+      if (plasticity && plasticity->hardness)
+        plasticity->hardness = rounded(*plasticity->hardness, *plasticity->hardness, bits);
+    });
+    add([=](Trial& t) {
+      auto& plasticity = t.scene.plasticity;
+      if (plasticity && std::isfinite(plasticity->hardening))
+        plasticity->hardening = rounded(plasticity->hardening, plasticity->hardening, bits);
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<Trial> simpler(const Trial& trial) {
+  std::vector<Trial> found;
+  crop_cells(trial, found);
+  fewer_bodies_and_effects(trial, found);
+  plainer_heights(trial, found);
+  rounder_numbers(trial, found);
+  std::erase_if(found, [&](const Trial& next) { return same(next, trial) || next.pressure >= next.cap(); });
+  return found;
+}
+
+// --- scripts
+
+std::string exact(double value) {
+  if (std::isinf(value)) return value > 0 ? "math.huge" : "-math.huge";
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+namespace {
+
+std::string material_text(const Material& material) {
+  if (material.rigid) return "lab.rigid";
+  std::string text = "lab.material{";
+  const char* comma = " ";
+  const auto add = [&](const char* key, const std::optional<double>& value) {
+    if (!value) return;
+    text += comma + std::string(key) + "=" + exact(*value);
+    comma = ", ";
+  };
+  add("young", material.young);
+  add("poisson", material.poisson);
+  add("hardness", material.hardness);
+  return text + " }";
+}
+
+std::string surface_text(const Surface& surface) {
+  const Grid& grid = surface.grid();
+  std::string text = "lab.surface.from_table{ size={ " + exact(grid.size_x) + ", " + exact(grid.size_y) +
+                     " }, material=" + material_text(*surface.material()) + ", heights={\n";
+  for (int j = 0; j < grid.ny; ++j) {
+    text += "  { ";
+    for (int i = 0; i < grid.nx; ++i) text += (i > 0 ? ", " : "") + exact(surface.heights()(i, j));
+    text += " },\n";
+  }
+  return text + "} }";
+}
+
+std::string effects_text(const Scene& scene) {
+  std::string text = "effects={ elasticity=";
+  const auto* box = std::get_if<BoxOptions>(&scene.elasticity);
+  if (box == nullptr)
+    text += "\"half_space\"";
+  else if (box->stiffness)
+    text += "{ model=\"box\", stiffness=" + exact(*box->stiffness) + " }";
+  else
+    text += "\"box\"";
+  if (const auto& yield = scene.plasticity) {
+    text += ", plasticity={ hardening=" + exact(yield->hardening);
+    if (yield->hardness) text += ", hardness=" + exact(*yield->hardness);
+    text += " }";
+  }
+  return text + " }";
+}
+
+}  // namespace
+
+std::string script(const Trial& trial, const std::string& comment, const std::string& lines) {
+  const Scene& scene = trial.scene;
+  std::string text = "local lab = require \"asperity\"\n";
+  if (!comment.empty()) text = "-- " + comment + "\n" + text;
+  text += "local lower = " + surface_text(scene.lower) + "\n";
+  const auto* rough = std::get_if<Surface>(&scene.upper);
+  text += "local upper = " + (rough ? surface_text(*rough) : material_text(std::get<Material>(scene.upper))) +
+          "\n";
+  text += "local c = lab.contact{ lower=lower, upper=upper, boundary=\"" + std::string(name(scene.boundary)) +
+          "\",\n  " + effects_text(scene) + ", accuracy={ tolerance=" + exact(scene.accuracy.tolerance) +
+          " } }\n";
+  text += "local st = c:press{ pressure=" + exact(trial.pressure) + " }\nprint(st)\n";
+  return text + lines;
+}
+
+}  // namespace asperity::stability
