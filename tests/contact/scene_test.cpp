@@ -34,8 +34,9 @@ TEST(Scene, SizesEqualButForRoundingAreTheSame) {
 
 TEST(Scene, AreasAreWithinTheRangeOfADouble) {
   for (const double size : {1e-200, 1e200})
-    EXPECT_NE(error_of([&] { check(test::boxes(random_surface(3, 3, 1, size, size), 1)); })
-                  .find("an area beyond the range of a double; check the unit of `size`"),
+    EXPECT_NE(error_of([&] {
+                check(test::boxes(random_surface(3, 3, 1, size, size), 1));
+              }).find("an area beyond the range of a double; check the unit of `size`"),
               std::string::npos)
         << size;
 }

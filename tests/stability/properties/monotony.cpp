@@ -11,11 +11,13 @@ namespace asperity::stability {
 
 namespace {
 
-// Of the value, for each of the tolerance; measured 0.02 over 30 000 scenes.
-constexpr double slack = 0.2;
+// In tolerances: of the energy (measured 0.02 over 30 000 scenes), and of the rms height, in the approach
+// (measured 4.5, close to the hardness, where one node alone fixes it).
+constexpr double energy_slack = 0.2, approach_slack = 10;
+constexpr double rounding = 1e-15;
 
 Verdict check(const Trial& trial, std::uint64_t salt) {
-  const double least = 1 - slack * trial.scene.accuracy.tolerance;
+  const double tolerance = trial.scene.accuracy.tolerance;
   const double low = trial.pressure;
   const double growth = std::pow(10.0, Stream(salt, "load").uniform(0, -3, 1));
   double high = low * (1 + growth);
@@ -31,9 +33,9 @@ Verdict check(const Trial& trial, std::uint64_t salt) {
   if (more.contacts() < less.contacts())
     return Broken{"area grows with the load",
                   numbers(static_cast<double>(less.contacts()), static_cast<double>(more.contacts())), lines};
-  if (more.approach() < least * less.approach())
+  if (more.approach() < less.approach() * (1 - rounding) - approach_slack * tolerance * rms_height(less))
     return Broken{"approach grows with the load", numbers(less.approach(), more.approach()), lines};
-  if (!trial.scene.plasticity && more.energy() < least * less.energy())
+  if (!trial.scene.plasticity && more.energy() < (1 - energy_slack * tolerance) * less.energy())
     return Broken{"energy grows with the load", numbers(less.energy(), more.energy()), lines};
   return {};
 }

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "engine/contact/elasticity/half_space/contact_quality.hpp"
+#include "engine/contact/elasticity/half_space/descent_chain.hpp"
 #include "engine/contact/elasticity/half_space/level_transfer.hpp"
+#include "engine/contact/elasticity/half_space/light_contact.hpp"
 #include "engine/contact/elasticity/half_space/load_projection.hpp"
-#include "engine/contact/elasticity/half_space/set_descent.hpp"
-#include "engine/contact/elasticity/half_space/spectral_gradient.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {
@@ -75,40 +75,6 @@ void to_level_set(double upper, double stiffness, double offset, std::span<const
   });
 }
 
-double upper_of(const PressureLimit& limit) {
-  return std::visit([](const auto& law) { return law.upper(); }, limit);
-}
-
-double greatest(std::span<const double> values) {
-  return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
-}
-
-struct ChainEnd {
-  StageEnd stage;
-  std::string name;
-};
-
-// The stages in turn until one converges.
-ChainEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, bool finest) {
-  constexpr int quick = 300, shake = 12, last_resort = 3000;
-  ChainEnd end;
-  for (int stage = 0; stage < 5; ++stage) {
-    if (!finest && stage > 2) break;
-    if (stage == 4) {
-      end.stage = spectral_gradient(level, fields, tolerance, last_resort);
-      end.name = "spectral projected gradients, after the descents stalled";
-    } else if (stage % 2 == 1) {
-      end.stage = spectral_gradient(level, fields, tolerance, shake);
-      end.name = "spectral projected gradients";
-    } else {
-      end.stage = set_descent(level, fields, tolerance, quick);
-      end.name = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
-    }
-    if (end.stage.converged) break;
-  }
-  return end;
-}
-
 std::vector<Step> nest(const CellProblem& problem, bool alone) {
   std::vector<Step> steps(1);
   steps[0].shape = problem.shape;
@@ -139,6 +105,10 @@ std::vector<Step> nest(const CellProblem& problem, bool alone) {
   return steps;
 }
 
+double greatest(std::span<const double> values) {
+  return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
+}
+
 // A pressure within rounding of a bound is at the bound: left off it, it would count as free ground, and
 // alone fix an offset that nothing else determines. Rounding is that of the sum of the pressures there are:
 // under a light load all of them are nothing beside the bound.
@@ -152,93 +122,6 @@ void snap_to_bounds(double upper, std::span<double> p) {
     else if (p[k] > upper * (1 - rounding))
       p[k] = upper;
   });
-}
-
-// Where the ground moves by far less than the rms, what is right to a share of the rms says nothing of how
-// the load is shared. So the solve goes on, its gaps counted from the height that matters, where they are
-// sums of small terms and not small differences of large heights, and measured by how far the ground there
-// moves.
-class LightContact {
- public:
-  LightContact(ContactLevel& level, DescentFields& fields, const CellProblem& problem)
-      : level_(level), fields_(fields), problem_(problem) {}
-
-  // What it cannot better stays as it was. Returns whether gaps and offset are counted from the highest node.
-  bool refine(ChainEnd& end);
-
- private:
-  static constexpr double light = 0.01;  // an approach, of what gaps are measured by
-  static constexpr double soft = 1e-3;   // what one node at the cap sinks, of the same
-
-  // Once more from the pressures there are; false, and they stay, where that does not converge.
-  bool again(double length, ChainEnd& end);
-  void by_approach(double approach, ChainEnd& end);
-  void at_the_cap(double cap, ChainEnd& end);
-  double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
-  // What one node sinks, about, under the pressure `p` on it alone.
-  double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
-
-  ContactLevel& level_;
-  DescentFields& fields_;
-  const CellProblem& problem_;
-};
-
-bool LightContact::again(double length, ChainEnd& end) {
-  level_.length = length;
-  const Array<double> before = fields_.pressure;
-  const ChainEnd finer = run_chain(level_, fields_, problem_.tolerance, false);
-  if (finer.stage.converged)
-    end = finer;
-  else
-    fields_.pressure = before;
-  return finer.stage.converged;
-}
-
-void LightContact::by_approach(double approach, ChainEnd& end) {
-  constexpr double right = 0.5;  // of the approach that gaps were measured by
-  constexpr int most_rounds = 60;
-  // Without a limit on its pressure the highest node alone would sink so far; the first approach is perhaps
-  // only what the tolerance left.
-  const double alone = sunk(level_.total_load());
-  const bool elastic =
-      !std::isfinite(upper_of(level_.limit)) && std::holds_alternative<PressureCap>(level_.limit);
-  if (!(approach > 0) || elastic) approach = std::min(approach > 0 ? approach : alone, alone);
-  for (int round = 0; round < most_rounds; ++round) {
-    if (!again(approach, end)) return;
-    approach = offset();
-    if (!(approach > 0) || approach > right * level_.length) return;
-  }
-}
-
-// Soft ground: all is at the cap above some height, and all is open below; nodes at that height share the
-// rest.
-void LightContact::at_the_cap(double cap, ChainEnd& end) {
-  const Array<double>& p = fields_.pressure;
-  for (std::size_t k = 0; k < p.size(); ++k)
-    if (p[k] > 0 && p[k] < cap) {
-      level_.count_from(problem_.heights[k]);
-      again(sunk(cap), end);
-      return;
-    }
-}
-
-bool LightContact::refine(ChainEnd& end) {
-  const double highest = greatest(problem_.heights), length = level_.length;
-  const double cap = upper_of(level_.limit);
-  const double approach = (highest - problem_.origin) * problem_.factor + offset();
-  const bool from_peak = approach < light * length;
-  if (from_peak) {
-    level_.count_from(highest);
-    by_approach(approach, end);
-  }
-  const bool is_soft = std::isfinite(cap) && sunk(cap) < soft * length;
-  if (is_soft) {
-    at_the_cap(cap, end);
-    level_.count_from(from_peak ? highest : problem_.origin);
-  }
-  if (from_peak || is_soft) level_.gap(fields_.pressure, fields_.gap);
-  level_.length = length;
-  return from_peak;
 }
 
 CellAnswer descend_nest(const CellProblem& problem, std::span<const double> start_pressure,
@@ -256,7 +139,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
     const bool finest = l == 0;
     const std::size_t nodes = step.shape.nodes();
     const PressureLimit limit = limit_on(problem.limit, step);
-    const double upper = upper_of(limit);
+    const double upper = greatest_pressure(limit);
     ContactLevel level(step.shape, finest ? problem.heights : std::span<const double>(step.heights),
                        problem.origin, problem.factor, limit, step.mean_pressure);
     level.length = problem.length;
@@ -283,7 +166,9 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
 
     ChainEnd end = run_chain(level, fields, tolerance, finest);
     if (!end.stage.converged) level.gap(p, fields.gap);
-    answer.from_peak = finest && LightContact(level, fields, problem).refine(end);
+    answer.from_peak =
+        finest && refine_light_contact(level, fields, {problem.heights, problem.origin, problem.factor},
+                                       tolerance, end);
     if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
     const ContactQuality at = contact_quality(level, p, fields.gap);
     if (finest) {
@@ -309,7 +194,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
 int power_within_range(const CellProblem& problem) {
   constexpr double least = 1e-100;
   const double load = problem.mean_pressure * static_cast<double>(problem.shape.nodes());
-  const double pressure = std::min(load, upper_of(problem.limit));
+  const double pressure = std::min(load, greatest_pressure(problem.limit));
   return pressure > 0 && pressure < least ? -std::ilogb(pressure) / 2 : 0;
 }
 

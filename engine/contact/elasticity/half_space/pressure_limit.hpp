@@ -53,4 +53,9 @@ struct LinearHardening {
 
 using PressureLimit = std::variant<PressureCap, LinearHardening>;
 
+// The bound that no pressure passes.
+inline double greatest_pressure(const PressureLimit& limit) {
+  return std::visit([](const auto& law) { return law.upper(); }, limit);
+}
+
 }  // namespace asperity
