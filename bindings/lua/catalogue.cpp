@@ -8,7 +8,8 @@ namespace asperity::lua {
 
 const std::vector<const Module*>& modules() {
   static const std::vector<const Module*> all = {
-      &lab_module(), &units_module(), &surface_module(), &profile_module(), &protocol_module(),
+      &lab_module(),     &units_module(),    &surface_module(),
+      &profile_module(), &protocol_module(), &exact_module(),
   };
   return all;
 }

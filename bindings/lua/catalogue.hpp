@@ -11,6 +11,7 @@ const Module& units_module();
 const Module& surface_module();
 const Module& profile_module();
 const Module& protocol_module();
+const Module& exact_module();
 
 const Class& state_class();
 const Class& field_class();

@@ -5,6 +5,7 @@
 #include "bindings/lua/grid_keys.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/surface.hpp"
+#include "bindings/lua/weierstrass_mandelbrot_keys.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/grain_profile.hpp"
@@ -24,38 +25,8 @@ Values result(Surface surface, const std::optional<Material>& material) {
 // --- weierstrass_mandelbrot
 
 const Block<WeierstrassMandelbrotOptions>& weierstrass_mandelbrot_block() {
-  using O = WeierstrassMandelbrotOptions;
-  using K = O;
-  auto phases = custom<K>("phases", "\"golden\"|function",
-                          "how the phases are drawn instead of from `seed`: the golden "
-                          "sequence that anyone can reproduce, or function(m, n) returning radians",
-                          [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                            if (value.is_text() && value.text() == "golden") {
-                              keys.phases = WavePhases::golden;
-                            } else if (value.is_function()) {
-                              keys.phases = WavePhases::function;
-                            } else {
-                              detail::wrong_type(
-                                  value, info, "\"golden\" or a function(m, n) returning radians", problems);
-                            }
-                          });
-  static const Block<K> block{
-      "lab.surface.weierstrass_mandelbrot",
-      {
-          Option<K>(cells_option(&O::nx, &O::ny)).required(),
-          Option<K>(number("D", &O::D, between(2, 3), "fractal dimension of the surface")).required(),
-          number("span", &O::span, above(0), "length of the x side in units of L"),
-          quantity("L", &O::L, dimension::length, above(0), "sample length"),
-          quantity("G", &O::G, dimension::length, above(0), "fractal roughness, the height scale"),
-          number("gamma", &O::gamma, above(1), "ratio of neighbouring wave numbers"),
-          integer("M", &O::M, between(1, 4096), "number of ridges (directions)"),
-          integer("n_max", &O::n_max, at_least(0), "highest frequency index"),
-          integer("seed", &O::seed, at_least(0), "of the random phases"),
-          std::move(phases),
-          choice("band", &O::band, {{"all", WaveBand::all}, {"resolved", WaveBand::resolved}},
-                 "every wave as published (those past Nyquist alias), or only what the grid carries"),
-          material_key(&O::material),
-      }};
+  static const Block<WeierstrassMandelbrotOptions> block{
+      "lab.surface.weierstrass_mandelbrot", weierstrass_mandelbrot_keys<WeierstrassMandelbrotOptions>()};
   return block;
 }
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/study/exact/box_paraboloid.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/study/exact/in_range.hpp"
+
+namespace asperity::exact {
+
+namespace {
+
+BoxParaboloid complete(double radius, double load, double approach) {
+  BoxParaboloid contact{load, approach, 2 * std::numbers::pi * radius * approach, load * approach / 3};
+  in_range({contact.load, contact.approach, contact.area, contact.energy});
+  return contact;
+}
+
+}  // namespace
+
+BoxParaboloid box_paraboloid_under_load(double radius, double stiffness, double load) {
+  return complete(radius, load, std::sqrt(load / (std::numbers::pi * stiffness)) / std::sqrt(radius));
+}
+
+BoxParaboloid box_paraboloid_at_approach(double radius, double stiffness, double approach) {
+  return complete(radius, std::numbers::pi * stiffness * (radius * approach * approach), approach);
+}
+
+}  // namespace asperity::exact

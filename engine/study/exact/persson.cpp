@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/study/exact/persson.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/core/error.hpp"
+
+namespace asperity::exact {
+
+PerssonArea persson_area(double modulus, double rms_slope, double pressure, double hardness) {
+  const double width = modulus * rms_slope;  // twice the standard deviation of the diffused pressure
+  if (pressure >= hardness)
+    throw Error(ErrorCode::infeasible, "`pressure` is not below `hardness`: the contact cannot carry it",
+                "lower the pressure");
+  // At this distance, in standard deviations, the edge at H is out of sight.
+  constexpr double far = 40;
+  if (hardness - pressure > far * 0.5 * width) return {std::erf(std::numbers::sqrt2 * (pressure / width)), 0};
+  // Mode k of the density is sin(kπp/H), of weight 2/H sin(kπp̄/H) e^(−λ_k). Its share of the area is its
+  // integral over 0 … H, and its share of the load its first moment.
+  PerssonArea area;
+  double carried = 0;  // share of H
+  const double decay = 0.125 * (width / hardness) * (width / hardness);
+  for (int k = 1;; ++k) {
+    const double wave = k * std::numbers::pi;
+    const double exponent = wave * wave * decay;
+    if (exponent > 745) break;
+    const double weight = 2 / wave * std::sin(wave * (pressure / hardness)) * std::exp(-exponent);
+    if (k % 2 == 1) area.elastic += 2 * weight;
+    carried += k % 2 == 1 ? weight : -weight;
+  }
+  area.capped = pressure / hardness - carried;
+  return area;
+}
+
+}  // namespace asperity::exact

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/study/work_precision.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <set>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/study/study_text.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double look_every = 0.1;        // seconds between two records, and two signs of progress
+constexpr double settling_share = 0.01;   // of the time, for clearing away
+constexpr const char* title = "work and precision";
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+void check(const StudyRequest& request) {
+  if (request.repeats < 1)
+    throw Error(ErrorCode::bad_value, "`repeats` is " + std::to_string(request.repeats), "give at least 1");
+  if (const auto* value = std::get_if<double>(&request.truth); value != nullptr && !std::isfinite(*value))
+    throw Error(ErrorCode::bad_value, "`truth` is " + format_short(*value),
+                "give a finite number, or the knobs of a setting to be taken for it");
+  std::set<std::string> names;
+  std::size_t settings = 0;
+  for (const StudyWay& way : request.ways) {
+    settings += way.settings.size();
+    if (!names.insert(way.name).second)
+      throw Error(ErrorCode::bad_value, "two ways are called " + quoted(way.name),
+                  "give each a name of its own");
+  }
+  if (settings == 0)
+    throw Error(ErrorCode::bad_value, "there is no setting to try",
+                "give `try` at least one way, such as { name=\"finer grid\", cells={128, 256} }");
+}
+
+}  // namespace
+
+double WorkPrecision::steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+WorkPrecision::WorkPrecision(StudyRequest request, StudyWork& work, Monitor& monitor, Clock clock)
+    : work_(work), monitor_(monitor), clock_(std::move(clock)) {
+  check(request);
+  result_.request = std::move(request);
+  if (const auto* value = std::get_if<double>(&result_.request.truth)) result_.truth = *value;
+  for (std::size_t way = 0; way < result_.request.ways.size(); ++way)
+    for (std::size_t k = 0; k < result_.request.ways[way].settings.size(); ++k) {
+      StudyRow row;
+      row.way = way;
+      row.setting = k;
+      row.reason = "not reached";
+      result_.rows.push_back(std::move(row));
+    }
+  asked_.assign(result_.rows.size(), false);
+}
+
+void WorkPrecision::run() {
+  begun_ = now_ = recorded_at_ = shown_at_ = clock_();
+  wall_begun_ = PartMonitor::Clock::now();
+  try {
+    go();
+    result_.complete = true;
+  } catch (const std::exception&) {
+    finish();
+    throw;
+  }
+  finish();
+}
+
+void WorkPrecision::go() {
+  scout();
+  monitor_.inform(quote_text());
+  ask_truth();
+  first_runs();
+  rounds();
+}
+
+void WorkPrecision::finish() {
+  conclude(result_);
+  flush();
+  result_.total_seconds = clock_() - begun_;
+}
+
+void WorkPrecision::flush() {
+  if (unrecorded_.empty()) return;
+  const std::vector<StudyRun> runs = std::exchange(unrecorded_, {});
+  recorded_at_ = now_;
+  work_.record(runs);
+}
+
+// --- one call
+
+// Where the whole stands, for the calls that follow: its share done before and after the next one.
+void WorkPrecision::show(const std::string& part, double expected) {
+  const double total = elapsed() + quote().seconds;
+  share_ = std::max(share_, total > 0 ? elapsed() / total : 0);
+  share_after_ = total > 0 ? std::clamp((elapsed() + expected) / total, share_, 1.0) : share_;
+  shown_at_ = now_;
+  monitor_.progress_of_parts(title, share_, part, elapsed());
+}
+
+StudyAnswer WorkPrecision::call(const Knobs& knobs, const std::string* way, int round, double& seconds) {
+  stop_flag().check();
+  work_.prepare(knobs);
+  std::string part;
+  if (now_ - shown_at_ >= look_every || share_after_ == 0) {
+    part = (way == nullptr ? "the truth" : *way) + " " + lua_source(knobs);
+    if (round > 0)
+      part += ", run " + std::to_string(round) + " of " + std::to_string(result_.request.repeats);
+    show(part, 0);
+  }
+  PartMonitor part_monitor(monitor_, title, part.empty() ? (way == nullptr ? "the truth" : *way) : part, share_,
+                           std::max(share_, share_after_), wall_begun_);
+  const double begins = clock_();
+  StudyAnswer answer = work_.ask(knobs, part_monitor);
+  now_ = clock_();
+  seconds = now_ - begins;
+  result_.asked_seconds += seconds;
+  ++result_.calls;
+  if (answer.value && !std::isfinite(*answer.value)) {
+    answer.failure = "the answer is " + format_short(*answer.value);
+    answer.value.reset();
+  }
+  if (!answer.value && answer.failure.empty()) answer.failure = "no answer (nil)";
+  unrecorded_.push_back({&knobs, way, round, answer.value, seconds});
+  if (now_ - recorded_at_ >= look_every) flush();
+  since_settled_ += seconds;
+  if (settling_share * since_settled_ >= settling_) {
+    work_.settle();
+    const double settled = clock_();
+    settling_ = settled - now_;
+    now_ = settled;
+    since_settled_ = 0;
+  }
+  return answer;
+}
+
+bool WorkPrecision::first_run(StudyRow& row) {
+  double seconds = 0;
+  const StudyAnswer answer = call(result_.knobs_of(row), &result_.way_of(row).name, 0, seconds);
+  asked_[static_cast<std::size_t>(&row - result_.rows.data())] = true;
+  row.first_seconds = seconds;
+  row.reason.clear();
+  if (!answer.value) {
+    row.end = StudyRow::End::failed;
+    row.reason = answer.failure;
+    return false;
+  }
+  row.end = StudyRow::End::measured;
+  row.value = *answer.value;
+  if (result_.is_truth(row)) row.reason = "the truth itself, so without an error";
+  forecast_.learn(row.way, result_.knobs_of(row), seconds);
+  return true;
+}
+
+// --- the budget
+
+double WorkPrecision::left() const {
+  return result_.request.at_most ? *result_.request.at_most - elapsed()
+                                 : std::numeric_limits<double>::infinity();
+}
+
+// The timed runs still to come of the settings that were asked.
+double WorkPrecision::committed() const {
+  double seconds = 0;
+  for (const StudyRow& row : result_.rows)
+    if (row.end == StudyRow::End::measured)
+      seconds += row.first_seconds * std::max(0, result_.request.repeats - static_cast<int>(row.runs.size()));
+  return seconds;
+}
+
+std::optional<double> WorkPrecision::forecast(const StudyRow& row) const {
+  return forecast_.seconds(row.way, result_.knobs_of(row));
+}
+
+std::optional<double> WorkPrecision::truth_forecast() const {
+  const auto* knobs = std::get_if<Knobs>(&result_.request.truth);
+  if (knobs == nullptr || result_.truth) return 0.0;
+  return forecast_.seconds({}, *knobs);
+}
+
+// Settings that were not asked yet, the cheapest first.
+std::vector<StudyRow*> WorkPrecision::waiting() {
+  std::vector<std::pair<double, StudyRow*>> found;
+  for (std::size_t k = 0; k < result_.rows.size(); ++k)
+    if (!asked_[k]) found.emplace_back(forecast(result_.rows[k]).value_or(0), &result_.rows[k]);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<StudyRow*> rows;
+  for (const auto& [seconds, row] : found) rows.push_back(row);
+  return rows;
+}
+
+void WorkPrecision::leave_out(StudyRow& row, double expected, double needed) {
+  asked_[static_cast<std::size_t>(&row - result_.rows.data())] = true;
+  row.end = StudyRow::End::left_out;
+  row.expected_seconds = expected;
+  row.reason =
+      "budget: about " + seconds_text(needed) + " needed, " + seconds_text(std::max(left(), 0.0)) + " left";
+}
+
+// What is still to come by the forecast, and what of it the budget leaves out.
+WorkPrecision::Quote WorkPrecision::quote() {
+  Quote quote;
+  quote.seconds = truth_forecast().value_or(0) + committed();
+  for (const StudyRow* row : waiting()) {
+    const double needed = (1 + result_.request.repeats) * forecast(*row).value_or(0);
+    if (quote.seconds + needed > left())
+      quote.left_out.push_back(row);
+    else
+      quote.seconds += needed;
+  }
+  return quote;
+}
+
+std::string WorkPrecision::quote_text() {
+  const StudyRequest& request = result_.request;
+  const Quote expected = quote();
+  const std::size_t asked = result_.rows.size() - expected.left_out.size();
+  std::string text = std::string(title) + ": " + std::to_string(asked) + (asked == 1 ? " setting" : " settings") +
+                     ", each timed " + std::to_string(request.repeats) +
+                     (request.repeats == 1 ? " time" : " times") + " after a first run: about " +
+                     seconds_text(elapsed() + expected.seconds);
+  if (const auto* knobs = std::get_if<Knobs>(&request.truth)) {
+    const auto truth = truth_forecast();
+    text += ", of which the truth " + lua_source(*knobs) + " takes " +
+            (truth ? "about " + seconds_text(*truth) : std::string("what is not known yet"));
+  }
+  if (request.at_most) text += "; at most " + seconds_text(*request.at_most);
+  if (!expected.left_out.empty()) {
+    std::vector<std::string> names;
+    for (const StudyRow* row : expected.left_out) names.push_back(result_.name_of(*row));
+    text += ", which leaves out " + joined(names, " and ");
+  }
+  return text;
+}
+
+// --- the parts of the study
+
+// The cheapest setting of each way, from which the rest is forecast. One that fails says nothing: then the
+// next one of its way.
+void WorkPrecision::scout() {
+  for (std::size_t way = 0; way < result_.request.ways.size(); ++way) {
+    std::vector<StudyRow*> rows;
+    for (StudyRow& row : result_.rows)
+      if (row.way == way) rows.push_back(&row);
+    std::stable_sort(rows.begin(), rows.end(), [&](const StudyRow* a, const StudyRow* b) {
+      return CostForecast::relative(result_.knobs_of(*a)) < CostForecast::relative(result_.knobs_of(*b));
+    });
+    for (StudyRow* row : rows) {
+      const double expected = forecast(*row).value_or(0);
+      const double needed = expected + committed() + truth_forecast().value_or(0);
+      if (needed > left()) {
+        leave_out(*row, expected, (1 + result_.request.repeats) * expected);
+        continue;
+      }
+      if (first_run(*row)) break;
+    }
+  }
+}
+
+void WorkPrecision::ask_truth() {
+  const auto* knobs = std::get_if<Knobs>(&result_.request.truth);
+  if (knobs == nullptr) return;
+  if (const double expected = truth_forecast().value_or(0); expected > left())
+    throw Error(ErrorCode::infeasible,
+                "the truth " + lua_source(*knobs) + " would take about " + seconds_text(expected) + ", and " +
+                    seconds_text(std::max(left(), 0.0)) + " are left of `at_most`",
+                "raise `at_most`, or give a cheaper or an exact truth");
+  const StudyAnswer answer = call(*knobs, nullptr, 0, result_.truth_seconds);
+  if (!answer.value)
+    throw Error(ErrorCode::infeasible, "the truth " + lua_source(*knobs) + " failed: " + answer.failure,
+                "give other knobs for it, or an exact value");
+  result_.truth = *answer.value;
+}
+
+void WorkPrecision::first_runs() {
+  // Each run sharpens the forecast of what is left.
+  for (std::vector<StudyRow*> rows = waiting(); !rows.empty(); rows = waiting()) {
+    StudyRow& row = *rows.front();
+    const double expected = forecast(row).value_or(0);
+    const double needed = (1 + result_.request.repeats) * expected;
+    if (committed() + needed > left())
+      leave_out(row, expected, needed);
+    else
+      first_run(row);
+  }
+}
+
+void WorkPrecision::rounds() {
+  for (int round = 1; round <= result_.request.repeats; ++round)
+    for (StudyRow& row : result_.rows) {
+      if (row.end != StudyRow::End::measured) continue;
+      const double expected = row.runs.empty() ? row.first_seconds : row.runs.back();
+      if (expected > left()) {
+        row.reason = "budget: " + std::to_string(row.runs.size()) + " of " +
+                     std::to_string(result_.request.repeats) + " runs";
+        continue;
+      }
+      double seconds = 0;
+      const StudyAnswer answer = call(result_.knobs_of(row), &result_.way_of(row).name, round, seconds);
+      if (!answer.value) {
+        row.end = StudyRow::End::failed;
+        row.reason = "run " + std::to_string(round) + ": " + answer.failure;
+        continue;
+      }
+      row.runs.push_back(seconds);
+      if (row.steady && !same_bits(*answer.value, row.value)) {
+        row.steady = false;
+        row.reason = "run " + std::to_string(round) + " gave " + format_short(*answer.value, 17);
+      }
+    }
+}
+
+}  // namespace asperity
