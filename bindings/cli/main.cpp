@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bindings/cli/accuracy_command.hpp"
 #include "bindings/cli/run_command.hpp"
 #include "bindings/lua/help.hpp"
 #include "bindings/lua/version.hpp"
@@ -38,6 +39,8 @@ void print_materials() {
 constexpr const char* usage =
     "asperity run SCRIPT [options] [-- arguments]   run a script and keep what it finds\n"
     "asperity check SCRIPT                          look for mistakes without running it\n"
+    "asperity explain SCRIPT                        what it will compute, and at what cost\n"
+    "asperity accuracy SCRIPT [options]              what accuracy costs a script that returns a number\n"
     "asperity help [TOPIC]                          explain the language\n"
     "asperity materials                             list the materials known by name\n"
     "asperity version                               show what this program was built with\n"
@@ -56,6 +59,15 @@ int print_help(const std::string& topic, bool reference, bool types) {
   return 0;
 }
 
+double exact_value(const std::string& text) {
+  try {
+    return parse_quantity(text).value;
+  } catch (const Error& error) {
+    throw Error(error.code(), "the truth is " + quoted(text) + ": " + error.sentence(),
+                "give a number, or a quantity such as \"0.1 um\"");
+  }
+}
+
 void add_script_options(CLI::App& command, cli::RunCommand& run, std::string& limit_time) {
   command.add_option("script", run.script, "the Lua script")->required();
   command.add_option("--seed", run.seed, "of math.random (default 1)")
@@ -69,6 +81,14 @@ void add_script_options(CLI::App& command, cli::RunCommand& run, std::string& li
   command.add_option("arguments", run.arguments, "reach the script as ... and arg; put them after --");
 }
 
+void add_run_options(CLI::App& command, cli::RunCommand& run, std::string& memory) {
+  command.add_option("--out", run.out, "the run directory (default runs/<script>-<n>); must be new or empty");
+  command.add_option("--threads", run.threads, "threads to use (default: one a processor)")
+      ->check(CLI::Range(1, 4096));
+  command.add_option("--limit-memory", memory, "most memory, e.g. 4G");
+  command.add_flag("--trust", run.trust, "give the script the whole of Lua, and files anywhere");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -78,21 +98,46 @@ int main(int argc, char** argv) {
   app.set_help_flag("-h,--help", "show this help");
   app.set_version_flag("--version", "asperity " + lua::version_text());
 
-  cli::RunCommand run, check;
-  std::string run_time, check_time, memory, topic;
-  bool reference = false, types = false;
+  cli::RunCommand run, check, explain;
+  cli::AccuracyCommand accuracy;
+  std::string run_time, check_time, explain_time, accuracy_time, memory, accuracy_memory, at_most, truth,
+      topic;
+  bool reference = false, types = false, explain_json = false;
 
   CLI::App& run_command = *app.add_subcommand("run", "run a script and keep what it finds");
   add_script_options(run_command, run, run_time);
-  run_command.add_option("--out", run.out,
-                         "the run directory (default runs/<script>-<n>); must be new or empty");
-  run_command.add_option("--threads", run.threads, "threads to use (default: one a processor)")
-      ->check(CLI::Range(1, 4096));
-  run_command.add_option("--limit-memory", memory, "most memory, e.g. 4G");
-  run_command.add_flag("--trust", run.trust, "give the script the whole of Lua, and files anywhere");
+  add_run_options(run_command, run, memory);
+
+  CLI::App& accuracy_command = *app.add_subcommand(
+      "accuracy",
+      "what accuracy costs a script that returns a number: it is run again on coarser and finer grids (every "
+      "`cells` times 1/4, 1/2, 1, 2, rounded) and with looser and tighter contacts, and each is timed");
+  add_script_options(accuracy_command, accuracy.run, accuracy_time);
+  add_run_options(accuracy_command, accuracy.run, accuracy_memory);
+  accuracy_command.add_option("--at-most", at_most,
+                              "time for all runs together (default 5 min); quoted first and kept");
+  accuracy_command.add_option("--repeats", accuracy.repeats, "timed runs of each setting (default 3)")
+      ->check(CLI::Range(1, 100000));
+  accuracy_command.add_option(
+      "--truth", truth,
+      "the exact value, a number or a quantity such as \"0.1 um\"; without it the finest grid "
+      "is taken for it");
+  accuracy_command.footer(
+      "The first run is the script as it is written: its output is shown and its files are kept. What the "
+      "repeated "
+      "runs print and write is dropped. The table goes to standard output, accuracy.csv and accuracy.svg to "
+      "the run "
+      "directory.");
 
   CLI::App& check_command = *app.add_subcommand("check", "look for mistakes in a script without running it");
   add_script_options(check_command, check, check_time);
+
+  CLI::App& explain_command = *app.add_subcommand(
+      "explain",
+      "what a script will compute, and at what cost: its surfaces are made and its contacts planned, "
+      "but nothing is pressed; a loop over a sweep turns once");
+  add_script_options(explain_command, explain, explain_time);
+  explain_command.add_flag("--json", explain_json, "as JSON");
 
   CLI::App& help_command = *app.add_subcommand("help", "explain the language: a module, a function, a value");
   help_command.add_option("topic", topic, "e.g. lab.surface, sine, State.area");
@@ -126,7 +171,12 @@ int main(int argc, char** argv) {
     };
     run.limit_time = seconds(run_time);
     check.limit_time = seconds(check_time);
+    explain.limit_time = seconds(explain_time);
+    accuracy.run.limit_time = seconds(accuracy_time);
+    accuracy.at_most = seconds(at_most).value_or(accuracy.at_most);
+    if (!truth.empty()) accuracy.truth = exact_value(truth);
     if (!memory.empty()) run.limit_memory = cli::parse_bytes(memory);
+    if (!accuracy_memory.empty()) accuracy.run.limit_memory = cli::parse_bytes(accuracy_memory);
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
@@ -139,6 +189,8 @@ int main(int argc, char** argv) {
 
   if (run_command.parsed()) return cli::run(run);
   if (check_command.parsed()) return cli::check(check);
+  if (explain_command.parsed()) return cli::explain(explain, explain_json);
+  if (accuracy_command.parsed()) return cli::accuracy(accuracy);
   if (help_command.parsed()) return print_help(topic, reference, types);
   if (materials_command.parsed()) print_materials();
   if (version_command.parsed())

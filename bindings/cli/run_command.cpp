@@ -14,6 +14,7 @@
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/argument.hpp"
+#include "bindings/lua/explanation.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/state.hpp"
 #include "bindings/lua/version.hpp"
@@ -60,38 +61,6 @@ Json version_json() {
   return versions;
 }
 
-// Loads and runs the script; leaves LUA_OK and nothing, or an error message with traceback.
-int execute(lua_State* L, const std::string& script, const std::string& text,
-            const std::vector<std::string>& arguments) {
-  auto action = [&](lua_State* state) -> int {
-    lua_pushcfunction(state, lua::traceback_handler);
-    const std::string& name = script;
-    lua_pushfstring(state, "@%s", name.c_str());
-    std::size_t skip = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte-order mark
-    // A first line "#!..." is for the shell.
-    if (skip < text.size() && text[skip] == '#') skip = std::min(text.find('\n'), text.size());
-    if (luaL_loadbufferx(state, text.data() + skip, text.size() - skip, lua_tostring(state, -1), "t") !=
-        LUA_OK)
-      return 1;
-    lua_remove(state, -2);
-    lua_createtable(state, static_cast<int>(arguments.size()), 1);
-    lua_pushstring(state, name.c_str());
-    lua_rawseti(state, -2, 0);
-    for (std::size_t k = 0; k < arguments.size(); ++k) {
-      lua_pushlstring(state, arguments[k].data(), arguments[k].size());
-      lua_rawseti(state, -2, static_cast<lua_Integer>(k) + 1);
-    }
-    lua_setglobal(state, "arg");
-    luaL_checkstack(state, static_cast<int>(arguments.size()) + 4, "too many arguments");
-    for (const std::string& argument : arguments) lua_pushlstring(state, argument.data(), argument.size());
-    if (lua_pcall(state, static_cast<int>(arguments.size()), 0, 1) != LUA_OK) return 1;
-    return 0;
-  };
-  const int top = lua_gettop(L);
-  const int status = lua::protect(L, 0, LUA_MULTRET, action);
-  return status != LUA_OK || lua_gettop(L) > top ? LUA_ERRRUN : LUA_OK;
-}
-
 std::string reason_text(StopReason reason, const RunCommand& command) {
   switch (reason) {
     case StopReason::interrupt:
@@ -110,6 +79,48 @@ std::string reason_text(StopReason reason, const RunCommand& command) {
 }
 
 }  // namespace
+
+int execute(lua_State* L, const RunCommand& command, const std::string& text, int results) {
+  bool failed_inside = false;
+  const std::vector<std::string>& arguments = command.arguments;
+  auto action = [&](lua_State* state) -> int {
+    failed_inside = true;
+    lua_pushcfunction(state, lua::traceback_handler);
+    const std::string& name = command.script;
+    lua_pushfstring(state, "@%s", name.c_str());
+    std::size_t skip = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte-order mark
+    // A first line "#!..." is for the shell.
+    if (skip < text.size() && text[skip] == '#') skip = std::min(text.find('\n'), text.size());
+    if (luaL_loadbufferx(state, text.data() + skip, text.size() - skip, lua_tostring(state, -1), "t") !=
+        LUA_OK)
+      return 1;
+    lua_remove(state, -2);
+    lua_createtable(state, static_cast<int>(arguments.size()), 1);
+    lua_pushstring(state, name.c_str());
+    lua_rawseti(state, -2, 0);
+    for (std::size_t k = 0; k < arguments.size(); ++k) {
+      lua_pushlstring(state, arguments[k].data(), arguments[k].size());
+      lua_rawseti(state, -2, static_cast<lua_Integer>(k) + 1);
+    }
+    lua_setglobal(state, "arg");
+    luaL_checkstack(state, static_cast<int>(arguments.size()) + 4, "too many arguments");
+    for (const std::string& argument : arguments) lua_pushlstring(state, argument.data(), argument.size());
+    if (lua_pcall(state, static_cast<int>(arguments.size()), results, 1) != LUA_OK) return 1;
+    failed_inside = false;
+    return results;
+  };
+  const int status = lua::protect(L, 0, LUA_MULTRET, action);
+  return status != LUA_OK || failed_inside ? LUA_ERRRUN : LUA_OK;
+}
+
+lua::State make_state(lua::Session& session, const RunCommand& command) {
+  session.seed = command.seed;
+  session.trusted = command.trust;
+  const std::string folder = std::filesystem::path(command.script).parent_path().string();
+  lua::State state = lua::make_state(session, folder.empty() ? "." : folder);
+  if (command.limit_time || command.limit_memory) lua::watch_for_stops(state.get());
+  return state;
+}
 
 std::int64_t parse_bytes(const std::string& text) {
   std::size_t used = 0;
@@ -133,7 +144,7 @@ std::int64_t parse_bytes(const std::string& text) {
   return static_cast<std::int64_t>(value * factor);
 }
 
-int run(const RunCommand& command) {
+int in_run_directory(const RunCommand& command, const std::function<std::string(RunContext&)>& work) {
   std::string text;
   std::shared_ptr<RunDirectory> run;
   set_thread_count(command.threads);
@@ -184,28 +195,10 @@ int run(const RunCommand& command) {
 
   int status = done;
   std::string why;
-  lua::Session session(monitor);
-  session.seed = command.seed;
-  session.trusted = command.trust;
-  session.run = run;
-  session.exit_hook = [&](int code) {
-    if (code == 0 && run->expectations().failed() > 0) code = failed;
-    run->finish(code == 0 ? RunStatus::done : RunStatus::failed, "os.exit(" + std::to_string(code) + ")");
-    summary();
-    std::fflush(nullptr);
-    std::_Exit(code);
-  };
+  RunContext context{command, text, run, monitor, watchdog, summary};
   try {
-    const std::string folder = std::filesystem::path(command.script).parent_path().string();
-    lua::State state = lua::make_state(session, folder.empty() ? "." : folder);
-    lua_State* L = state.get();
-    if (command.limit_time || command.limit_memory) lua::watch_for_stops(L);
-    const Watchdog::Watching watching(watchdog, L);
-    const int result = execute(L, command.script, text, command.arguments);
-    if (result != LUA_OK) {
-      status = failed;
-      why = lua::error_text(L, -1);
-    }
+    why = work(context);
+    if (!why.empty()) status = failed;
   } catch (const std::exception& error) {
     status = failed;
     why = error.what();
@@ -244,7 +237,31 @@ int run(const RunCommand& command) {
   return status;
 }
 
-int check(const RunCommand& command) {
+int run(const RunCommand& command) {
+  return in_run_directory(command, [&command](RunContext& context) -> std::string {
+    lua::Session session(context.monitor);
+    session.run = context.run;
+    session.exit_hook = [&context](int code) {
+      if (code == 0 && context.run->expectations().failed() > 0) code = failed;
+      context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed,
+                          "os.exit(" + std::to_string(code) + ")");
+      context.summary();
+      std::fflush(nullptr);
+      std::_Exit(code);
+    };
+    const lua::State state = make_state(session, command);
+    const Watchdog::Watching watching(context.watchdog, state.get());
+    if (execute(state.get(), command, context.text, 0) == LUA_OK) return "";
+    return lua::error_text(state.get(), -1);
+  });
+}
+
+namespace {
+
+// A run without its heavy calls. `report` tells what was found, and how far the script could be followed: ""
+// to its end, otherwise why no further.
+int dry_run(const RunCommand& command, const std::string& verb, lua::Session& session,
+            const std::function<void(const std::string& reached)>& report) {
   std::string text;
   try {
     text = read_script(command.script);
@@ -252,36 +269,34 @@ int check(const RunCommand& command) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;
   }
-  TerminalMonitor monitor;
   Watchdog watchdog(command.limit_time ? *command.limit_time : 60.0, [&](StopReason) {
-    std::fprintf(stderr, "asperity: %s: the check did not come to an end\n", command.script.c_str());
+    std::fprintf(stderr, "asperity: %s: the %s did not come to an end\n", command.script.c_str(),
+                 verb.c_str());
   });
-  lua::Session session(monitor);
-  session.seed = command.seed;
   session.dry_run = true;
   session.run = std::make_shared<RunDirectory>(RunDirectory::Without::dry);
   session.exit_hook = [&](int) {
-    std::printf("%s: no problem found up to its os.exit\n", command.script.c_str());
+    report("to its os.exit");
     std::fflush(nullptr);
     std::_Exit(done);
   };
   try {
-    const std::string folder = std::filesystem::path(command.script).parent_path().string();
-    lua::State state = lua::make_state(session, folder.empty() ? "." : folder);
+    RunCommand unlimited = command;  // a dry run has a time limit of its own
+    unlimited.limit_time.reset();
+    const lua::State state = make_state(session, unlimited);
     const Watchdog::Watching watching(watchdog, state.get());
-    const int result = execute(state.get(), command.script, text, command.arguments);
+    const int result = execute(state.get(), command, text, 0);
     if (result == LUA_OK) {
-      std::printf("%s: no problem found\n", command.script.c_str());
+      report("");
       return done;
     }
     const std::string message = lua::error_text(state.get(), -1);
     if (stop_flag().reason() != StopReason::none) {
-      std::fprintf(stderr, "asperity: %s: the check was stopped\n", command.script.c_str());
+      std::fprintf(stderr, "asperity: %s: the %s was stopped\n", command.script.c_str(), verb.c_str());
       return exit_status(stop_flag().reason());
     }
     if (lua::stopped_at_placeholder(message) || (session.gave_placeholders && lua::met_nothing(message))) {
-      std::printf("%s: no problem found; checked to line %s: %s\n", command.script.c_str(),
-                  lua::line_of(message).c_str(), lua::cannot_follow);
+      report("to line " + lua::line_of(message) + ": " + lua::cannot_follow);
       return done;
     }
     std::fprintf(stderr, "asperity: %s\n", message.c_str());
@@ -289,6 +304,34 @@ int check(const RunCommand& command) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
   }
   return failed;
+}
+
+}  // namespace
+
+int check(const RunCommand& command) {
+  TerminalMonitor monitor;
+  lua::Session session(monitor);
+  return dry_run(command, "check", session, [&](const std::string& reached) {
+    std::printf("%s: no problem found%s%s\n", command.script.c_str(), reached.empty() ? "" : "; checked ",
+                reached.c_str());
+  });
+}
+
+int explain(const RunCommand& command, bool json) {
+  TerminalMonitor monitor;
+  lua::Session session(monitor);
+  session.explanation = std::make_shared<lua::Explanation>();
+  return dry_run(command, "explanation", session, [&](const std::string& reached) {
+    monitor.clear();
+    if (json) {
+      Json all = session.explanation->json();
+      all.set("reached", reached.empty() ? "the end" : reached);
+      std::printf("%s\n", all.text(2).c_str());
+      return;
+    }
+    std::fputs(session.explanation->text().c_str(), stdout);
+    if (!reached.empty()) std::printf("explained %s\n", reached.c_str());
+  });
 }
 
 }  // namespace asperity::cli

@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity run` and `asperity check`: a script from file to exit status.
+// `asperity run`, `asperity check` and `asperity explain`: a script from file to exit status; and what other
+// commands that keep a run directory share with them.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bindings/lua/session.hpp"
+#include "bindings/lua/state.hpp"
+
+namespace asperity {
+class RunDirectory;
+}
+
 namespace asperity::cli {
+
+class TerminalMonitor;
+class Watchdog;
 
 struct RunCommand {
   std::string script;
@@ -23,6 +36,29 @@ struct RunCommand {
 // Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage, 130 interrupted.
 int run(const RunCommand& command);
 int check(const RunCommand& command);
+// What the script will compute and at what cost: surfaces are made, contacts planned, nothing is pressed.
+int explain(const RunCommand& command, bool json);
+
+// What the work of a run has at hand.
+struct RunContext {
+  const RunCommand& command;
+  const std::string& text;  // of the script
+  std::shared_ptr<RunDirectory> run;
+  TerminalMonitor& monitor;
+  Watchdog& watchdog;
+  std::function<void()> summary;  // says on standard error how the run ended, and where its results are
+};
+
+// Makes the run directory, sets the limits and watches for stops; then `work`, which returns why the run
+// failed, "" if it did not; and closes the directory. Returns the exit status.
+int in_run_directory(const RunCommand& command, const std::function<std::string(RunContext&)>& work);
+
+// A Lua state for the command's script, whose session is given what the command says.
+lua::State make_state(lua::Session& session, const RunCommand& command);
+
+// Loads and runs the script. Leaves `results` values and returns LUA_OK, or leaves an error message with
+// its traceback.
+int execute(lua_State* L, const RunCommand& command, const std::string& text, int results);
 
 // "4G", "512M", "64KiB", "1000000". Throws Error{bad_value}.
 std::int64_t parse_bytes(const std::string& text);

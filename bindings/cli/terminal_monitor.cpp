@@ -75,6 +75,12 @@ void TerminalMonitor::warn(std::string_view sentence) {
   if (run_ != nullptr) run_->journal().write("warning", Json::object({{"sentence", sentence}}));
 }
 
+void TerminalMonitor::inform(std::string_view sentence) {
+  const std::lock_guard lock(mutex_);
+  clear_line();
+  std::fprintf(stderr, "%.*s\n", static_cast<int>(sentence.size()), sentence.data());
+}
+
 void TerminalMonitor::clear() {
   const std::lock_guard lock(mutex_);
   clear_line();

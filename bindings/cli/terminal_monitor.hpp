@@ -27,6 +27,7 @@ class TerminalMonitor final : public Monitor {
   void progress(std::string_view what, double done) override;
   void progress_of_parts(std::string_view what, double done, std::string_view part, double seconds) override;
   void warn(std::string_view sentence) override;
+  void inform(std::string_view sentence) override;
   // Takes the progress line away.
   void clear();
 

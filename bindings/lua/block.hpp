@@ -62,6 +62,9 @@ std::optional<double> read_quantity(const Argument& value, const OptionInfo& inf
                                     Problems& problems);
 std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo& info,
                                          const NumberRange& range, Problems& problems);
+// A number of cells, coarser or finer where a study of accuracy runs the script again (refinement.hpp).
+std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,
+                                       const NumberRange& range, Problems& problems);
 void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems);
 // Walks the table: calls read(option index, value) for known keys; reports unknown and missing ones.
 void read_table(const Argument& table, const std::string& caller,

@@ -16,9 +16,11 @@ const std::vector<const Module*>& modules() {
 
 const std::vector<const Class*>& classes() {
   static const std::vector<const Class*> all = {
-      &material_class(), &surface_class(), &profile_class(),  &contact_class(),
-      &state_class(),    &field_class(),   &stylus_class(),   &protocol_class(),
-      &law_class(),      &stage_class(),   &notebook_class(),
+      &material_class(), &surface_class(),     &profile_class(),         &contact_class(),
+      &state_class(),    &state_error_class(), &algebraic_error_class(), &discretisation_error_class(),
+      &field_class(),    &plan_class(),        &ledger_class(),          &stylus_class(),
+      &protocol_class(), &law_class(),         &shear_class(),           &stage_class(),
+      &notebook_class(), &study_class(),       &study_choice_class(),
   };
   return all;
 }

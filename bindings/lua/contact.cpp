@@ -6,7 +6,9 @@
 
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact_scene.hpp"
+#include "bindings/lua/ledger.hpp"
 #include "bindings/lua/session.hpp"
+#include "bindings/lua/shear.hpp"
 #include "bindings/lua/surface.hpp"
 
 namespace asperity::lua {
@@ -117,10 +119,12 @@ Values sweep(Call& call) {
   return {Iterator{
       [pair, requests = keys.requests, k = std::size_t{0}](Call& step) mutable -> std::optional<Values> {
         if (k >= requests.size()) return std::nullopt;
-        Values state{object(pair->press(requests[k], step.session().monitor()))};
+        const asperity::State state = pair->press(requests[k], step.session().monitor());
+        record_press(step.session(), pair, requests[k], state);
         ++k;  // only now: a press that failed for lack of memory is tried once more
-        return state;
-      }}};
+        return Values{object(state)};
+      },
+      call.function_name()}};
 }
 
 // --- the bench
@@ -131,6 +135,13 @@ Values release_load(Call& call) {
 }
 
 }  // namespace
+
+void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
+                  const PressRequest& request, const asperity::State& state) {
+  const Object self{&class_of<SpecimenPair>(), pair, false};
+  record_call(session, "contact:press", &self, press_block().resolved({1, request, request.dwell}),
+              {object(asperity::State(state))});
+}
 
 const Block<PlaceKeys>& place_block() {
   static const Block<PlaceKeys> block{
@@ -167,7 +178,7 @@ Values shift(Call& call) {
 }
 
 Values copy(Call& call) { return {object(SpecimenPair(call.self<SpecimenPair>()))}; }
-Values explain(Call& call) { return {call.self<SpecimenPair>().plan().text()}; }
+Values explain(Call& call) { return {object(Plan(call.self<SpecimenPair>().plan()))}; }
 Values lower(Call& call) { return {object(Surface(call.self<SpecimenPair>().lower()))}; }
 Values upper(Call& call) { return {object(call.self<SpecimenPair>().upper())}; }
 
@@ -224,7 +235,9 @@ const Class& contact_class() {
          .sentence = "One state after another along a list of loads, up or down.",
          .options = &sweep_block(),
          .returns = "iterator<State>",
-         .example = "for st in c:sweep{ pressure={\"1 MPa\", \"10 MPa\"} } do print(st.area_fraction) end"},
+         .example = "for st in c:sweep{ pressure={\"1 MPa\", \"10 MPa\"} } do print(st.area_fraction) end",
+         .heavy = true},
+        shear_method(),
         {.name = "release",
          .body = release_load,
          .sentence = "Takes the load off. The bodies recover elastically; what yielded stays."},
@@ -252,9 +265,8 @@ const Class& contact_class() {
          .returns = "Contact"},
         {.name = "explain",
          .body = explain,
-         .sentence =
-             "What a press will compute, what is off, and the expected transforms, memory and time, as text.",
-         .returns = "string",
+         .sentence = "What a press will compute, what is off, and the expected transforms, memory and time.",
+         .returns = "Plan",
          .example = "print(c:explain())"},
         {.name = "lower",
          .body = lower,

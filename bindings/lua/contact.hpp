@@ -36,6 +36,9 @@ struct PressKeys {
   std::optional<double> dwell;
 };
 const Block<PressKeys>& press_block();
+// Writes the journal's line of a press that an iterator made, as one made by hand stands there.
+void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
+                  const PressRequest& request, const asperity::State& state);
 struct PlaceKeys {
   std::uint64_t seed = 1;
 };

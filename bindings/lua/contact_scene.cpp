@@ -7,6 +7,7 @@
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/grid_keys.hpp"
+#include "bindings/lua/refinement.hpp"
 #include "bindings/lua/surface.hpp"
 #include "engine/contact/effects/catalogue.hpp"
 
@@ -52,17 +53,93 @@ const Block<CreepOptions>& creep_block() {
   return block;
 }
 
-const Block<Accuracy>& accuracy_block() {
-  using O = Accuracy;
+const Block<InterlockingOptions>& interlocking_block() {
+  using O = InterlockingOptions;
   static const Block<O> block{
+      "interlocking",
+      {quantity("direction", &O::direction, dimension::angle, any(),
+                "the way the upper body is pushed over the lower one, counter-clockwise from x")}};
+  return block;
+}
+
+const Block<AgeingOptions>& ageing_block() {
+  using O = AgeingOptions;
+  static const Block<O> block{
+      "ageing",
+      {number("rate", &O::rate, at_least(0), "growth of tau0 per unit of ln(1 + rest/onset)").required(),
+       quantity("onset", &O::onset, dimension::time, above(0), "rest from which ageing counts").required()}};
+  return block;
+}
+
+const Block<TangentialOptions>& tangential_block() {
+  using O = TangentialOptions;
+  static const Block<O> block{
+      "tangential",
+      {number("compliance_ratio", &O::compliance_ratio, above(0),
+              "how much more the bodies give way sideways than normally; required for boxes")
+           .defaults_to("Mindlin's, (2 - poisson)/(2(1 - poisson)) for like bodies")}};
+  return block;
+}
+
+struct AccuracyKeys : Accuracy {
+  std::optional<double> given_tolerance;
+  std::optional<double> error;
+  std::vector<std::string> of;
+};
+
+// One name or a list of them.
+void read_names(const Argument& value, const OptionInfo& info, AccuracyKeys& keys, Problems& problems) {
+  if (value.is_text()) {
+    keys.of = {std::string(value.text())};
+    return;
+  }
+  if (!value.is_table() || value.length() == 0)
+    return detail::wrong_type(value, info, "a name such as \"approach\", or a list of them", problems);
+  for (std::int64_t k = 1; k <= value.length(); ++k)
+    value.element(k, [&](const Argument& name) {
+      if (name.is_text())
+        keys.of.emplace_back(name.text());
+      else
+        detail::wrong_type(name, info, "a list of names", problems);
+    });
+}
+
+void finish_accuracy(AccuracyKeys& keys, Problems& problems) {
+  if (keys.error && keys.given_tolerance)
+    problems.push_back(
+        "`error` and `tolerance` are both given; with `error` the tolerance is chosen, so leave `tolerance` "
+        "out");
+  if (!keys.of.empty() && !keys.error)
+    problems.push_back("`of` is given without `error`; give the relative error as well, such as error=0.01");
+  if (keys.given_tolerance) keys.tolerance = *keys.given_tolerance;
+  if (!keys.error) return;
+  if (keys.of.empty()) keys.of = {"corrected_area_fraction"};
+  keys.asked = AskedError{*keys.error, keys.of};
+}
+
+const Block<AccuracyKeys>& accuracy_block() {
+  using O = Accuracy;
+  using K = AccuracyKeys;
+  static const Block<K> block{
       "accuracy",
-      {number("tolerance", &O::tolerance, {1e-15, 1, false, true, false},
-              "bound on every relative entry of the certificate"),
-       choice("precision", &O::precision,
-              {{"double", O::Precision::double_}, {"single", O::Precision::single}},
-              "of the fields inside a solve; this version computes \"double\" alone"),
+      {number("tolerance", &K::given_tolerance, {1e-15, 1, false, true, false},
+              "bound on every relative entry of the certificate")
+           .defaults_to("1e-06"),
+       choice(
+           "precision", &O::precision, {{"double", O::Precision::double_}, {"single", O::Precision::single}},
+           "of the transforms inside a half-space solve: \"single\" halves their memory and is refined until "
+           "the certificate, always double, meets the tolerance; a periodic tile of odd `nx`, or of a side "
+           "with a prime factor over 7, stays in double; boxes refuse it"),
        choice("on_failure", &O::on_failure, {{"error", O::OnFailure::error}, {"best", O::OnFailure::best}},
-              "what a solve that misses its tolerance does: raise an error, or return the best it got")}};
+              "what a solve that misses its tolerance or `error` does: raise an error, or return the best it "
+              "got"),
+       flag("estimate", &O::estimate,
+            "whether each press is solved on coarser grids too, for st.error.discretisation"),
+       number("error", &K::error, {1e-6, 1, false, true, false},
+              "relative error to be met instead of a tolerance: the first press chooses cells and tolerance"),
+       custom<K>("of", "string|string[]", "quantities of a state whose error that is", read_names)
+           .defaults_to("\"corrected_area_fraction\"")},
+      finish_accuracy};
   return block;
 }
 
@@ -73,7 +150,10 @@ struct SceneKeys {
   std::optional<Elasticity> elasticity;
   std::optional<PlasticityOptions> plasticity;
   std::optional<CreepOptions> creep;
-  Accuracy accuracy;
+  std::optional<InterlockingOptions> interlocking;
+  std::optional<AgeingOptions> ageing;
+  std::optional<TangentialOptions> tangential;
+  AccuracyKeys accuracy;
 };
 
 // Appends what `act` throws.
@@ -132,7 +212,13 @@ const std::vector<Option<SceneKeys>>& effect_options() {
         table_of("plasticity", &K::plasticity, plasticity_block(),
                  "pressure is limited by hardness, and what yields stays flattened; {} for its defaults"),
         table_of("creep", &K::creep, creep_block(),
-                 "hardness falls with the dwell of the load; needs plasticity; {} for its defaults")};
+                 "hardness falls with the dwell of the load; needs plasticity; {} for its defaults"),
+        table_of("ageing", &K::ageing, ageing_block(),
+                 "tau0 of the friction law grows with the time the junctions rest"),
+        table_of("interlocking", &K::interlocking, interlocking_block(),
+                 "slopes of two rough bodies add to the angle of friction; {} for its defaults"),
+        table_of("tangential", &K::tangential, tangential_block(),
+                 "shear and partial slip, for contact:shear and stage:slip_growth; {} for its defaults")};
   }();
   return options;
 }
@@ -221,6 +307,11 @@ Scene read_scene(Call& call) {
               keys.accuracy};
   scene.plasticity = keys.plasticity;
   scene.creep = keys.creep;
+  scene.sliding = {keys.interlocking, keys.ageing, keys.tangential};
+  if (Refinement* refinement = refinement_of(call.L)) {
+    scene.accuracy.tolerance = refinement->tolerance_for(scene.accuracy.tolerance);
+    if (refinement->tolerance) scene.accuracy.asked.reset();  // it is what was asked for
+  }
   return scene;
 }
 

@@ -6,6 +6,7 @@
 
 #include "bindings/lua/crew.hpp"
 #include "bindings/lua/ensemble_case.hpp"
+#include "bindings/lua/explanation.hpp"
 #include "bindings/lua/options.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/record.hpp"
@@ -248,8 +249,13 @@ Values ensemble(Call& call) {
                       "make it inside `run`, or use it on the rows that come back");
     common.trusted = session.trusted;
     common.depth = session.depth + 1;
+    common.refinement = session.refinement;
+    common.ledger = session.ledger;
     common.watched = lua_gethook(call.L) != nullptr;
-    if (session.dry_run) return dry_rows(call, keys, run);
+    if (session.dry_run) {
+      const Explanation::Repeating cases(session.explanation.get(), static_cast<std::int64_t>(keys.count()));
+      return dry_rows(call, keys, run);
+    }
     const Stream seeds(session.seed, "ensemble");
     const auto setup = [&](std::size_t k) {
       CaseSetup one = common;

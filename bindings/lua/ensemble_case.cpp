@@ -219,6 +219,8 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
     session.trusted = setup.trusted;
     session.is_case = true;
     session.depth = setup.depth;
+    session.refinement = setup.refinement;
+    session.ledger = setup.ledger;
     session.output = output.file();
     session.left_behind = &setup.run->left_behind();
     try {

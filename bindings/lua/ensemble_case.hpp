@@ -14,7 +14,13 @@
 #include "bindings/lua/lua_api.hpp"
 #include "bindings/lua/parcel.hpp"
 
+namespace asperity {
+class Ledger;
+}
+
 namespace asperity::lua {
+
+struct Refinement;
 
 struct CaseValue {
   std::string key;
@@ -27,7 +33,9 @@ struct CaseSetup {
   std::vector<CaseValue> values;  // in the order in which messages name them
   std::uint64_t seed = 1;
   bool trusted = false;
-  int depth = 1;         // ensembles the case stands inside
+  int depth = 1;  // ensembles the case stands inside
+  std::shared_ptr<Refinement> refinement;
+  std::shared_ptr<Ledger> ledger;
   bool watched = false;  // look at the stop flag every few thousand instructions
 };
 

@@ -7,6 +7,7 @@
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/session.hpp"
+#include "engine/experiment/slip_growth.hpp"
 
 namespace asperity::lua {
 
@@ -30,8 +31,27 @@ const Block<FrictionOptions>& friction_block() {
 
 Values make_law(Call& call) { return {object(JunctionLaw(call.options(friction_block())))}; }
 
+struct OnKeys {
+  std::optional<double> rest;
+};
+Option<OnKeys> rest_option() {
+  return quantity("rest", &OnKeys::rest, dimension::time, at_least(0),
+                  "how long the junctions stand still under the load first; needs ageing");
+}
+const Block<OnKeys>& on_block() {
+  static const Block<OnKeys> block{"on", {rest_option()}};
+  return block;
+}
+
 Values law_on(Call& call) {
-  const FrictionResult r = call.self<JunctionLaw>().on(call.object<asperity::State>(1, "st"));
+  const auto& state = call.object<asperity::State>(1, "st");
+  const OnKeys keys = call.options(on_block(), 2);
+  const CostScope scope;
+  const FrictionResult r = call.self<JunctionLaw>().on(state, keys.rest);
+  if (state.sliding().interlocking) {
+    const std::pair<std::string, Cost> cost{"interlocking", scope.so_far()};
+    call.session().ledger->add_effects({&cost, 1});
+  }
   Record record;
   record.name = "friction";
   record.add("force", r.force, dimension::force)
@@ -39,6 +59,8 @@ Values law_on(Call& call) {
       .add("adhesive_force", r.adhesive_force, dimension::force)
       .add("load_force", r.load_force, dimension::force)
       .add("capped_fraction", r.capped_fraction);
+  record.add_if("interlocking", "interlocking_force", r.interlocking_force, dimension::force)
+      .add_if("ageing", "strengthening", r.strengthening);
   return {std::move(record)};
 }
 
@@ -107,7 +129,7 @@ Values make_stage(Call& call) {
   return {object(std::move(stage))};
 }
 
-struct RaiseKeys {
+struct RaiseKeys : OnKeys {
   int repeats = TiltTrialOptions{}.repeats;
   std::uint64_t seed = 1;
 };
@@ -115,8 +137,40 @@ const Block<RaiseKeys>& raise_block() {
   static const Block<RaiseKeys> block{
       "raise",
       {integer("repeats", &RaiseKeys::repeats, between(1, 100000), "number of trials"),
-       integer("seed", &RaiseKeys::seed, at_least(0), "of placements and scatter")}};
+       integer("seed", &RaiseKeys::seed, at_least(0), "of placements and scatter"), rest_option()}};
   return block;
+}
+
+struct GrowthKeys : OnKeys {
+  int steps = 10;
+  std::uint64_t seed = 1;
+};
+const Block<GrowthKeys>& growth_block() {
+  static const Block<GrowthKeys> block{
+      "slip_growth",
+      {integer("steps", &GrowthKeys::steps, between(1, 10000), "equal steps of the angle up to the slip"),
+       integer("seed", &GrowthKeys::seed, at_least(0), "of the placement"), rest_option()}};
+  return block;
+}
+
+Values grow_slip(Call& call) {
+  const GrowthKeys keys = call.options(growth_block());
+  const TiltStage& stage = call.self<TiltStage>();
+  TiltTrialOptions options = stage.options;
+  options.seed = keys.seed;
+  options.rest = keys.rest;
+  List list;
+  for (const SlipShare& share :
+       slip_growth(*stage.contact, *stage.law, options, keys.steps, call.session().monitor())) {
+    Record record;
+    record.name = "slip";
+    record.add("angle", share.angle, dimension::angle)
+        .add("ratio", share.ratio)
+        .add("slip_fraction", share.slip_fraction)
+        .add("displacement", share.displacement, dimension::length);
+    list.items.emplace_back(std::move(record));
+  }
+  return {std::move(list)};
 }
 
 Values raise_stage(Call& call) {
@@ -125,6 +179,7 @@ Values raise_stage(Call& call) {
   TiltTrialOptions options = stage.options;
   options.repeats = keys.repeats;
   options.seed = keys.seed;
+  options.rest = keys.rest;
   const TiltResult result = raise(*stage.contact, *stage.law, options, call.session().monitor());
   List trials;
   for (const SlipAngle& trial : result.trials) {
@@ -208,8 +263,11 @@ const Class& law_class() {
     c.methods = {{.name = "on",
                   .body = law_on,
                   .sentence = "The friction of a state: force, mu, its adhesive and load parts, and the "
-                              "share of the area at the cap.",
+                              "share of the area at the cap; with interlocking also what the slopes of the "
+                              "junctions add, with ageing by what tau0 grew.",
                   .parameters = {{"st", "State", "the contact under load"}},
+                  .options = &on_block(),
+                  .options_optional = true,
                   .returns = "table",
                   .example = "print(law:on(st).mu)"}};
     return c;
@@ -225,16 +283,28 @@ const Class& stage_class() {
     c.sentence = "A tilt stage with a specimen on it.";
     c.shareable = false;
     c.describe = describe_stage;
-    c.methods = {{.name = "raise",
-                  .body = raise_stage,
-                  .sentence = "Raises the stage until the specimen slides, several times. angle is exact; "
-                              "held is the last step that "
-                              "held, the source paper's measure; mu = tan(held).",
-                  .options = &raise_block(),
-                  .options_optional = true,
-                  .returns = "table",
-                  .example = "local t = stage:raise{ repeats=5, seed=1 }",
-                  .heavy = true}};
+    c.methods = {
+        {.name = "raise",
+         .body = raise_stage,
+         .sentence = "Raises the stage until the specimen slides, several times. angle is exact; "
+                     "held is the last step that "
+                     "held, the source paper's measure; mu = tan(held).",
+         .options = &raise_block(),
+         .options_optional = true,
+         .returns = "table",
+         .example = "local t = stage:raise{ repeats=5, seed=1 }",
+         .heavy = true},
+        {.name = "slip_growth",
+         .body = grow_slip,
+         .sentence = "Which part of the contact slips at each angle before the specimen slides, as a "
+                     "list of angle, ratio (the pull over the one that slides), slip_fraction and, "
+                     "for boxes, displacement; needs tangential.",
+         .options = &growth_block(),
+         .options_optional = true,
+         .returns = "table[]",
+         .example = "for _, at in ipairs(stage:slip_growth{ steps=10 }) do print(at.angle, "
+                    "at.slip_fraction) end",
+         .heavy = true}};
     return c;
   }();
   return type;

@@ -8,10 +8,12 @@
 #include "bindings/lua/ensemble.hpp"
 #include "bindings/lua/friction.hpp"
 #include "bindings/lua/help.hpp"
+#include "bindings/lua/ledger.hpp"
 #include "bindings/lua/material.hpp"
 #include "bindings/lua/notebook.hpp"
 #include "bindings/lua/stylus.hpp"
 #include "bindings/lua/version.hpp"
+#include "bindings/lua/work_precision.hpp"
 
 namespace asperity::lua {
 
@@ -34,6 +36,8 @@ const Module& lab_module() {
     m.functions = {material_function(), stylus_function(),     contact_function(),
                    friction_function(), tilt_stage_function(), notebook_function()};
     m.functions.push_back(ensemble_function());
+    m.functions.push_back(work_precision_function());
+    m.functions.push_back(ledger_function());
     m.functions.push_back(
         {.name = "help",
          .body = help,

@@ -2,6 +2,7 @@
 // Native values in Lua: the metatable of a class, through which a script reads fields and calls
 // methods, and by which a native value is known.
 #include "bindings/lua/guard.hpp"
+#include "bindings/lua/ledger.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/registry.hpp"
 #include "engine/core/text.hpp"
@@ -26,6 +27,7 @@ int guarded_field(lua_State* L, const Class& type) {
       if (field.name != key.text()) continue;
       if (self->is_placeholder()) return {placeholder_of(field.type)};
       Call call(L, field.name, true);
+      const LedgerScope scope = ledger_scope(call.session(), field.name, false, type.name);
       return field.body(call);
     }
     throw Error(ErrorCode::unknown_name, type.article_name + " has no field " +

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "bindings/lua/refinement.hpp"
+
 namespace asperity::lua {
 
 namespace {
@@ -99,6 +101,19 @@ std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo
     return {};
   }
   return number;
+}
+
+std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,
+                                       const NumberRange& range, Problems& problems) {
+  const auto given = read_integer(value, info, range, problems);
+  Refinement* refinement = given ? refinement_of(value.state()) : nullptr;
+  if (refinement == nullptr) return given;
+  const std::int64_t made = refinement->cells(*given);
+  if (range.contains(static_cast<double>(made))) return made;
+  problems.push_back(quoted(info.name) + " is " + std::to_string(*given) + ", and " +
+                     format_short(refinement->cells_factor) + " times as many are more than " +
+                     range.text({}));
+  return {};
 }
 
 void read_table(const Argument& table, const std::string& caller,

@@ -212,12 +212,12 @@ Option<O> cells_option(int O::*nx, int O::*ny) {
                   if (value.is_table() && value.length() == 2) {
                     for (int k = 1; k <= 2; ++k)
                       value.element(k, [&](const Argument& part) {
-                        if (auto n = detail::read_integer(part, info, range, problems))
+                        if (auto n = detail::read_cells(part, info, range, problems))
                           options.*(k == 1 ? nx : ny) = static_cast<int>(*n);
                       });
                   } else if (value.is_table()) {
                     detail::wrong_type(value, info, "a whole number or {nx, ny}", problems);
-                  } else if (auto n = detail::read_integer(value, info, range, problems)) {
+                  } else if (auto n = detail::read_cells(value, info, range, problems)) {
                     options.*nx = options.*ny = static_cast<int>(*n);
                   }
                 });

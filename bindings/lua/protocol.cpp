@@ -67,29 +67,22 @@ Values events(Call& call) {
   return {std::move(list)};
 }
 
-// A press of a protocol stands in the journal as one made by hand does.
-void record_press(const Session& session, const ProtocolRun& run, const PressRequest& request,
-                  const State& state, const std::string& function) {
-  const std::shared_ptr<SpecimenPair> pair(std::shared_ptr<void>(), &run.pair());
-  const Object self{&class_of<SpecimenPair>(), pair, false};
-  record_call(session, function, &self, press_block().resolved({1, request, request.dwell}),
-              {object(asperity::State(state))});
-}
-
 Values on(Call& call) {
   call.object<SpecimenPair>(1, "contact");  // or an error that says what it is instead
   auto pair =
       std::static_pointer_cast<SpecimenPair>(call.argument(1).as_object(class_of<SpecimenPair>())->pointer);
   auto run = std::make_shared<ProtocolRun>(call.self<Protocol>(), std::move(pair));
   return {Iterator{[run](Call& turn) -> std::optional<Values> {
-    if (run->finished()) return std::nullopt;
-    const std::size_t k = run->next();
-    const std::optional<asperity::State> state = run->step(turn.session().monitor());
-    Values values{event_record(run->protocol(), k), state ? object(*state) : Value()};
-    if (const auto* press = std::get_if<PressRequest>(&run->protocol().events()[k].step))
-      record_press(turn.session(), *run, *press, *state, "contact:press");
-    return values;
-  }}};
+                     if (run->finished()) return std::nullopt;
+                     const std::size_t k = run->next();
+                     const std::optional<asperity::State> state = run->step(turn.session().monitor());
+                     Values values{event_record(run->protocol(), k), state ? object(*state) : Value()};
+                     if (const auto* press = std::get_if<PressRequest>(&run->protocol().events()[k].step))
+                       record_press(turn.session(), std::shared_ptr<SpecimenPair>(run, &run->pair()), *press,
+                                    *state);
+                     return values;
+                   },
+                   call.function_name()}};
 }
 
 // --- others from it

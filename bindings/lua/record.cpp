@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bindings/lua/guard.hpp"
+#include "bindings/lua/ledger.hpp"
 #include "bindings/lua/registry.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -44,6 +45,12 @@ int missing_field(lua_State* L) {
     std::vector<std::string> names;
     for (const Record::Entry& entry : record.entries) names.push_back(entry.field);
     const Argument key(L, 2);
+    for (const auto& [field, effect] : record.missing_effects)
+      if (key.is_text() && key.text() == field)
+        throw Error(
+            ErrorCode::bad_state,
+            quoted(field) + " needs the effect " + quoted(effect) + ", which this scene does not name",
+            "name it in the effects of the contact");
     throw Error(ErrorCode::unknown_name,
                 "a " + record.name + " result has no field " +
                     (key.is_text() ? quoted(key.text().substr(0, 40)) + did_you_mean(key.text(), names)
@@ -123,14 +130,20 @@ int record_release(lua_State* L) {
 }
 
 int next_of(lua_State* L) {
-  static const std::string nothing, name = "iterator";
+  static const std::string nothing;
   return guarded(L, nothing, [&]() -> Values {
     auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
     if (block == nullptr || *block == nullptr) throw Error(ErrorCode::bad_state, "the iterator is finished");
-    Call call(L, name, true);
+    const std::shared_ptr<Iterator> iterator = *block;
+    Call call(L, iterator->name, true);
+    LedgerScope scope = ledger_scope(call.session(), iterator->name, false);
     // The turn must not have advanced when it fails for lack of memory.
-    std::optional<Values> results = with_collection(L, [&] { return (*block)->next(call); });
-    if (results) return *std::move(results);
+    std::optional<Values> results = with_collection(L, [&] { return iterator->next(call); });
+    if (results) {
+      scope.keep();
+      enter_effects(call.session(), *results);
+      return *std::move(results);
+    }
     block->reset();
     return {Value()};
   });

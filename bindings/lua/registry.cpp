@@ -5,11 +5,17 @@
 #include <cctype>
 #include <unordered_map>
 
+#include "bindings/lua/catalogue.hpp"
+#include "bindings/lua/contact.hpp"
+#include "bindings/lua/explanation.hpp"
+#include "bindings/lua/friction.hpp"
 #include "bindings/lua/guard.hpp"
+#include "bindings/lua/ledger.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/protocol.hpp"
 #include "engine/experiment/run_directory.hpp"
 
 namespace asperity::lua {
@@ -88,8 +94,49 @@ bool any_unknown(const Call& call) {
   return false;
 }
 
+// The contact that a call would press, if it is known.
+const SpecimenPair* pressed_by(const Call& call, const Function& function) {
+  const auto contact_at = [&](int k) -> const SpecimenPair* {
+    const Object* object = Argument(call.L, k).as_any_object();
+    if (object == nullptr || object->pointer == nullptr) return nullptr;
+    if (object->type == &contact_class()) return static_cast<const SpecimenPair*>(object->pointer.get());
+    if (object->type == &stage_class())
+      return static_cast<const TiltStage*>(object->pointer.get())->contact.get();
+    return nullptr;
+  };
+  if (!function.heavy) return nullptr;
+  const SpecimenPair* own = contact_at(1);
+  return own != nullptr || call.count() < 1 ? own : contact_at(2);
+}
+
+// How often it would press: once, along the list of a sweep, at the events of a protocol, at probe pressures.
+std::int64_t presses_of(const Call& call) {
+  const Object* self = Argument(call.L, 1).as_any_object();
+  if (self != nullptr && self->type == &protocol_class() && self->pointer != nullptr) {
+    const auto& events = static_cast<const Protocol*>(self->pointer.get())->events();
+    return std::count_if(events.begin(), events.end(), [](const Protocol::Event& event) {
+      return std::holds_alternative<PressRequest>(event.step);
+    });
+  }
+  // A stage solves at each of its probe pressures; it may raise them, which is not known here.
+  if (self != nullptr && self->type == &stage_class() && self->pointer != nullptr) {
+    const auto* stage = static_cast<const TiltStage*>(self->pointer.get());
+    const bool probes = std::holds_alternative<HalfSpaceOptions>(stage->contact->scene().elasticity);
+    return probes ? static_cast<std::int64_t>(stage->options.probe_pressures.size()) : 1;
+  }
+  std::int64_t presses = 1;
+  if (call.given(1) && call.argument(1).is_table())
+    call.argument(1).each([&](const Argument&, const Argument& loads) {
+      if (loads.is_table()) presses = std::max(presses, loads.length());
+    });
+  return presses;
+}
+
 // A dry run reads the arguments and gives placeholders.
 Values dry_call(const Call& call, const Function& function) {
+  if (call.session().explanation != nullptr)
+    if (const SpecimenPair* pair = pressed_by(call, function))
+      call.session().explanation->note(pair->plan(), call.function_name(), presses_of(call));
   if (function.options != nullptr) {
     const int k = static_cast<int>(function.parameters.size()) + 1;
     const Argument table = call.argument(k);
@@ -124,11 +171,19 @@ Values call_function(lua_State* L, const Entry& entry) {
     placeholder_self = self->is_placeholder();
   }
   check_count(call, function);
-  if (call.session().dry_run && (function.heavy || placeholder_self || any_unknown(call)))
+  // To explain a contact its bodies are needed; to check a script they are not.
+  const bool left_out =
+      function.heavy && (call.session().explanation == nullptr || function.returns != surface_class().name);
+  if (call.session().dry_run && (left_out || placeholder_self || any_unknown(call)))
     return dry_call(call, function);
+  // Of a call that gives an iterator the turns count.
+  const bool lasting = function.heavy && !function.returns.starts_with("iterator");
+  const LedgerScope scope = ledger_scope(call.session(), call.function_name(), lasting);
   Values results = function.body(call);
-  if (function.heavy)
+  if (function.heavy) {
+    enter_effects(call.session(), results);
     record_call(call.session(), call.function_name(), Argument(L, 1).as_any_object(), call.inputs(), results);
+  }
   return results;
 }
 

@@ -11,11 +11,13 @@ namespace {
 const char session_key = 0;
 }
 
-Session& Session::of(lua_State* L) {
+Session& Session::of(lua_State* L) { return *find(L); }
+
+Session* Session::find(lua_State* L) {
   lua_rawgetp(L, LUA_REGISTRYINDEX, &session_key);
   auto* session = static_cast<Session*>(lua_touserdata(L, -1));
   lua_pop(L, 1);
-  return *session;
+  return session;
 }
 
 void Session::attach(lua_State* L, Session& session) {

@@ -15,6 +15,7 @@
 #include "bindings/lua/lua_api.hpp"
 #include "bindings/lua/value.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/experiment/ledger.hpp"
 
 namespace asperity {
 class RunDirectory;
@@ -22,21 +23,45 @@ class RunDirectory;
 
 namespace asperity::lua {
 
+class Explanation;
+struct Refinement;
+
 class Session {
  public:
   explicit Session(Monitor& monitor) : monitor_(&monitor) {}
 
   Monitor& monitor() const { return *monitor_; }
 
-  std::uint64_t seed = 1;              // of math.random and of anything a script leaves to the run
-  bool dry_run = false;                // asperity check: heavy calls give placeholders
-  bool gave_placeholders = false;      // a dry run has met a call it did not make
-  bool trusted = false;                // the whole of Lua, and files anywhere
-  int depth = 0;                       // ensembles this state stands inside
-  bool is_case = false;                // a case of an ensemble: cannot record
-  std::shared_ptr<RunDirectory> run;   // null when nothing is recorded
-  std::function<void(int)> exit_hook;  // what os.exit(code) does before the process ends
-  std::FILE* output = stdout;          // where print goes; a buffer in a case
+  // Another monitor while it lives, which is that of a part of longer work.
+  class Reporting {
+   public:
+    Reporting(Session& session, Monitor& monitor) : session_(session), outer_(session.monitor_) {
+      session_.monitor_ = &monitor;
+    }
+    ~Reporting() { session_.monitor_ = outer_; }
+    Reporting(const Reporting&) = delete;
+    Reporting& operator=(const Reporting&) = delete;
+
+   private:
+    Session& session_;
+    Monitor* outer_;
+  };
+
+  std::uint64_t seed = 1;             // of math.random and of anything a script leaves to the run
+  bool dry_run = false;               // asperity check: heavy calls give placeholders
+  bool gave_placeholders = false;     // a dry run has met a call it did not make
+  bool trusted = false;               // the whole of Lua, and files anywhere
+  int depth = 0;                      // ensembles this state stands inside
+  bool is_case = false;               // a case of an ensemble: cannot record
+  std::shared_ptr<RunDirectory> run;  // null when nothing is recorded
+  // Of a dry run that makes surfaces and plans contacts, to say what the script will compute; else null.
+  std::shared_ptr<Explanation> explanation;
+  // What this state's calls cost; the states of cases write into that of their ensemble.
+  std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
+  std::function<void(int)> exit_hook;      // what os.exit(code) does before the process ends
+  std::FILE* output = stdout;              // where print goes; a buffer in a case
+  std::map<std::string, int> studies;      // names given to studies of work and precision, and how often
+  std::shared_ptr<Refinement> refinement;  // of a script that a study of accuracy runs again; may be null
   // Of a case: the script's globals that could not come along, and why.
   const std::map<std::string, std::string>* left_behind = nullptr;
 
@@ -44,6 +69,8 @@ class Session {
   void nudge_collector(lua_State* L, std::size_t bytes);
 
   static Session& of(lua_State* L);
+  // Null for a state that was never given one.
+  static Session* find(lua_State* L);
   // Binds a session to a state; the session must outlive it. Raises on lack of memory.
   static void attach(lua_State* L, Session& session);
 

@@ -3,9 +3,11 @@
 // is worked out when the script reads it, and not before.
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
+#include "bindings/lua/discretisation_error.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/picture.hpp"
 #include "bindings/lua/session.hpp"
+#include "bindings/lua/state_error.hpp"
 #include "bindings/lua/surface.hpp"
 #include "engine/contact/geometry.hpp"
 #include "engine/core/node_value.hpp"
@@ -20,15 +22,6 @@ using Contacting = asperity::State;
 template <auto member>
 Values read(Call& call) {
   return {Value((call.self<Contacting>().*member)())};
-}
-
-Record cost_record(const Cost& cost, std::string name) {
-  Record record;
-  record.name = std::move(name);
-  record.add("seconds", cost.seconds, dimension::time)
-      .add("transforms", cost.transforms)
-      .add("bytes", cost.bytes);
-  return record;
 }
 
 Values cost_of(Call& call) {
@@ -221,6 +214,16 @@ const Class& state_class() {
          "effects that the scene does not name",
          {},
          [](Call& call) -> Values { return {texts(call.self<S>().effects_off())}; }},
+        {"error",
+         "StateError",
+         "how far these numbers are from exact",
+         {},
+         [](Call& call) -> Values { return {object(StateError{call.self<S>()})}; }},
+        {"chosen",
+         "table",
+         "cells, tolerance and precision that were chosen for accuracy={ error= }, and why; nil otherwise",
+         {},
+         [](Call& call) -> Values { return {chosen_record(call.self<S>())}; }},
         {"cost", "table", "seconds, transforms, bytes, and by effect", {}, cost_of},
         {"digest", "string", "of pressures and approach", {}, read<&S::digest>},
     };

@@ -19,6 +19,12 @@ Record& Record::add(std::string field, Value value, Dimension dimension) {
   return *this;
 }
 
+Record& Record::add_if(std::string effect, std::string field, Value value, Dimension dimension) {
+  if (!value.is_nil()) return add(std::move(field), std::move(value), dimension);
+  missing_effects.emplace_back(std::move(field), std::move(effect));
+  return *this;
+}
+
 const Value* Record::find(std::string_view field) const {
   for (const Entry& entry : entries)
     if (entry.field == field) return &entry.value;

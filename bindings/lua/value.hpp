@@ -42,7 +42,11 @@ struct Record {
   struct Entry;
   std::string name;  // "roughness"
   std::vector<Entry> entries;
+  // Fields that are there only with an effect that the scene did not name: field and effect.
+  std::vector<std::pair<std::string, std::string>> missing_effects{};
   Record& add(std::string field, Value value, Dimension dimension = {});
+  // A field that an effect brings: added if it has a value, and otherwise an error that names the effect.
+  Record& add_if(std::string effect, std::string field, Value value, Dimension dimension = {});
   const Value* find(std::string_view field) const;
 };
 
@@ -60,6 +64,7 @@ struct Map {
 // What a for loop calls: the next values, or nothing at the end.
 struct Iterator {
   std::function<std::optional<Values>(Call&)> next;
+  std::string name = "iterator";  // of the call that gave it, "contact:sweep", for errors and the ledger
 };
 
 // A value that a dry run cannot know; see placeholder.hpp.

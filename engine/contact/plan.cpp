@@ -2,11 +2,14 @@
 #include "engine/contact/plan.hpp"
 
 #include <algorithm>
-#include <array>
 
+#include "engine/contact/discretisation_error.hpp"
+#include "engine/contact/effects/ageing.hpp"
 #include "engine/contact/effects/catalogue.hpp"
 #include "engine/contact/effects/creep.hpp"
+#include "engine/contact/effects/interlocking.hpp"
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/effects/tangential.hpp"
 #include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/quantity.hpp"
@@ -15,17 +18,6 @@
 namespace asperity {
 
 namespace {
-
-std::string bytes_text(std::int64_t bytes) {
-  constexpr std::array units = {"B", "KiB", "MiB", "GiB", "TiB"};
-  auto value = static_cast<double>(bytes);
-  std::size_t unit = 0;
-  while (value >= 1024 && unit + 1 < units.size()) {
-    value /= 1024;
-    ++unit;
-  }
-  return format_short(value, 4) + " " + units[unit];
-}
 
 std::string tile_text(const Grid& grid, Boundary boundary) {
   return std::to_string(grid.nx) + " x " + std::to_string(grid.ny) + " cells, " +
@@ -58,12 +50,14 @@ std::int64_t Plan::bytes_peak() const {
 std::string Plan::text() const {
   std::string result = "contact of " + title + "\n";
   for (const PlannedTerm& term : terms) line(result, term.effect, term.sentence);
+  if (!choice.empty()) line(result, "accuracy", choice);
   line(result, "solver", solver + ", tolerance " + format_short(accuracy.tolerance));
+  if (!estimate.empty()) line(result, "estimate", estimate);
   line(result, "transforms", format_short(transforms) + " expected");
   for (const PlannedBuffer& buffer : buffers)
     line(result, "memory",
-         bytes_text(buffer.bytes) + " " + buffer.name + (buffer.kept ? "" : ", for a moment"));
-  line(result, "memory", bytes_text(bytes_kept()) + " kept, " + bytes_text(bytes_peak()) + " at most");
+         format_bytes(buffer.bytes) + " " + buffer.name + (buffer.kept ? "" : ", for a moment"));
+  line(result, "memory", format_bytes(bytes_kept()) + " kept, " + format_bytes(bytes_peak()) + " at most");
   line(result, "time", "about " + format_quantity(seconds, dimension::time, 3) + " for the first press");
   if (!effects_off.empty()) line(result, "off", joined(effects_off, ", ") + " (not named in the scene)");
   return result;
@@ -82,6 +76,10 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
     plan_half_space(geometry, plan);
   if (scene.plasticity) plan_plasticity(*scene.plasticity, geometry, plan);
   if (scene.creep) plan_creep(*scene.creep, plan);
+  if (scene.sliding.ageing) plan_ageing(*scene.sliding.ageing, plan);
+  if (scene.sliding.interlocking) plan_interlocking(*scene.sliding.interlocking, geometry, plan);
+  if (scene.sliding.tangential) plan_tangential(*scene.sliding.tangential, geometry, plan);
+  if (scene.accuracy.estimate) plan_estimate(geometry, plan);
   for (const PlannedTerm& term : plan.terms)
     if (std::find(plan.effects_run.begin(), plan.effects_run.end(), term.effect) == plan.effects_run.end())
       plan.effects_run.push_back(term.effect);

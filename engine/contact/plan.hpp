@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/contact/carried_load.hpp"
 #include "engine/contact/geometry.hpp"
 #include "engine/contact/scene.hpp"
 
@@ -50,6 +51,8 @@ struct PlannedYield {
   double lower_hardness = 0, upper_hardness = 0;  // Pa, at the reference dwell, before any event
   double hardening = 0;                           // K_h, Pa/m; infinite: the pressure is capped
   std::optional<CreepOptions> creep{};
+  // By the bodies as they lie now: of none of it does anything yield again.
+  std::vector<CarriedLoad> carried{};
 
   double hardness() const { return std::min(lower_hardness, upper_hardness); }
   bool hardens() const { return std::isfinite(hardening) && std::isfinite(hardness()); }
@@ -68,6 +71,9 @@ struct Plan {
   double transforms = 0;  // expected for a press, equivalents of the finest grid
   double seconds = 0;     // expected for the first press, a rough guess
   Accuracy accuracy;
+  std::string choice;      // of cells and tolerance for an error that was asked for; empty: none
+  std::string estimate;    // what is solved beside it for the discretisation error; empty: nothing
+  SlidingEffects sliding;  // of a contact pulled sideways, their defaults filled in
   std::vector<std::string> effects_run;
   std::vector<std::string> effects_off;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/contact/discretisation_error.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -54,6 +55,28 @@ void check(const CreepOptions& options) {
   check_positive(options.reference, "reference", "s", false, "give a time above zero, such as \"10 min\"");
 }
 
+void check(const AskedError& asked, bool plastic) {
+  if (!(asked.error >= 1e-6 && asked.error < 1))
+    throw Error(ErrorCode::bad_value, "`error` is " + format_short(asked.error),
+                "it is relative: give a number from 1e-6 to below 1, such as 0.01 for 1 %");
+  if (asked.of.empty())
+    throw Error(ErrorCode::bad_value, "`of` names no quantity",
+                "give one, such as \"corrected_area_fraction\"");
+  const auto known = estimated_quantities();
+  for (const std::string& quantity : asked.of) {
+    if (std::find(known.begin(), known.end(), quantity) == known.end())
+      throw Error(
+          ErrorCode::unknown_name,
+          "`of` names " + quoted(quantity) + ", whose error is not estimated" + did_you_mean(quantity, known),
+          "give one of " + joined(known, " and "));
+    if (quantity.starts_with("plastic_") && !plastic)
+      throw Error(ErrorCode::bad_value,
+                  "`of` names " + quoted(quantity) +
+                      ", which needs the effect `plasticity`; this scene does not name it",
+                  "name `plasticity`, or ask for the error of another quantity");
+  }
+}
+
 }  // namespace
 
 std::string_view name(Boundary boundary) { return boundary == Boundary::periodic ? "periodic" : "free"; }
@@ -71,6 +94,8 @@ void check(const Scene& scene) {
   if (!(tolerance >= 1e-15 && tolerance < 1))
     throw Error(ErrorCode::bad_value, "`tolerance` is " + format_short(tolerance),
                 "give a number from 1e-15 to below 1");
+  if (scene.accuracy.estimate || scene.accuracy.asked) check_estimate(grid);
+  if (scene.accuracy.asked) check(*scene.accuracy.asked, scene.plasticity.has_value());
   const bool single = scene.accuracy.precision == Accuracy::Precision::single;
   if (const auto* box = std::get_if<BoxOptions>(&scene.elasticity)) {
     if (box->stiffness && !(*box->stiffness > 0 && std::isfinite(*box->stiffness)))
@@ -82,9 +107,6 @@ void check(const Scene& scene) {
     if (scene.plasticity)
       throw Error(ErrorCode::bad_value, "`plasticity` of box elements is not computed by this version",
                   "name elasticity=\"half_space\" beside it");
-  } else if (single) {
-    throw Error(ErrorCode::bad_value, "`precision` is \"single\", which this version does not compute",
-                "half-space contacts are solved in double precision; leave `precision` out");
   }
   if (scene.plasticity) check(*scene.plasticity);
   if (scene.creep) {
@@ -94,6 +116,11 @@ void check(const Scene& scene) {
                   "`creep` softens the hardness that the effect `plasticity` limits pressure by",
                   "name `plasticity` beside it, or leave `creep` out");
   }
+  check(scene.sliding);
+  if (scene.sliding.tangential && scene.plasticity)
+    throw Error(ErrorCode::bad_value,
+                "`tangential` is the difference of two elastic contacts, which `plasticity` does not leave",
+                "copy the pressed bodies into a contact without `plasticity`, or leave one of both out");
 }
 
 double softening(const CreepOptions& creep, std::optional<double> dwell) {

@@ -6,9 +6,12 @@
 
 #include <limits>
 #include <optional>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "engine/contact/boundary.hpp"
+#include "engine/contact/sliding.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
@@ -47,12 +50,23 @@ struct CreepOptions {
 // H(t)/H; a press that names no dwell lasts t_ref.
 double softening(const CreepOptions& creep, std::optional<double> dwell);
 
+// The relative error that a script asks for instead of cells and a tolerance.
+struct AskedError {
+  double error = 0;             // in [1e-6, 1)
+  std::vector<std::string> of;  // quantities by their names in a state; at least one
+};
+
 struct Accuracy {
   enum class OnFailure { error, best };
   enum class Precision { double_, single };
   double tolerance = 1e-6;  // greatest relative entry of the certificate, in [1e-15, 1)
   Precision precision = Precision::double_;
   OnFailure on_failure = OnFailure::error;
+  // Solve each press on coarser grids as well, for an estimate of the error of the grid.
+  bool estimate = false;
+  // Choose cells and tolerance for this error (experiment/accuracy_choice.hpp); a solver does not read it.
+  std::optional<AskedError> asked{};
+  bool chosen = false;  // cells and tolerance are those that were chosen for it
 };
 
 struct Scene {
@@ -63,11 +77,12 @@ struct Scene {
   Accuracy accuracy{};
   std::optional<PlasticityOptions> plasticity{};
   std::optional<CreepOptions> creep{};
+  SlidingEffects sliding{};
 };
 
 // Throws Error for the first thing that does not fit: cells or size of the two bodies, `stiffness`,
-// `tolerance`, `precision`, a property of the flat counter-body out of range, an option of an effect out of
-// range, or an effect that needs another one.
+// `tolerance`, `precision`, `estimate`, `error` and `of`, a property of the flat counter-body out of range,
+// an option of an effect out of range, or an effect that needs another one.
 void check(const Scene& scene);
 
 }  // namespace asperity

@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/contact/algebraic_error.hpp"
+#include "engine/contact/carried_load.hpp"
 #include "engine/contact/certificate.hpp"
 #include "engine/contact/geometry.hpp"
 
@@ -29,6 +31,8 @@ struct PlasticChange {
   // Pa, at the reference dwell: the hardness of a node that yielded, 0 elsewhere. Empty unless the bodies
   // harden.
   Field hardness;
+  // What the bodies then have carried; none where the solve did not reach its tolerance.
+  std::optional<CarriedLoad> carried{};
 };
 
 class Solution {
@@ -61,6 +65,8 @@ class Solution {
   virtual double mean_gap() const = 0;   // m
   virtual double energy() const = 0;     // J in the tile, elastic
   virtual Certificate certificate() const = 0;
+  // Bounds against the exact solution on the same grid.
+  virtual SolutionError error() const = 0;
   virtual PressureSplit split(double threshold) const = 0;
   virtual Array<std::uint8_t> contact_mask() const = 0;  // 1 where p > 0, row by row
   virtual Field pressure_field() const = 0;              // Pa

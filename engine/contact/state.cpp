@@ -8,6 +8,8 @@
 #include <mutex>
 #include <numbers>
 
+#include "engine/contact/chosen_accuracy.hpp"
+#include "engine/contact/discretisation_error.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/regions.hpp"
 #include "engine/core/digest.hpp"
@@ -55,9 +57,11 @@ struct State::Shared {
   std::shared_ptr<const Solution> solution;
   double tolerance;
   std::vector<std::string> effects_run, effects_off;
+  SlidingEffects sliding;
 
   Lazy<double> mean_gap, separation, energy, corrected, flatten, stiffness, plastic_volume;
   Lazy<Certificate> certificate;
+  Lazy<AlgebraicError> algebraic_error;
   Lazy<std::vector<std::int64_t>> spot_sizes;
   Lazy<std::int64_t> spots8;
   Lazy<std::string> digest;
@@ -93,6 +97,7 @@ State::State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCo
   shared_->tolerance = plan.accuracy.tolerance;
   shared_->effects_run = plan.effects_run;
   shared_->effects_off = plan.effects_off;
+  shared_->sliding = plan.sliding;
 }
 
 State State::costing_also(const StateCost& more) const {
@@ -100,6 +105,18 @@ State State::costing_also(const StateCost& more) const {
   StateCost sum = *cost_;
   sum += more;
   result.cost_ = std::make_shared<const StateCost>(std::move(sum));
+  return result;
+}
+
+State State::beside(std::shared_ptr<const CoarserSolutions> coarser) const {
+  State result = *this;
+  result.coarser_ = std::move(coarser);
+  return result;
+}
+
+State State::chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const {
+  State result = *this;
+  result.chosen_ = std::move(chosen);
   return result;
 }
 
@@ -114,10 +131,16 @@ double State::stiffness() const {
 int State::iterations() const { return shared_->solution->iterations(); }
 std::string_view State::solver() const { return shared_->solution->solver(); }
 const ContactGeometry& State::geometry() const { return shared_->solution->geometry(); }
-std::int64_t State::bytes_held() const { return shared_->solution->bytes(); }
+std::int64_t State::bytes_held() const {
+  std::int64_t bytes = shared_->solution->bytes();
+  if (coarser_)
+    for (const CoarserSolutions::Level& level : coarser_->levels()) bytes += level.state.bytes_held();
+  return bytes;
+}
 PressureSplit State::split(double threshold) const { return shared_->solution->split(threshold); }
 const std::vector<std::string>& State::effects_run() const { return shared_->effects_run; }
 const std::vector<std::string>& State::effects_off() const { return shared_->effects_off; }
+const SlidingEffects& State::sliding() const { return shared_->sliding; }
 const StateCost& State::cost() const { return *cost_; }
 bool State::converged() const { return residual() <= shared_->tolerance; }
 
@@ -156,6 +179,11 @@ double State::energy() const {
 
 const Certificate& State::certificate() const {
   return shared_->certificate.get([&] { return shared_->solution->certificate(); });
+}
+
+const AlgebraicError& State::algebraic_error() const {
+  return shared_->algebraic_error.get(
+      [&] { return find_algebraic_error(*shared_->solution, shared_->runs("plasticity")); });
 }
 
 double State::corrected_area_fraction() const {
@@ -279,21 +307,33 @@ double State::plastic_fraction() const {
 std::optional<PlasticChange> State::plastic_change() const { return shared_->solution->plastic_change(); }
 
 std::string State::text() const {
+  const AlgebraicError& error = algebraic_error();
+  // In the unit of the value, so that the two are compared at a glance.
+  const auto within = [](double value, double by, Dimension dimension) {
+    const DisplayUnit unit = display_unit(std::abs(value), dimension);
+    return format_short(value / unit.factor, 4) + " ± " + format_short(by / unit.factor, 2) + " " + unit.name;
+  };
+  std::string result = "contact under ";
+  if (error.pressure && *error.pressure > 1e-12 * pressure())
+    result += within(pressure(), *error.pressure, dimension::pressure);
+  else
+    result += format_quantity(pressure(), dimension::pressure);
+  result += " (" + format_quantity(load(), dimension::force) + "): approach " +
+            within(approach(), error.approach, dimension::length) + ", area fraction " +
+            format_short(area_fraction(), 4) + " ± " + format_short(error.area_fraction, 2) + " of " +
+            std::to_string(shared_->grid().nodes()) + " nodes, energy " +
+            within(energy(), error.energy, dimension::energy);
+  if (error.plastic_volume)
+    result += ", plastic volume " + within(plastic_volume(), *error.plastic_volume, dimension::volume) +
+              " with " + format_short(100 * plastic_fraction(), 3) + " % of the tile at the limit";
+  if (const std::string grid = discretisation_text(*this); !grid.empty()) result += "; " + grid;
+  if (chosen_) result += "; " + chosen_->text();
   const Cost& total = cost().total;
-  std::string result = "contact under " + format_quantity(pressure(), dimension::pressure) + " (" +
-                       format_quantity(load(), dimension::force) + ")\n";
-  result += "  approach      " + format_quantity(approach(), dimension::length);
-  if (geometry().peak_to_valley() > 0) result += ", indentation " + format_short(indentation(), 4);
-  result += "\n";
-  result += "  contact       area fraction " + format_short(area_fraction(), 4) + ", " +
-            std::to_string(contacts()) + (contacts() == 1 ? " node\n" : " nodes\n");
-  if (shared_->runs("plasticity"))
-    result += "  plastic       " + format_quantity(plastic_volume(), dimension::volume) + " taken, " +
-              format_short(100 * plastic_fraction(), 3) + " % of the tile at the limit\n";
-  result += "  solver        " + std::string(solver()) + ", residual " + format_short(residual(), 2) + "\n";
-  result += "  cost          " + format_quantity(total.seconds, dimension::time, 3) + ", " +
-            format_short(total.transforms) + " transforms, " + std::to_string(total.bytes) + " bytes\n";
-  return result;
+  constexpr double mebibyte = 1 << 20;
+  return result + "; residual " + format_short(residual(), 2) + (converged() ? "" : " (not converged)") +
+         "; " + format_quantity(total.seconds, dimension::time, 3) + ", " +
+         format_short(total.transforms, 4) + " transforms, " +
+         format_short(static_cast<double>(total.bytes) / mebibyte, 3) + " MiB; " + std::string(solver());
 }
 
 }  // namespace asperity

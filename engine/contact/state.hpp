@@ -12,13 +12,17 @@
 #include <utility>
 #include <vector>
 
+#include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/distribution.hpp"
+#include "engine/contact/sliding.hpp"
 #include "engine/contact/solution.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
 
+struct ChosenAccuracy;
+class CoarserSolutions;
 struct Plan;
 
 struct StateCost {
@@ -57,13 +61,24 @@ class State {
   int iterations() const;
   const Certificate& certificate() const;
   double residual() const { return certificate().worst(); }
+  // Bounds on every quantity against the exact solution on this grid. Three applications of the operator or
+  // so, counted in their own cost and not in that of the press.
+  const AlgebraicError& algebraic_error() const;
   bool converged() const;
   std::string_view solver() const;
   const std::vector<std::string>& effects_run() const;
   const std::vector<std::string>& effects_off() const;
+  // What the scene names of a contact that is pulled sideways; read by friction.
+  const SlidingEffects& sliding() const;
   const StateCost& cost() const;  // of the press, not of what was asked afterwards
   // The same state, its cost increased by what was done for it beforehand or afterwards.
   State costing_also(const StateCost& more) const;
+  // The same press on coarser grids, from which discretisation_error.hpp estimates the error of the grid, and
+  // the accuracy that was chosen for an error asked for. Null where the scene did not ask for them.
+  const std::shared_ptr<const CoarserSolutions>& coarser() const { return coarser_; }
+  const std::shared_ptr<const ChosenAccuracy>& chosen() const { return chosen_; }
+  State beside(std::shared_ptr<const CoarserSolutions> coarser) const;
+  State chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const;
   const std::string& digest() const;  // of pressures, load and approach
 
   // "pressure" (Pa), "gap" (m), "contact" (1 or 0), "displacement" (m, elastic), "plastic" (m, the plastic
@@ -87,7 +102,7 @@ class State {
   const ContactGeometry& geometry() const;
   // Memory that this state's solution keeps, without the bodies and what was worked out since.
   std::int64_t bytes_held() const;
-  // Several lines for a reader: load, contact, cost and residual.
+  // One line for a reader: values with their algebraic errors, residual, cost and solver.
   std::string text() const;
 
   static std::span<const std::string> field_names();
@@ -96,6 +111,8 @@ class State {
   struct Shared;
   std::shared_ptr<Shared> shared_;
   std::shared_ptr<const StateCost> cost_;
+  std::shared_ptr<const CoarserSolutions> coarser_;
+  std::shared_ptr<const ChosenAccuracy> chosen_;
 };
 
 }  // namespace asperity

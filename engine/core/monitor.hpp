@@ -48,6 +48,8 @@ class Monitor {
   }
   // A sentence the experimenter should see; shown once, kept in the journal.
   virtual void warn(std::string_view sentence) = 0;
+  // A sentence that is neither, such as what work about to begin will take. Dropped unless overridden.
+  virtual void inform(std::string_view /*sentence*/) {}
 
   // Neither shows nor keeps anything.
   static Monitor& silent();

@@ -26,6 +26,17 @@ std::string format_short(double value, int digits) {
   return buffer.data();
 }
 
+std::string format_bytes(std::int64_t bytes) {
+  constexpr std::array units = {"B", "KiB", "MiB", "GiB", "TiB"};
+  auto value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  while (value >= 1024 && unit + 1 < units.size()) {
+    value /= 1024;
+    ++unit;
+  }
+  return format_short(value, 4) + " " + units[unit];
+}
+
 std::string quoted(std::string_view name) { return "`" + std::string(name) + "`"; }
 
 std::string quoted(const std::string& name) { return quoted(std::string_view(name)); }

@@ -15,6 +15,8 @@ namespace asperity {
 std::string format_exact(double value);
 // At most `digits` significant digits, no trailing zeros ("0.0412", "1.23e+09").
 std::string format_short(double value, int digits = 6);
+// "12.5 MiB", four digits.
+std::string format_bytes(std::int64_t bytes);
 // "`name`".
 std::string quoted(std::string_view name);
 // The same; without it std::quoted would be found for a std::string wherever <iomanip> is included.

@@ -20,12 +20,30 @@ namespace {
 constexpr std::array<int, 10> shapes = {7, 5, 9, 13, 11, 15, 6, 4, 8, 12};
 constexpr std::array<std::string_view, 5> dashes = {"1", "'-'", "'_. '", "'.'", "'_-'"};
 
+constexpr const char* mark_colour = "rgb '#505050'";
+
+int point_type(const ChartSeries& series, int k) {
+  switch (series.shape) {
+    case PointShape::ring:
+      return 6;
+    case PointShape::cross:
+      return 2;
+    case PointShape::triangle:
+      return 8;
+    case PointShape::diamond:
+      return 12;
+    case PointShape::of_line:
+      break;
+  }
+  return shapes[static_cast<std::size_t>(k) % shapes.size()];
+}
+
 bool drawable(double value, const ChartAxis& axis) {
   return std::isfinite(value) && (!axis.logarithmic || value > 0);
 }
 
 struct Point {
-  double x, y, low, high;
+  double x, y, low, high, left, right;
 };
 
 std::string count_sentence(std::size_t lost, std::size_t all, std::string_view why) {
@@ -81,7 +99,9 @@ std::string axis_command(std::string_view axis, const AxisLayout& layout, bool l
 
 std::vector<Point> points_of(const ChartSeries& series, const LineChart& chart, Losses& losses) {
   if (series.x.size() != series.y.size() || series.cloud_x.size() != series.cloud_y.size() ||
-      (!series.y_error.empty() && series.y_error.size() != series.y.size()))
+      (!series.y_error.empty() && series.y_error.size() != series.y.size()) ||
+      series.x_low.size() != series.x_high.size() ||
+      (!series.x_low.empty() && series.x_low.size() != series.x.size()))
     throw Error(ErrorCode::bad_value,
                 "the line " + asperity::quoted(series.name) + " of a chart has " +
                     std::to_string(series.x.size()) + " x and " + std::to_string(series.y.size()) +
@@ -91,7 +111,12 @@ std::vector<Point> points_of(const ChartSeries& series, const LineChart& chart, 
   for (std::size_t k = 0; k < series.x.size(); ++k) {
     if (!losses.keep(series.x[k], series.y[k], chart)) continue;
     const double error = series.y_error.empty() || !std::isfinite(series.y_error[k]) ? 0 : series.y_error[k];
-    points.push_back({series.x[k], series.y[k], series.y[k] - error, series.y[k] + error});
+    double left = series.x[k], right = left;
+    if (!series.x_low.empty() && drawable(series.x_low[k], chart.x) && drawable(series.x_high[k], chart.x)) {
+      left = series.x_low[k];
+      right = series.x_high[k];
+    }
+    points.push_back({series.x[k], series.y[k], series.y[k] - error, series.y[k] + error, left, right});
   }
   return points;
 }
@@ -101,13 +126,16 @@ struct Ends {
 };
 
 std::string data_block(const std::string& name, const std::vector<Point>& points, const AxisLayout& x,
-                       const AxisLayout& y) {
+                       const AxisLayout& y, bool across) {
   std::string text = "$" + name + " << EOD\n";
   for (const Point& point : points) {
     // The foot of a bar that reaches past zero ends at the rim of a logarithmic axis.
     const double low = std::max(point.low / y.factor, y.low), high = std::min(point.high / y.factor, y.high);
     text += gnuplot_number(point.x / x.factor) + " " + gnuplot_number(point.y / y.factor) + " " +
-            gnuplot_number(low) + " " + gnuplot_number(high) + "\n";
+            gnuplot_number(low) + " " + gnuplot_number(high);
+    if (across)
+      text += " " + gnuplot_number(point.left / x.factor) + " " + gnuplot_number(point.right / x.factor);
+    text += "\n";
   }
   return text + "EOD\n";
 }
@@ -126,11 +154,13 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
                                 .y = series.cloud_y,
                                 .y_error = {},
                                 .cloud_x = {},
-                                .cloud_y = {}},
+                                .cloud_y = {},
+                                .x_low = {},
+                                .x_high = {}},
                                chart, ignored));
     for (const auto* set : {&points.back(), &clouds.back()})
       for (const Point& point : *set) {
-        ends.x.push_back(point.x);
+        ends.x.insert(ends.x.end(), {point.x, point.left, point.right});
         ends.y.insert(ends.y.end(), {point.y, point.low, point.high});
       }
     keyed |= !series.name.empty();
@@ -151,8 +181,8 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
 
   std::string script = gnuplot_terminal(format, chart.width, chart.height, 16);
   for (std::size_t k = 0; k < points.size(); ++k) {
-    script += data_block("line" + std::to_string(k), points[k], x, y);
-    script += data_block("cloud" + std::to_string(k), clouds[k], x, y);
+    script += data_block("line" + std::to_string(k), points[k], x, y, !chart.series[k].x_low.empty());
+    script += data_block("cloud" + std::to_string(k), clouds[k], x, y, false);
   }
   script +=
       "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
@@ -169,8 +199,9 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
   std::vector<std::string> layers, clouds_first;
   for (int k = 0; k < lines; ++k) {
     const ChartSeries& series = chart.series[static_cast<std::size_t>(k)];
-    const std::string colour = gnuplot_colour(line_colour(k, lines)), number = std::to_string(k);
-    const std::string shape = std::to_string(shapes[static_cast<std::size_t>(k) % shapes.size()]);
+    const bool mark = series.shape != PointShape::of_line;
+    const std::string colour = mark ? mark_colour : gnuplot_colour(line_colour(k, lines)),
+                      number = std::to_string(k), shape = std::to_string(point_type(series, k));
     if (!clouds[static_cast<std::size_t>(k)].empty())
       clouds_first.push_back("$cloud" + number + " using 1:2 with points pointtype " + shape +
                              " pointsize 0.7 linecolor rgb '#80" + colour.substr(6) + " notitle");
@@ -179,11 +210,18 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
       layers.push_back("$line" + number +
                        " using 1:2:3:4 with yerrorbars pointtype -1 linewidth 1.4 linecolor " + colour +
                        " notitle");
+    if (!series.x_low.empty())
+      layers.push_back("$line" + number +
+                       " using 1:2:5:6 with xerrorbars pointtype -1 linewidth 1.4 linecolor " + colour +
+                       " notitle");
     const std::string style = series.line ? (series.points ? "linespoints" : "lines") : "points";
     std::string layer = "$line" + number + " using 1:2 with " + style + " linecolor " + colour;
-    if (series.line)
+    if (mark)
+      layer += " linewidth 1.2";
+    else if (series.line)
       layer += " linewidth 2.2 dashtype " + std::string(dashes[static_cast<std::size_t>(k) % dashes.size()]);
-    if (series.points || !series.line) layer += " pointtype " + shape + " pointsize 1.2";
+    if (series.points || !series.line)
+      layer += " pointtype " + shape + (mark ? " pointsize 2" : " pointsize 1.2");
     layers.push_back(layer + (series.name.empty() ? " notitle" : " title " + gnuplot_text(series.name)));
   }
   clouds_first.insert(clouds_first.end(), layers.begin(), layers.end());

@@ -15,6 +15,10 @@
 
 namespace asperity {
 
+// Of the line's own kind, or one that stands for something else: a ring about points of other lines, a
+// cross, a triangle or a diamond, open.
+enum class PointShape { of_line, ring, cross, triangle, diamond };
+
 struct ChartSeries {
   std::string name;                      // in the key; "" keeps it out
   std::vector<double> x, y;              // same length
@@ -22,6 +26,8 @@ struct ChartSeries {
   std::vector<double> cloud_x, cloud_y;  // faint points behind: the single values a point is the mean of
   bool line = true;
   bool points = true;
+  std::vector<double> x_low = {}, x_high = {};  // ends of a bar along x at each point; or both empty
+  PointShape shape = PointShape::of_line;       // any other is drawn in grey, with a thin line
 };
 
 struct LineChart {

@@ -24,6 +24,7 @@ class PartMonitor final : public Monitor {
   void begin() { report(0); }
   void progress(std::string_view what, double done) override;
   void warn(std::string_view sentence) override { outer_.warn(sentence); }
+  void inform(std::string_view sentence) override { outer_.inform(sentence); }
 
  private:
   void report(double done);

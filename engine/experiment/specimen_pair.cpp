@@ -5,19 +5,41 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/contact/discretisation_error.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/accuracy_choice.hpp"
+#include "engine/experiment/part_monitor.hpp"
 #include "engine/experiment/placement.hpp"
 
 namespace asperity {
 
 namespace {
 
-const Scene& checked(const Scene& scene) {
+Scene checked(const Scene& scene) {
   check(scene);
-  return scene;
+  Scene result = scene;
+  if (scene.accuracy.asked) result.accuracy.tolerance = first_tolerance(scene.accuracy.asked->error);
+  return result;
+}
+
+Plan planned(const Scene& scene, const ContactGeometry& geometry) {
+  Plan plan = make_plan(scene, geometry);
+  plan.choice = choice_text(scene, plan);
+  return plan;
+}
+
+// Solves the coarser grids of the estimate; what they cost is counted as `estimate`.
+State with_estimate(const Scene& scene, const ContactGeometry& geometry, const Plan& plan,
+                    const PressRequest& request, State state, const ChosenAccuracy* chosen,
+                    Monitor& monitor) {
+  const CostScope scope;
+  state = state.beside(solve_coarser(scene, geometry, plan, request, monitor));
+  if (chosen != nullptr) state = held_to(state, *chosen, scene);
+  const Cost cost = scope.so_far();
+  return state.costing_also({cost, {{"estimate", cost}}});
 }
 
 int whole_cells(double length, double cell, std::string_view key) {
@@ -42,27 +64,60 @@ SpecimenPair::SpecimenPair(const Scene& scene)
     : scene_(checked(scene)),
       geometry_(std::make_shared<const ContactGeometry>(
           scene_, LatticeIsometry(scene_.lower.grid().nx, scene_.lower.grid().ny))),
-      plan_(make_plan(scene_, *geometry_)) {}
+      plan_(planned(scene_, *geometry_)) {}
 
 std::shared_ptr<const Solver> SpecimenPair::solver() {
   if (!solver_) solver_ = make_solver(plan_, geometry_);
   return solver_;
 }
 
-State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
-  check(request);
+void SpecimenPair::warn(const PressRequest& request, Monitor& monitor) {
   warn_of_a_step_at_the_rim(monitor);
   if (request.dwell && !scene_.creep && !std::exchange(warned_of_dwell_, true))
     monitor.warn(
         "`dwell` does nothing without creep: this scene does not name the effect `creep`, so no press "
         "depends "
         "on how long it lasts");
+}
+
+State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
+  check(request);
+  warn(request, monitor);
+  if (scene_.accuracy.asked && !chosen_ && request.value > 0) return choose_and_press(request, monitor);
   const bool first = solver_ == nullptr;
   const std::shared_ptr<const Solver> ready = solver();
-  State state = ready->press(request, monitor);
+  std::optional<State> solved;
+  if (scene_.accuracy.estimate) {
+    // A quarter of the cells and a sixteenth, with all that goes with them.
+    constexpr double share_of_press = 0.75;
+    const auto begun = PartMonitor::Clock::now();
+    PartMonitor pressing(monitor, "press with an estimate", "press", 0, share_of_press, begun);
+    PartMonitor estimating(monitor, "press with an estimate", "coarser grids", share_of_press, 1, begun);
+    solved = ready->press(request, pressing);
+    estimating.begin();
+    solved = with_estimate(scene_, *geometry_, plan_, request, *solved, chosen_.get(), estimating);
+  } else {
+    solved = ready->press(request, monitor);
+  }
+  State state = *std::move(solved);
   if (first) state = state.costing_also(ready->preparation());
   if (plan_.yield) state = state.costing_also(flatten_for_good(state, monitor));
-  under_load_ = state.load() > 0;
+  carry(state);
+  return state;
+}
+
+State SpecimenPair::choose_and_press(const PressRequest& request, Monitor& monitor) {
+  AccuracyChoice choice = choose_accuracy(scene_, *geometry_, request, monitor);
+  SpecimenPair after = *this;
+  after.scene_ = std::move(choice.scene);
+  after.geometry_ = std::move(choice.geometry);
+  after.plan_ = std::move(choice.plan);
+  after.solver_ = std::move(choice.solver);
+  after.chosen_ = choice.state.chosen();
+  State state = std::move(choice.state);
+  if (after.plan_.yield) state = state.costing_also(after.flatten_for_good(state, monitor));
+  after.carry(state);
+  *this = std::move(after);
   return state;
 }
 
@@ -75,7 +130,9 @@ StateCost SpecimenPair::flatten_for_good(const State& state, Monitor& monitor) {
     scene.upper = std::move(after.upper);
     auto geometry =
         std::make_shared<const ContactGeometry>(scene, *geometry_, after.hardness, change->approach);
-    Plan plan = make_plan(scene, *geometry);
+    Plan plan = planned(scene, *geometry);
+    plan.yield->carried = plan_.yield->carried;
+    if (change->carried) asperity::carry(plan.yield->carried, *change->carried);
     constexpr double noticeable = 0.05;
     if (std::abs(after.mapped_volume - 1) > noticeable && !std::exchange(warned_of_mapping_, true))
       monitor.warn("at this angle the nodes of the bodies map " + format_short(100 * after.mapped_volume, 3) +
@@ -107,22 +164,39 @@ void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
                "presses too; boundary=\"free\" has none");
 }
 
-void SpecimenPair::release() { under_load_ = false; }
+void SpecimenPair::carry(const State& state) {
+  under_load_ = state.load() > 0;
+  pressed_.reset();
+  if (under_load_ && scene_.sliding.tangential) pressed_ = state;
+}
+
+PartialSlip SpecimenPair::shear(const ShearRequest& request, Monitor& monitor) {
+  require_tangential(scene_.sliding);
+  if (pressed() == nullptr)
+    throw Error(ErrorCode::bad_state, "the contact carries no load, so nothing resists shear",
+                "press it first");
+  return asperity::shear(*solver(), *pressed(), request, monitor);
+}
+
+void SpecimenPair::release() {
+  under_load_ = false;
+  pressed_.reset();
+}
 
 void SpecimenPair::lay(const Pose& pose) {
   if (pose == geometry_->pose()) {
-    under_load_ = false;
+    release();
     return;
   }
   auto geometry = std::make_shared<const ContactGeometry>(scene_, pose, hardness_);
-  Plan plan = make_plan(scene_, *geometry);
+  Plan plan = planned(scene_, *geometry);
   // Under a rigid flat every placement is the same contact, and what was prepared for it stays good.
   const Material* flat = std::get_if<Material>(&scene_.upper);
   if (flat == nullptr || !flat->rigid) solver_.reset();
   hardness_ = geometry->hardness();
   geometry_ = std::move(geometry);
   plan_ = std::move(plan);
-  under_load_ = false;
+  release();
 }
 
 void SpecimenPair::place(std::uint64_t seed) {

@@ -10,12 +10,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "engine/contact/chosen_accuracy.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/scene.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/contact/state.hpp"
+#include "engine/friction/partial_slip.hpp"
 
 namespace asperity {
 
@@ -28,10 +31,18 @@ class SpecimenPair {
   // The state under this load. The bodies come back elastically at release; what yielded stays. Warns once
   // where bodies that do not continue across the rim lie on a periodic half-space, where a dwell is named and
   // creep is not, and where a turn off the lattice maps the yielded volume badly (it is scaled to be kept).
+  // Where the scene asks for an error, the first press under load chooses cells and tolerance for it and puts
+  // the bodies on these cells, where they stay (accuracy_choice.hpp); presses after it are held to the error
+  // there.
   State press(const PressRequest& request, Monitor& monitor = Monitor::silent());
   // Takes the load off.
   void release();
   bool under_load() const { return under_load_; }
+  // The contact under its present load, pulled sideways; nothing of the pair changes. Throws what shear()
+  // throws, and Error{bad_state} without load.
+  PartialSlip shear(const ShearRequest& request, Monitor& monitor = Monitor::silent());
+  // The state of the last press while its load is on; kept for `tangential` alone, null without it.
+  const State* pressed() const { return under_load_ && pressed_ ? &*pressed_ : nullptr; }
 
   // Lifts the upper specimen and puts it down as draw_placement(seed) says, whatever came before.
   void place(std::uint64_t seed);
@@ -53,13 +64,17 @@ class SpecimenPair {
   // The part of the pose that is on the lattice.
   const LatticeIsometry& placement() const { return pose().lattice(); }
   const HardnessMemory& hardness() const { return hardness_; }
-  // What a press will compute, and at what cost; plan().text() prints it.
+  // What a press will compute, and at what cost; plan().text() prints it. Before an accuracy is chosen, of
+  // the cells given.
   const Plan& plan() const { return plan_; }
   // The pair made ready to be pressed as it lies now; worked out once per placement.
   std::shared_ptr<const Solver> solver();
 
  private:
   void lay(const Pose& pose);
+  void carry(const State& state);
+  void warn(const PressRequest& request, Monitor& monitor);
+  State choose_and_press(const PressRequest& request, Monitor& monitor);
   // Takes from the bodies what yielded in `state`; what it cost.
   StateCost flatten_for_good(const State& state, Monitor& monitor);
   void warn_of_a_step_at_the_rim(Monitor& monitor);
@@ -68,8 +83,10 @@ class SpecimenPair {
   HardnessMemory hardness_;
   std::shared_ptr<const ContactGeometry> geometry_;
   Plan plan_;
-  std::shared_ptr<const Solver> solver_;  // none until the first press after a placement
+  std::shared_ptr<const Solver> solver_;          // none until the first press after a placement
+  std::shared_ptr<const ChosenAccuracy> chosen_;  // none until the first press under load, or none asked for
   bool under_load_ = false;
+  std::optional<State> pressed_;
   bool warned_of_rim_ = false;
   bool warned_of_mapping_ = false;
   bool warned_of_dwell_ = false;

@@ -34,17 +34,20 @@ void check_trials(const TiltTrialOptions& options) {
 }
 
 // A half-space contact at a pressure that the grid resolves.
-TiltProbe probe(const Solver& contact, const JunctionLaw& law, double pressure, Monitor& monitor) {
+TiltProbe probe(const Solver& contact, const JunctionLaw& law, double pressure,
+                const TiltTrialOptions& options, Monitor& monitor) {
   constexpr std::int64_t enough = 50;
   const auto nodes = static_cast<std::int64_t>(contact.geometry().grid().nodes());
   for (;; pressure *= 2) {
     const State state = contact.press({PressBy::pressure, pressure, {}}, monitor);
     if (state.contacts() < std::min(enough, nodes)) continue;
-    const FrictionResult friction = law.on(state);
+    const FrictionResult friction = law.on(state, options.rest);
     const double corrected = state.corrected_area_fraction() / state.area_fraction();
     return {pressure, state.contacts(), state.plastic_change().has_value(),
             state.corrected_area_fraction() / state.pressure(),
-            (friction.adhesive_force * corrected + friction.load_force) / state.load()};
+            (friction.adhesive_force * corrected + friction.load_force +
+             friction.interlocking_force.value_or(0)) /
+                state.load()};
   }
 }
 
@@ -52,7 +55,7 @@ std::vector<TiltProbe> probe_all(const Solver& contact, const JunctionLaw& law,
                                  const TiltTrialOptions& options, Monitor& monitor) {
   std::vector<TiltProbe> probes;
   for (const double pressure : options.probe_pressures)
-    probes.push_back(probe(contact, law, pressure, monitor));
+    probes.push_back(probe(contact, law, pressure, options, monitor));
   return probes;
 }
 
@@ -119,14 +122,19 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
 
 }  // namespace
 
+std::uint64_t tilt_placement(const TiltTrialOptions& options, int trial) {
+  return Stream(options.seed, "tilt placement").bits(static_cast<std::uint64_t>(trial));
+}
+
 TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTrialOptions& options,
                  Monitor& monitor) {
   check_trials(options);
+  check_rest(options.rest, pair.scene().sliding);
   SpecimenPair bench = pair;
   const bool flat = bench.upper_is_flat();
   const double tile_share =
       bench.lower().grid().area() / options.specimen_area.value_or(bench.lower().grid().area());
-  const Stream scatter(options.seed, "tilt scatter"), placements(options.seed, "tilt placement");
+  const Stream scatter(options.seed, "tilt scatter");
 
   TiltResult result;
   Task task(monitor, "tilt stage", options.repeats);
@@ -134,7 +142,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
   std::vector<TiltProbe> probes;
   for (int trial = 0; trial < options.repeats; ++trial) {
     const auto k = static_cast<std::uint64_t>(trial);
-    if (!flat) bench.place(placements.bits(k));
+    if (!flat) bench.place(tilt_placement(options, trial));
     const std::shared_ptr<const Solver> solver = bench.solver();
     // A draw far out in the tail must not turn friction into a push.
     const double factor = std::max(0.0, 1 + options.scatter * scatter.normal(k));
@@ -142,11 +150,11 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
       probes = probe_all(*solver, law, options, monitor);
       result.probes.insert(result.probes.end(), probes.begin(), probes.end());
     }
-    const double mu = half_space ? mean_of(probes, &TiltProbe::mu) : 0;
+    const double mu = half_space ? std::max(0.0, mean_of(probes, &TiltProbe::mu)) : 0;
     const auto friction = [&](double normal_force) {
       if (half_space) return factor * mu * normal_force;
       const State state = solver->press({PressBy::load, normal_force * tile_share, {}}, monitor);
-      return factor * law.on(state).force / tile_share;
+      return factor * std::max(0.0, law.on(state, options.rest).force) / tile_share;
     };
     result.trials.push_back(slip_angle(friction, options.stage));
     task.advance();
@@ -168,6 +176,10 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
   if (half_space) result.area_per_load = mean_of(result.probes, &TiltProbe::area_per_load);
   result.spread = standard_deviation(coefficients);
   result.note = note_on(result, options, flat);
+  if (options.rest)
+    add_sentence(result.note, "at rest for " + format_quantity(*options.rest, dimension::time) +
+                                  ", tau0 grew by a factor of " +
+                                  format_short(strengthening(*pair.scene().sliding.ageing, options.rest)));
   return result;
 }
 

@@ -28,6 +28,8 @@ struct TiltTrialOptions {
   double scatter = 0;  // relative standard deviation of the friction force from trial to trial, >= 0
   int repeats = 5;     // 1 … 100000
   std::uint64_t seed = 1;
+  // s >= 0 that the junctions rest under the weight before the stage is raised; needs the effect `ageing`.
+  std::optional<double> rest{};
 };
 
 // A half-space contact solved for the stage.
@@ -36,7 +38,8 @@ struct TiltProbe {
   std::int64_t contacts = 0;  // nodes
   bool yields = false;        // some node carries the limit of the pressure
   double area_per_load = 0;   // 1/Pa, of the corrected area
-  double mu = 0;              // friction over load, its adhesive part on the corrected area
+  double mu = 0;              // friction over load, its adhesive part on the corrected area; may be negative
+                              // where junctions interlock
 };
 
 struct TiltResult {
@@ -51,8 +54,12 @@ struct TiltResult {
   std::string note;                     // what a reader must know of them, one sentence
 };
 
-// Works on a copy: the pair stays as it is. Throws Error{bad_value} naming the option.
+// Works on a copy: the pair stays as it is. Junctions that interlock may push down the slope: friction is
+// then zero. Throws Error{bad_value} naming the option, and Error{bad_state} for a rest without `ageing`.
 TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTrialOptions& options,
                  Monitor& monitor = Monitor::silent());
+
+// The seed by which a trial, counted from 0, puts a rough counter-body down.
+std::uint64_t tilt_placement(const TiltTrialOptions& options, int trial);
 
 }  // namespace asperity

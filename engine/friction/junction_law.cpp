@@ -7,6 +7,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/friction/interlocking.hpp"
 
 namespace asperity {
 
@@ -25,6 +26,15 @@ void require_positive(const std::optional<double>& value, std::string_view key) 
 }
 
 }  // namespace
+
+void check_rest(std::optional<double> rest, const SlidingEffects& effects) {
+  if (!rest) return;
+  if (!(*rest >= 0 && std::isfinite(*rest)))
+    throw Error(ErrorCode::bad_value, "`rest` is " + format_short(*rest) + " s", "give a time from zero up");
+  if (!effects.ageing)
+    throw Error(ErrorCode::bad_state, "`rest` needs the effect `ageing`, which this scene does not name",
+                "name ageing={ rate=, onset= } in the effects of the contact, or leave `rest` out");
+}
 
 JunctionLaw::JunctionLaw(const FrictionOptions& options) : tau0_(options.tau0), alpha_(options.alpha) {
   require_finite(options.tau0, "tau0");
@@ -45,7 +55,23 @@ double JunctionLaw::strength(double pressure) const {
   return tau_max_ ? std::min(strength, *tau_max_) : strength;
 }
 
-FrictionResult JunctionLaw::on(const State& state) const {
+JunctionLaw JunctionLaw::rested(double strengthening) const {
+  JunctionLaw result = *this;
+  result.tau0_ *= strengthening;
+  return result;
+}
+
+FrictionResult JunctionLaw::on(const State& state, std::optional<double> rest) const {
+  const SlidingEffects& effects = state.sliding();
+  check_rest(rest, effects);
+  if (!effects.ageing) return fresh(state);
+  const double factor = strengthening(*effects.ageing, rest);
+  FrictionResult result = rested(factor).fresh(state);
+  result.strengthening = factor;
+  return result;
+}
+
+FrictionResult JunctionLaw::fresh(const State& state) const {
   FrictionResult result;
   const double area = state.area(), load = state.load();
   const double cell = state.geometry().grid().cell_area();
@@ -63,6 +89,12 @@ FrictionResult JunctionLaw::on(const State& state) const {
     }
   }
   result.force = result.adhesive_force + result.load_force;
+  if (const auto& interlocking = state.sliding().interlocking) {
+    const InterlockedJunctions junctions = interlock(*this, state, *interlocking);
+    result.interlocking_force = junctions.extra_force;
+    result.capped_fraction = junctions.capped_fraction;
+    result.force += junctions.extra_force;
+  }
   if (load > 0) result.mu = result.force / load;
   return result;
 }

@@ -18,9 +18,7 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-bool has_error(const StudyRow& row) {
-  return row.end == StudyRow::End::measured && std::isfinite(row.error);
-}
+bool has_error(const StudyRow& row) { return row.end == StudyRow::End::measured && std::isfinite(row.error); }
 
 // Rows of one way by the place of their setting.
 std::vector<StudyRow*> rows_of_way(StudyResult& result, std::size_t way) {
@@ -84,13 +82,24 @@ void conclude(StudyResult& result) {
   }
 }
 
+const StudyRow* best_held(const StudyResult& result) {
+  const StudyRow* best = nullptr;
+  for (const StudyRow& row : result.rows) {
+    if (!has_error(row)) continue;
+    // Of several held to the same error, the one that has it.
+    if (best == nullptr || row.held_error < best->held_error ||
+        (row.held_error == best->held_error && row.error > best->error))
+      best = &row;
+  }
+  return best;
+}
+
 const StudyRow& cheapest(const StudyResult& result, double error) {
   if (!(error > 0) || std::isinf(error))
     throw Error(ErrorCode::bad_value, "`error` is " + format_short(error), "give a number above 0");
-  const StudyRow *found = nullptr, *best = nullptr, *accident = nullptr;
+  const StudyRow *found = nullptr, *accident = nullptr;
   for (const StudyRow& row : result.rows) {
     if (!has_error(row)) continue;
-    if (best == nullptr || row.held_error < best->held_error) best = &row;
     if (row.held_error <= error) {
       if (found == nullptr || row.seconds < found->seconds) found = &row;
     } else if (row.error <= error && accident == nullptr) {
@@ -99,6 +108,7 @@ const StudyRow& cheapest(const StudyResult& result, double error) {
   }
   if (found != nullptr) return *found;
   std::string sentence = "no setting of the study holds an error of " + error_text(error, result.relative());
+  const StudyRow* best = best_held(result);
   if (best == nullptr) throw Error(ErrorCode::infeasible, sentence, "none of them was measured");
   sentence += ": the best reached is " + error_text(best->held_error, result.relative()) + ", by " +
               result.name_of(*best);

@@ -81,6 +81,9 @@ struct StudyResult {
 // settings but for the front, which is quadratic.
 void conclude(StudyResult& result);
 
+// The row that holds the smallest error; null if none has one.
+const StudyRow* best_held(const StudyResult& result);
+
 // The row of the cheapest setting whose held error is at most `error`. Throws Error{infeasible} that
 // names the best that was reached, and an accidental crossing if there was one; Error{bad_value} for a
 // bound that is not above zero.

@@ -31,9 +31,9 @@ std::string lua_string(const std::string& text) {
 
 bool is_name(std::string_view text) {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
-  constexpr std::string_view words[] = {"and",   "break", "do",     "else", "elseif", "end",   "false", "for",
-                                        "goto",  "if",    "in",     "local", "nil",   "not",   "or",    "repeat",
-                                        "while", "then",  "return", "true", "until",  "function"};
+  constexpr std::string_view words[] = {
+      "and",   "break", "do",  "else", "elseif", "end",   "false", "for",    "goto", "if",    "in",
+      "local", "nil",   "not", "or",   "repeat", "while", "then",  "return", "true", "until", "function"};
   if (text.empty() || letters.find(text[0]) == std::string_view::npos) return false;
   if (std::find(std::begin(words), std::end(words), text) != std::end(words)) return false;
   return std::all_of(text.begin(), text.end(), [&](char c) {

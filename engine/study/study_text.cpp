@@ -23,8 +23,8 @@ Cell cell_of(const KnobValue& value) {
 
 // Width on a terminal of UTF-8 text: its characters.
 std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 using Line = std::array<std::string, 6>;
@@ -63,14 +63,12 @@ std::string recommendation(const StudyResult& result, double error) {
   std::string text = "cheapest for " + error_text(error, result.relative()) + ": ";
   try {
     const StudyRow& row = cheapest(result, error);
-    text += result.name_of(row) + ", " + seconds_text(row.seconds) + " for " +
-            error_text(row.error, result.relative());
+    text += result.name_of(row) + ", " + seconds_text(row.seconds) + ", held to " +
+            error_text(row.held_error, result.relative());
     if (row.confirmed == 0) text += ", which no finer setting confirms";
   } catch (const Error& refusal) {
     text += "none of these";
-    const StudyRow* best = nullptr;
-    for (const StudyRow& row : result.rows)
-      if (std::isfinite(row.held_error) && (best == nullptr || row.held_error < best->held_error)) best = &row;
+    const StudyRow* best = best_held(result);
     if (best != nullptr)
       text += "; the best reached is " + error_text(best->held_error, result.relative()) + ", by " +
               result.name_of(*best);
@@ -96,15 +94,26 @@ std::string_view name(StudyRow::End end) {
 
 }  // namespace
 
+std::string share_text(double share) {
+  const double percent = 100 * share;
+  // Three digits, and no power of ten for a percentage that people still read.
+  return format_short(percent >= 100 && percent < 1e6 ? std::round(percent) : percent,
+                      percent >= 100 ? 6 : 3) +
+         " %";
+}
+
 std::string error_text(double error, bool relative) {
-  return relative ? format_short(100 * error, 3) + " %" : format_short(error, 3);
+  return relative ? share_text(error) : format_short(error, 3);
 }
 
 std::string seconds_text(double seconds) {
   if (seconds < 99.95) return format_quantity(seconds, dimension::time, 3);
   const auto whole = static_cast<long long>(std::llround(std::fmin(seconds, 1e12)));
-  if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
-  return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
+  const auto two = [](long long large, const char* unit, long long small, const char* rest) {
+    return std::to_string(large) + unit + (small > 0 ? " " + std::to_string(small) + rest : "");
+  };
+  return whole < 3600 ? two(whole / 60, " min", whole % 60, " s")
+                      : two(whole / 3600, " h", whole % 3600 / 60, " min");
 }
 
 std::string study_text(const StudyResult& result) {
@@ -144,7 +153,7 @@ std::string study_text(const StudyResult& result) {
   if (result.relative())
     for (const double error : {0.1, 0.01, 0.001}) text += "\n" + recommendation(result, error);
   text += "\n" + std::to_string(result.calls) + " calls took " + seconds_text(result.asked_seconds) +
-          ", the study itself " + format_short(100 * result.overhead(), 2) + " % more";
+          ", the study itself " + share_text(result.overhead()) + " more";
   return text;
 }
 

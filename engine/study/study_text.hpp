@@ -12,6 +12,8 @@
 
 namespace asperity {
 
+// "1.2 %", "1234 %".
+std::string share_text(double share);
 // "1.2 %" where errors are relative, "1.2e-07" where they are not.
 std::string error_text(double error, bool relative);
 // "12.3 ms", "4.2 s", "3 min 20 s", "2 h 5 min".

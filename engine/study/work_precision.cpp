@@ -16,11 +16,13 @@ namespace asperity {
 
 namespace {
 
-constexpr double look_every = 0.1;        // seconds between two records, and two signs of progress
-constexpr double settling_share = 0.01;   // of the time, for clearing away
+constexpr double look_every = 0.1;       // seconds between two records, and two signs of progress
+constexpr double settling_share = 0.01;  // of the time, for clearing away
 constexpr const char* title = "work and precision";
 
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 
 void check(const StudyRequest& request) {
   if (request.repeats < 1)
@@ -99,7 +101,7 @@ void WorkPrecision::flush() {
 
 // --- one call
 
-// Where the whole stands, for the calls that follow: its share done before and after the next one.
+// Where the whole stands: its share that is done before and after the next call.
 void WorkPrecision::show(const std::string& part, double expected) {
   const double total = elapsed() + quote().seconds;
   share_ = std::max(share_, total > 0 ? elapsed() / total : 0);
@@ -111,15 +113,16 @@ void WorkPrecision::show(const std::string& part, double expected) {
 StudyAnswer WorkPrecision::call(const Knobs& knobs, const std::string* way, int round, double& seconds) {
   stop_flag().check();
   work_.prepare(knobs);
-  std::string part;
-  if (now_ - shown_at_ >= look_every || share_after_ == 0) {
-    part = (way == nullptr ? "the truth" : *way) + " " + lua_source(knobs);
+  std::string part = way == nullptr ? "the truth" : *way;
+  if (now_ - shown_at_ >= look_every || result_.calls == 0) {
+    part += " " + lua_source(knobs);
     if (round > 0)
       part += ", run " + std::to_string(round) + " of " + std::to_string(result_.request.repeats);
-    show(part, 0);
+    show(part, seconds);
+  } else {
+    share_after_ = share_;
   }
-  PartMonitor part_monitor(monitor_, title, part.empty() ? (way == nullptr ? "the truth" : *way) : part, share_,
-                           std::max(share_, share_after_), wall_begun_);
+  PartMonitor part_monitor(monitor_, title, std::move(part), share_, share_after_, wall_begun_);
   const double begins = clock_();
   StudyAnswer answer = work_.ask(knobs, part_monitor);
   now_ = clock_();
@@ -145,7 +148,7 @@ StudyAnswer WorkPrecision::call(const Knobs& knobs, const std::string* way, int 
 }
 
 bool WorkPrecision::first_run(StudyRow& row) {
-  double seconds = 0;
+  double seconds = forecast(row).value_or(0);
   const StudyAnswer answer = call(result_.knobs_of(row), &result_.way_of(row).name, 0, seconds);
   asked_[static_cast<std::size_t>(&row - result_.rows.data())] = true;
   row.first_seconds = seconds;
@@ -204,8 +207,8 @@ void WorkPrecision::leave_out(StudyRow& row, double expected, double needed) {
   asked_[static_cast<std::size_t>(&row - result_.rows.data())] = true;
   row.end = StudyRow::End::left_out;
   row.expected_seconds = expected;
-  row.reason =
-      "budget: about " + seconds_text(needed) + " needed, " + seconds_text(std::max(left(), 0.0)) + " left";
+  row.reason = "budget: about " + seconds_text(needed) + " needed, " +
+               seconds_text(std::max(left() - committed(), 0.0)) + " left beside the others";
 }
 
 // What is still to come by the forecast, and what of it the budget leaves out.
@@ -226,10 +229,10 @@ std::string WorkPrecision::quote_text() {
   const StudyRequest& request = result_.request;
   const Quote expected = quote();
   const std::size_t asked = result_.rows.size() - expected.left_out.size();
-  std::string text = std::string(title) + ": " + std::to_string(asked) + (asked == 1 ? " setting" : " settings") +
-                     ", each timed " + std::to_string(request.repeats) +
-                     (request.repeats == 1 ? " time" : " times") + " after a first run: about " +
-                     seconds_text(elapsed() + expected.seconds);
+  std::string text = std::string(title) + ": " + std::to_string(asked) +
+                     (asked == 1 ? " setting" : " settings") + ", each timed " +
+                     std::to_string(request.repeats) + (request.repeats == 1 ? " time" : " times") +
+                     " after a first run: about " + seconds_text(elapsed() + expected.seconds);
   if (const auto* knobs = std::get_if<Knobs>(&request.truth)) {
     const auto truth = truth_forecast();
     text += ", of which the truth " + lua_source(*knobs) + " takes " +
@@ -276,7 +279,9 @@ void WorkPrecision::ask_truth() {
                 "the truth " + lua_source(*knobs) + " would take about " + seconds_text(expected) + ", and " +
                     seconds_text(std::max(left(), 0.0)) + " are left of `at_most`",
                 "raise `at_most`, or give a cheaper or an exact truth");
-  const StudyAnswer answer = call(*knobs, nullptr, 0, result_.truth_seconds);
+  double seconds = truth_forecast().value_or(0);
+  const StudyAnswer answer = call(*knobs, nullptr, 0, seconds);
+  result_.truth_seconds = seconds;
   if (!answer.value)
     throw Error(ErrorCode::infeasible, "the truth " + lua_source(*knobs) + " failed: " + answer.failure,
                 "give other knobs for it, or an exact value");
@@ -306,7 +311,7 @@ void WorkPrecision::rounds() {
                      std::to_string(result_.request.repeats) + " runs";
         continue;
       }
-      double seconds = 0;
+      double seconds = expected;
       const StudyAnswer answer = call(result_.knobs_of(row), &result_.way_of(row).name, round, seconds);
       if (!answer.value) {
         row.end = StudyRow::End::failed;

@@ -79,6 +79,7 @@ class WorkPrecision {
   void rounds();
   void finish();
 
+  // `seconds`: what it is expected to take, and then what it took.
   StudyAnswer call(const Knobs& knobs, const std::string* way, int round, double& seconds);
   bool first_run(StudyRow& row);
   void leave_out(StudyRow& row, double expected, double needed);

@@ -56,7 +56,28 @@ Range Surface::height_range() const {
 Surface Surface::with_material(Material material) const {
   SurfaceTraits traits = traits_;
   traits.material = std::move(material);
-  return Surface(data_, std::move(traits));
+  Surface result(data_, std::move(traits));
+  result.recipe_ = recipe_;
+  return result;
+}
+
+Surface Surface::made_by(SurfaceRecipe recipe) const {
+  Surface result = *this;
+  result.recipe_ = std::make_shared<const SurfaceRecipe>(std::move(recipe));
+  return result;
+}
+
+std::optional<Surface> Surface::remade(int nx, int ny, Monitor& monitor) const {
+  if (!recipe_) return {};
+  try {
+    Surface result = (*recipe_)(nx, ny, monitor);
+    result.traits_.material = traits_.material;
+    result.recipe_ = recipe_;
+    return result;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_value) throw;
+    return {};
+  }
 }
 
 const std::string& Surface::digest() const {

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A rough surface: heights in metres on a regular grid, z pointing up out of the body. An immutable
 // value, cheap to copy: copies share the heights. What a generator or a file knows beyond the
-// heights (material, periodicity, variance past Nyquist) travels with it.
+// heights (material, periodicity, variance past Nyquist) travels with it. A generated surface also knows
+// how to be made again on other cells: it is one continuous surface, of which the heights are samples.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "engine/core/grid.hpp"
+#include "engine/core/monitor.hpp"
 #include "engine/surface/material.hpp"
 
 namespace asperity {
@@ -18,6 +21,11 @@ struct SurfaceTraits {
   bool periodic = false;                // the heights continue smoothly across the rim by construction
   std::optional<double> aliased_share;  // share of the variance that lies past Nyquist, 0 … 1
 };
+
+class Surface;
+// Makes the same surface on nx by ny cells of the same tile, for any number of threads at once. Keeps a few
+// options, never heights. Throws Error{bad_value} for cells that cannot carry it.
+using SurfaceRecipe = std::function<Surface(int nx, int ny, Monitor& monitor)>;
 
 class Surface {
  public:
@@ -38,6 +46,15 @@ class Surface {
   // The same heights with another material.
   Surface with_material(Material material) const;
 
+  // The same surface, which `recipe` makes again on other cells: nodes that two grids share agree to rounding
+  // or as the generator documents. Neither digest nor equality know of it. A surface made anew from heights
+  // has none, so whatever changes heights drops it unless it says otherwise.
+  Surface made_by(SurfaceRecipe recipe) const;
+  const std::shared_ptr<const SurfaceRecipe>& recipe() const { return recipe_; }  // null: none
+  // Made again by its recipe, with this material; none without a recipe, or where these cells cannot carry
+  // the surface.
+  std::optional<Surface> remade(int nx, int ny, Monitor& monitor = Monitor::silent()) const;
+
   // Digest of grid and heights; material and traits do not enter. Computed once, thread-safe.
   const std::string& digest() const;
 
@@ -47,6 +64,7 @@ class Surface {
 
   std::shared_ptr<const Heights> data_;
   SurfaceTraits traits_;
+  std::shared_ptr<const SurfaceRecipe> recipe_;
 };
 
 }  // namespace asperity

@@ -82,8 +82,10 @@ TEST_F(Help, FindsATopicByItsLastNameInAnyCase) {
   EXPECT_NE(both.find("profile:roughness"), std::string::npos);
 }
 
-TEST_F(Help, SaysWhichPrecisionIsNotComputed) {
-  EXPECT_NE(help_text("lab.contact").find("this version computes \"double\" alone"), std::string::npos);
+TEST_F(Help, SaysWhatSinglePrecisionIsWorth) {
+  EXPECT_NE(
+      help_text("lab.contact").find("refined until the certificate, always double, meets the tolerance"),
+      std::string::npos);
 }
 
 TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {

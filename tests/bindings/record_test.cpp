@@ -40,6 +40,20 @@ TEST_F(Result, ComplainsAboutAFieldItDoesNotHave) {
   EXPECT_EQ(run("print(r[nil])").rfind("script.lua:1: a roughness result has no field nothing (nil)", 0), 0u);
 }
 
+TEST_F(Result, NamesTheEffectThatWouldBringAField) {
+  ASSERT_EQ(run("al = lab.material 'Al-2011'\n"
+                "local c = lab.contact{ lower=s:with{material=al}, upper=s:with{material=al},\n"
+                "  effects={ elasticity='box' } }\n"
+                "f = lab.friction{ tau0='1 MPa', alpha=0.2 }:on(c:press{ pressure='1 MPa' })"),
+            "");
+  EXPECT_EQ(run("print(f.interlocking_force)"),
+            "script.lua:1: `interlocking_force` needs the effect `interlocking`, which this scene does not "
+            "name; name it in the effects of the contact");
+  EXPECT_EQ(
+      run("for name in pairs(f) do assert(name ~= 'interlocking_force' and name ~= 'strengthening') end"),
+      "");
+}
+
 TEST_F(Result, CannotBeChanged) {
   EXPECT_EQ(run("r.Ra = 0"), "script.lua:1: a result cannot be changed; copy what you need into a table");
   EXPECT_EQ(run("r.new = 0"), "script.lua:1: a result cannot be changed; copy what you need into a table");

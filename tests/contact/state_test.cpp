@@ -170,13 +170,14 @@ TEST(State, AnswersManyThreadsAtOnce) {
   }
 }
 
-TEST(State, TextTellsCostAndResidual) {
+TEST(State, TextTellsValuesWithTheirErrorsCostAndResidual) {
   const State st = press(boxes(row_of({0, 1}), 1), PressBy::load, 1);
   const std::string text = st.text();
-  EXPECT_NE(text.find("contact under 0.5 Pa (1 N)\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("area fraction 0.5, 1 node\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("closed form (sorted heights), residual 0\n"), std::string::npos) << text;
-  EXPECT_NE(text.find(" 0 transforms, 0 bytes\n"), std::string::npos) << text;
+  EXPECT_EQ(text.rfind("contact under 0.5 Pa (1 N): approach 1 ± ", 0), 0U) << text;
+  EXPECT_NE(text.find(" m, area fraction 0.5 ± 0.5 of 2 nodes, energy 500 ± "), std::string::npos) << text;
+  EXPECT_NE(text.find(" mJ; residual 0; "), std::string::npos) << text;
+  EXPECT_NE(text.find(" 0 transforms, 0 MiB; closed form (sorted heights)"), std::string::npos) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
   EXPECT_EQ(st.effects_run(), std::vector<std::string>{"elasticity"});
 }
 

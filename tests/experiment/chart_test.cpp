@@ -48,6 +48,27 @@ TEST(Chart, LinesDifferInColourShapeAndDashes) {
   EXPECT_NE(script.find("set key outside"), std::string::npos);
 }
 
+TEST(Chart, BarsAlongXAndMarksThatAreNoLines) {
+  LineChart chart = simple();
+  chart.series[0].x_low = {0.5e6, 2e6, 3e6};
+  chart.series[0].x_high = {1.5e6, 2e6, 4e6};
+  ChartSeries ring;
+  ring.x = {2e6};
+  ring.y = {0.4};
+  ring.line = false;
+  ring.shape = PointShape::ring;
+  chart.series.push_back(ring);
+  const std::string script = script_of(chart);
+  EXPECT_NE(script.find("\n1 0.3 0.3 0.3 0.5 1.5\n2 0.4 0.4 0.4 2 2\n3 0.5 0.5 0.5 3 4\n"),
+            std::string::npos);
+  EXPECT_NE(script.find("using 1:2:5:6 with xerrorbars"), std::string::npos);
+  EXPECT_NE(script.find(
+                "$line1 using 1:2 with points linecolor rgb '#505050' linewidth 1.2 pointtype 6 pointsize 2"),
+            std::string::npos);
+  chart.series[0].x_high.pop_back();
+  EXPECT_THROW(script_of(chart), Error);
+}
+
 TEST(Chart, SaysWhatIsNotDrawn) {
   LineChart chart = simple();
   chart.series[0].x = {1e6, 0, -1, 2e6, 3e6, std::nan("")};

@@ -1,4 +1,4 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 --! command: check
---! output: no problem found up to its os.exit
+--! output: no problem found; checked to its os.exit
 os.exit(3)

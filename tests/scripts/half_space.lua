@@ -78,7 +78,7 @@ refused(function() bench{ elasticity={ model="half_space", stiffness=1 } } end, 
 refused(function() bench{ elasticity="half_spac" } end, "half_space")
 refused(function() bench{ elasticity="box", plasticity={} } end, "plasticity", "half_space")
 refused(function()
-  lab.contact{ lower=body(1), upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" },
+  lab.contact{ lower=body(1), upper=lab.rigid, boundary="periodic", effects={ elasticity="box" },
     accuracy={ precision="single" } }
 end, "single")
 print "ok"

@@ -18,9 +18,9 @@ constexpr std::array effects = {
     EffectEntry{"creep", "hardness falls with the time the load dwells", Availability::computed},
     EffectEntry{"capillarity", "liquid in narrow gaps pulls the bodies together", Availability::not_yet},
     EffectEntry{"adhesion", "the surfaces attract each other across the gap", Availability::not_yet},
-    EffectEntry{"ageing", "contacts strengthen with the time they rest", Availability::not_yet},
-    EffectEntry{"interlocking", "slopes of two rough bodies resist sliding", Availability::not_yet},
-    EffectEntry{"tangential", "shear tractions and partial slip inside the contact", Availability::not_yet},
+    EffectEntry{"ageing", "contacts strengthen with the time they rest", Availability::computed},
+    EffectEntry{"interlocking", "slopes of two rough bodies resist sliding", Availability::computed},
+    EffectEntry{"tangential", "shear tractions and partial slip inside the contact", Availability::computed},
     EffectEntry{"oxide", "a brittle film between the metals", Availability::not_modelled},
     EffectEntry{"breakage", "asperities that break off", Availability::not_modelled},
 };

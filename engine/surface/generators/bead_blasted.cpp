@@ -172,8 +172,16 @@ class Ground {
   Array<std::array<double, 2>> sums_;
 };
 
-// Mean 0 and mean magnitude `ra`.
-void scale_to(Field& heights, double ra) {
+// z becomes (z - average) · factor.
+struct Scale {
+  double average = 0, factor = 1;
+};
+void apply(Field& heights, const Scale& scale) {
+  for (double& z : heights.values()) z = (z - scale.average) * scale.factor;
+}
+
+// Mean 0 and mean magnitude `ra`; what was done for it.
+Scale scale_to(Field& heights, double ra) {
   const double average = mean(heights.values());
   Array<double> magnitudes(heights.size());
   for (std::size_t k = 0; k < heights.size(); ++k) {
@@ -184,6 +192,7 @@ void scale_to(Field& heights, double ra) {
   if (now == 0)
     refuse("the dents leave the surface flat on these nodes", "give more `cells` or another `seed`");
   for (double& z : heights.values()) z *= ra / now;
+  return {average, ra / now};
 }
 
 // The texture under its own key names.
@@ -204,19 +213,18 @@ Surface texture(const BeadBlastedOptions& o, const Grid& grid, Monitor& monitor)
   }
 }
 
-}  // namespace
+// What the first grid decided: the texture, and how ground, and ground with texture, are scaled.
+struct Decided {
+  std::shared_ptr<const SurfaceRecipe> fine;
+  Scale of_ground, of_all;
+};
 
-double dent_count(const BeadBlastedOptions& o) {
-  const double radius = 0.5 * (o.dent_low + o.dent_high);
-  const double count = o.coverage * (o.grid.size_x / radius) * (o.grid.size_y / radius) / std::numbers::pi;
-  return std::max(1.0, std::round(count));
-}
-
-Surface bead_blasted_surface(const BeadBlastedOptions& options, Monitor& monitor) {
+Surface blasted(const BeadBlastedOptions& options, const Decided* decided, Monitor& monitor) {
   const Grid grid = check(options);
   // Before the dents, so that a texture which cannot be had is refused at once.
   std::optional<Surface> fine;
-  if (options.fine) fine = texture(options, grid, monitor);
+  if (options.fine)
+    fine = decided == nullptr ? texture(options, grid, monitor) : (*decided->fine)(grid.nx, grid.ny, monitor);
 
   const auto dents = static_cast<std::int64_t>(dent_count(options));
   const Stream stream(options.seed, "bead_blasted");
@@ -226,14 +234,41 @@ Surface bead_blasted_surface(const BeadBlastedOptions& options, Monitor& monitor
     ground.strike(draw(stream, static_cast<std::uint64_t>(k), options, grid));
 
   Field heights = std::move(ground).take();
-  scale_to(heights, options.ra);
+  Decided now;
+  if (decided != nullptr)
+    apply(heights, decided->of_ground);
+  else
+    now.of_ground = scale_to(heights, options.ra);
   if (fine) {
     for (std::size_t k = 0; k < heights.size(); ++k) heights[k] += fine->heights()[k];
-    scale_to(heights, options.ra);
+    if (decided != nullptr)
+      apply(heights, decided->of_all);
+    else
+      now.of_all = scale_to(heights, options.ra);
   }
   SurfaceTraits traits;
   traits.periodic = true;
-  return Surface(grid, std::move(heights), std::move(traits));
+  Surface surface(grid, std::move(heights), std::move(traits));
+  if (decided != nullptr) return surface;
+  if (fine) now.fine = fine->recipe();
+  return surface.made_by([options, now](int nx, int ny, Monitor& watching) {
+    BeadBlastedOptions on_other_cells = options;
+    on_other_cells.grid.nx = nx;
+    on_other_cells.grid.ny = ny;
+    return blasted(on_other_cells, &now, watching);
+  });
+}
+
+}  // namespace
+
+double dent_count(const BeadBlastedOptions& o) {
+  const double radius = 0.5 * (o.dent_low + o.dent_high);
+  const double count = o.coverage * (o.grid.size_x / radius) * (o.grid.size_y / radius) / std::numbers::pi;
+  return std::max(1.0, std::round(count));
+}
+
+Surface bead_blasted_surface(const BeadBlastedOptions& options, Monitor& monitor) {
+  return blasted(options, nullptr, monitor);
 }
 
 }  // namespace asperity

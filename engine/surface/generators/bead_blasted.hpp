@@ -45,7 +45,8 @@ double dent_count(const BeadBlastedOptions& options);
 
 // Ra is met exactly on the nodes, to rounding, and the mean is zero. Place, radius and bead of dent k are
 // drawn from the seed and k alone, the texture from its waves: a finer grid is the same surface better
-// resolved, up to the sampling error of the sums over nodes (ground under a dent, volumes, Ra). Cost about 25
+// resolved, up to the sampling error of the sums over nodes (ground under a dent, volumes, Ra). Made again on
+// other cells it keeps the scales that Ra and the texture have here. Cost about 25
 // node visits per node and unit of coverage / 4, then one self-affine surface; two fields at the peak.
 // Same bits for any number of threads. Throws Error{bad_value} naming the option that is out of range, a
 // dent wider than its bead, or cells longer than the smallest dent's radius.

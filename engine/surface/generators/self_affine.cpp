@@ -163,6 +163,7 @@ Surface self_affine_surface(const SelfAffineOptions& options, Monitor& monitor) 
                ", and `short_wave`, " + metres(band.short_wave),
            "give a shorter `short_wave`");
 
+  SelfAffineOptions same = options;  // what other cells are filled by: Ra is not met again on each
   double scale = 1 / rms_height;
   if (options.rms_height) scale = *options.rms_height / rms_height;
   if (options.rms_slope) scale = *options.rms_slope / modes.rms_slope();
@@ -177,11 +178,20 @@ Surface self_affine_surface(const SelfAffineOptions& options, Monitor& monitor) 
     for (double& z : absolute.values()) z = std::abs(z);
     const double factor = *options.ra / mean(absolute.values());
     for (double& z : heights.values()) z *= factor;
+    same.rms_height = factor;  // of waves scaled to an rms of 1
+    same.ra.reset();
   }
   SurfaceTraits traits;
   traits.periodic = true;
   traits.aliased_share = 0.0;
-  return Surface(grid, std::move(heights), std::move(traits));
+  same.long_wave = band.long_wave;
+  return Surface(grid, std::move(heights), std::move(traits))
+      .made_by([same](int nx, int ny, Monitor& watching) {
+        SelfAffineOptions on_other_cells = same;
+        on_other_cells.grid.nx = nx;
+        on_other_cells.grid.ny = ny;
+        return self_affine_surface(on_other_cells, watching);
+      });
 }
 
 }  // namespace asperity

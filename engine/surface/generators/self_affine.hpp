@@ -29,7 +29,8 @@ struct SelfAffineOptions {
 
 // The requested height or slope is met exactly, to rounding, and the mean is zero. rms_height and
 // rms_slope scale by sums over the waves, so the nodes that two grids share agree to rounding; ra is
-// met on the nodes of this grid, and its scale moves with the grid by about the sampling error of Ra.
+// met on the nodes of this grid, and its scale moves with the grid by about the sampling error of Ra. Made
+// again on other cells it keeps the scale it has here, so that shared nodes agree to rounding for all three.
 // O(n log n) in the nodes; holds one spectrum and one field, 16 bytes a node. Same bits for any
 // number of threads. Throws Error{bad_value} naming the option that is out of range.
 Surface self_affine_surface(const SelfAffineOptions& options, Monitor& monitor = Monitor::silent());

@@ -88,7 +88,15 @@ Surface sine_surface(const SineOptions& options, Monitor&) {
     for (int i = 0; i < grid.nx; ++i) heights(i, j) = amplitude * (x[i] * y[j]);
   SurfaceTraits traits;
   traits.periodic = along_x.whole && (!both || along_y.whole);
-  return Surface(grid, std::move(heights), std::move(traits));
+  SineOptions same = options;
+  same.wavelength = wavelength;
+  return Surface(grid, std::move(heights), std::move(traits))
+      .made_by([same](int nx, int ny, Monitor& monitor) {
+        SineOptions on_other_cells = same;
+        on_other_cells.grid.nx = nx;
+        on_other_cells.grid.ny = ny;
+        return sine_surface(on_other_cells, monitor);
+      });
 }
 
 }  // namespace asperity

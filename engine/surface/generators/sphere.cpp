@@ -11,6 +11,23 @@
 
 namespace asperity {
 
+namespace {
+
+// The apex at node (apex_i, apex_j), which may lie between nodes.
+Surface cap_on(const Grid& grid, double radius, bool cap, double apex_i, double apex_j) {
+  Field heights(grid.nx, grid.ny);
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) {
+      const double r = std::hypot((i - apex_i) * grid.hx(), (j - apex_j) * grid.hy());
+      const double s = cap ? std::min(r / radius, 1.0) : r / radius;
+      // r²/(R + √(R² - r²)) keeps the digits that √(R² - r²) - R loses near the apex.
+      heights(i, j) = cap ? -r * s / (1 + std::sqrt((1 - s) * (1 + s))) : -r * s / 2;
+    }
+  return Surface(grid, std::move(heights));
+}
+
+}  // namespace
+
 Surface sphere_surface(const SphereOptions& options, Monitor&) {
   const Grid grid = make_grid(options.grid.nx, options.grid.ny, options.grid.size_x, options.grid.size_y);
   const double radius = options.radius;
@@ -29,15 +46,12 @@ Surface sphere_surface(const SphereOptions& options, Monitor&) {
                     " from the apex",
                 "give a larger radius, a smaller `size`, or shape = \"paraboloid\"");
 
-  Field heights(grid.nx, grid.ny);
-  for (int j = 0; j < grid.ny; ++j)
-    for (int i = 0; i < grid.nx; ++i) {
-      const double r = std::hypot((i - apex_i) * grid.hx(), (j - apex_j) * grid.hy());
-      const double s = cap ? std::min(r / radius, 1.0) : r / radius;
-      // r²/(R + √(R² - r²)) keeps the digits that √(R² - r²) - R loses near the apex.
-      heights(i, j) = cap ? -r * s / (1 + std::sqrt((1 - s) * (1 + s))) : -r * s / 2;
-    }
-  return Surface(grid, std::move(heights));
+  const Grid first = grid;
+  const SurfaceRecipe recipe = [=](int nx, int ny, Monitor&) {
+    return cap_on(make_grid(nx, ny, first.size_x, first.size_y), radius, cap,
+                  static_cast<double>(apex_i) * nx / first.nx, static_cast<double>(apex_j) * ny / first.ny);
+  };
+  return cap_on(grid, radius, cap, apex_i, apex_j).made_by(recipe);
 }
 
 }  // namespace asperity

@@ -16,7 +16,8 @@ struct SphereOptions {
   SphereShape shape = SphereShape::sphere;
 };
 
-// Not periodic. O(nodes). Throws Error{bad_value} naming `radius` when it is not above zero, or when
+// Not periodic. Made again on other cells, the apex keeps its place in the tile, on a node or between nodes.
+// O(nodes). Throws Error{bad_value} naming `radius` when it is not above zero, or when
 // a sphere does not reach the corner of the grid that is farthest from the apex.
 Surface sphere_surface(const SphereOptions& options, Monitor& monitor = Monitor::silent());
 

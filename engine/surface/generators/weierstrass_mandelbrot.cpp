@@ -73,11 +73,11 @@ double phase(const WeierstrassMandelbrotOptions& o, int m, int n) {
   return radians;
 }
 
-// The waves to be summed, with amplitudes relative to order 0.
-Array<PlaneWave> plane_waves(const WeierstrassMandelbrotOptions& o, const PhaseIncrements& increments) {
+// The waves of orders up to `kept` to be summed, with amplitudes relative to order 0.
+Array<PlaneWave> plane_waves(const WeierstrassMandelbrotOptions& o, const PhaseIncrements& increments,
+                             int kept) {
   const double log_gamma = std::log(o.gamma);
-  int last = last_audible_order(o);
-  if (o.band == WaveBand::resolved) last = std::min(last, increments.last_resolved);
+  const int last = std::min(last_audible_order(o), kept);
   Array<PlaneWave> waves;
   waves.reserve(static_cast<std::size_t>(o.M) * static_cast<std::size_t>(last + 1));
   for (int n = 0; n <= o.n_max; ++n) {
@@ -91,6 +91,46 @@ Array<PlaneWave> plane_waves(const WeierstrassMandelbrotOptions& o, const PhaseI
     }
   }
   return waves;
+}
+
+// The phases that a function gave, to be had again when it is gone.
+std::function<double(int, int)> remembered(const WeierstrassMandelbrotOptions& o) {
+  auto phases = std::make_shared<Array<double>>();
+  phases->reserve(static_cast<std::size_t>(o.M) * static_cast<std::size_t>(o.n_max + 1));
+  for (int n = 0; n <= o.n_max; ++n)
+    for (int m = 1; m <= o.M; ++m) phases->push_back(phase(o, m, n));
+  return [phases, M = o.M](int m, int n) {
+    return (
+        *phases)[static_cast<std::size_t>(n) * static_cast<std::size_t>(M) + static_cast<std::size_t>(m - 1)];
+  };
+}
+
+// Orders up to `kept` on this grid of square cells.
+Surface summed(const WeierstrassMandelbrotOptions& options, const Grid& grid,
+               const PhaseIncrements& increments, int kept, Monitor& monitor) {
+  const Array<PlaneWave> waves = plane_waves(options, increments, kept);
+  Field heights = sum_of_plane_waves(grid.nx, grid.ny, waves, monitor, "Weierstrass-Mandelbrot surface");
+
+  // L (G/L)^(D−2) without forming G/L, which could overflow where the result does not.
+  const double scale = std::pow(options.L, 3.0 - options.D) * std::pow(options.G, options.D - 2.0) *
+                       std::sqrt(std::log(options.gamma) / options.M);
+  // Taking Σ a cos φ from the product itself makes z(0, 0) zero exactly.
+  const double base = heights(0, 0);
+  constexpr std::size_t block = 1 << 16;
+  const std::span<double> z = heights.values();
+  parallel_for(static_cast<std::int64_t>((z.size() + block - 1) / block), [&](std::int64_t b) {
+    const std::size_t first = static_cast<std::size_t>(b) * block;
+    for (double& value : z.subspan(first, std::min(block, z.size() - first))) value = scale * (base - value);
+  });
+
+  SurfaceTraits traits;
+  traits.material = options.material;
+  traits.periodic = false;
+  traits.aliased_share =
+      increments.last_resolved >= kept
+          ? 0.0
+          : share_of_variance_beyond(increments.last_resolved, options.D, options.gamma, kept);
+  return Surface(grid, std::move(heights), std::move(traits));
 }
 
 }  // namespace
@@ -131,29 +171,20 @@ Surface weierstrass_mandelbrot(const WeierstrassMandelbrotOptions& options, Moni
                     " even n = 0 turns more than half a turn per cell",
                 "give more cells, a shorter span, or band = \"all\"");
 
-  const Array<PlaneWave> waves = plane_waves(options, increments);
-  Field heights = sum_of_plane_waves(grid.nx, grid.ny, waves, monitor, "Weierstrass-Mandelbrot surface");
-
-  // L (G/L)^(D−2) without forming G/L, which could overflow where the result does not.
-  const double scale = std::pow(options.L, 3.0 - options.D) * std::pow(options.G, options.D - 2.0) *
-                       std::sqrt(std::log(options.gamma) / options.M);
-  // Taking Σ a cos φ from the product itself makes z(0, 0) zero exactly.
-  const double base = heights(0, 0);
-  constexpr std::size_t block = 1 << 16;
-  const std::span<double> z = heights.values();
-  parallel_for(static_cast<std::int64_t>((z.size() + block - 1) / block), [&](std::int64_t b) {
-    const std::size_t first = static_cast<std::size_t>(b) * block;
-    for (double& value : z.subspan(first, std::min(block, z.size() - first))) value = scale * (base - value);
+  WeierstrassMandelbrotOptions same = options;
+  if (options.phases == WavePhases::function) same.phase_function = remembered(options);
+  const int kept =
+      options.band == WaveBand::resolved ? std::min(options.n_max, increments.last_resolved) : options.n_max;
+  Surface surface = summed(same, grid, increments, kept, monitor);
+  same.material.reset();  // it stays with the surface
+  return surface.made_by([same, grid, kept](int nx, int ny, Monitor& watching) {
+    if (std::int64_t{nx} * grid.ny != std::int64_t{ny} * grid.nx)
+      throw Error(ErrorCode::bad_value, "the cells would not be square",
+                  "keep the proportion of the cells along x and y");
+    const Grid other = make_grid(nx, ny, grid.size_x, grid.size_y);
+    return summed(same, other, phase_increments(same.gamma, same.span, nx, same.M, same.n_max), kept,
+                  watching);
   });
-
-  SurfaceTraits traits;
-  traits.material = options.material;
-  traits.periodic = false;
-  traits.aliased_share =
-      options.band == WaveBand::resolved
-          ? 0.0
-          : share_of_variance_beyond(increments.last_resolved, options.D, options.gamma, options.n_max);
-  return Surface(grid, std::move(heights), std::move(traits));
 }
 
 }  // namespace asperity

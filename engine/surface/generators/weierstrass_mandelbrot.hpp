@@ -52,13 +52,13 @@ double share_of_variance_beyond(int last_resolved, double D, double gamma, int n
 // The surface's aliased_share is that of the waves it was made of that turn more than half a turn
 // per cell along their own direction: 0 for WaveBand::resolved. Orders too small to change a bit of
 // the heights (together under 2⁻⁶⁰ of order 0) are skipped in the sum but not in the share.
-// phase_function is called on this thread, once for every (m, n), n outer and m inner.
-// Cost: see sum_of_plane_waves; under half of the M·(n_max+1) waves remain there, since m and M−m are
-// mirror images. Memory: the heights, tables of 32 MiB at most (nx + ny <= 65536) and about 120 bytes
-// a wave.
-// Thread-safe; the same bits for any number of threads.
-// Throws Error{bad_value} naming the key, the wave (m, n) whose phase is not finite, or `band` when
-// no wave is resolved.
+// Made again on other square cells it is the same waves, whatever the new grid carries: those past its
+// Nyquist alias, and a `resolved` surface keeps the orders it has. phase_function is called on this thread,
+// once for every (m, n), n outer and m inner. Cost: see sum_of_plane_waves; under half of the M·(n_max+1)
+// waves remain there, since m and M−m are mirror images. Memory: the heights, tables of 32 MiB at most (nx +
+// ny <= 65536) and about 120 bytes a wave. Thread-safe; the same bits for any number of threads. Throws
+// Error{bad_value} naming the key, the wave (m, n) whose phase is not finite, or `band` when no wave is
+// resolved.
 Surface weierstrass_mandelbrot(const WeierstrassMandelbrotOptions& options,
                                Monitor& monitor = Monitor::silent());
 

@@ -34,6 +34,18 @@ std::string key_of(ScaleTo measure) {
   return measure == ScaleTo::amplitude ? "amplitude" : measure == ScaleTo::rms ? "rms" : "ra";
 }
 
+// The recipe of a surface whose heights were changed node by node, with the numbers of the first time.
+template <class Change>
+SurfaceRecipe then(std::shared_ptr<const SurfaceRecipe> recipe, Change change) {
+  return [recipe, change](int nx, int ny, Monitor& monitor) {
+    const Surface before = (*recipe)(nx, ny, monitor);
+    Field heights = before.heights();
+    change(heights);
+    return Surface(before.grid(), std::move(heights),
+                   {.material = {}, .periodic = before.traits().periodic, .aliased_share = {}});
+  };
+}
+
 double cut_level(const Range& range, double fraction) {
   if (!(fraction >= 0 && fraction <= 1))
     throw Error(ErrorCode::bad_value, "`fraction` is " + format_short(fraction),
@@ -63,8 +75,12 @@ Surface scaled(const Surface& surface, ScaleTo measure, double target, ScaleAbou
   // Multiply, then divide: the quotient alone would overflow for heights near the smallest double.
   const double factor = target / now;
   const bool direct = std::isfinite(factor) && factor > 1e-290;
-  for (double& h : heights.values()) h = fixed + (direct ? (h - fixed) * factor : (h - fixed) / now * target);
-  return Surface(surface.grid(), std::move(heights), surface.traits());
+  const auto stretch = [=](Field& z) {
+    for (double& h : z.values()) h = fixed + (direct ? (h - fixed) * factor : (h - fixed) / now * target);
+  };
+  stretch(heights);
+  const Surface result(surface.grid(), std::move(heights), surface.traits());
+  return surface.recipe() ? result.made_by(then(surface.recipe(), stretch)) : result;
 }
 
 Surface plus(const Surface& first, const Surface& second) {
@@ -82,19 +98,27 @@ Surface plus(const Surface& first, const Surface& second) {
                 "bring both to one size with `cropped`, then to the same cells with `resampled`");
   Field heights = first.heights();
   for (std::size_t k = 0; k < heights.size(); ++k) heights[k] += second.heights()[k];
-  return Surface(a, std::move(heights),
-                 {.material = first.material(),
-                  .periodic = first.traits().periodic && second.traits().periodic,
-                  .aliased_share = {}});
+  const Surface sum(a, std::move(heights),
+                    {.material = first.material(),
+                     .periodic = first.traits().periodic && second.traits().periodic,
+                     .aliased_share = {}});
+  if (!first.recipe() || !second.recipe()) return sum;
+  return sum.made_by([one = first.recipe(), other = second.recipe()](int nx, int ny, Monitor& monitor) {
+    return plus((*one)(nx, ny, monitor), (*other)(nx, ny, monitor));
+  });
 }
 
 Surface cut(const Surface& surface, double fraction) {
   const double level = cut_level(surface.height_range(), fraction);
   Field heights = surface.heights();
-  for (double& h : heights.values()) h = std::min(h, level);
+  const auto flatten = [level](Field& z) {
+    for (double& h : z.values()) h = std::min(h, level);
+  };
+  flatten(heights);
   SurfaceTraits traits = surface.traits();
   if (fraction > 0) traits.aliased_share.reset();
-  return Surface(surface.grid(), std::move(heights), std::move(traits));
+  const Surface result(surface.grid(), std::move(heights), std::move(traits));
+  return surface.recipe() ? result.made_by(then(surface.recipe(), flatten)) : result;
 }
 
 Profile cut(const Profile& profile, double fraction) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Operations that change heights and leave the grid: scaling to a given amplitude, sums, and the
-// cutting off of peaks. Pure; O(n); throw nothing but Error.
+// cutting off of peaks. Pure; O(n); throw nothing but Error. A surface that can be made again on other cells
+// still can afterwards, with the factors and levels found here.
 #pragma once
 
 #include "engine/surface/profile.hpp"

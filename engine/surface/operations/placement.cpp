@@ -82,9 +82,16 @@ Surface shifted(const Surface& surface, double x, double y) {
       throw Error(ErrorCode::bad_value, "a shift is " + format_short(shift) + " m",
                   "give finite lengths `x` and `y`");
   const double right = x / grid.hx(), up = y / grid.hy();
-  if (is_whole(right) && is_whole(up))
-    return Surface(grid, shifted_by_cells(surface.heights(), wrapped(right, grid.nx), wrapped(up, grid.ny)),
-                   surface.traits());
+  if (is_whole(right) && is_whole(up)) {
+    const Surface moved(grid,
+                        shifted_by_cells(surface.heights(), wrapped(right, grid.nx), wrapped(up, grid.ny)),
+                        surface.traits());
+    if (!surface.recipe()) return moved;
+    // Cells that the shift is not a whole number of do not carry a surface with a step.
+    return moved.made_by([recipe = surface.recipe(), x, y](int nx, int ny, Monitor& monitor) {
+      return shifted((*recipe)(nx, ny, monitor), x, y);
+    });
+  }
   if (!surface.traits().periodic) {
     const bool along_x = !is_whole(right);
     const double cells = along_x ? right : up, cell = along_x ? grid.hx() : grid.hy();

@@ -96,6 +96,28 @@ Field along_axes(const Field& heights, int nx, int ny) {
 
 }  // namespace
 
+AtCells at_cells(const Surface& surface, int nx, int ny, Monitor& monitor) {
+  const Grid& old = surface.grid();
+  const Grid grid = make_grid(nx, ny, old.size_x, old.size_y);
+  if (grid == old) return {surface, AtCells::How::unchanged};
+  if (old.nx % nx == 0 && old.ny % ny == 0) {
+    const int step_x = old.nx / nx, step_y = old.ny / ny;
+    Field heights(nx, ny);
+    for (int j = 0; j < ny; ++j) {
+      const std::span<const double> from = surface.heights().row(j * step_y);
+      const std::span<double> to = heights.row(j);
+      for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i * static_cast<std::size_t>(step_x)];
+    }
+    SurfaceTraits traits = surface.traits();
+    traits.aliased_share.reset();
+    Surface sampled(grid, std::move(heights), std::move(traits));
+    return {surface.recipe() ? sampled.made_by(*surface.recipe()) : sampled, AtCells::How::sampled};
+  }
+  if (std::optional<Surface> again = surface.remade(nx, ny, monitor))
+    return {*std::move(again), AtCells::How::made_again};
+  return {resampled(surface, nx, ny), AtCells::How::interpolated};
+}
+
 Surface resampled(const Surface& surface, double nx, double ny) {
   const Grid& old = surface.grid();
   const Grid grid = make_grid(nx, ny, old.size_x, old.size_y);

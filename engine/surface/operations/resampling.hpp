@@ -15,4 +15,19 @@ namespace asperity {
 // share is dropped unless nothing changes. Throws Error{bad_value} for `cells` outside 1 … 65536.
 Surface resampled(const Surface& surface, double nx, double ny);
 
+// The same continuous surface sampled on other cells of its tile, as well as it is known.
+struct AtCells {
+  Surface surface;
+  enum class How {
+    unchanged,
+    sampled,       // cells that divide the old ones: the heights of these nodes, to the bit
+    made_again,    // by the generator, with all its waves and features
+    interpolated,  // as `resampled` does: nothing is known between the nodes
+  } how = How::unchanged;
+};
+// Unlike `resampled`, sampling drops no wave: those that the new cells cannot carry alias, as they do in a
+// surface generated there. The result keeps recipe and material. Costs a copy, what the generator costs, or
+// what `resampled` costs. Throws Error{bad_value} for `cells` outside 1 … 65536.
+AtCells at_cells(const Surface& surface, int nx, int ny, Monitor& monitor = Monitor::silent());
+
 }  // namespace asperity

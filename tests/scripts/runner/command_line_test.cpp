@@ -53,6 +53,12 @@ TEST_F(CommandLine, BadUsageEndsWithTwoAndMakesNothing) {
       {"check", "nothere.lua"},
       {"check", "good.lua", "--trust"},
       {"help", "nosuchthing"},
+      {"accuracy"},
+      {"accuracy", "nothere.lua"},
+      {"accuracy", "good.lua", "--at-most", "5 kg"},
+      {"accuracy", "good.lua", "--repeats", "0"},
+      {"accuracy", "good.lua", "--truth", "much"},
+      {"accuracy", "good.lua", "--nonsense"},
   };
   for (const auto& arguments : wrong) {
     const Outcome outcome = call(arguments);

@@ -2,7 +2,7 @@
 // run_script PROGRAM SCRIPT: runs a script by the real program and compares with what the head of the
 // script says it should do. Lines that begin with --! :
 //
-//   --! command: check              instead of run
+//   --! command: check              instead of run; or accuracy, explain
 //   --! flags: --limit-time 1s      options of the program (space between them)
 //   --! args: a b                   arguments of the script
 //   --! exit: 1                     the exit status; 0 if not said
@@ -96,7 +96,7 @@ class ScriptCase {
     Start start;
     start.command = {program_, command_, script_};
     start.command.insert(start.command.end(), flags.begin(), flags.end());
-    if (command_ == "run") start.command.insert(start.command.end(), {"--out", (folder / name).string()});
+    if (keeps_directory()) start.command.insert(start.command.end(), {"--out", (folder / name).string()});
     if (!arguments_.empty()) start.command.emplace_back("--");
     start.command.insert(start.command.end(), arguments_.begin(), arguments_.end());
     start.folder = folder;
@@ -112,7 +112,7 @@ class ScriptCase {
     for (const char* never : {"internal error", "Sanitizer", "terminate called", "runtime error: "})
       if (outcome.error.find(never) != std::string::npos) fail(std::string("standard error holds: ") + never);
     for (const Directive& check : checks_) look(check, outcome, run);
-    if (command_ == "run")
+    if (keeps_directory())
       for (const std::string& fault : faults_of_run(run)) fail(fault);
     else if (std::filesystem::directory_iterator(run.parent_path()) != std::filesystem::directory_iterator())
       fail("a check left files behind");
@@ -139,6 +139,8 @@ class ScriptCase {
     }
     fail("the script's head has an unknown word: " + check.key);
   }
+
+  bool keeps_directory() const { return command_ != "check" && command_ != "explain"; }
 
   void fail(const std::string& sentence) {
     std::printf("%s: %s\n", script_.c_str(), sentence.c_str());

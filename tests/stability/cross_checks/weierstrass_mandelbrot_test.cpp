@@ -38,7 +38,8 @@ TEST_P(Multiprecision, HeightsAreTheSumOfTheDefinition) {
     const auto draw = static_cast<std::uint64_t>(2 * k);
     const int i = static_cast<int>(stream.below(draw, static_cast<std::uint64_t>(o.nx)));
     const int j = static_cast<int>(stream.below(draw + 1, static_cast<std::uint64_t>(o.ny)));
-    const double error = std::abs(surface.height(i, j) - exact::weierstrass_mandelbrot_height(o, i, j)) / amplitude;
+    const double error =
+        std::abs(surface.height(i, j) - exact::weierstrass_mandelbrot_height(o, i, j)) / amplitude;
     EXPECT_LE(error, 1e-14) << i << ", " << j;  // measured 1.5e-15
   }
 }

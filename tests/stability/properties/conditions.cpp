@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact conditions as the state hands them out: the certificate, 0 <= p <= H, gap >= 0, the load, no
-// negative energy or plastic volume, and no number anywhere that is not one. Sums are in long double and
-// share nothing with the solver's.
+// negative energy or plastic volume, no number anywhere that is not one, and bounds on the algebraic error
+// that hold. Sums are in long double and share nothing with the solver's.
 #include <cmath>
+#include <limits>
 
 #include "tests/stability/properties/property.hpp"
 
@@ -116,6 +117,39 @@ std::optional<Broken> plasticity_is_wrong(const State& state) {
   return {};
 }
 
+// Against a solve to the last digits, which is exact within its own bounds.
+std::optional<Broken> bounds_are_wrong(const Trial& trial, const State& state) {
+  Trial tight = trial;
+  tight.scene.accuracy.tolerance = 1e-13;
+  tight.scene.accuracy.on_failure = Accuracy::OnFailure::best;
+  const State exact_state = pressed(tight);
+  const AlgebraicError &of = state.algebraic_error(), &beside = exact_state.algebraic_error();
+  struct {
+    const char* name;
+    double found, right, bound, own;
+  } const all[] = {
+      {"approach", state.approach(), exact_state.approach(), of.approach, beside.approach},
+      {"energy", state.energy(), exact_state.energy(), of.energy, beside.energy},
+      {"mean_gap", state.mean_gap(), exact_state.mean_gap(), of.mean_gap, beside.mean_gap},
+      {"peak_pressure", state.peak_pressure(), exact_state.peak_pressure(), of.peak_pressure,
+       beside.peak_pressure},
+      {"contacts", static_cast<double>(state.contacts()), static_cast<double>(exact_state.contacts()),
+       of.contacts, beside.contacts},
+      {"plastic_volume", of.plastic_volume ? state.plastic_volume() : 0,
+       of.plastic_volume ? exact_state.plastic_volume() : 0, of.plastic_volume.value_or(0),
+       beside.plastic_volume.value_or(0)},
+  };
+  for (const auto& q : all) {
+    const double digits = 2 * std::numeric_limits<double>::epsilon() * std::abs(q.found);
+    if (!(std::abs(q.found - q.right) <= q.bound + q.own + digits))
+      return Broken{"the algebraic error is a bound",
+                    std::string(q.name) + " " + text(q.found) + " within " + text(q.bound) + ", and it is " +
+                        text(q.right) + " within " + text(q.own),
+                    "print(st.error.algebraic." + std::string(q.name) + ")\n"};
+  }
+  return {};
+}
+
 Verdict check(const Trial& trial, std::uint64_t) {
   const State state = pressed(trial);
   if (!state.converged() || !(state.residual() <= trial.scene.accuracy.tolerance))
@@ -128,7 +162,7 @@ Verdict check(const Trial& trial, std::uint64_t) {
   if (auto broken = sums_are_wrong(trial, state)) return broken;
   if (trial.scene.plasticity)
     if (auto broken = plasticity_is_wrong(state)) return broken;
-  return {};
+  return bounds_are_wrong(trial, state);
 }
 
 }  // namespace

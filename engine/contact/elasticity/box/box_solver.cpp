@@ -65,6 +65,7 @@ class BoxSolver::UnderLoad final : public Solution {
            geometry().grid().cell_area();
   }
   Certificate certificate() const override;
+  SolutionError error() const override;
   PressureSplit split(double threshold) const override;
 
   Array<std::uint8_t> contact_mask() const override {
@@ -133,6 +134,36 @@ Certificate BoxSolver::UnderLoad::certificate() const {
   result.complementarity = apart.value() / total.value() / length;
   result.load = std::abs(mean - at_.pressure) / at_.pressure;
   return result;
+}
+
+// Every quantity is a monotone function of the approach, and the load fixes that but for rounding: the bounds
+// are what they are at both ends of it.
+SolutionError BoxSolver::UnderLoad::error() const {
+  SolutionError error{.load = 0.0};
+  if (!(at_.approach > 0)) return error;
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const double k = ready_->box.stiffness, n = static_cast<double>(drops().size());
+  const double cell = geometry().grid().cell_area(), depth = at_.approach;
+  const double wanted = at_.pressure / k * n;
+  double off =
+      rounding * depth + std::abs(drops().shortening(depth) - wanted) / static_cast<double>(touched_);
+  const auto low = [&] { return std::max(0.0, depth - off); };
+  const auto brackets = [&] {
+    return drops().shortening(low()) <= wanted * (1 - rounding) &&
+           drops().shortening(depth + off) >= wanted * (1 + rounding);
+  };
+  while (off < depth && !brackets()) off *= 2;
+  const double high = depth + off;
+  error.load = rounding * at_.load + k * std::abs(drops().shortening(depth) - wanted) * cell;
+  error.approach = off;
+  error.mean_gap = (drops().remaining_gap(low()) - drops().remaining_gap(high)) / n + rounding * mean_gap();
+  error.energy = 0.5 * k * cell * (drops().squared_shortening(high) - drops().squared_shortening(low())) +
+                 rounding * energy();
+  error.peak_pressure = k * off + rounding * peak_pressure();
+  error.contacts = {static_cast<std::int64_t>(drops().touched(low())),
+                    static_cast<std::int64_t>(drops().touched(high))};
+  error.may_differ = error.contacts.high - error.contacts.low;
+  return error;
 }
 
 PressureSplit BoxSolver::UnderLoad::split(double threshold) const {

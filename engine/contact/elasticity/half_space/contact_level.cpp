@@ -13,15 +13,19 @@ ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double
     : shape(level_shape),
       limit(std::move(pressure_limit)),
       mean_pressure(mean),
-      compliance(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight),
+      compliance(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, shape.single),
       preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, 8, shape.weight),
       short_wave_stiffness(std::numbers::pi / 4 / std::sqrt(shape.aspect)),
       heights_(raw_heights),
       origin_(height_origin),
-      factor_(height_factor) {}
+      factor_(height_factor),
+      unit_(mean > 0 && std::isfinite(mean) ? std::ldexp(1.0, std::ilogb(mean)) : 1) {
+  compliance.count_pressures_in(unit_);
+}
 
 void ContactLevel::gap(std::span<const double> p, std::span<double> g) {
-  apply(p, g);
+  ++applications;
+  compliance.apply_in_double(p, g);
   for_nodes(nodes(), [to = g.data(), h = heights_.data(), origin = origin_, factor = factor_](std::size_t k) {
     to[k] -= (h[k] - origin) * factor;
   });

@@ -22,7 +22,8 @@ struct LevelShape {
   int nx = 0, ny = 0;
   double aspect = 1;
   Boundary boundary = Boundary::periodic;
-  double weight = 1;  // of one transform, in transforms of the finest grid
+  double weight = 1;    // of one transform, in transforms of the finest grid
+  bool single = false;  // what steps change is computed in single precision, gaps of pressures in double
 
   std::size_t nodes() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
 };
@@ -50,18 +51,26 @@ class ContactLevel {
   double height(std::size_t k) const { return (heights_[k] - origin_) * factor_; }
   // Heights, and with them gaps, are counted from `height_origin` from now on.
   void count_from(double height_origin) { origin_ = height_origin; }
+  // A power of two, about the mean pressure.
+  double pressure_unit() const { return unit_; }
   double total_load() const { return mean_pressure * static_cast<double>(nodes()); }
 
   void apply(std::span<const double> p, std::span<double> u) {
     ++applications;
     compliance.apply(p, u);
   }
-  // g = K p − h.
+  // Row by row, as HalfSpaceCompliance::apply, of pressures in pressure_unit().
+  void apply(const HalfSpaceCompliance::Source& source, const HalfSpaceCompliance::Sink& sink,
+             std::span<double> u) {
+    ++applications;
+    compliance.apply(source, sink, u);
+  }
+  // g = K p − h, in double precision always.
   void gap(std::span<const double> p, std::span<double> g);
 
  private:
   std::span<const double> heights_;
-  double origin_, factor_;
+  double origin_, factor_, unit_;
 };
 
 }  // namespace asperity

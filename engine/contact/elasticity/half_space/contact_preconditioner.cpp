@@ -30,7 +30,9 @@ class ContactPreconditioner::Parts {
  public:
   Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps, double weight);
   void set_free(std::span<const std::uint8_t> free);
-  void apply(std::span<const double> r, std::span<double> z);
+  void apply(const Read& read, const Keep& keep);
+  std::size_t tiles() const { return tiles_.size(); }
+  std::size_t nodes() const { return free_.size(); }
 
  private:
   struct Tile {
@@ -78,9 +80,9 @@ class ContactPreconditioner::Parts {
   void sweep(Patch& patch, const Tile& tile, int sweeps, const Steps& steps) const;
   template <class Put>
   void load(Patch& patch, const Tile& tile, const Put& put) const;
-  void extend(const Tile& tile, std::span<const double> r, double scale);
-  void gather_back(const Tile& tile, std::span<const float> y, double scale, std::span<double> z);
-  double greatest(std::span<const double> r) const;
+  void extend(const Tile& tile, const Read& read, double scale);
+  void gather_back(std::size_t number, std::span<const float> y, double scale, const Keep& keep);
+  double greatest(const Read& read) const;
   std::size_t node(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(i);
   }
@@ -222,14 +224,23 @@ void ContactPreconditioner::Parts::sweep(Patch& patch, const Tile& tile, int swe
   }
 }
 
-void ContactPreconditioner::Parts::extend(const Tile& tile, std::span<const double> r, double scale) {
+void ContactPreconditioner::Parts::extend(const Tile& tile, const Read& read, double scale) {
   if (!tile.reaches_free) return;
+  constexpr std::size_t most = tile_width + 2 * 64;
+  double values[most];  // of a run
+  const auto convert_run = [&](std::size_t from, std::size_t length, float* to) {
+    for (std::size_t done = 0; done < length; done += most) {
+      const std::size_t part = std::min(most, length - done);
+      read(from + done, part, values);
+      convert(values, scale, part, to + done);
+    }
+  };
   const auto width = static_cast<std::size_t>(tile.width);
   float* const extended = pyramid_.input().data();
   if (tile.groups.empty()) {
     for (int j = tile.y; j < tile.y + tile.height; ++j) {
       const std::size_t k = node(tile.x, j);
-      convert(r.data() + k, scale, width, extended + k);
+      convert_run(k, width, extended + k);
       keep_free(free_.data() + k, width, extended + k);
     }
     return;
@@ -237,7 +248,7 @@ void ContactPreconditioner::Parts::extend(const Tile& tile, std::span<const doub
   const auto patch = borrow();
   load(*patch, tile, [&](std::size_t place, std::size_t from, std::size_t length) {
     float* const given = patch->given.data() + place;
-    convert(r.data() + from, scale, length, given);
+    convert_run(from, length, given);
     start_free(free_.data() + from, length, given, patch->factor.data() + place, patch->now.data() + place,
                patch->next.data() + place);
   });
@@ -248,11 +259,12 @@ void ContactPreconditioner::Parts::extend(const Tile& tile, std::span<const doub
 }
 
 // z = (y + N v) on the free set, v = Σ_{s < sweeps} (D N)^s D y.
-void ContactPreconditioner::Parts::gather_back(const Tile& tile, std::span<const float> y, double scale,
-                                               std::span<double> z) {
+void ContactPreconditioner::Parts::gather_back(std::size_t number, std::span<const float> y, double scale,
+                                               const Keep& keep) {
+  const Tile& tile = tiles_[number];
   const auto width = static_cast<std::size_t>(tile.width);
   if (!tile.holds_free) {
-    for (int j = tile.y; j < tile.y + tile.height; ++j) std::fill_n(z.data() + node(tile.x, j), width, 0.0);
+    for (int j = tile.y; j < tile.y + tile.height; ++j) keep(number, node(tile.x, j), width, nullptr, 0);
     return;
   }
   const auto patch = borrow();
@@ -273,37 +285,42 @@ void ContactPreconditioner::Parts::gather_back(const Tile& tile, std::span<const
     else
       std::copy_n(y.data() + k, width, sum);
     keep_free(free_.data() + k, width, sum);
-    convert(sum, scale, width, z.data() + k);
+    keep(number, k, width, sum, scale);
   }
 }
 
 // Roughly: of every sixteenth row, and of all only if that finds nothing.
-double ContactPreconditioner::Parts::greatest(std::span<const double> r) const {
+double ContactPreconditioner::Parts::greatest(const Read& read) const {
+  Array<double> row(static_cast<std::size_t>(nx_));
   for (const int step : {16, 1}) {
     double most = 0;
-    for (int j = 0; j < ny_; j += step)
-      for (std::size_t k = node(0, j); k < node(0, j) + static_cast<std::size_t>(nx_); ++k)
-        if (free_[k] != 0) most = std::max(most, std::abs(r[k]));
+    for (int j = 0; j < ny_; j += step) {
+      const std::uint8_t* const free = free_.data() + node(0, j);
+      read(node(0, j), row.size(), row.data());
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        const double value = free[i] != 0 ? std::abs(row[i]) : 0.0;
+        most = value > most ? value : most;
+      }
+    }
     if (most > 0) return most;
   }
   return 0;
 }
 
-void ContactPreconditioner::Parts::apply(std::span<const double> r, std::span<double> z) {
-  if (r.size() != free_.size() || z.size() != free_.size())
-    throw Error(ErrorCode::internal, "a preconditioner of another grid's values");
+void ContactPreconditioner::Parts::apply(const Read& read, const Keep& keep) {
   // Single precision has little range: near 1, and by a power of two, which rounds nothing.
-  const double most = greatest(r);
+  const double most = greatest(read);
+  const auto width = static_cast<std::size_t>(nx_);
   if (!(most > 0)) {
-    std::fill(z.begin(), z.end(), 0.0);
+    for (int j = 0; j < ny_; ++j) keep(0, node(0, j), width, nullptr, 0);
     return;
   }
   const int exponent = std::clamp(std::ilogb(most), -1000, 1000);
-  const auto tiles = static_cast<std::int64_t>(tiles_.size());
+  const auto count = static_cast<std::int64_t>(tiles_.size());
   const double shrink = std::ldexp(1.0, -exponent), grow = std::ldexp(1.0, exponent);
-  parallel_for(tiles, [&](std::int64_t k) { extend(tiles_[static_cast<std::size_t>(k)], r, shrink); });
+  parallel_for(count, [&](std::int64_t k) { extend(tiles_[static_cast<std::size_t>(k)], read, shrink); });
   const std::span<const float> y = pyramid_.apply();
-  parallel_for(tiles, [&](std::int64_t k) { gather_back(tiles_[static_cast<std::size_t>(k)], y, grow, z); });
+  parallel_for(count, [&](std::int64_t k) { gather_back(static_cast<std::size_t>(k), y, grow, keep); });
 }
 
 ContactPreconditioner::ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, int sweeps,
@@ -316,7 +333,21 @@ ContactPreconditioner& ContactPreconditioner::operator=(ContactPreconditioner&&)
 
 void ContactPreconditioner::set_free(std::span<const std::uint8_t> free) { parts_->set_free(free); }
 
-void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z) { parts_->apply(r, z); }
+void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z) {
+  if (r.size() != parts_->nodes() || z.size() != parts_->nodes())
+    throw Error(ErrorCode::internal, "a preconditioner of another grid's values");
+  parts_->apply([&](std::size_t first, std::size_t n, double* to) { std::copy_n(r.data() + first, n, to); },
+                [&](std::size_t, std::size_t first, std::size_t n, const float* values, double factor) {
+                  if (values)
+                    convert(values, factor, n, z.data() + first);
+                  else
+                    std::fill_n(z.data() + first, n, 0.0);
+                });
+}
+
+void ContactPreconditioner::apply(const Read& read, const Keep& keep) { parts_->apply(read, keep); }
+
+std::size_t ContactPreconditioner::tiles() const { return parts_->tiles(); }
 
 std::int64_t ContactPreconditioner::bytes(int nx, int ny, double aspect, Boundary boundary) {
   // The free set, the groups of eight nodes with their margins', and a patch a thread.

@@ -6,7 +6,9 @@
 // precision inside. No projection of the mean.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -29,6 +31,16 @@ class ContactPreconditioner {
   // z = M r; r is read on the free set only, z is 0 off it and may be r. r times a power of two gives z
   // times the same, bit for bit. The same bits for any number of threads. Not thread-safe.
   void apply(std::span<const double> r, std::span<double> z);
+
+  // The same, r and z passing by in stretches of a row. `read` puts r of the `n` nodes from `first` on into
+  // `to`, and may be asked more than once. `keep` takes z, `factor` times the values, which mean nothing off
+  // the free set, or null for no free node there, with the number of the tile, 0 … tiles(): the stretches of
+  // a tile come in their order on one thread.
+  using Read = std::function<void(std::size_t first, std::size_t n, double* to)>;
+  using Keep = std::function<void(std::size_t tile, std::size_t first, std::size_t n, const float* values,
+                                  double factor)>;
+  void apply(const Read& read, const Keep& keep);
+  std::size_t tiles() const;
 
   // What an object of this grid holds, at most.
   static std::int64_t bytes(int nx, int ny, double aspect, Boundary boundary);

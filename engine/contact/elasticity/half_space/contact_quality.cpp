@@ -40,11 +40,46 @@ void weigh(const Limit& limit, std::size_t k, double p, double g, double balance
   if constexpr (Limit::hardens) v[10] = open ? infinity : -gap;
 }
 
+// The same where no pressure is too large, of what tells anything there.
+inline void weigh_uncapped(double p, double g, double* v) {
+  const bool open = p <= 0;
+  const double q = open ? 0.0 : p;
+  v[0] = open ? 0.0 : 1.0;
+  v[1] = open ? 0.0 : g;
+  v[2] = q;
+  v[3] = q * g;
+  v[4] = p < 0 ? 1.0 : 0.0;
+  v[5] = g;
+}
+
+template <class Take>
+ContactQuality measure_uncapped(const ContactLevel& level, std::size_t nodes, Take take) {
+  const auto found = over_nodes<5, 1>(nodes, [=](std::size_t k, double* v) {
+    double pressure, gap;
+    take(k, pressure, gap);
+    weigh_uncapped(pressure, gap, v);
+  });
+  ContactQuality quality;
+  quality.interior = found[0];
+  quality.load = found[2];
+  quality.settled = found[4];
+  quality.within = found[4] == 0;
+  quality.interior_gap = found[0] > 0 ? found[1] / found[0] : found[5];
+  const double weighted = found[3] / found[2];
+  quality.offset = weighted;
+  quality.penetration = std::max(0.0, weighted - found[5]) / level.length;
+  quality.complementarity = quality.residual = quality.penetration;
+  if (!(weighted - found[5] == weighted - found[5])) quality.residual = infinity;
+  return quality;
+}
+
 // take(k, p, g) gives the pressure and gap of a node.
 template <class Limit, class Take>
 ContactQuality measure(const ContactLevel& level, const Limit& limit, std::span<const double> p,
                        std::span<const double> g, double balance, Take take) {
   const double upper = limit.upper();
+  if constexpr (!Limit::hardens)
+    if (!std::isfinite(upper)) return measure_uncapped(level, p.size(), take);
   constexpr std::size_t minima = Limit::hardens ? 4 : 3;
   const auto found = over_nodes<7, minima>(p.size(), [=, limit = limit](std::size_t k, double* v) {
     double pressure, gap;

@@ -16,13 +16,14 @@ struct DescentFields {
         gap(nodes),
         step(nodes),
         direction(nodes),
-        residual(nodes),
+        correction(nodes),
         free(nodes),
         old_free(nodes) {}
 
   Array<double> pressure;  // p: feasible between stages
   Array<double> gap;       // K p − h
-  Array<double> step, direction, residual;
+  Array<double> step, direction;
+  Array<float> correction;  // of the preconditioner, which has no more digits; times a power of two
   Array<double> old_pressure, old_gap;  // of the pass before; made when first needed
   Array<std::uint8_t> free, old_free;   // nodes the present pass may move
 };

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "engine/contact/elasticity/half_space/love_kernel.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier.hpp"
 #include "engine/core/fourier_filter.hpp"
+#include "engine/core/fourier_lane_filter.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -20,17 +23,13 @@ int period(int n, Boundary boundary) {
   return boundary == Boundary::periodic ? n : good_fourier_length(2 * n - 1);
 }
 
-// 2/|q| for waves 0 … period/2, the y wave running fastest; 0 for the mean.
-void periodic_multiplier(int nx, int ny, double aspect, std::span<double> multiplier) {
-  const int bins_x = nx / 2 + 1, bins_y = ny / 2 + 1;
-  parallel_for(bins_x, [&](std::int64_t a) {
-    const double qx = 2 * std::numbers::pi * static_cast<double>(a) / nx;
-    double* const column = multiplier.data() + a * bins_y;
-    for (int b = 0; b < bins_y; ++b) {
-      const double qy = 2 * std::numbers::pi * b / (ny * aspect);
-      column[b] = a == 0 && b == 0 ? 0 : 2 / std::hypot(qx, qy);
-    }
-  });
+// 2/|q| of the waves (a, b), b = 0 … period/2; 0 for the mean.
+void periodic_multiplier(int nx, int ny, double aspect, int a, std::span<double> factors) {
+  const double qx = 2 * std::numbers::pi * static_cast<double>(a) / nx;
+  for (std::size_t b = 0; b < factors.size(); ++b) {
+    const double qy = 2 * std::numbers::pi * static_cast<double>(b) / (ny * aspect);
+    factors[b] = a == 0 && b == 0 ? 0 : 2 / std::hypot(qx, qy);
+  }
 }
 
 // The transform of an even sequence, given from 0 to period/2, is real; it replaces it.
@@ -72,56 +71,172 @@ void free_multiplier(int period_x, int period_y, double aspect, std::span<double
 
 }  // namespace
 
+// By lanes where the period allows, else by the library's transforms.
 struct HalfSpaceCompliance::Parts {
-  int period_x, period_y;
+  int nx, ny, period_x, period_y;
+  double aspect;
   Boundary boundary;
   double weight;
-  FourierFilter filter;
-  Array<double> multiplier;  // the y wave runs fastest
+  std::optional<FourierLaneFilter<double>> lanes;
+  std::optional<FourierLaneFilter<float>> singles;
+  double scale = 1;  // of pressures, for `singles`
+  std::optional<FourierFilter> plain;
+  Array<double> multiplier;  // of `plain`; the y wave runs fastest
+  Array<double> field;       // where `plain` works if its result is kept nowhere
 
-  Parts(int nx, int ny, double aspect, Boundary boundary_, double weight_)
-      : period_x(period(nx, boundary_)),
+  Parts(int nx_, int ny_, double aspect_, Boundary boundary_, double weight_, bool single)
+      : nx(nx_),
+        ny(ny_),
+        period_x(period(nx, boundary_)),
         period_y(period(ny, boundary_)),
+        aspect(aspect_),
         boundary(boundary_),
-        weight(weight_),
-        filter(nx, ny, period_x, period_y),
-        multiplier(static_cast<std::size_t>(period_x / 2 + 1) * static_cast<std::size_t>(period_y / 2 + 1)) {
-    if (boundary == Boundary::periodic)
-      periodic_multiplier(nx, ny, aspect, multiplier);
+        weight(weight_) {
+    const bool by_lanes = FourierLaneFilter<double>::possible(period_x, period_y);
+    if (!by_lanes || boundary == Boundary::free) {
+      multiplier.resize(bins_x() * bins_y());
+      if (boundary == Boundary::periodic)
+        parallel_for(period_x / 2 + 1, [&](std::int64_t a) {
+          periodic_multiplier(nx, ny, aspect, static_cast<int>(a), column(static_cast<int>(a)));
+        });
+      else
+        free_multiplier(period_x, period_y, aspect, multiplier);
+    }
+    if (!by_lanes) {
+      plain.emplace(nx, ny, period_x, period_y);
+      return;
+    }
+    const auto factors = [this](int a, std::span<double> to) {
+      if (boundary == Boundary::periodic)
+        periodic_multiplier(nx, ny, aspect, a, to);
+      else
+        std::copy_n(column(a).data(), to.size(), to.data());
+    };
+    if (single)
+      singles.emplace(nx, ny, period_x, period_y, factors);
     else
-      free_multiplier(period_x, period_y, aspect, multiplier);
+      lanes.emplace(nx, ny, period_x, period_y, factors);
+    multiplier = Array<double>();
   }
 
-  std::span<const double> column(int a) const {
-    const auto length = static_cast<std::size_t>(period_y / 2 + 1);
-    return std::span(multiplier).subspan(static_cast<std::size_t>(a) * length, length);
+  std::size_t bins_x() const { return static_cast<std::size_t>(period_x / 2 + 1); }
+  std::size_t bins_y() const { return static_cast<std::size_t>(period_y / 2 + 1); }
+  std::span<double> column(int a) {
+    return std::span(multiplier).subspan(static_cast<std::size_t>(a) * bins_y(), bins_y());
+  }
+  // The factors of the waves (a, b), b = 0 … period_y/2.
+  void factors_of(int a, std::span<double> factors) {
+    if (lanes)
+      for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = lanes->factor(a, static_cast<int>(b));
+    else if (singles && boundary == Boundary::periodic)
+      periodic_multiplier(nx, ny, aspect, a, factors);
+    else if (singles)
+      for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = singles->factor(a, static_cast<int>(b));
+    else
+      std::copy_n(column(a).data(), factors.size(), factors.data());
   }
 };
 
-HalfSpaceCompliance::HalfSpaceCompliance(int nx, int ny, double aspect, Boundary boundary, double weight)
-    : parts_(std::make_unique<Parts>(nx, ny, aspect, boundary, weight)) {}
+HalfSpaceCompliance::HalfSpaceCompliance(int nx, int ny, double aspect, Boundary boundary, double weight,
+                                         bool single)
+    : parts_(std::make_unique<Parts>(nx, ny, aspect, boundary, weight, single)) {}
 
 HalfSpaceCompliance::~HalfSpaceCompliance() = default;
 HalfSpaceCompliance::HalfSpaceCompliance(HalfSpaceCompliance&&) noexcept = default;
 HalfSpaceCompliance& HalfSpaceCompliance::operator=(HalfSpaceCompliance&&) noexcept = default;
 
 void HalfSpaceCompliance::apply(std::span<const double> p, std::span<double> u) {
-  parts_->filter.apply(p, u, [this](int a, std::span<double> factors) {
-    const auto column = parts_->column(a);
-    std::copy(column.begin(), column.end(), factors.begin());
+  if (parts_->singles) {
+    cost::count_transforms(2 * parts_->weight);
+    return parts_->singles->apply(p, u, parts_->scale);
+  }
+  const std::ptrdiff_t nx = parts_->nx;
+  apply([&](int j, double*) { return p.data() + j * nx; }, {}, u);
+}
+
+void HalfSpaceCompliance::apply(const Source& source, const Sink& sink, std::span<double> u) {
+  Parts& parts = *parts_;
+  cost::count_transforms(2 * parts.weight);
+  if (parts.lanes) return parts.lanes->apply(source, sink, u);
+  if (parts.singles) return parts.singles->apply(source, sink, u);
+  const auto nx = static_cast<std::size_t>(parts.nx);
+  if (u.empty()) {
+    parts.field.resize(nx * static_cast<std::size_t>(parts.ny));
+    u = parts.field;
+  }
+  const auto row = [&](std::int64_t j) { return u.data() + static_cast<std::size_t>(j) * nx; };
+  parallel_for(parts.ny, [&](std::int64_t j) {
+    const double* const from = source(static_cast<int>(j), row(j));
+    if (from != row(j)) std::copy_n(from, nx, row(j));
   });
-  cost::count_transforms(2 * parts_->weight);
+  parts.plain->apply(u, u, [&](int a, std::span<double> factors) { parts.factors_of(a, factors); });
+  if (sink) parallel_for(parts.ny, [&](std::int64_t j) { sink(static_cast<int>(j), row(j)); });
+}
+
+bool HalfSpaceCompliance::single() const { return parts_->singles.has_value(); }
+
+void HalfSpaceCompliance::count_pressures_in(double unit) {
+  if (unit > 0 && std::isfinite(unit))
+    parts_->scale = std::ldexp(1.0, std::clamp(-std::ilogb(unit), -1000, 1000));
+}
+
+void HalfSpaceCompliance::apply_in_double(std::span<const double> p, std::span<double> u) {
+  Parts& parts = *parts_;
+  if (!parts.singles) return apply(p, u);
+  parts.singles->rest();
+  if (parts.boundary == Boundary::free) {
+    HalfSpaceCompliance exact(parts.nx, parts.ny, parts.aspect, parts.boundary, parts.weight);
+    return exact.apply(p, u);
+  }
+  FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
+  filter.apply(p, u, [&](int a, std::span<double> factors) {
+    periodic_multiplier(parts.nx, parts.ny, parts.aspect, a, factors);
+  });
+  cost::count_transforms(2 * parts.weight);
 }
 
 void HalfSpaceCompliance::apply_inverse(std::span<const double> u, std::span<double> p) {
   if (parts_->boundary == Boundary::free)
     throw Error(ErrorCode::internal, "a free half-space has no inverse filter");
-  parts_->filter.apply(u, p, [this](int a, std::span<double> factors) {
-    const auto column = parts_->column(a);
-    std::transform(column.begin(), column.end(), factors.begin(),
-                   [](double compliance) { return compliance > 0 ? 1 / compliance : 0; });
+  apply_period_inverse(u, p);
+}
+
+void HalfSpaceCompliance::apply_period_inverse(std::span<const double> u, std::span<double> p) {
+  Parts& parts = *parts_;
+  FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
+  filter.apply(u, p, [&](int a, std::span<double> factors) {
+    parts.factors_of(a, factors);
+    for (double& factor : factors) factor = factor > 0 ? 1 / factor : 0;
   });
-  cost::count_transforms(2 * parts_->weight);
+  cost::count_transforms(2 * parts.weight);
+}
+
+HalfSpaceCompliance::Spectrum HalfSpaceCompliance::spectrum() const {
+  const int period_x = parts_->period_x, period_y = parts_->period_y;
+  // Waves that one bin of the quarter of the spectrum stands for.
+  const auto waves = [](int bin, int period) { return bin == 0 || 2 * bin == period ? 1.0 : 2.0; };
+  Array<double> sums(static_cast<std::size_t>(period_x / 2 + 1)), inverse(sums.size());
+  Array<double> column(parts_->bins_y());
+  Spectrum found{std::numeric_limits<double>::infinity(), 0, 0, 0};
+  const bool mean_is_free = parts_->boundary == Boundary::periodic;
+  for (int a = 0; a <= period_x / 2; ++a) {
+    parts_->factors_of(a, column);
+    double sum = 0, inverse_sum = 0;
+    for (int b = 0; b <= period_y / 2; ++b) {
+      if (mean_is_free && a == 0 && b == 0) continue;
+      const double factor = column[static_cast<std::size_t>(b)];
+      found.least = std::min(found.least, factor);
+      found.greatest = std::max(found.greatest, factor);
+      sum += waves(b, period_y) * factor;
+      inverse_sum += waves(b, period_y) / factor;
+    }
+    sums[static_cast<std::size_t>(a)] = waves(a, period_x) * sum;
+    inverse[static_cast<std::size_t>(a)] = waves(a, period_x) * inverse_sum;
+  }
+  const double n = static_cast<double>(period_x) * period_y;
+  found.node = block_sum(sums) / n;
+  found.inverse_node = block_sum(inverse) / n;
+  return found;
 }
 
 double HalfSpaceCompliance::transform_work() const {
@@ -129,8 +244,11 @@ double HalfSpaceCompliance::transform_work() const {
   return n * std::log2(std::max(n, 2.0));
 }
 
-std::int64_t HalfSpaceCompliance::bytes(int nx, int ny, Boundary boundary) {
+std::int64_t HalfSpaceCompliance::bytes(int nx, int ny, Boundary boundary, bool single) {
   const int period_x = period(nx, boundary), period_y = period(ny, boundary);
+  if (FourierLaneFilter<double>::possible(period_x, period_y))
+    return single ? FourierLaneFilter<float>::bytes(nx, ny, period_x, period_y)
+                  : FourierLaneFilter<double>::bytes(nx, ny, period_x, period_y);
   return FourierFilter::bytes(nx, ny, period_x, period_y) +
          static_cast<std::int64_t>(sizeof(double)) * (period_x / 2 + 1) * (period_y / 2 + 1);
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -18,7 +19,9 @@ class HalfSpaceCompliance {
  public:
   // nx, ny >= 1; aspect > 0. An application counts 2·weight transforms: the cost of one transform of
   // this grid in transforms of the finest. Making one costs less than an application and counts none.
-  HalfSpaceCompliance(int nx, int ny, double aspect, Boundary boundary, double weight = 1);
+  // `single`: transforms and multiplier in single precision, where single() says so; fields stay double.
+  HalfSpaceCompliance(int nx, int ny, double aspect, Boundary boundary, double weight = 1,
+                      bool single = false);
   ~HalfSpaceCompliance();
   HalfSpaceCompliance(HalfSpaceCompliance&&) noexcept;
   HalfSpaceCompliance& operator=(HalfSpaceCompliance&&) noexcept;
@@ -28,16 +31,41 @@ class HalfSpaceCompliance {
   // is its own.
   void apply(std::span<const double> p, std::span<double> u);
 
+  // Whether transforms are in single precision: asked for, and the period even and without a prime factor
+  // over 7. u is then K p to some 1e-6 of the greatest u. `unit` is about what pressures are, to within
+  // twenty powers of ten; 1 at first.
+  bool single() const;
+  void count_pressures_in(double unit);
+  // As apply(), in double precision all the same.
+  void apply_in_double(std::span<const double> p, std::span<double> u);
+
+  // The same row by row, as FourierLaneFilter::apply: `source` gives rows of p, `sink` takes rows of u,
+  // which are kept in `u` unless it is empty. In single precision rows of p must be near 1.
+  using Source = std::function<const double*(int j, double* scratch)>;
+  using Sink = std::function<void(int j, const double* row)>;
+  void apply(const Source& source, const Sink& sink, std::span<double> u);
+
   // Periodic only: the pressure of mean 0 whose displacement is u, but for the mean of u: |q|/2. Costs
   // the same. Throws Error{internal} on a free boundary.
   void apply_inverse(std::span<const double> u, std::span<double> p);
 
+  // The inverse of the operator on its own period: as apply_inverse where the tile is periodic; on a free
+  // boundary that of the padded one, p of it giving Σ u p no less than Σ u K⁻¹ u. Costs the same.
+  void apply_period_inverse(std::span<const double> u, std::span<double> p);
+
+  // What the multiplier says of every node alike; of a periodic tile without its mean. O(n).
+  struct Spectrum {
+    double least = 0, greatest = 0;     // of the multiplier; `least` > 0 wherever it was ever looked at
+    double node = 0, inverse_node = 0;  // its mean over all waves, K_kk, and the mean of its inverse
+  };
+  Spectrum spectrum() const;
+
   // n log2 n of the transform, padding included.
   double transform_work() const;
 
-  // What an object of this grid holds. Periodic: a quarter of a grid where nx is a multiple of 8, else a
-  // grid more. Free: three grids.
-  static std::int64_t bytes(int nx, int ny, Boundary boundary);
+  // What an object of this grid holds. Periodic: a grid and a quarter, free: three grids; in single precision
+  // about half of that.
+  static std::int64_t bytes(int nx, int ny, Boundary boundary, bool single = false);
 
  private:
   struct Parts;

@@ -199,6 +199,7 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   answer.offset = cell.from_peak ? offset - peak : offset - units.origin;
   answer.iterations = cell.applications;
   answer.solver = cell.stage;
+  if (cell.single) answer.solver += " in single precision";
   if (cell.levels > 1) answer.solver += " on " + std::to_string(cell.levels) + " nested grids";
   certify(problem, answer);
   return answer;
@@ -230,7 +231,7 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   const Grid& grid = problem.grid;
 
   CellProblem cell;
-  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, 1};
+  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, 1, problem.single};
   cell.heights = problem.heights->values();
   cell.origin = units.origin;
   cell.factor = 1 / units.height;
@@ -251,6 +252,12 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
       warm = start_in_cells(units, *start);
     found = nested_descent(cell, warm.pressure, warm.gap, monitor);
     found.applications += before;
+    if (found.single && !found.converged) {  // as it might in double precision, too
+      before = found.applications;
+      cell.shape.single = false;
+      found = nested_descent(cell, {}, {}, monitor);
+      found.applications += before;
+    }
   }
   HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, found);
   if (!answer.converged && !problem.best_effort)

@@ -28,6 +28,9 @@ struct HalfSpaceProblem {
   YieldLaw yield;
   double tolerance = 1e-6;   // greatest entry of the certificate
   bool best_effort = false;  // hand out what was reached instead of throwing
+  // What steps change is computed in single precision, where the grid allows; pressures, gaps and the
+  // certificate are double all the same, so that the tolerance is met as ever, by a step or two more.
+  bool single = false;
 };
 
 struct HalfSpaceAnswer {

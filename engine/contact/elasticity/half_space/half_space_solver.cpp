@@ -10,6 +10,7 @@
 #include "engine/contact/elasticity/half_space/approach_solve.hpp"
 #include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/half_space_error.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -55,6 +56,7 @@ struct HalfSpaceSolver::Ready {
     problem.heights = {ready->geometry, &ready->geometry->combined()};
     problem.rms = rms_of(*problem.heights);
     problem.tolerance = plan.accuracy.tolerance;
+    problem.single = plan.accuracy.precision == Accuracy::Precision::single;
     problem.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
     if (ready->yield && ready->yield->hardens())
       ready->hardness = local_hardness(*ready->geometry, *ready->yield);
@@ -81,10 +83,15 @@ struct HalfSpaceSolver::Ready {
 
 class HalfSpaceSolver::UnderLoad final : public Solution {
  public:
-  // `problem` with the yield law that held; `factor` the softening by creep.
+  // `problem` with the yield law that held; `factor` the softening by creep; `asked` what error() is about.
   UnderLoad(std::shared_ptr<const Ready> ready, HalfSpaceProblem problem, HalfSpaceAnswer answer,
-            double factor)
-      : ready_(std::move(ready)), problem_(std::move(problem)), at_(std::move(answer)), factor_(factor) {}
+            double factor, const Reported& asked)
+      : ready_(std::move(ready)),
+        problem_(std::move(problem)),
+        at_(std::move(answer)),
+        factor_(factor),
+        asked_(asked),
+        fits_(ready_->yield && covered(ready_->yield->carried, carried())) {}
 
   const ContactGeometry& geometry() const override { return *ready_->geometry; }
   double load() const override { return at_.mean_pressure * problem_.grid.area(); }
@@ -95,6 +102,13 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
   int iterations() const override { return at_.iterations; }
   std::string_view solver() const override { return at_.solver; }
   Certificate certificate() const override { return at_.certificate; }
+  SolutionError error() const override {
+    Reported reported = asked_;
+    reported.mean_gap = mean_gap();
+    reported.energy = energy();
+    reported.plastic_volume = plastic_volume();
+    return half_space_error(problem_, at_, reported);
+  }
   double stiffness() const override {
     return at_.contacts > 0 ? contact_stiffness(problem_, at_, Monitor::silent()) : 0.0;
   }
@@ -135,8 +149,10 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
   double displacement(std::size_t k) const {
     return at_.gap[k] + (at_.approach - (geometry().combined_range().max - (*problem_.heights)[k]));
   }
+  CarriedLoad carried() const { return {at_.mean_pressure, factor_}; }
   // w: what the limit on the pressure leaves open.
   double yielded(std::size_t k) const {
+    if (fits_) return 0;
     const YieldLaw& law = problem_.yield;
     if (law.hardens()) {
       const double limit = law.yield ? (*law.yield)[k] : law.cap;
@@ -159,6 +175,8 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
   HalfSpaceProblem problem_;
   HalfSpaceAnswer at_;
   double factor_;
+  Reported asked_;
+  bool fits_;  // the bodies have carried this load as they lie
 };
 
 // Half the product of pressures and displacements. Where all of a periodic tile touches, the mean pressure
@@ -195,8 +213,10 @@ PressureSplit HalfSpaceSolver::UnderLoad::split(double threshold) const {
 
 std::optional<PlasticChange> HalfSpaceSolver::UnderLoad::plastic_change() const {
   if (!problem_.yield.limits() || at_.yielded == 0) return {};
+  if (fits_) return {};
   PlasticChange change{field([&](std::size_t k) { return yielded(k); }), {}};
   if (range(change.approach.values()).max == 0) return {};
+  if (at_.converged) change.carried = carried();
   if (problem_.yield.hardens())
     // At the reference dwell, so that the same press again finds nodes exactly as hard as it left them.
     change.hardness = field([&](std::size_t k) { return yielded(k) > 0 ? at_.pressure[k] / factor_ : 0.0; });
@@ -252,21 +272,25 @@ State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) cons
       ready_->yield && ready_->yield->creep ? softening(*ready_->yield->creep, request.dwell) : 1.0;
   HalfSpaceProblem problem = ready_->problem;
   problem.yield = ready_->law(factor);
+  Reported asked;
   HalfSpaceAnswer answer = [&] {
     switch (request.by) {
       case PressBy::load:
         return solve_at_pressure(problem, request.value / problem.grid.area(), nullptr, monitor);
       case PressBy::approach:
-        return solve_at_approach(problem, request.value, monitor);
       case PressBy::indentation:
-        return solve_at_approach(problem, request.value * height, monitor);
+        asked.prescribed = Prescribed::approach;
+        asked.asked_approach = request.by == PressBy::approach ? request.value : request.value * height;
+        return solve_at_approach(problem, asked.asked_approach, monitor);
       case PressBy::flatten:
+        asked.prescribed = Prescribed::flattening;
         return solve_at_flattening(problem, request.value, monitor);
       default:
         return solve_at_pressure(problem, request.value, nullptr, monitor);
     }
   }();
-  auto solution = std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(answer), factor);
+  auto solution =
+      std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(answer), factor, asked);
   return State(std::move(solution), plan_, elastic(scope));
 }
 

@@ -160,7 +160,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
     } else {
       const CoarserGrid& from = *steps[l + 1].from;
       prolong(from, carried, 1 / from.pitch_x, step.shape, p);
-      carried = {};
+      carried = Array<double>();
     }
     project_to_load(p, {}, upper, level.total_load(), p);
 
@@ -179,10 +179,11 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
       answer.converged = end.stage.converged;
       answer.applications = level.applications;
       answer.stage = end.name;
+      answer.single = level.compliance.single();
     } else {
       to_level_set(upper, level.short_wave_stiffness, at.interior_gap, fields.gap, p);
       carried = std::move(p);
-      step.heights = {};
+      step.heights = Array<double>();
     }
   }
   return answer;

@@ -35,6 +35,7 @@ struct CellAnswer {
   bool converged = false;
   int applications = 0;  // on the finest grid
   int levels = 1;
+  bool single = false;  // steps were computed in single precision
   std::string stage;
 };
 

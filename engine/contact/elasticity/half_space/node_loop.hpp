@@ -120,19 +120,26 @@ struct Lanes {
   }
 };
 
+// Over the nodes from `begin` to `end`, on this thread.
+template <std::size_t sums, std::size_t minima, class Take, class Term>
+std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, Take take,
+                                               const Term& term) {
+  const Term own = term;
+  Lanes<sums, minima> block;
+  std::size_t k = begin;
+  for (; k + nodes_a_chunk <= end; k += nodes_a_chunk)
+    if (take(k, k + nodes_a_chunk)) block.take_chunk(k, own);
+  for (std::size_t lane = 0; k < end; ++k, lane = (lane + 1) % lanes_a_block) block.take(k, lane, own);
+  return block.total();
+}
+
 template <std::size_t sums, std::size_t minima, class Take, class Term>
 std::array<double, sums + minima> gather(std::size_t nodes, Take take, const Term& term) {
   using Block = Lanes<sums, minima>;
   const std::size_t blocks = (nodes + nodes_a_block - 1) / nodes_a_block;
   Array<typename Block::Parts> parts(blocks);
   for_node_blocks(nodes, [&](std::size_t begin, std::size_t end) {
-    const Term own = term;
-    Block block;
-    std::size_t k = begin;
-    for (; k + nodes_a_chunk <= end; k += nodes_a_chunk)
-      if (take(k, k + nodes_a_chunk)) block.take_chunk(k, own);
-    for (std::size_t lane = 0; k < end; ++k, lane = (lane + 1) % lanes_a_block) block.take(k, lane, own);
-    parts[begin / nodes_a_block] = block.total();
+    parts[begin / nodes_a_block] = gather_range<sums, minima>(begin, end, take, term);
   });
   typename Block::Parts total;
   for (std::size_t i = 0; i < Block::size; ++i) {
@@ -168,6 +175,32 @@ std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
 template <std::size_t sums, class Term>
 std::array<double, sums> over_marked_nodes(std::span<const std::uint8_t> marks, Term term) {
   return node_loop::gather<sums, 0>(marks.size(), node_loop::Marked{marks.data()}, term);
+}
+
+// A stretch of nodes on this thread, for what hands out rows: body(k) for each, and sums of term(k, v); with
+// `marks`, of all the nodes, as for_marked_nodes and over_marked_nodes.
+template <class Body>
+void for_stretch(std::size_t begin, std::size_t end, const Body& body) {
+  const Body own = body;
+  for (std::size_t k = begin; k < end; ++k) own(k);
+}
+template <std::size_t sums, class Term>
+std::array<double, sums> over_stretch(std::size_t begin, std::size_t end, const Term& term) {
+  return node_loop::gather_range<sums, 0>(begin, end, node_loop::All{}, term);
+}
+template <std::size_t sums, class Term>
+std::array<double, sums> over_marked_stretch(const std::uint8_t* marks, std::size_t begin, std::size_t end,
+                                             const Term& term) {
+  return node_loop::gather_range<sums, 0>(begin, end, node_loop::Marked{marks}, term);
+}
+
+// The sums of stretches, added up in their order.
+template <std::size_t sums>
+std::array<double, sums> added_up(const Array<std::array<double, sums>>& parts) {
+  std::array<double, sums> total{};
+  for (const auto& part : parts)
+    for (std::size_t i = 0; i < sums; ++i) total[i] += part[i];
+  return total;
 }
 
 }  // namespace asperity

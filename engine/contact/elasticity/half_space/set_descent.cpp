@@ -2,11 +2,13 @@
 #include "engine/contact/elasticity/half_space/set_descent.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/contact_quality.hpp"
+#include "engine/contact/elasticity/half_space/descent_nodes.hpp"
 #include "engine/contact/elasticity/half_space/free_set.hpp"
 #include "engine/contact/elasticity/half_space/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/set_preconditioner.hpp"
@@ -24,40 +26,6 @@ constexpr double jump = 10;  // a pass whose residual is so many times the one b
 constexpr int jumps_in_a_cycle = 2;
 constexpr int most_renewals = 50;
 
-// The fields by plain pointers and the law by value: what the loops over the nodes take along.
-template <class Limit>
-struct Nodes {
-  double *pressure, *gap, *step, *direction, *residual;
-  std::uint8_t* free;
-  Limit limit;
-  double balance;
-
-  double settled(std::size_t k) const { return limit.settle(k, pressure[k], gap[k], balance); }
-  // The gap of a free node with the opening it would have if it went on yielding, or not, as marked.
-  double total_gap(std::size_t k) const {
-    const double elastic_gap = gap[k];
-    if constexpr (Limit::hardens) {
-      const double opening = limit.compliance * (pressure[k] - limit.yields_at(k));
-      return elastic_gap + (free[k] == yielding ? opening : 0.0);
-    } else {
-      return elastic_gap;
-    }
-  }
-  bool moves(std::size_t k) const {
-    if constexpr (Limit::hardens)
-      return free[k] == elastic || free[k] == yielding;
-    else
-      return free[k] != fixed;
-  }
-  // Whether pressure q, settled, belongs to the elastic interior, which is shifted to the load.
-  bool shifts(std::size_t k, [[maybe_unused]] double q, [[maybe_unused]] bool any_interior) const {
-    if constexpr (Limit::hardens)
-      return q > 0 && (q < limit.yields_at(k) || !any_interior);
-    else  // the same of the pressure as of q, without waiting for it
-      return (pressure[k] > 0) & (pressure[k] < limit.upper());
-  }
-};
-
 template <class Limit>
 class Descent {
  public:
@@ -73,9 +41,9 @@ class Descent {
 
  private:
   std::size_t nodes() const { return f_.pressure.size(); }
-  Nodes<Limit> view() {
-    return {f_.pressure.data(), f_.gap.data(),  f_.step.data(), f_.direction.data(),
-            f_.residual.data(), f_.free.data(), limit_,         balance_};
+  DescentNodes<Limit> view() const {
+    return {f_.pressure.data(),   f_.gap.data(),  f_.step.data(), f_.direction.data(),
+            f_.correction.data(), f_.free.data(), limit_,         balance_};
   }
   ContactQuality quality();
   // What the pressures lack of feasible ones: each settled, those of the elastic interior shifted to the
@@ -89,7 +57,7 @@ class Descent {
     fresh_ = true;
     balance_ = std::numeric_limits<double>::quiet_NaN();
   }
-  double form_residual();
+  double residual_norm() const;
   double precondition();
   void settle_step(const ContactQuality& at);
   bool descend(int steps);
@@ -102,12 +70,13 @@ class Descent {
   int most_;
   FreeSet set_;
   double mean_gap_ = 0;  // of the balancing nodes
-  double surplus_ = 0;   // of load in `residual`, a balancing node
+  double surplus_ = 0;   // of load in `correction`, a balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
   double untaken_ = 0;  // length along `direction` that the pressures and gaps have yet to go
   bool fresh_ = false;
   bool have_direction_ = false;
   double direction_rz_ = 0;
+  Array<double> work_;  // of ground that hardens
 };
 
 // Takes the last step on the way.
@@ -159,28 +128,57 @@ std::optional<double> Descent<Limit>::shift_to_load(const ContactQuality& at) {
   return first - (found[0] - load) / found[1];
 }
 
-// residual = what the gaps of the free nodes lack of their mean; off them it means nothing. Returns its norm.
+// Of what the gaps of the free nodes lack of their mean.
 template <class Limit>
-double Descent<Limit>::form_residual() {
+double Descent<Limit>::residual_norm() const {
   const auto squares =
       over_marked_nodes<1>(f_.free, [n = view(), mean = mean_gap_](std::size_t k, double* v) {
         const double all = mean - n.total_gap(k), r = n.moves(k) ? all : 0.0;
-        n.residual[k] = r;
         v[0] = r * r;
       });
   return std::sqrt(squares[0]);
 }
 
-// From the residual: residual = M r, the load not yet kept, 0 off the free nodes; returns r·(M r with the
-// load kept).
+// correction = M r, r what the gaps of the free nodes lack of their mean, the load not yet kept; means
+// nothing off them. Returns r·(M r with the load kept).
 template <class Limit>
 double Descent<Limit>::precondition() {
-  preconditioner_.apply(f_.free, f_.residual);
-  const auto sums = over_marked_nodes<2>(f_.free, [n = view(), mean = mean_gap_](std::size_t k, double* v) {
-    const double all = n.residual[k], r = mean - n.total_gap(k), here = n.moves(k) ? all : 0.0;
-    v[0] = here;
-    v[1] = here * r;
-  });
+  const double shrink = 1 / level_.pressure_unit();
+  const auto weigh = [n = view(), mean = mean_gap_](std::size_t k, double* v) {
+    const double all = static_cast<double>(n.correction[k]), r = mean - n.total_gap(k);
+    v[0] = n.moves(k) ? all : 0.0;
+    v[1] = n.moves(k) ? all * r : 0.0;
+  };
+  std::array<double, 2> sums;
+  if constexpr (Limit::hardens) {
+    work_.resize(nodes());
+    for_marked_nodes(f_.free, [n = view(), to = work_.data(), mean = mean_gap_](std::size_t k) {
+      const double all = mean - n.total_gap(k);
+      to[k] = n.moves(k) ? all : 0.0;
+    });
+    preconditioner_.apply(f_.free, work_);
+    for_marked_nodes(f_.free, [n = view(), from = work_.data(), shrink](std::size_t k) {
+      n.correction[k] = static_cast<float>(from[k] * shrink);
+    });
+    sums = over_marked_nodes<2>(f_.free, weigh);
+  } else {
+    Array<std::array<double, 2>> parts(level_.preconditioner.tiles());
+    const auto read = [gap = f_.gap.data(), mean = mean_gap_](std::size_t first, std::size_t n, double* to) {
+      for (std::size_t i = 0; i < n; ++i) to[i] = mean - gap[first + i];
+    };
+    const auto put = [&](std::size_t tile, std::size_t first, std::size_t n, const float* values,
+                         double factor) {
+      if (!values) return;
+      float* const to = f_.correction.data() + first;
+      const double times = factor * shrink;
+      for (std::size_t i = 0; i < n; ++i) to[i] = static_cast<float>(static_cast<double>(values[i]) * times);
+      const auto part = over_marked_stretch<2>(f_.free.data(), first, first + n, weigh);
+      for (std::size_t i = 0; i < 2; ++i) parts[tile][i] += part[i];
+    };
+    std::fill(parts.begin(), parts.end(), std::array<double, 2>{});
+    level_.preconditioner.apply(read, put);
+    sums = added_up(parts);
+  }
   surplus_ = sums[0] / set_.balancing_count();
   return sums[1];
 }
@@ -194,38 +192,56 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
     project(at, f_.step);
     std::swap(f_.free, f_.old_free);
   }
-  form_residual();
   precondition();
   const Freedom balancing = set_.balancing();
+  const auto nx = static_cast<std::size_t>(level_.shape.nx);
+  const double unit = level_.pressure_unit(), shrink = 1 / unit;
   const auto advance = [=, n = view(), surplus = surplus_](std::size_t k, double target) {
-    const double p = n.pressure[k], z = n.residual[k] - (n.free[k] == balancing ? surplus : 0.0);
-    const double descent = richardson_step * z, x = (target - p) + (n.moves(k) ? descent : 0.0);
-    n.step[k] = x;
+    const double p = n.pressure[k];
+    const double z = static_cast<double>(n.correction[k]) - (n.free[k] == balancing ? surplus : 0.0);
+    const double descent = richardson_step * unit * z, x = (target - p) + (n.moves(k) ? descent : 0.0);
     n.pressure[k] = p + x;
+    return x * shrink;
   };
-  if (shift) {
-    for_nodes(nodes(), [=, n = view(), by = *shift, upper = limit_.upper()](std::size_t k) {
-      const double q = n.settled(k), moved = q + by, positive = moved > 0 ? moved : 0.0;
-      const double shifted = moved < upper ? positive : upper;
-      advance(k, n.shifts(k, q, true) ? shifted : q);
-    });
-  } else {
-    for_nodes(nodes(), [=, n = view()](std::size_t k) { advance(k, n.step[k]); });
-  }
-  level_.apply(f_.step, f_.step);
+  const auto source = [&](int j, double* step) -> const double* {
+    const std::size_t begin = static_cast<std::size_t>(j) * nx;
+    const auto to = step - begin;
+    if (shift) {
+      for_stretch(begin, begin + nx, [=, n = view(), by = *shift, upper = limit_.upper()](std::size_t k) {
+        const double q = n.settled(k), moved = q + by, positive = moved > 0 ? moved : 0.0;
+        const double shifted = moved < upper ? positive : upper;
+        to[k] = advance(k, n.shifts(k, q, true) ? shifted : q);
+      });
+    } else {
+      for_stretch(begin, begin + nx, [=, n = view()](std::size_t k) { to[k] = advance(k, n.step[k]); });
+    }
+    return step;
+  };
+  // Ground that goes on yielding once it has settled is not among what balances here.
+  const Freedom balances = set_.balancing();
+  Array<std::array<double, 1>> rows(static_cast<std::size_t>(level_.shape.ny));
+  const auto sink = [&](int j, const double* image) {
+    const std::size_t begin = static_cast<std::size_t>(j) * nx;
+    rows[static_cast<std::size_t>(j)] = over_stretch<1>(
+        begin, begin + nx, [n = view(), balances, unit, from = image - begin](std::size_t k, double* v) {
+          n.gap[k] += from[k] * unit;
+          const double gap = n.total_gap(k);
+          v[0] = n.free[k] == balances ? gap : 0.0;
+        });
+  };
+  level_.apply(source, sink, {});
+  auto sums = added_up(rows);
   if (set_.settling_count > 0) {
     for (std::uint8_t& kind : f_.free)
       if (kind == settling) kind = yielding;
     set_.yielding_count += set_.settling_count;
     set_.settling_count = 0;
     preconditioner_.set_free(f_.free);
+    sums = over_nodes<1>(nodes(), [n = view(), now = set_.balancing()](std::size_t k, double* v) {
+      const double gap = n.total_gap(k);
+      v[0] = n.free[k] == now ? gap : 0.0;
+    });
   }
-  const Freedom balances = set_.balancing();
-  const auto sums = over_nodes<1>(nodes(), [n = view(), balances](std::size_t k, double* v) {
-    n.gap[k] += n.step[k];
-    const double gap = n.total_gap(k);
-    v[0] = n.free[k] == balances ? gap : 0.0;
-  });
   mean_gap_ = sums[0] / set_.balancing_count();
 }
 
@@ -233,34 +249,48 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
 template <class Limit>
 bool Descent<Limit>::descend(int steps) {
   const Freedom balancing = set_.balancing();
+  const auto nx = static_cast<std::size_t>(level_.shape.nx);
+  const bool from_rest = steps == 0;
   double start = 0;
   while (steps < steps_a_pass) {
-    const double norm = form_residual();
     // A pass that begins with conjugate gradients ends when it has gained enough for this free set.
-    if (steps == 0)
-      start = norm;
-    else if (norm < enough_reduction * start)
-      break;
+    if (from_rest) {
+      const double norm = residual_norm();
+      if (steps == 0)
+        start = norm;
+      else if (norm < enough_reduction * start)
+        break;
+    }
     const double rz = precondition();
     const double keep = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
     direction_rz_ = rz;
     const auto turn = [=, n = view(), surplus = surplus_](std::size_t k) {
-      const double z = n.residual[k] - (n.free[k] == balancing ? surplus : 0.0);
+      const double z = static_cast<double>(n.correction[k]) - (n.free[k] == balancing ? surplus : 0.0);
       const double old = n.direction[k], next = z + (keep != 0 ? keep * old : 0.0);
       n.direction[k] = n.moves(k) ? next : 0.0;
     };
-    // An old direction is of the same free set, and 0 off it.
-    have_direction_ ? for_marked_nodes(f_.free, turn) : for_nodes(nodes(), turn);
     have_direction_ = true;
-    level_.apply(f_.direction, f_.step);
-    const double slope = limit_.yielding_slope();
-    const auto sums = over_marked_nodes<2>(f_.free, [=, n = view()](std::size_t k, double* v) {
-      const double d = n.direction[k];
-      double image = n.step[k];
-      if constexpr (Limit::hardens) image += n.free[k] == yielding ? slope * d : 0.0;
-      v[0] = d * image;
-      v[1] = n.free[k] == balancing ? image : 0.0;
-    });
+    const auto source = [&](int j, double*) -> const double* {
+      const std::size_t begin = static_cast<std::size_t>(j) * nx;
+      for_stretch(begin, begin + nx, turn);
+      return f_.direction.data() + begin;
+    };
+    Array<std::array<double, 2>> rows(static_cast<std::size_t>(level_.shape.ny));
+    const auto sink = [&](int j, const double*) {
+      const std::size_t begin = static_cast<std::size_t>(j) * nx;
+      rows[static_cast<std::size_t>(j)] =
+          over_marked_stretch<2>(f_.free.data(), begin, begin + nx,
+                                 [=, n = view(), slope = limit_.yielding_slope()](std::size_t k, double* v) {
+                                   const double d = n.direction[k];
+                                   double image = n.step[k];
+                                   if constexpr (Limit::hardens)
+                                     image += n.free[k] == yielding ? slope * d : 0.0;
+                                   v[0] = d * image;
+                                   v[1] = n.free[k] == balancing ? image : 0.0;
+                                 });
+    };
+    level_.apply(source, sink, f_.step);
+    const auto sums = added_up(rows);
     if (!(sums[0] > 0) || !(rz > 0)) {
       have_direction_ = false;
       break;

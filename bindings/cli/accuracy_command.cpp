@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/cli/accuracy_command.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+
+#include "bindings/cli/terminal_monitor.hpp"
+#include "bindings/cli/watchdog.hpp"
+#include "bindings/lua/argument.hpp"
+#include "bindings/lua/refinement.hpp"
+#include "bindings/lua/study.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/text.hpp"
+#include "engine/experiment/run_directory.hpp"
+#include "engine/study/study_chart.hpp"
+#include "engine/study/study_text.hpp"
+
+namespace asperity::cli {
+
+namespace {
+
+constexpr const char* study_name = "accuracy";
+constexpr const char* wanted =
+    "`asperity accuracy` studies a script that returns one number: end it with one, as in "
+    "`return st.area_fraction`";
+
+// Standard output goes nowhere while it lives.
+class Muted {
+ public:
+  Muted() {
+    std::fflush(stdout);
+    kept_ = ::dup(STDOUT_FILENO);
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
+    if (nowhere >= 0) ::close(nowhere);
+  }
+  ~Muted() {
+    std::fflush(stdout);
+    if (kept_ < 0) return;
+    ::dup2(kept_, STDOUT_FILENO);
+    ::close(kept_);
+  }
+  Muted(const Muted&) = delete;
+  Muted& operator=(const Muted&) = delete;
+
+ private:
+  int kept_ = -1;
+};
+
+// Where a repeated run writes; gone, with all in it, afterwards.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "asperity-accuracy-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr)
+      throw Error(ErrorCode::bad_file, "no temporary folder can be made for the repeated runs");
+    path_ = pattern;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// The script in a state of its own, ready to run.
+class ScriptRun {
+ public:
+  ScriptRun(RunContext& context, std::shared_ptr<RunDirectory> run,
+            std::shared_ptr<lua::Refinement> refinement)
+      : context_(context), session_(context.monitor) {
+    session_.run = std::move(run);
+    session_.refinement = std::move(refinement);
+    session_.exit_hook = [this](int) {
+      const std::string why = std::string("the script ended by os.exit; ") + wanted;
+      context_.run->finish(RunStatus::failed, why);
+      context_.monitor.clear();
+      std::fprintf(stderr, "asperity: %s\n", why.c_str());
+      std::fflush(nullptr);
+      std::_Exit(1);
+    };
+    state_ = make_state(session_, context.command);
+    watching_.emplace(context.watchdog, state_.get());
+  }
+
+  StudyAnswer result(Monitor& monitor) {
+    const lua::Session::Reporting reporting(session_, monitor);
+    lua_State* L = state_.get();
+    if (execute(L, context_.command, context_.text, 2) != LUA_OK) {
+      stop_flag().check();
+      return {{}, lua::error_text(L, -1)};
+    }
+    const lua::Argument value(L, -2), message(L, -1);
+    if (value.is_number()) return {value.number(), ""};
+    if (value.is_nil()) return {{}, message.is_text() ? std::string(message.text()) : std::string()};
+    throw Error(ErrorCode::bad_value, "the script returned " + value.describe(), wanted);
+  }
+
+ private:
+  RunContext& context_;
+  lua::Session session_;
+  lua::State state_;
+  std::optional<Watchdog::Watching> watching_;  // goes before the state
+};
+
+class ScriptWork final : public StudyWork {
+ public:
+  explicit ScriptWork(RunContext& context) : context_(context) {}
+
+  void prepare(const Knobs& knobs) override {
+    ready_.reset();
+    scratch_.emplace();
+    RunSetup setup;
+    setup.script_name = context_.command.script;
+    setup.script_text = context_.text;
+    setup.out = scratch_->path() / "run";
+    setup.trusted = context_.command.trust;
+    setup.arguments = context_.command.arguments;
+    setup.seed = static_cast<std::int64_t>(context_.command.seed);
+    setup.threads = thread_count();
+    auto refinement = std::make_shared<lua::Refinement>();
+    refinement->cells_factor = number_of(knobs, "cells_factor").value_or(1);
+    refinement->tolerance = number_of(knobs, "tolerance");
+    ready_.emplace(context_, std::make_shared<RunDirectory>(setup), std::move(refinement));
+  }
+  StudyAnswer ask(const Knobs&, Monitor& monitor) override { return ready_->result(monitor); }
+  void record(std::span<const StudyRun> runs) override {
+    lua::record_calls(context_.run.get(), study_name, runs);
+  }
+
+ private:
+  RunContext& context_;
+  std::optional<ScratchFolder> scratch_;
+  std::optional<ScriptRun> ready_;
+};
+
+struct FirstRun {
+  double seconds = 0;
+  std::shared_ptr<lua::Refinement> used = std::make_shared<lua::Refinement>();
+};
+
+// The script as it stands, in the run directory: its output is shown, and what it uses is noted.
+FirstRun run_as_written(RunContext& context) {
+  FirstRun first;
+  ScriptRun run(context, context.run, first.used);
+  const double begun = WorkPrecision::steady_seconds();
+  const StudyAnswer answer = run.result(context.monitor);
+  first.seconds = WorkPrecision::steady_seconds() - begun;
+  if (answer.value) return first;
+  if (!answer.failure.empty()) throw Error(ErrorCode::bad_value, answer.failure);
+  throw Error(ErrorCode::bad_value, "the script returned nothing", wanted);
+}
+
+StudyWay way(const std::string& name, std::vector<double> factors, std::vector<double> tolerances) {
+  std::vector<KnobSweep> knobs;
+  const auto add = [&](const char* knob, const std::vector<double>& values) {
+    if (values.empty()) return;
+    KnobSweep sweep{knob, {}, values.size() > 1};
+    sweep.values.assign(values.begin(), values.end());
+    knobs.push_back(std::move(sweep));
+  };
+  add("cells_factor", factors);
+  add("tolerance", tolerances);
+  return make_way(name, std::move(knobs));
+}
+
+// Which grids and tolerances to try, and what to take for the truth.
+StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor& monitor) {
+  const bool grids = first.used->grids > 0, contacts = first.used->contacts > 0;
+  if (!grids && !contacts)
+    throw Error(ErrorCode::bad_value,
+                "the script makes no surface from `cells` and no contact, so that nothing can "
+                "be made finer",
+                "write a study of its own with lab.work_precision");
+  StudyRequest request;
+  request.repeats = command.repeats;
+  request.at_most = std::max(command.at_most - first.seconds, 1e-9);
+  // Twice the cells cost a little over four times as much; a truth may take half of what there is.
+  const double finest = command.truth || 4.4 * first.seconds < 0.5 * command.at_most ? 2 : 1;
+  if (grids) {
+    std::vector<double> factors;
+    for (const double factor : {0.25, 0.5, 1.0, 2.0})
+      if (command.truth || factor < finest) factors.push_back(factor);
+    request.ways.push_back(way("finer grid", factors, {}));
+  }
+  if (contacts) request.ways.push_back(way("tighter tolerance", {}, {1e-2, 1e-3, 1e-4, 1e-6, 1e-8}));
+  if (command.truth) {
+    request.truth = *command.truth;
+    return request;
+  }
+  const double tightest = grids ? 1e-8 : 1e-10;
+  request.truth = way("truth", grids ? std::vector<double>{finest} : std::vector<double>{},
+                      contacts ? std::vector<double>{std::min(first.used->tightest.load(), tightest)}
+                               : std::vector<double>{})
+                      .settings.front();
+  if (grids && finest == 1)
+    monitor.inform(
+        "a grid twice as fine would take more than half of the time there is: the truth is the grid that "
+        "the script gives");
+  return request;
+}
+
+}  // namespace
+
+int accuracy(const AccuracyCommand& command) {
+  return in_run_directory(command.run, [&command](RunContext& context) -> std::string {
+    const FirstRun first = run_as_written(context);
+    std::fflush(stdout);
+    ScriptWork work(context);
+    WorkPrecision study(plan(command, first, context.monitor), work, context.monitor);
+    lua::record_request(context.run.get(), study_name, study.result().request);
+    try {
+      const Muted muted;
+      study.run();
+    } catch (const std::exception&) {
+      lua::record_result(context.run.get(), study_name, study.result());
+      throw;
+    }
+    const StudyResult& result = study.result();
+    lua::record_result(context.run.get(), study_name, result);
+    context.monitor.clear();
+    std::printf("%s\n", study_text(result).c_str());
+    if (first.used->grids > 0)
+      std::printf(
+          "cells_factor multiplies every `cells` that the script gives; without it they are as written.\n");
+    if (first.used->contacts > 0)
+      std::printf("tolerance replaces that of every contact; the script's own is %s at the tightest.\n",
+                  format_short(first.used->tightest.load()).c_str());
+    std::fflush(stdout);
+    const LineChart chart = study_chart(result, context.command.script);
+    const std::filesystem::path file = context.run->path_for(std::string(study_name) + ".svg");
+    for (const std::string& warning : draw(chart, file)) context.monitor.warn(warning);
+    return "";
+  });
+}
+
+}  // namespace asperity::cli

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a script will compute, found by running it without its solves: surfaces are made, contacts are
+// planned, and each press that the script comes to is noted with its plan. Contacts of the same plan are
+// shown once. A loop over a sweep turns once, and an ensemble runs its first case, which stands for all of
+// them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/contact/plan.hpp"
+#include "engine/experiment/json.hpp"
+
+namespace asperity::lua {
+
+class Explanation {
+ public:
+  // A call that solves this plan; in `what`'s words, "contact:press".
+  void note(const Plan& plan, const std::string& what, std::int64_t solves = 1);
+
+  // What is noted while it lives is done so many times.
+  class Repeating {
+   public:
+    Repeating(Explanation* explanation, std::int64_t times);
+    ~Repeating();
+    Repeating(const Repeating&) = delete;
+    Repeating& operator=(const Repeating&) = delete;
+
+   private:
+    Explanation* explanation_;  // may be null
+    std::int64_t outer_ = 1;
+  };
+
+  std::string text() const;  // several lines, each ended
+  Json json() const;
+
+ private:
+  struct Planned {
+    Plan plan;
+    std::vector<std::pair<std::string, std::int64_t>> calls;
+    std::int64_t solves() const;
+  };
+  std::vector<Planned> planned_;
+  std::int64_t times_ = 1;
+};
+
+}  // namespace asperity::lua

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/chosen_accuracy.hpp"
+
+#include <cmath>
+
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+std::string cells_text(int nx, int ny) { return std::to_string(nx) + " x " + std::to_string(ny) + " cells"; }
+
+std::string percent_text(double share) {
+  return std::isfinite(share) ? format_short(100 * share, 2) + " %" : std::string("no limit");
+}
+
+std::string ChosenAccuracy::reason() const {
+  std::string result = percent_text(asked.error) + " of " + joined(asked.of, " and ") +
+                       " was asked for; on " + cells_text(nx, ny) + " it comes to " + percent_text(error);
+  if (asked.of.size() > 1) result += " of " + of;
+  // The last grid that was not enough.
+  const TriedGrid* before = nullptr;
+  for (const TriedGrid& grid : tried)
+    if (grid.nx != nx || grid.ny != ny) before = &grid;
+  if (before != nullptr)
+    result += ", on " + cells_text(before->nx, before->ny) +
+              (before->note.empty() ? " to " + percent_text(before->error) : " " + before->note);
+  if (!met()) result += "; finer cells were not to be had";
+  return result;
+}
+
+std::string ChosenAccuracy::text() const {
+  return cells_text(nx, ny) + (source.empty() ? "" : " (" + source + ")") + ", tolerance " +
+         format_short(tolerance) + ", " + (precision == Accuracy::Precision::single ? "single" : "double") +
+         " precision: " + reason();
+}
+
+}  // namespace asperity

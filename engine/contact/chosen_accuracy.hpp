@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What was chosen for an error that a script asked for, and why: the grids that were tried, what each
+// reached, and the one that was kept. A record for the reader; how it is found is in
+// experiment/accuracy_choice.hpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/contact/scene.hpp"
+#include "engine/core/cost.hpp"
+
+namespace asperity {
+
+struct TriedGrid {
+  int nx = 0, ny = 0;
+  double tolerance = 0;
+  // Greatest relative error among the quantities asked for, with the margin of the estimate and the algebraic
+  // bound in it; infinite where the value grows from grid to grid, or its quantity is zero and its error is
+  // not.
+  double error = 0;
+  std::string of;    // the quantity that has it
+  std::string note;  // why this grid does not count, or empty
+  Cost cost;         // transforms in those of this grid
+};
+
+struct ChosenAccuracy {
+  AskedError asked;
+  int nx = 0, ny = 0;
+  double tolerance = 0;
+  Accuracy::Precision precision = Accuracy::Precision::double_;
+  double error = 0;  // of this state, as in TriedGrid
+  std::string of;
+  std::string source;  // how the bodies were put on these cells
+  std::vector<TriedGrid> tried;
+  // Of the quantities asked for, at the press that chose. A later value below 1e-9 of it counts as zero (what
+  // has yielded once yields no more under less load), and its error against this one.
+  std::vector<double> values;
+
+  bool met() const { return error <= asked.error; }
+  std::string reason() const;  // one sentence
+  std::string text() const;    // one line: cells, tolerance, precision and the reason
+};
+
+// "64 x 64 cells"; "1.2 %".
+std::string cells_text(int nx, int ny);
+std::string percent_text(double share);
+
+}  // namespace asperity

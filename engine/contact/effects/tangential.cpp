@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/effects/tangential.hpp"
+
+#include <cmath>
+#include <variant>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+// 1/G and ν; a rigid body gives way to nothing. Other bodies have both properties: elasticity asked.
+struct Shear {
+  double compliance = 0, poisson = 0;
+};
+Shear shear_of(const Material* material) {
+  if (material == nullptr || material->rigid) return {};
+  return {2 * (1 + *material->poisson) / *material->young, *material->poisson};
+}
+
+struct Sums {
+  double tangential = 0, normal = 0, mixed = 0;
+};
+Sums sums_of(const ContactGeometry& geometry) {
+  const Shear lower = shear_of(lower_material(geometry.lower())),
+              upper = shear_of(upper_material(geometry.upper()));
+  Sums sums;
+  for (const Shear& body : {lower, upper}) {
+    sums.tangential += (2 - body.poisson) * body.compliance / 4;
+    sums.normal += (1 - body.poisson) * body.compliance / 2;
+  }
+  sums.mixed = ((1 - 2 * lower.poisson) * lower.compliance - (1 - 2 * upper.poisson) * upper.compliance) / 4;
+  return sums;
+}
+
+}  // namespace
+
+double mindlin_ratio(const ContactGeometry& geometry) {
+  const Sums sums = sums_of(geometry);
+  return sums.tangential / sums.normal;
+}
+
+double dundurs_beta(const ContactGeometry& geometry) {
+  const Sums sums = sums_of(geometry);
+  return sums.mixed / sums.normal;
+}
+
+void plan_tangential(const TangentialOptions& options, const ContactGeometry& geometry, Plan& plan) {
+  TangentialOptions filled = options;
+  std::string sentence;
+  if (std::holds_alternative<BoxOperator>(plan.elasticity)) {
+    if (!options.compliance_ratio)
+      throw Error(ErrorCode::bad_value,
+                  "`compliance_ratio` of the effect `tangential` is not given, and box elements have no "
+                  "Poisson's ratio to set it by",
+                  "give the tangential over the normal compliance of a box; upright columns of Poisson's "
+                  "ratio zero have 2");
+  } else {
+    if (!options.compliance_ratio) filled.compliance_ratio = mindlin_ratio(geometry);
+    constexpr double noticeable = 0.01;
+    const double beta = dundurs_beta(geometry);
+    if (std::abs(beta) >= noticeable)
+      sentence = "; Dundurs' beta is " + format_short(beta, 2) + ": that shear and pressure mix is left out";
+  }
+  plan.sliding.tangential = filled;
+  plan.terms.push_back({"tangential", "sideways the bodies give way " +
+                                          format_short(*filled.compliance_ratio) +
+                                          " times as much as normally" + std::move(sentence)});
+}
+
+}  // namespace asperity

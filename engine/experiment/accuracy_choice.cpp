@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The tolerance starts at a thousandth of the error asked for, where the rigorous bound on what a solve
+// leaves undone is mostly below the error of the cells; where it is still too wide, the same grid is solved
+// again more tightly.
+#include "engine/experiment/accuracy_choice.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/contact/discretisation_error.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/text.hpp"
+#include "engine/experiment/part_monitor.hpp"
+#include "engine/surface/operations/resampling.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr int fewest_cells_to_begin = 64;
+constexpr double tightest = 1e-10, loosest = 1e-3;
+
+double transform_work(int nx, int ny) {
+  const double n = static_cast<double>(nx) * ny;
+  return n * std::log2(std::max(n, 2.0));
+}
+
+double rms_of(const Field& heights) {
+  const double middle = mean(heights.values());
+  Array<double> squares(heights.size());
+  for (std::size_t k = 0; k < heights.size(); ++k) squares[k] = (heights[k] - middle) * (heights[k] - middle);
+  return std::sqrt(mean(squares));
+}
+
+// --- the bodies on other cells
+
+struct Placed {
+  Scene scene;
+  Pose pose;
+  std::string source;
+};
+
+using Node = LatticeIsometry::Node;
+
+std::string_view word(AtCells::How how) {
+  switch (how) {
+    case AtCells::How::unchanged:
+      return "as given";
+    case AtCells::How::sampled:
+      return "nodes of the cells given";
+    case AtCells::How::made_again:
+      return "generated again";
+    default:
+      return "interpolated";
+  }
+}
+
+Placed placed_on(const Scene& scene, const Pose& pose, int nx, int ny, Monitor& monitor) {
+  const Grid& given = scene.lower.grid();
+  if (nx == given.nx && ny == given.ny) return {scene, pose, std::string(word(AtCells::How::unchanged))};
+  AtCells lower = at_cells(scene.lower, nx, ny, monitor);
+  Scene there = scene;
+  there.lower = std::move(lower.surface);
+  std::string source(word(lower.how));
+  LatticeIsometry lattice = LatticeIsometry(nx, ny).turned(pose.lattice().quarters());
+  if (const auto* upper = std::get_if<Surface>(&scene.upper)) {
+    const int ratio_x = given.nx / nx, ratio_y = given.ny / ny;
+    if (pose.on_lattice() && nx * ratio_x == given.nx && ny * ratio_y == given.ny) {
+      // Of the upper body, the nodes that lie over those taken of the lower one.
+      Field heights(nx, ny);
+      for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) {
+          const Node over = lattice.to_lower(Node{i, j});
+          const Node own = pose.lattice().to_upper(Node{over.i * ratio_x, over.j * ratio_y});
+          heights(i, j) = upper->heights()(own.i, own.j);
+        }
+      SurfaceTraits traits = upper->traits();
+      traits.aliased_share.reset();
+      there.upper = Surface(there.lower.grid(), std::move(heights), std::move(traits));
+    } else {
+      AtCells own = at_cells(*upper, nx, ny, monitor);
+      if (own.how != lower.how) source += " and " + std::string(word(own.how));
+      there.upper = std::move(own.surface);
+      const int finer_x = nx / given.nx, finer_y = ny / given.ny;
+      if (scene.boundary == Boundary::periodic && pose.on_lattice() && finer_x * given.nx == nx &&
+          finer_y * given.ny == ny) {
+        // The middle of the nodes, about which it is turned over, moves with the cells.
+        const Node first = pose.lattice().to_upper(Node{0, 0});
+        const Node now = lattice.to_lower(Node{first.i * finer_x, first.j * finer_y});
+        lattice = lattice.shifted(-now.i, -now.j);
+      }
+    }
+  }
+  Pose turned = lattice;
+  if (!pose.on_lattice()) turned = turned.turned(pose.rest(), there.lower.grid());
+  return {std::move(there), turned, std::move(source)};
+}
+
+// --- the error of a state
+
+// The bound on a quantity against the exact solution on the same grid; 0 where it has none.
+double algebraic_bound(const State& state, std::string_view quantity) {
+  const AlgebraicError& e = state.algebraic_error();
+  const std::pair<std::string_view, double> bounds[] = {
+      {"load", e.load.value_or(0)},
+      {"pressure", e.pressure.value_or(0)},
+      {"approach", e.approach},
+      {"indentation", e.indentation},
+      {"separation", e.separation},
+      {"mean_gap", e.mean_gap},
+      {"energy", e.energy},
+      {"peak_pressure", e.peak_pressure},
+      {"secant_stiffness", e.secant_stiffness.value_or(0)},
+      {"area", e.area},
+      {"area_fraction", e.area_fraction},
+      {"corrected_area_fraction", e.corrected_area_fraction},
+      {"plastic_volume", e.plastic_volume.value_or(0)},
+      {"plastic_fraction", e.plastic_fraction.value_or(0)}};
+  for (const auto& [name, bound] : bounds)
+    if (name == quantity) return bound;
+  return 0;
+}
+
+struct Judged {
+  double error = 0, algebraic = 0;  // relative; the first holds the second
+  std::string of;
+};
+
+// Bounds cost a little, so they are looked at only where the estimates alone are good enough. `values` are
+// those that a choice began with, or empty.
+Judged judged(const State& state, const AskedError& asked, const std::vector<double>& values = {}) {
+  constexpr double no_value = 1e-9;
+  std::vector<double> estimates, scales;
+  for (std::size_t k = 0; k < asked.of.size(); ++k) {
+    const DiscretisationEstimate estimate = discretisation_estimate(state, asked.of[k]);
+    double scale = std::abs(estimate.value);
+    if (k < values.size() && scale < no_value * std::abs(values[k])) scale = std::abs(values[k]);
+    const double error = estimate.margin * estimate.error;
+    estimates.push_back(error == 0 ? 0.0 : error / scale);
+    scales.push_back(scale);
+  }
+  const auto worst =
+      static_cast<std::size_t>(std::max_element(estimates.begin(), estimates.end()) - estimates.begin());
+  Judged result{estimates[worst], 0, asked.of[worst]};
+  if (!(result.error <= asked.error)) return result;
+  for (std::size_t k = 0; k < asked.of.size(); ++k) {
+    const double bound = algebraic_bound(state, asked.of[k]);
+    const double algebraic = bound == 0 ? 0.0 : bound / scales[k];
+    if (estimates[k] + algebraic > result.error) {
+      result.error = estimates[k] + algebraic;
+      result.of = asked.of[k];
+    }
+    result.algebraic = std::max(result.algebraic, algebraic);
+  }
+  return result;
+}
+
+struct Trial {
+  Scene scene;
+  std::shared_ptr<const ContactGeometry> geometry;
+  Plan plan;
+  std::shared_ptr<const Solver> solver;
+  std::optional<State> state;
+  std::string source;
+};
+
+Trial make_trial(Placed placed, double tolerance) {
+  Trial trial{std::move(placed.scene), {}, {}, {}, {}, std::move(placed.source)};
+  trial.scene.accuracy.tolerance = tolerance;
+  trial.scene.accuracy.estimate = true;
+  trial.scene.accuracy.chosen = true;
+  trial.geometry = std::make_shared<const ContactGeometry>(trial.scene, placed.pose);
+  trial.plan = make_plan(trial.scene, *trial.geometry);
+  // A coarse grid that misses its tolerance is not the last word.
+  Plan lenient = trial.plan;
+  lenient.accuracy.on_failure = Accuracy::OnFailure::best;
+  trial.solver = make_solver(lenient, trial.geometry);
+  return trial;
+}
+
+// Coarse to fine, through the cells given.
+std::vector<Grid> grids_to_try(const Grid& given, const Grid& finest) {
+  Grid grid = given;
+  while (grid.nx % 2 == 0 && grid.ny % 2 == 0 && std::max(grid.nx, grid.ny) / 2 >= fewest_cells_to_begin &&
+         !coarser_grids({grid.nx / 2, grid.ny / 2, grid.size_x, grid.size_y}).empty()) {
+    grid.nx /= 2;
+    grid.ny /= 2;
+  }
+  std::vector<Grid> grids;
+  for (; grid.nx <= finest.nx && grid.ny <= finest.ny; grid.nx *= 2, grid.ny *= 2) grids.push_back(grid);
+  return grids;
+}
+
+// The trial before, and the finer of the two grids that it was compared with.
+std::shared_ptr<const CoarserSolutions> coarser_than(const PressRequest& request, const State& before) {
+  std::vector<CoarserSolutions::Level> levels{{before.beside(nullptr), 2.0}};
+  levels.push_back(before.coarser()->levels().front());
+  return std::make_shared<const CoarserSolutions>(request, std::move(levels));
+}
+
+[[noreturn]] void refuse(const ChosenAccuracy& reached, const std::string& where) {
+  throw Error(ErrorCode::not_converged,
+              "`error` = " + format_short(reached.asked.error) + " of " + quoted(reached.of) +
+                  " was asked for, and " + where + " it comes to " + percent_text(reached.error),
+              std::isfinite(reached.error)
+                  ? "ask for " + format_short(2 * reached.error, 1) +
+                        ", or give on_failure=\"best\" to have what was reached"
+                  : "it grows from grid to grid without end or is zero there: ask for another quantity, or "
+                    "give on_failure=\"best\" to have what was reached");
+}
+
+}  // namespace
+
+double first_tolerance(double error) { return std::clamp(error / 1000, tightest, loosest); }
+
+std::string choice_text(const Scene& scene, const Plan& plan) {
+  if (!scene.accuracy.asked) return {};
+  const AskedError& asked = *scene.accuracy.asked;
+  const std::string error = percent_text(asked.error) + " of " + joined(asked.of, " and ");
+  if (scene.accuracy.chosen)
+    return "cells and tolerance as the first press chose them for an error of " + error;
+  const std::vector<Grid> grids = grids_to_try(scene.lower.grid(), finest_grid(scene.lower.grid(), plan));
+  return "the first press chooses cells and tolerance for an error of " + error + ", from " +
+         cells_text(grids.front().nx, grids.front().ny) + " up to " +
+         cells_text(grids.back().nx, grids.back().ny) + "; what follows is of the cells given";
+}
+
+Grid finest_grid(const Grid& given, const Plan& plan) {
+  double most = most_bytes_of_a_choice;
+  if (const std::int64_t limit = memory::limit(); limit > 0)
+    most = std::min(most, 0.8 * static_cast<double>(limit - memory::held()));
+  Grid finest = given;
+  double bytes = static_cast<double>(plan.bytes_peak());
+  while (std::max(finest.nx, finest.ny) <= max_cells / 2 && 4 * bytes <= most) {
+    finest.nx *= 2;
+    finest.ny *= 2;
+    bytes *= 4;
+  }
+  return finest;
+}
+
+AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geometry,
+                               const PressRequest& request, Monitor& monitor) {
+  const AskedError& asked = *scene.accuracy.asked;
+  const Grid& given = geometry.grid();
+  const std::vector<Grid> grids = grids_to_try(given, finest_grid(given, make_plan(scene, geometry)));
+  const double rms_given = rms_of(geometry.combined());
+  const auto begun = std::chrono::steady_clock::now();
+
+  ChosenAccuracy chosen;
+  chosen.asked = asked;
+  chosen.precision = scene.accuracy.precision;
+  double tolerance = first_tolerance(asked.error);
+  const CostScope scope;
+  Cost last;  // of the press that is kept
+  std::optional<Trial> trial;
+  int endless = 0;
+  for (std::size_t k = 0; k < grids.size(); ++k) {
+    const Grid& grid = grids[k];
+    const auto shares = static_cast<double>(grids.size());
+    PartMonitor part(monitor, "choice of cells", cells_text(grid.nx, grid.ny),
+                     static_cast<double>(k) / shares, static_cast<double>(k + 1) / shares, begun);
+    part.begin();
+    const std::optional<State> before = trial ? trial->state : std::nullopt;
+    const Placed placed = placed_on(scene, geometry.pose(), grid.nx, grid.ny, part);
+    for (bool again = true; again;) {
+      again = false;
+      const CostScope here;
+      trial = make_trial(placed, tolerance);
+      State state = trial->solver->press(request, part).costing_also(trial->solver->preparation());
+      last = here.so_far();
+      state =
+          state.beside(before ? coarser_than(request, *before)
+                              : solve_coarser(trial->scene, *trial->geometry, trial->plan, request, part));
+      Judged found = judged(state, asked);
+      std::string note;
+      constexpr double alike = 0.1;
+      if (grid.nx < given.nx && std::abs(rms_of(trial->geometry->combined()) - rms_given) > alike * rms_given)
+        note = "the heights were not carried";
+      else if (!state.converged())
+        note = "the tolerance was missed";
+      if (!note.empty()) found.error = std::max(found.error, 2 * asked.error);
+      const Cost cost = here.so_far();
+      chosen.tried.push_back({grid.nx, grid.ny, tolerance, found.error, found.of, note, cost});
+      trial->state = std::move(state);
+      chosen.nx = grid.nx;
+      chosen.ny = grid.ny;
+      chosen.tolerance = tolerance;
+      chosen.error = found.error;
+      chosen.of = found.of;
+      chosen.source = trial->source;
+      // More cells would not help where the bound of the solve is what is missing.
+      if (!chosen.met() && note.empty() && found.error - found.algebraic <= asked.error &&
+          tolerance > tightest) {
+        tolerance = std::max(tolerance / 10, tightest);
+        again = true;
+      }
+      endless = std::isinf(found.error) ? endless + 1 : 0;
+    }
+    if (chosen.met() || endless == 3) break;
+  }
+  if (!chosen.met() && scene.accuracy.on_failure == Accuracy::OnFailure::error)
+    refuse(chosen, "on " + cells_text(chosen.nx, chosen.ny) +
+                       (endless == 3 ? "" : ", the finest that memory allows,"));
+
+  // Every solver counted transforms of its own grid; they count as those of the grid chosen.
+  double surplus = 0;
+  for (const TriedGrid& tried : chosen.tried)
+    surplus += (1 - transform_work(tried.nx, tried.ny) / transform_work(chosen.nx, chosen.ny)) *
+               tried.cost.transforms;
+  cost::count_transforms(-surplus);
+  for (const std::string& quantity : asked.of)
+    chosen.values.push_back(discretisation_estimate(*trial->state, quantity).value);
+  Cost others = scope.so_far();
+  others.seconds -= last.seconds;
+  others.transforms -= last.transforms;
+
+  trial->plan = make_plan(trial->scene, *trial->geometry);
+  trial->plan.choice = choice_text(trial->scene, trial->plan);
+  trial->solver = make_solver(trial->plan, trial->geometry);
+  State state = trial->state->costing_also({others, {{"choice", others}}})
+                    .chosen_as(std::make_shared<const ChosenAccuracy>(std::move(chosen)));
+  return {std::move(trial->scene), std::move(trial->geometry), std::move(trial->plan),
+          std::move(trial->solver), std::move(state)};
+}
+
+State held_to(const State& state, const ChosenAccuracy& chosen, const Scene& scene) {
+  ChosenAccuracy now = chosen;
+  const Judged found = judged(state, chosen.asked, chosen.values);
+  now.error = found.error;
+  now.of = found.of;
+  if (!now.met() && scene.accuracy.on_failure == Accuracy::OnFailure::error)
+    refuse(now, "on the " + cells_text(now.nx, now.ny) + " that the first press of this contact chose");
+  return state.chosen_as(std::make_shared<const ChosenAccuracy>(std::move(now)));
+}
+
+}  // namespace asperity

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cells and tolerance chosen for an error that was asked for: the same press of the same surfaces on grids
+// from coarse to fine, each twice the cells of the one before, until the estimate of the discretisation
+// error (contact/discretisation_error.hpp), times the margin that covers 19 scenes in 20, and the algebraic
+// bound together are within what was asked for. The grids before a grid are the coarser ones its estimate
+// needs, so nothing is solved twice. Surfaces that generators made are made again with all their waves and
+// features; others are sampled at every second node, and beyond the cells they came with interpolated, which
+// adds no roughness that was not measured. The precision is the one named: single precision saves a tenth of
+// the memory, and no time that would show before some 2048 cells a side. Two rough bodies lie on each other
+// as they did on the cells given, exactly on coarser cells and on a periodic boundary; on finer cells of a
+// free one the upper body is turned over about the middle of the new nodes, up to one given cell away.
+#pragma once
+
+#include <memory>
+
+#include "engine/contact/chosen_accuracy.hpp"
+#include "engine/contact/plan.hpp"
+#include "engine/contact/solver.hpp"
+#include "engine/core/monitor.hpp"
+
+namespace asperity {
+
+// Memory of a solve that no grid passes, unless the run's own limit leaves less.
+inline constexpr double most_bytes_of_a_choice = 4.0 * (std::int64_t{1} << 30);
+
+struct AccuracyChoice {
+  Scene scene;  // the bodies on the cells chosen, with the accuracy chosen
+  std::shared_ptr<const ContactGeometry> geometry;
+  Plan plan;
+  std::shared_ptr<const Solver> solver;
+  State state;  // under the request, with its estimate, the choice, and the cost of all that was tried
+};
+
+// For a contact that no event has changed yet, pressed by more than zero. Cost: about 1.4 times that of the
+// last press, counted as `choice` apart from it. Throws what a press throws, and Error{not_converged} with
+// what was reached where the finest grid does not meet the error, unless the scene takes the best there is.
+AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geometry,
+                               const PressRequest& request, Monitor& monitor = Monitor::silent());
+
+// The error of a later press on the cells that were chosen, recorded in the state. Throws
+// Error{not_converged} where it is above what was asked for, unless `scene` takes the best there is.
+State held_to(const State& state, const ChosenAccuracy& chosen, const Scene& scene);
+
+// The tolerance that a choice begins with.
+double first_tolerance(double error);
+
+// What a contact that asks for an error is going to do, or has done, as one line of its plan; empty where it
+// does not ask.
+std::string choice_text(const Scene& scene, const Plan& plan);
+
+// The finest cells that may be chosen, given those that a contact came with and what it holds there.
+Grid finest_grid(const Grid& given, const Plan& plan);
+
+}  // namespace asperity

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A plan of a contact as JSON: the same struct that Plan::text() prints.
+#pragma once
+
+#include "engine/contact/plan.hpp"
+#include "engine/experiment/json.hpp"
+
+namespace asperity {
+
+Json to_json(const Plan& plan);
+
+}  // namespace asperity

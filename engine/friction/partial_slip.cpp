@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/friction/partial_slip.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+const std::array<std::string, 2> names_of_fields = {"shear", "stick"};
+
+// Q/(f P), which must not pass 1 but for rounding.
+double ratio_of(const ShearRequest& request, double load) {
+  if (!(request.friction > 0 && std::isfinite(request.friction)))
+    throw Error(ErrorCode::bad_value, "`friction` is " + format_short(request.friction),
+                "give a finite coefficient above zero");
+  if (request.force.has_value() == request.ratio.has_value())
+    throw Error(ErrorCode::bad_value,
+                std::string("`force` and `ratio` are ") + (request.force ? "both" : "not") + " given",
+                "give one of both");
+  if (request.ratio) {
+    if (!(*request.ratio >= 0 && *request.ratio <= 1))
+      throw Error(ErrorCode::bad_value, "`ratio` is " + format_short(*request.ratio),
+                  "it is the shear force over the one that slides: give a number from 0 to 1");
+    return *request.ratio;
+  }
+  if (!(*request.force >= 0 && std::isfinite(*request.force)))
+    throw Error(ErrorCode::bad_value, "`force` is " + format_short(*request.force) + " N",
+                "give a finite force from zero up");
+  constexpr double rounding = 1e-12;
+  const double sliding = request.friction * load, ratio = *request.force / sliding;
+  if (!(ratio <= 1 + rounding))
+    throw Error(ErrorCode::infeasible,
+                "`force` is " + format_quantity(*request.force, dimension::force) +
+                    ", but the contact slides at " + format_quantity(sliding, dimension::force) +
+                    ", friction times load",
+                "give less, or a `ratio` from 0 to 1");
+  return std::min(1.0, ratio);
+}
+
+}  // namespace
+
+void require_tangential(const SlidingEffects& effects) {
+  if (!effects.tangential)
+    throw Error(ErrorCode::bad_state,
+                "partial slip needs the effect `tangential`, which this scene does not name",
+                "name tangential={} in the effects of the contact");
+}
+
+PartialSlip shear(const Solver& contact, const State& normal, const ShearRequest& request, Monitor& monitor) {
+  require_tangential(normal.sliding());
+  if (!(normal.load() > 0))
+    throw Error(ErrorCode::bad_state, "the contact carries no load, so nothing resists shear",
+                "press it first");
+  const double ratio = ratio_of(request, normal.load());
+  PartialSlip result(normal, request.friction, ratio, *normal.sliding().tangential->compliance_ratio);
+  if (ratio == 0)
+    result.stuck_ = normal;
+  else if (const double rest = normal.load() * (1 - ratio); rest > 0) {
+    result.stuck_ = contact.press({PressBy::load, rest, {}}, monitor);
+    result.cost_ = {result.stuck_->cost().total, {{"tangential", result.stuck_->cost().total}}};
+  }
+  return result;
+}
+
+double PartialSlip::stick_fraction() const {
+  return static_cast<double>(stick_contacts()) / static_cast<double>(normal_.contacts());
+}
+
+double PartialSlip::displacement() const {
+  const double left = stuck_ ? stuck_->approach() : 0;
+  return compliance_ratio_ * friction_ * (normal_.approach() - left);
+}
+
+double PartialSlip::stiffness() const { return stuck_ ? stuck_->stiffness() / compliance_ratio_ : 0; }
+
+std::span<const std::string> PartialSlip::field_names() { return names_of_fields; }
+
+Field PartialSlip::field(std::string_view name) const {
+  if (std::find(names_of_fields.begin(), names_of_fields.end(), name) == names_of_fields.end())
+    throw Error(ErrorCode::unknown_name,
+                "a shear has no field " + quoted(name) + did_you_mean(name, names_of_fields),
+                "fields are " + joined(names_of_fields, " and "));
+  const Grid& grid = normal_.geometry().grid();
+  if (name == "stick") return stuck_ ? *stuck_->field("contact") : Field(grid.nx, grid.ny);
+  Field shear = *normal_.field("pressure");
+  const std::shared_ptr<const Field> left = stuck_ ? stuck_->field("pressure") : nullptr;
+  for (std::size_t k = 0; k < shear.size(); ++k) shear[k] = friction_ * (shear[k] - (left ? (*left)[k] : 0));
+  return shear;
+}
+
+std::string PartialSlip::text() const {
+  return "shear by " + format_quantity(force(), dimension::force) + " of " +
+         format_quantity(friction_ * load(), dimension::force) + ", " +
+         (slides() ? std::string("all of the contact slips")
+                   : format_short(100 * slip_fraction(), 3) + " % of the contact slips") +
+         ", shifted by " + format_quantity(displacement(), dimension::length);
+}
+
+}  // namespace asperity

@@ -1,0 +1,65 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Writes docs/accuracy.md and its charts from the studies of examples/accuracy, in about ten minutes on a machine
+# that does nothing else.
+# usage: report.sh PROGRAM          run every study, then write the page (PROGRAM, or a folder it was built in)
+#        report.sh --check FOLDER   does the page of the project's FOLDER have a part and a chart of every study?
+set -eu
+here=$(dirname -- "$(readlink -f -- "$0")")
+
+if [ "${1:-}" = --check ]; then
+  status=0
+  for script in "$2"/examples/accuracy/*.lua; do
+    name=$(basename -- "$script" .lua)
+    grep -qF "Script: \`examples/accuracy/$name.lua\`." "$2/docs/accuracy.md" || {
+      echo "docs/accuracy.md has no part of examples/accuracy/$name.lua: run examples/accuracy/report.sh PROGRAM"
+      status=1
+    }
+  done
+  for chart in $(sed -n 's/.*](\(pictures\/accuracy\/[a-z_]*\.svg\)).*/\1/p' "$2/docs/accuracy.md"); do
+    [ -f "$2/docs/$chart" ] || {
+      echo "docs/$chart is missing: run examples/accuracy/report.sh PROGRAM"
+      status=1
+    }
+  done
+  exit $status
+fi
+
+[ $# = 1 ] || {
+  echo "usage: report.sh PROGRAM" >&2
+  exit 2
+}
+program=$(readlink -f -- "$1")
+[ ! -d "$program" ] || program=$program/asperity
+runs=$(mktemp -d)
+trap 'rm -rf "$runs"' EXIT
+cd "$here/../.."
+for script in examples/accuracy/*.lua; do
+  name=$(basename -- "$script" .lua)
+  echo "$name" >&2
+  finer=
+  case $name in
+    contact_area) finer=finest=2048 ;;
+    plastic_volume) finer=finest=512 ;;
+  esac
+  "$program" run --out "$runs/$name" "$script" -- budget=120 $finer >"$runs/$name.output" || {
+    cat "$runs/$name.output" >&2
+    exit 1
+  }
+done
+mkdir -p docs/pictures/accuracy
+rm -f docs/pictures/accuracy/*.svg
+cp "$runs"/*/*.svg docs/pictures/accuracy/
+{
+  cat "$here/page.md"
+  printf '\nMachine: %s, %s processors; %s; %s.\n' \
+    "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)" "$(nproc)" \
+    "$("$program" version | head -n 1)" "$(date -u +%Y-%m-%d)"
+  for section in "$runs"/*/section_*.md; do
+    printf '%s %s\n' "$(basename -- "$section")" "$section"
+  done | sort | while read -r _ section; do
+    printf '\n'
+    cat "$section"
+  done
+} >docs/accuracy.md
+echo "docs/accuracy.md and docs/pictures/accuracy are written"

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How good the estimates of the discretisation error are: over scenes with an exact answer (Hertz,
+// Westergaard) or one from eight times the cells a side (self-affine, capped, blasted, fractal; free and
+// periodic; light to heavy), of seeds on which nothing was tuned. Much of what cells do to a contact is
+// chance, and an estimate cannot know the sign and size of chance: so what is held to is that the true error
+// is within three times the estimate, and how often the estimate is more than three times the true error is
+// bounded apart. The area fraction, whose error is not chance, is held to both.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "engine/contact/discretisation_error.hpp"
+#include "engine/experiment/specimen_pair.hpp"
+#include "engine/surface/generators/bead_blasted.hpp"
+#include "engine/surface/generators/self_affine.hpp"
+#include "engine/surface/generators/sine.hpp"
+#include "engine/surface/generators/sphere.hpp"
+#include "engine/surface/generators/weierstrass_mandelbrot.hpp"
+#include "engine/surface/operations/resampling.hpp"
+
+namespace asperity {
+namespace {
+
+constexpr int cells = 128, true_cells = 1024;
+constexpr double modulus = 1e9;
+
+using Values = std::map<std::string, double>;
+
+Scene scene_on(const Surface& surface, int n, Boundary boundary, double hardness) {
+  Material material;
+  material.young = modulus;
+  material.poisson = 0;
+  if (hardness > 0) material.hardness = hardness;
+  Scene scene{at_cells(surface, n, n).surface.with_material(material), rigid_material(), boundary,
+              HalfSpaceOptions{}, Accuracy{}};
+  if (hardness > 0) scene.plasticity = PlasticityOptions{};
+  return scene;
+}
+
+// Ratios of the estimate to the true error.
+class Survey {
+ public:
+  void hold(const State& state, const Values& truth) {
+    for (const auto& [quantity, value] : truth) {
+      const DiscretisationEstimate estimate = discretisation_estimate(state, quantity);
+      const double off = std::abs(estimate.value - value);
+      if (off <= 1e-9 * std::abs(value) && estimate.error <= 1e-6 * std::abs(value)) continue;
+      ratios_[quantity].push_back(estimate.error / off);
+    }
+  }
+
+  // Presses on the cells and, for what is not known exactly, on the many.
+  void scene(const Surface& surface, Boundary boundary, const PressRequest& request, double hardness = 0,
+             Values exact = {}) {
+    Scene scene = scene_on(surface, cells, boundary, hardness);
+    scene.accuracy.estimate = true;
+    const State state = SpecimenPair(scene).press(request);
+    if (exact.empty()) {
+      const State fine = SpecimenPair(scene_on(surface, true_cells, boundary, hardness)).press(request);
+      exact = {{"corrected_area_fraction", fine.corrected_area_fraction()},
+               {"area_fraction", fine.corrected_area_fraction()},
+               {"approach", fine.approach()},
+               {"separation", fine.separation()},
+               {"mean_gap", fine.mean_gap()},
+               {"energy", fine.energy()},
+               {"stiffness", fine.stiffness()}};
+      if (hardness > 0) {
+        exact["plastic_volume"] = fine.plastic_volume();
+        exact["plastic_fraction"] = fine.plastic_fraction();
+      }
+    }
+    hold(state, exact);
+    ++scenes_;
+  }
+
+  double covered(const std::string& quantity) const {
+    return share(quantity, [](double ratio) { return ratio >= 1.0 / 3; });
+  }
+  double not_over(const std::string& quantity) const {
+    return share(quantity, [](double ratio) { return ratio <= 3; });
+  }
+  double within(const std::string& quantity) const {
+    return share(quantity, [](double ratio) { return ratio >= 1.0 / 3 && ratio <= 3; });
+  }
+
+  void print() const {
+    std::printf("%d scenes of %d x %d cells; estimate over true error:\n", scenes_, cells, cells);
+    for (const auto& [quantity, found] : ratios_) {
+      std::vector<double> sorted = found;
+      std::sort(sorted.begin(), sorted.end());
+      const auto at = [&](double share) {
+        return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+      };
+      std::printf(
+          "  %-24s %3zu: 5 %% %-7.2g 10 %% %-7.2g median %-7.2g 90 %% %-7.2g true error within 3 "
+          "estimates %.2f, estimate within 3 true errors %.2f, both %.2f\n",
+          quantity.c_str(), sorted.size(), at(0.05), at(0.1), at(0.5), at(0.9), covered(quantity),
+          not_over(quantity), within(quantity));
+    }
+  }
+
+ private:
+  template <class Test>
+  double share(const std::string& quantity, Test test) const {
+    const std::vector<double>& found = ratios_.at(quantity);
+    return static_cast<double>(std::count_if(found.begin(), found.end(), test)) /
+           static_cast<double>(found.size());
+  }
+
+  std::map<std::string, std::vector<double>> ratios_;
+  int scenes_ = 0;
+};
+
+void add_exact(Survey& survey) {
+  const Surface cap = sphere_surface({Grid{true_cells, true_cells, 1, 1}, 10, SphereShape::paraboloid});
+  for (const double a : {0.07, 0.11, 0.17, 0.25, 0.37}) {
+    const double load = 4.0 / 3 * modulus * a * a * a / 10, area = std::numbers::pi * a * a;
+    survey.scene(cap, Boundary::free, {PressBy::load, load, {}}, 0,
+                 {{"area_fraction", area},
+                  {"corrected_area_fraction", area},
+                  {"approach", a * a / 10},
+                  {"energy", 0.4 * load * a * a / 10},
+                  {"stiffness", 2 * modulus * a}});
+  }
+  const Surface wave = sine_surface({Grid{true_cells, true_cells, 1, 1}, 0.01, {}, 1});
+  for (const double share : {0.04, 0.12, 0.27, 0.55, 0.8}) {
+    const double area = 2 / std::numbers::pi * std::asin(std::sqrt(share));
+    survey.scene(wave, Boundary::periodic, {PressBy::pressure, share * std::numbers::pi * modulus * 0.01, {}},
+                 0, {{"area_fraction", area}, {"corrected_area_fraction", area}});
+  }
+  const Surface waves = sine_surface({Grid{true_cells, true_cells, 1, 1}, 0.01, {}, 2});
+  for (const double share : {0.03, 0.3})
+    survey.scene(waves, Boundary::periodic,
+                 {PressBy::pressure, share * std::numbers::pi * modulus * 0.01, {}});
+}
+
+void add_self_affine(Survey& survey, std::uint64_t seed) {
+  SelfAffineOptions o;
+  o.grid = Grid{true_cells, true_cells, 1, 1};
+  o.hurst = 0.8;
+  o.rms_slope = 0.1;
+  o.roll_off = 0.5;
+  o.short_wave = 1.0 / 16;
+  o.seed = seed;
+  const Surface surface = self_affine_surface(o);
+  for (const double p : {0.005, 0.02, 0.05, 0.1, 0.3})
+    survey.scene(surface, Boundary::periodic, {PressBy::pressure, 0.1 * p * modulus, {}});
+  survey.scene(surface, Boundary::free, {PressBy::pressure, 0.005 * modulus, {}});
+  for (const double p : {0.02, 0.1})
+    survey.scene(surface, Boundary::periodic, {PressBy::pressure, 0.1 * p * modulus, {}}, 0.05 * modulus);
+}
+
+void add_blasted(Survey& survey, std::uint64_t seed) {
+  BeadBlastedOptions o;
+  o.grid = Grid{true_cells, true_cells, 0.25e-3, 0.25e-3};
+  o.ra = 2e-6;
+  o.seed = seed;
+  const Surface surface = bead_blasted_surface(o);
+  for (const double p : {0.003, 0.015, 0.06})
+    survey.scene(surface, Boundary::periodic, {PressBy::pressure, p * modulus, {}});
+}
+
+void add_fractal(Survey& survey, std::uint64_t seed) {
+  WeierstrassMandelbrotOptions o;
+  o.nx = o.ny = true_cells;
+  o.D = 2.3;
+  o.L = 1;
+  o.G = 1e-3;
+  o.n_max = 6;
+  o.seed = seed;
+  const Surface surface = weierstrass_mandelbrot(o);
+  for (const double p : {0.003, 0.02, 0.1})
+    survey.scene(surface, Boundary::free, {PressBy::pressure, 0.1 * p * modulus, {}});
+}
+
+TEST(DiscretisationEstimates, AreHonestOverManyScenes) {
+  Survey survey;
+  add_exact(survey);
+  for (const std::uint64_t seed : {101, 102, 103, 104}) add_self_affine(survey, seed);
+  for (const std::uint64_t seed : {105, 106}) add_blasted(survey, seed);
+  for (const std::uint64_t seed : {107, 108}) add_fractal(survey, seed);
+  survey.print();
+  for (const char* quantity : {"area_fraction", "corrected_area_fraction", "approach", "energy"})
+    EXPECT_GE(survey.covered(quantity), 0.9) << quantity;
+  for (const char* quantity : {"separation", "mean_gap", "stiffness", "plastic_volume", "plastic_fraction"})
+    EXPECT_GE(survey.covered(quantity), 0.85) << quantity;
+  EXPECT_GE(survey.within("area_fraction"), 0.9);
+  for (const char* quantity : {"corrected_area_fraction", "approach", "energy"})
+    EXPECT_GE(survey.not_over(quantity), 0.5) << quantity;
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Transforms in lanes against the sum of the definition, there and back, in both precisions.
+#include "engine/core/fourier_lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "engine/core/error.hpp"
+#include "engine/core/random.hpp"
+
+namespace asperity {
+namespace {
+
+template <class Real>
+class InLanes : public ::testing::Test {};
+using Precisions = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(InLanes, Precisions);
+
+template <class Real>
+Array<typename Lanes<Real>::Complex> noise(int n) {
+  const Stream stream(1, "lanes");
+  Array<typename Lanes<Real>::Complex> values(static_cast<std::size_t>(n));
+  std::uint64_t k = 0;
+  for (auto& value : values)
+    for (int l = 0; l < Lanes<Real>::count; ++l) {
+      value.re[l] = static_cast<Real>(stream.normal(k++));
+      value.im[l] = static_cast<Real>(stream.normal(k++));
+    }
+  return values;
+}
+
+constexpr int lengths[] = {1,  2,  3,  4,  5,  6,  7,   8,   9,   14,  16,
+                           21, 25, 32, 49, 60, 64, 105, 128, 210, 343, 512};
+
+TYPED_TEST(InLanes, BinsAreTheSumOfTheDefinition) {
+  using Real = TypeParam;
+  for (const int n : lengths) {
+    const LaneFourier<Real> fourier(n);
+    EXPECT_EQ(fourier.length(), n);
+    const auto in = noise<Real>(n);
+    auto out = in;
+    fourier.forward(out.data());
+    for (int l = 0; l < Lanes<Real>::count; l += 3)
+      for (int k = 0; k < n; ++k) {
+        std::complex<long double> sum = 0;
+        for (int j = 0; j < n; ++j) {
+          const auto& value = in[static_cast<std::size_t>(j)];
+          const long double angle = -2 * std::numbers::pi_v<long double> * (j * k % n) / n;
+          sum += std::complex<long double>(value.re[l], value.im[l]) * std::polar(1.0L, angle);
+        }
+        const auto& bin = out[static_cast<std::size_t>(fourier.place(k))];
+        const auto error =
+            static_cast<double>(std::abs(std::complex<long double>(bin.re[l], bin.im[l]) - sum));
+        ASSERT_LE(error, 16 * std::sqrt(n) * static_cast<double>(std::numeric_limits<Real>::epsilon()))
+            << n << ", bin " << k << ", lane " << l;
+      }
+  }
+}
+
+TYPED_TEST(InLanes, ThereAndBackIsTheLength) {
+  using Real = TypeParam;
+  for (const int n : {1, 2, 12, 105, 1024, 1250}) {
+    const LaneFourier<Real> fourier(n);
+    const auto in = noise<Real>(n);
+    auto out = in;
+    fourier.forward(out.data());
+    fourier.inverse(out.data());
+    for (std::size_t k = 0; k < in.size(); ++k)
+      for (int l = 0; l < Lanes<Real>::count; ++l) {
+        const Real tolerance = 16 * std::numeric_limits<Real>::epsilon() * static_cast<Real>(n);
+        ASSERT_NEAR(out[k].re[l], in[k].re[l] * static_cast<Real>(n), tolerance) << n;
+        ASSERT_NEAR(out[k].im[l], in[k].im[l] * static_cast<Real>(n), tolerance) << n;
+      }
+  }
+}
+
+TYPED_TEST(InLanes, PlacesAreAPermutation) {
+  for (const int n : lengths) {
+    const LaneFourier<TypeParam> fourier(n);
+    std::vector<int> places;
+    for (int k = 0; k < n; ++k) places.push_back(fourier.place(k));
+    std::sort(places.begin(), places.end());
+    for (int k = 0; k < n; ++k) ASSERT_EQ(places[static_cast<std::size_t>(k)], k);
+  }
+}
+
+// What one lane holds has no say in another.
+TYPED_TEST(InLanes, LanesAreApart) {
+  using Real = TypeParam;
+  const int n = 60;
+  const LaneFourier<Real> fourier(n);
+  auto all = noise<Real>(n), one = all;
+  for (auto& value : one)
+    for (int l = 0; l < Lanes<Real>::count; ++l)
+      if (l != 5) value.re[l] = value.im[l] = std::numeric_limits<Real>::quiet_NaN();
+  fourier.forward(all.data());
+  fourier.forward(one.data());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    ASSERT_EQ(all[k].re[5], one[k].re[5]);
+    ASSERT_EQ(all[k].im[5], one[k].im[5]);
+  }
+}
+
+TEST(LaneFourier, TakesLengthsOfSmallPrimes) {
+  for (const int n : {1, 2, 7, 490, 8192}) EXPECT_TRUE(LaneFourier<double>::possible(n)) << n;
+  for (const int n : {11, 13, 22, 8191}) EXPECT_FALSE(LaneFourier<double>::possible(n)) << n;
+  for (const int n : {11, 0, -4}) EXPECT_THROW(LaneFourier<float>{n}, Error) << n;
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cells chosen for an error: what is chosen, that it is met and what it costs, that the bodies lie on other
+// cells as they did, and that a choice which fails leaves the contact as it was. Held-out seeds against
+// finer grids are in tests/accuracy.
+#include "engine/experiment/accuracy_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "engine/contact/discretisation_error.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/random.hpp"
+#include "engine/experiment/specimen_pair.hpp"
+#include "engine/surface/generators/flat.hpp"
+#include "engine/surface/generators/self_affine.hpp"
+#include "engine/surface/generators/sine.hpp"
+#include "engine/surface/generators/sphere.hpp"
+
+namespace asperity {
+namespace {
+
+Material elastic() {
+  Material material;
+  material.young = 1e9;
+  material.poisson = 0;
+  material.hardness = 5e7;
+  return material;
+}
+
+Surface rough(int n, std::uint64_t seed = 1, double waves = 16) {
+  SelfAffineOptions o;
+  o.grid = Grid{n, n, 1, 1};
+  o.hurst = 0.8;
+  o.rms_slope = 0.1;
+  o.roll_off = 0.5;
+  o.short_wave = 1 / waves;
+  o.seed = seed;
+  return self_affine_surface(o).with_material(elastic());
+}
+
+Scene asking(Surface lower, UpperBody upper, Boundary boundary, double error,
+             std::vector<std::string> of = {"corrected_area_fraction"}) {
+  Scene scene{std::move(lower), std::move(upper), boundary, HalfSpaceOptions{}, Accuracy{}};
+  scene.accuracy.asked = AskedError{error, std::move(of)};
+  return scene;
+}
+
+std::string error_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// As `rough` under a rigid flat, without what a generator knows.
+Surface measured(const Surface& surface) {
+  return Surface(surface.grid(), surface.heights(), surface.traits());
+}
+
+TEST(AccuracyChoice, StopsAtTheFirstGridThatIsGoodEnough) {
+  SpecimenPair pair(asking(rough(512), rigid_material(), Boundary::periodic, 0.05));
+  EXPECT_EQ(pair.lower().grid().nx, 512);
+  EXPECT_NE(pair.plan().text().find(
+                "the first press chooses cells and tolerance for an error of 5 % of corrected_area_fraction, "
+                "from 64 x 64 cells up to 4096 x 4096 cells; what follows is of the cells given"),
+            std::string::npos)
+      << pair.plan().text();
+  const State state = pair.press({PressBy::pressure, 1e7, {}});
+  const ChosenAccuracy& chosen = *state.chosen();
+  EXPECT_LT(chosen.nx, 512);
+  EXPECT_TRUE(chosen.met());
+  EXPECT_LE(chosen.error, 0.05);
+  EXPECT_EQ(chosen.tried.back().nx, chosen.nx);
+  EXPECT_EQ(pair.lower().grid().nx, chosen.nx);
+  EXPECT_EQ(state.geometry().grid().nx, chosen.nx);
+  EXPECT_EQ(pair.plan().accuracy.tolerance, chosen.tolerance);
+  EXPECT_NE(pair.plan().text().find("cells and tolerance as the first press chose them"), std::string::npos);
+  EXPECT_NE(chosen.text().find("5 % of corrected_area_fraction was asked for"), std::string::npos)
+      << chosen.text();
+  EXPECT_GT(discretisation_estimate(state, "corrected_area_fraction").error, 0);
+}
+
+TEST(AccuracyChoice, IsCheaperThanTheDefaultOnTheCellsGiven) {
+  const Surface surface = rough(512, 11);
+  SpecimenPair usual({surface, rigid_material(), Boundary::periodic, HalfSpaceOptions{}, Accuracy{}});
+  const State by_default = usual.press({PressBy::pressure, 1e7, {}});
+  SpecimenPair pair(asking(surface, rigid_material(), Boundary::periodic, 0.01));
+  const State state = pair.press({PressBy::pressure, 1e7, {}});
+  const double cells = static_cast<double>(state.chosen()->nx) / 512;
+  // Transforms of the cells chosen, in those of 512 x 512.
+  const double weight = cells * cells * std::log2(state.chosen()->nx) / 9;
+  const double chosen_cost = state.cost().total.transforms * weight;
+  EXPECT_LT(chosen_cost, 0.5 * by_default.cost().total.transforms);
+  EXPECT_NEAR(state.corrected_area_fraction(), by_default.corrected_area_fraction(),
+              0.01 * by_default.corrected_area_fraction());
+  std::printf("asked for 1 %%: %d cells, %.1f transforms of 512 cells and %.3f s against %.1f and %.3f s\n",
+              state.chosen()->nx, chosen_cost, state.cost().total.seconds, by_default.cost().total.transforms,
+              by_default.cost().total.seconds);
+}
+
+TEST(AccuracyChoice, CostsAreNamedAndAddUp) {
+  SpecimenPair pair(asking(rough(128), rigid_material(), Boundary::periodic, 0.03));
+  const State state = pair.press({PressBy::pressure, 1e7, {}});
+  double transforms = 0, of_choice = -1;
+  for (const auto& [effect, cost] : state.cost().by_effect) {
+    transforms += cost.transforms;
+    if (effect == "choice") of_choice = cost.transforms;
+  }
+  EXPECT_GE(of_choice, 0);
+  EXPECT_NEAR(transforms, state.cost().total.transforms, 1e-6);
+}
+
+TEST(AccuracyChoice, RefinesBeyondTheCellsGiven) {
+  SpecimenPair pair(asking(rough(64, 3), rigid_material(), Boundary::periodic, 0.02));
+  const State state = pair.press({PressBy::pressure, 1e7, {}});
+  EXPECT_GT(state.chosen()->nx, 64);
+  EXPECT_EQ(state.chosen()->source, "generated again");
+  SpecimenPair of_measured(
+      asking(measured(rough(64, 3)).with_material(elastic()), rigid_material(), Boundary::periodic, 0.02));
+  const State interpolated = of_measured.press({PressBy::pressure, 1e7, {}});
+  EXPECT_EQ(interpolated.chosen()->source, "interpolated");
+  // All waves of this surface are on the cells given, so what is between them is known either way.
+  EXPECT_NEAR(interpolated.corrected_area_fraction(), state.corrected_area_fraction(),
+              0.01 * state.corrected_area_fraction());
+}
+
+TEST(AccuracyChoice, CoarseCellsThatMissTheWavesDoNotCount) {
+  // 64 waves: every node of 64 cells stands on a crest, and all coarse grids see a flat.
+  const Surface waves = sine_surface({Grid{512, 512, 1, 1}, 1e-4, 1.0 / 64, 2}).with_material(elastic());
+  SpecimenPair pair(asking(waves, rigid_material(), Boundary::periodic, 0.1, {"area_fraction", "energy"}));
+  const State state = pair.press({PressBy::pressure, 1e7, {}});
+  EXPECT_GT(state.chosen()->nx, 128);
+  EXPECT_EQ(state.chosen()->tried.front().note, "the heights were not carried");
+}
+
+TEST(AccuracyChoice, HertzIsMet) {
+  const Surface cap =
+      sphere_surface({Grid{128, 128, 1, 1}, 10, SphereShape::paraboloid}).with_material(elastic());
+  const double a = 0.23, load = 4.0 / 3 * 1e9 * a * a * a / 10;
+  SpecimenPair pair(asking(cap, rigid_material(), Boundary::free, 0.02,
+                           {"corrected_area_fraction", "approach", "peak_pressure"}));
+  const State state = pair.press({PressBy::load, load, {}});
+  const double area = std::numbers::pi * a * a;
+  EXPECT_NEAR(state.corrected_area_fraction(), area, 0.02 * area);
+  EXPECT_NEAR(state.approach(), a * a / 10, 0.02 * a * a / 10);
+  EXPECT_NEAR(state.peak_pressure(), 1.5 * load / area, 0.02 * 1.5 * load / area);
+}
+
+TEST(AccuracyChoice, NoLoadChoosesNothing) {
+  SpecimenPair pair(asking(rough(128), rigid_material(), Boundary::periodic, 0.05));
+  const State none = pair.press({PressBy::pressure, 0, {}});
+  EXPECT_EQ(none.chosen(), nullptr);
+  EXPECT_EQ(pair.lower().grid().nx, 128);
+  EXPECT_NE(pair.press({PressBy::pressure, 1e7, {}}).chosen(), nullptr);
+}
+
+TEST(AccuracyChoice, LaterPressesAreHeldToIt) {
+  const Scene scene = asking(rough(256, 1, 32), rigid_material(), Boundary::periodic, 0.1);
+  SpecimenPair pair(scene);
+  const State heavy = pair.press({PressBy::pressure, 7e7, {}});
+  const int cells = heavy.chosen()->nx;
+  ASSERT_LT(cells, 256);
+  const std::string digest = pair.lower().digest();
+  const std::string refused = error_of([&] { pair.press({PressBy::pressure, 1e5, {}}); });
+  EXPECT_NE(refused.find("`error` = 0.1 of `corrected_area_fraction` was asked for, and on the " +
+                         std::to_string(cells) + " x " + std::to_string(cells) +
+                         " cells that the first press of this contact chose it comes to "),
+            std::string::npos)
+      << refused;
+  EXPECT_EQ(pair.lower().digest(), digest);
+  const State again = pair.press({PressBy::pressure, 7.5e7, {}});
+  EXPECT_TRUE(again.chosen()->met());
+  EXPECT_EQ(again.chosen()->nx, cells);
+  EXPECT_EQ(again.chosen()->tried.size(), heavy.chosen()->tried.size());
+
+  Scene lenient = scene;
+  lenient.accuracy.on_failure = Accuracy::OnFailure::best;
+  SpecimenPair best(lenient);
+  best.press({PressBy::pressure, 7e7, {}});
+  const State light = best.press({PressBy::pressure, 1e5, {}});
+  EXPECT_FALSE(light.chosen()->met());
+  EXPECT_GT(light.chosen()->error, 0.1);
+}
+
+TEST(AccuracyChoice, RefusedWhereMemoryEnds) {
+  struct Limit {
+    explicit Limit(std::int64_t bytes) { memory::set_limit(bytes); }
+    ~Limit() { memory::set_limit(0); }
+  };
+  Scene scene = asking(rough(64), rigid_material(), Boundary::periodic, 1e-5);
+  SpecimenPair pair(scene);
+  const std::string plan = pair.plan().text(), digest = pair.lower().digest();
+  {
+    const Limit limit(memory::held() + (8 << 20));
+    const std::string refused = error_of([&] { pair.press({PressBy::pressure, 1e7, {}}); });
+    EXPECT_NE(refused.find("`error` = 1e-05 of `corrected_area_fraction` was asked for, and on "),
+              std::string::npos)
+        << refused;
+    EXPECT_NE(refused.find(", the finest that memory allows, it comes to "), std::string::npos);
+    EXPECT_NE(refused.find("on_failure=\"best\""), std::string::npos);
+  }
+  EXPECT_EQ(pair.plan().text(), plan);
+  EXPECT_EQ(pair.lower().digest(), digest);
+  EXPECT_FALSE(pair.under_load());
+  const Limit limit(memory::held() + (8 << 20));
+  scene.accuracy.on_failure = Accuracy::OnFailure::best;
+  SpecimenPair best(scene);
+  const State reached = best.press({PressBy::pressure, 1e7, {}});
+  EXPECT_FALSE(reached.chosen()->met());
+  EXPECT_NE(reached.chosen()->reason().find("finer cells were not to be had"), std::string::npos);
+}
+
+TEST(AccuracyChoice, PeakWithoutALimitIsRefusedEarly) {
+  const Surface flat = flat_surface({Grid{64, 64, 1, 1}}).with_material(elastic());
+  SpecimenPair pair(asking(flat, rigid_material(), Boundary::free, 0.01, {"peak_pressure"}));
+  const std::string refused = error_of([&] { pair.press({PressBy::pressure, 1e6, {}}); });
+  EXPECT_NE(refused.find("256 x 256 cells it comes to no limit; it grows from grid to grid without end"),
+            std::string::npos)
+      << refused;
+}
+
+TEST(AccuracyChoice, StopsWhenAskedAndLeavesThePair) {
+  class StopLater final : public Monitor {
+   public:
+    void progress(std::string_view, double) override {}
+    void progress_of_parts(std::string_view, double, std::string_view part, double) override {
+      if (part != first_ && !first_.empty()) stop_flag().raise(StopReason::interrupt);
+      if (first_.empty()) first_ = part;
+    }
+    void warn(std::string_view) override {}
+
+   private:
+    std::string first_;
+  };
+  SpecimenPair pair(asking(rough(256), rigid_material(), Boundary::periodic, 0.002));
+  const std::string digest = pair.lower().digest();
+  StopLater monitor;
+  const std::string stopped = error_of([&] { pair.press({PressBy::pressure, 1e7, {}}, monitor); });
+  stop_flag().clear();
+  EXPECT_EQ(stopped, "interrupted");
+  EXPECT_EQ(pair.lower().digest(), digest);
+  EXPECT_FALSE(pair.under_load());
+}
+
+TEST(SpecimenPair, AnEstimateIsPartOfThePress) {
+  class Watcher final : public Monitor {
+   public:
+    void progress(std::string_view, double) override {}
+    void progress_of_parts(std::string_view, double done, std::string_view, double) override {
+      falls_ = falls_ || done < last_;
+      last_ = done;
+    }
+    void warn(std::string_view) override {}
+    bool falls_ = false;
+    double last_ = 0;
+  };
+  Scene scene{rough(128), rigid_material(), Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
+  const State bare = SpecimenPair(scene).press({PressBy::pressure, 1e7, {}});
+  scene.accuracy.estimate = true;
+  Watcher watcher;
+  const State state = SpecimenPair(scene).press({PressBy::pressure, 1e7, {}}, watcher);
+  EXPECT_FALSE(watcher.falls_);
+  EXPECT_GE(watcher.last_, 0.75);
+  EXPECT_EQ(state.digest(), bare.digest());
+  EXPECT_EQ(bare.coarser(), nullptr);
+  ASSERT_EQ(state.cost().by_effect.size(), 2u);
+  EXPECT_EQ(state.cost().by_effect[1].first, "estimate");
+  EXPECT_EQ(state.cost().by_effect[0].second.transforms, bare.cost().total.transforms);
+  EXPECT_GT(state.bytes_held(), bare.bytes_held());
+  EXPECT_LT(static_cast<double>(state.bytes_held()), 1.32 * static_cast<double>(bare.bytes_held()));
+}
+
+TEST(AccuracyChoice, CopiesChooseForThemselves) {
+  SpecimenPair pair(asking(rough(256), rigid_material(), Boundary::periodic, 0.05));
+  SpecimenPair before = pair;
+  const State state = pair.press({PressBy::pressure, 1e7, {}});
+  EXPECT_EQ(before.lower().grid().nx, 256);
+  SpecimenPair after = pair;
+  EXPECT_EQ(after.lower().grid().nx, state.chosen()->nx);
+  EXPECT_EQ(before.press({PressBy::pressure, 1e7, {}}).digest(), state.digest());
+}
+
+TEST(AccuracyChoice, PlasticBodiesYieldOnTheCellsChosen) {
+  Scene scene = asking(rough(256), rigid_material(), Boundary::periodic, 0.1, {"plastic_volume"});
+  scene.plasticity = PlasticityOptions{};
+  SpecimenPair pair(scene);
+  const State state = pair.press({PressBy::pressure, 1e7, {}});
+  ASSERT_GT(state.plastic_volume(), 0);
+  const int cells = state.chosen()->nx;
+  ASSERT_EQ(pair.lower().grid().nx, cells);
+  EXPECT_EQ(pair.lower().recipe(), nullptr);
+  pair.release();
+  const State again = pair.press({PressBy::pressure, 0.5e7, {}});
+  EXPECT_EQ(again.geometry().grid().nx, cells);
+  EXPECT_LT(again.plastic_volume(), 1e-6 * state.plastic_volume());
+}
+
+// The combined heights at nodes that two grids share.
+double off_at_shared_nodes(const Field& coarse, const Field& fine) {
+  const int step = fine.nx() / coarse.nx();
+  double worst = 0;
+  for (int j = 0; j < coarse.ny(); ++j)
+    for (int i = 0; i < coarse.nx(); ++i)
+      worst = std::max(worst, std::abs(coarse(i, j) - fine(step * i, step * j)));
+  return worst / range(fine.values()).span();
+}
+
+TEST(AccuracyChoice, TwoRoughBodiesLieAsTheyDid) {
+  for (const int quarters : {0, 1, 2, 3}) {
+    const Scene scene = asking(rough(128, 1), rough(128, 2), Boundary::periodic, 0.1);
+    const LatticeIsometry pose = LatticeIsometry(128, 128).turned(quarters).shifted(7, 30);
+    const ContactGeometry as_given(scene, pose);
+    const AccuracyChoice coarse = choose_accuracy(scene, as_given, {PressBy::pressure, 2e7, {}});
+    ASSERT_EQ(coarse.geometry->grid().nx, 64) << coarse.state.chosen()->text();
+    EXPECT_EQ(off_at_shared_nodes(coarse.geometry->combined(), as_given.combined()), 0) << quarters;
+    Scene close = scene;
+    close.accuracy.asked->error = 0.002;
+    const AccuracyChoice fine = choose_accuracy(close, as_given, {PressBy::pressure, 2e7, {}});
+    ASSERT_GT(fine.geometry->grid().nx, 128);
+    EXPECT_LT(off_at_shared_nodes(as_given.combined(), fine.geometry->combined()), 1e-12) << quarters;
+  }
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,6 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- A script that returns a number in which nothing can be made finer.
+--! command: accuracy
+--! exit: 1
+--! error: the script makes no surface from `cells` and no contact
+return 1

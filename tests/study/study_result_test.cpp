@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The front of rows that nothing beats, the cheapest setting for an error, and both as text.
+#include "engine/study/study_result.hpp"
+
+#include <gtest/gtest.h>
+
+#include "engine/core/error.hpp"
+#include "engine/study/study_text.hpp"
+#include "tests/study/study_fixture.hpp"
+
+namespace asperity {
+namespace {
+
+// A way `grid` over as many cells as there are errors, from 64 on by doubling.
+StudyResult result_of(const std::vector<double>& errors, const std::vector<double>& seconds) {
+  StudyResult result;
+  std::vector<std::int64_t> list;
+  for (std::size_t k = 0; k < errors.size(); ++k) list.push_back(std::int64_t{64} << k);
+  result.request.ways = {way_of_cells("grid", list)};
+  result.request.truth = 1.0;
+  result.truth = 1.0;
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    StudyRow row;
+    row.setting = k;
+    row.end = StudyRow::End::measured;
+    row.value = 1 + errors[k];
+    row.first_seconds = seconds[k];
+    row.runs = {seconds[k]};
+    result.rows.push_back(row);
+  }
+  result.complete = true;
+  conclude(result);
+  return result;
+}
+
+std::string refusal(const StudyResult& result, double error) {
+  try {
+    cheapest(result, error);
+  } catch (const Error& refused) {
+    return refused.what();
+  }
+  return "";
+}
+
+TEST(ParetoFront, HasWhatNothingBeats) {
+  const StudyResult result = result_of({0.5, 0.25, 0.375, 0.125}, {1, 2, 3, 4});
+  EXPECT_TRUE(result.rows[0].pareto);
+  EXPECT_TRUE(result.rows[1].pareto);
+  EXPECT_FALSE(result.rows[2].pareto);
+  EXPECT_TRUE(result.rows[3].pareto);
+}
+
+TEST(ParetoFront, HasBothOfTwoEquals) {
+  const StudyResult result = result_of({0.5, 0.5, 0.5}, {1, 1, 2});
+  EXPECT_TRUE(result.rows[0].pareto);
+  EXPECT_TRUE(result.rows[1].pareto);
+  EXPECT_FALSE(result.rows[2].pareto);
+}
+
+TEST(Cheapest, IsTheFastestUnderTheBound) {
+  const StudyResult result = result_of({0.25, 0.0625, 0.015625}, {1, 2, 4});
+  EXPECT_EQ(cheapest(result, 0.1).setting, 1U);
+  EXPECT_EQ(cheapest(result, 0.0625).setting, 1U);
+  EXPECT_EQ(cheapest(result, std::nextafter(0.0625, 0)).setting, 2U);
+  EXPECT_EQ(cheapest(result, 1).setting, 0U);
+}
+
+TEST(Cheapest, PassesByAnAccidentalCrossing) {
+  // The second setting is good by chance: the third, which is finer, is not.
+  const StudyResult result = result_of({0.25, 0.0009765625, 0.0625, 0.015625}, {1, 2, 4, 8});
+  EXPECT_EQ(result.rows[1].held_error, 0.0625);
+  EXPECT_EQ(result.rows[1].confirmed, 2);
+  EXPECT_EQ(cheapest(result, 0.02).setting, 3U);
+  EXPECT_EQ(
+      refusal(result, 0.002),
+      "no setting of the study holds an error of 0.2 %: the best reached is 1.56 %, by grid { cells=512 }; "
+      "grid { cells=128 } is at 0.0977 %, but finer settings of its way are not, so that is an accident; "
+      "add finer settings to a way, or ask for less");
+}
+
+TEST(Cheapest, SaysWhatTheBestReachedWas) {
+  EXPECT_EQ(
+      refusal(result_of({0.25, 0.0625}, {1, 2}), 1e-3),
+      "no setting of the study holds an error of 0.1 %: the best reached is 6.25 %, by grid { cells=128 }; "
+      "add finer settings to a way, or ask for less");
+  StudyResult nothing = result_of({0.25}, {1});
+  nothing.rows[0].end = StudyRow::End::failed;
+  conclude(nothing);
+  EXPECT_EQ(refusal(nothing, 1e-3),
+            "no setting of the study holds an error of 0.1 %; none of them was measured");
+}
+
+TEST(Cheapest, RefusesABoundThatIsNone) {
+  const StudyResult result = result_of({0.25}, {1});
+  EXPECT_EQ(refusal(result, 0), "`error` is 0; give a number above 0");
+  EXPECT_EQ(refusal(result, -1), "`error` is -1; give a number above 0");
+}
+
+TEST(Cheapest, SkipsFailedSettingsOfTheWay) {
+  StudyResult result = result_of({0.25, 0.0625, 0.015625}, {1, 2, 4});
+  result.rows[2].end = StudyRow::End::failed;
+  conclude(result);
+  EXPECT_EQ(cheapest(result, 0.1).setting, 1U);
+  EXPECT_EQ(result.rows[1].confirmed, 0);
+}
+
+TEST(StudyText, ShowsRowsTheFrontAndWhatToTake) {
+  StudyResult result = result_of({0.25, 0.0078125, 0.015625}, {0.001, 0.002, 0.004});
+  result.rows[0].runs = {0.0005, 0.001, 0.002};
+  result.rows.push_back({});
+  result.request.ways[0].settings.push_back(cells(1024));
+  result.rows[3].setting = 3;
+  result.rows[3].end = StudyRow::End::left_out;
+  result.rows[3].reason = "budget: about 2 s needed, 1 s left";
+  result.calls = 12;
+  result.asked_seconds = 0.03;
+  result.total_seconds = 0.0303;
+  conclude(result);
+  EXPECT_EQ(
+      study_text(result),
+      "work and precision: 4 settings of 1 way, truth 1\n"
+      "  way   setting         value     error    seconds (fastest to slowest)\n"
+      "  grid  { cells=64 }    1.25      25 %     1 ms (500 us to 2 ms)         *\n"
+      "        { cells=128 }   1.007812  0.781 %  2 ms (2 ms to 2 ms)           *\n"
+      "        { cells=256 }   1.015625  1.56 %   4 ms (4 ms to 4 ms)\n"
+      "        { cells=1024 }  left out                                         budget: about 2 s needed, "
+      "1 s left\n"
+      "  * nothing measured is both faster and closer\n"
+      "cheapest for 10 %: grid { cells=128 }, 2 ms, held to 1.56 %\n"
+      "cheapest for 1 %: none of these; the best reached is 1.56 %, by grid { cells=256 }\n"
+      "cheapest for 0.1 %: none of these; the best reached is 1.56 %, by grid { cells=256 }\n"
+      "12 calls took 30 ms, the study itself 1 % more");
+}
+
+TEST(StudyText, TimesReadAsPeopleSayThem) {
+  EXPECT_EQ(seconds_text(2.5e-6), "2.5 us");
+  EXPECT_EQ(seconds_text(0.0123), "12.3 ms");
+  EXPECT_EQ(seconds_text(4.2), "4.2 s");
+  EXPECT_EQ(seconds_text(200), "3 min 20 s");
+  EXPECT_EQ(seconds_text(300), "5 min");
+  EXPECT_EQ(seconds_text(7500), "2 h 5 min");
+  EXPECT_EQ(share_text(0.01234), "1.23 %");
+  EXPECT_EQ(share_text(12.344), "1234 %");
+}
+
+TEST(StudyTable, HasAColumnForEachKnob) {
+  const StudyResult result = result_of({0.25, 0.0625}, {1, 2});
+  const Table table = study_table(result);
+  EXPECT_EQ(
+      table.csv(),
+      "way,cells,end,value,error,absolute_error,held_error,seconds [s],seconds_low [s],seconds_high [s],"
+      "first_seconds [s],runs,pareto,steady,reason\n"
+      "grid,64,measured,1.25,0.25,0.25,0.25,1,1,1,1,1,true,true,\n"
+      "grid,128,measured,1.0625,0.0625,0.0625,0.0625,2,2,2,2,1,true,true,\n");
+}
+
+}  // namespace
+}  // namespace asperity
