@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/adhesive_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "engine/contact/elasticity/half_space/contact_preconditioner.hpp"
+#include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr int most_steps = 4000;  // tangents
+constexpr int most_passes = 400;  // of one tangent's contact
+
+// Lengths in cells, pressures in E*: u = K p.
+class Descent {
+ public:
+  Descent(const AdhesiveProblem& problem, Monitor& monitor)
+      : problem_(problem),
+        grid_(problem.contact.grid),
+        nodes_(grid_.nodes()),
+        length_(grid_.hx()),
+        modulus_(problem.contact.modulus),
+        compliance_(grid_.nx, grid_.ny, grid_.hy() / grid_.hx(), problem.contact.boundary),
+        preconditioner_(grid_.nx, grid_.ny, grid_.hy() / grid_.hx(), problem.contact.boundary),
+        drop_(nodes_),
+        p_(nodes_),
+        q_(nodes_),
+        g_(nodes_),
+        direction_(nodes_),
+        image_(nodes_),
+        z_(nodes_),
+        r_(nodes_),
+        before_(nodes_),
+        free_(nodes_),
+        task_(monitor, "adhesion", most_steps) {
+    const auto h = problem.contact.heights->values();
+    const double peak = range(h).max;
+    for_nodes(nodes_, [&](std::size_t k) { drop_[k] = (peak - h[k]) / length_; });
+    for (const GapTerm& term : problem.attraction) {
+      greatest_ += term.greatest() / modulus_;
+      shortest_ = std::min(shortest_, term.range / length_);
+    }
+  }
+
+  void begin_from(const AdhesiveAnswer& start) {
+    for_nodes(nodes_, [&](std::size_t k) {
+      p_[k] = start.contact.pressure[k] / modulus_;
+      q_[k] = start.attraction[k] / modulus_;
+    });
+  }
+
+  // The attraction of bodies that just touch: without any, none would hold them.
+  void begin_touching() {
+    for_nodes(nodes_, [&](std::size_t k) { q_[k] = traction(drop_[k]); });
+  }
+
+  // Steps until the attraction that is held is the attraction of the gap, both to `tolerance`.
+  void run(double tolerance);
+
+  double approach = 0;         // δ, cells; found where the load is given
+  std::optional<double> load;  // mean p − mean q asked for, E*
+  bool separates = false;
+  double rate = 0;  // of what a step leaves of the change before it
+
+  AdhesiveAnswer answer() const;
+  double mean(const Array<double>& values) const {
+    return over_nodes<1>(nodes_, [&](std::size_t k, double* v) { v[0] = values[k]; })[0] /
+           static_cast<double>(nodes_);
+  }
+
+ private:
+  double traction(double g) const {
+    double sum = 0;
+    for (const GapTerm& term : problem_.attraction) sum += term.traction(std::max(0.0, g) * length_);
+    return sum / modulus_;
+  }
+  void apply(const Array<double>& p, Array<double>& u) {
+    compliance_.apply(p, u);
+    ++applications_;
+  }
+  void find_gap() {
+    for_nodes(nodes_, [&](std::size_t k) { image_[k] = p_[k] - q_[k]; });
+    apply(image_, g_);
+    for_nodes(nodes_, [&](std::size_t k) { g_[k] += drop_[k] - approach; });
+  }
+  void scale_to(double target) {
+    const double now = mean(p_);
+    if (now > 0)
+      for_nodes(nodes_, [&](std::size_t k) { p_[k] *= target / now; });
+    else
+      std::fill(p_.begin(), p_.end(), target);
+  }
+  double contact(double close, double target);
+
+  const AdhesiveProblem& problem_;
+  Grid grid_;
+  std::size_t nodes_;
+  double length_, modulus_;
+  double greatest_ = 0, shortest_ = std::numeric_limits<double>::infinity();
+  HalfSpaceCompliance compliance_;
+  ContactPreconditioner preconditioner_;
+  Array<double> drop_, p_, q_, g_, direction_, image_, z_, r_, before_;
+  Array<std::uint8_t> free_;
+  Task task_;
+  int applications_ = 0, steps_ = 0;
+  double off_ = std::numeric_limits<double>::infinity(), touch_ = 0;
+};
+
+// The contact under the attraction held: p >= 0 with g = K (p − q) + d − δ >= 0 and p g = 0, to `close` in
+// the gap. With a load, mean p = target, and δ is what makes the mean gap in contact 0. Projected conjugate
+// gradients on the nodes that touch or overlap (Polonsky & Keer 1999), preconditioned, begun again whenever
+// that set changes.
+double Descent::contact(double close, double target) {
+  const bool fixed = load.has_value();
+  if (fixed) scale_to(target);
+  find_gap();
+  bool same = false;
+  double old_rz = 0, worst = std::numeric_limits<double>::infinity();
+  std::uint8_t* const free = free_.data();
+  for (int pass = 0; pass < most_passes; ++pass) {
+    if (fixed) {
+      const auto sums = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
+        v[0] = p_[k] > 0 ? g_[k] : 0.0;
+        v[1] = p_[k] > 0 ? 1.0 : 0.0;
+      });
+      const double shift = sums[0] / sums[1];
+      approach += shift;
+      for_nodes(nodes_, [&](std::size_t k) { g_[k] -= shift; });
+    }
+    const auto found = over_nodes<3, 1>(nodes_, [&](std::size_t k, double* v) {
+      const std::uint8_t in = p_[k] > 0 || g_[k] < 0 ? 1 : 0;
+      v[0] = in != free[k] ? 1.0 : 0.0;
+      v[1] = in;
+      v[2] = in ? g_[k] : 0.0;
+      v[3] = in ? -std::abs(g_[k]) : 0.0;
+      free[k] = in;
+    });
+    worst = -found[3];
+    if (worst <= close || found[1] == 0) break;
+    const double middle = fixed ? found[2] / found[1] : 0.0;
+    for_nodes(nodes_, [&](std::size_t k) { r_[k] = free[k] ? middle - g_[k] : 0.0; });
+    if (found[0] > 0 || pass == 0) {
+      same = false;
+      preconditioner_.set_free(free_);
+    }
+    preconditioner_.apply(r_, z_);
+    const auto sums = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
+      v[0] = free[k] ? z_[k] : 0.0;
+      v[1] = r_[k];
+    });
+    // The preconditioner sees nothing of a constant; the longest wave does for it.
+    const double level = fixed ? -sums[0] / found[1]
+                               : std::numbers::pi / std::max<double>(grid_.nx, grid_.ny) / found[1] * sums[1];
+    const double rz = over_nodes<1>(nodes_, [&](std::size_t k, double* v) {
+      z_[k] = free[k] ? z_[k] + level : 0.0;
+      v[0] = r_[k] * z_[k];
+    })[0];
+    const double keep = same && old_rz > 0 ? rz / old_rz : 0.0;
+    old_rz = rz;
+    for_nodes(nodes_, [&](std::size_t k) { direction_[k] = free[k] ? z_[k] + keep * direction_[k] : 0.0; });
+    apply(direction_, image_);
+    const auto slope = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
+      v[0] = r_[k] * direction_[k];
+      v[1] = direction_[k] * image_[k];
+    });
+    if (!(slope[1] > 0) || !(slope[0] > 0)) {
+      if (!same) break;
+      same = false;
+      old_rz = 0;
+      continue;
+    }
+    double step = slope[0] / slope[1];
+    const double clipped = over_nodes<1>(
+        nodes_, [&](std::size_t k, double* v) { v[0] = p_[k] + step * direction_[k] < 0 ? 1.0 : 0.0; })[0];
+    same = clipped == 0;
+    if (same) {
+      for_nodes(nodes_, [&](std::size_t k) {
+        p_[k] += step * direction_[k];
+        g_[k] += step * image_[k];
+      });
+      continue;
+    }
+    for_nodes(nodes_, [&](std::size_t k) {
+      before_[k] = p_[k];
+      r_[k] = g_[k];
+    });
+    for (int half = 0; half < 30; ++half, step *= 0.5) {
+      for_nodes(nodes_, [&](std::size_t k) { p_[k] = std::max(0.0, before_[k] + step * direction_[k]); });
+      if (fixed) scale_to(target);
+      find_gap();
+      // The energy is quadratic: its change is that of p times the mean of the gaps at both ends.
+      const double change = over_nodes<1>(
+          nodes_, [&](std::size_t k, double* v) { v[0] = (p_[k] - before_[k]) * (g_[k] + r_[k]); })[0];
+      if (change <= 0) break;
+    }
+  }
+  return worst;
+}
+
+void Descent::run(double tolerance) {
+  const double tightest = tolerance * shortest_;
+  double loose = 0.1 * shortest_;
+  bool smooth = true;
+  for (const GapTerm& term : problem_.attraction)
+    smooth = smooth && (term.law == GapLaw::exponential || term.edge > 0);
+  int since = 0;
+  Array<double> last(nodes_);
+  for (steps_ = 1; steps_ <= most_steps; ++steps_) {
+    task_.advance();
+    double target = 0;
+    if (load) {
+      target = *load + mean(q_);
+      if (!(target > 0)) {
+        separates = true;
+        return;
+      }
+    }
+    touch_ = contact(std::max(tightest, loose), target);
+    const auto change = over_nodes<3, 1>(nodes_, [&](std::size_t k, double* v) {
+      const double held = traction(g_[k]), by = held - q_[k], old = last[k];
+      v[0] = by * by;
+      v[1] = by * old;
+      v[2] = old * old;
+      v[3] = -std::abs(by);
+      last[k] = by;
+      z_[k] = held;
+    });
+    off_ = greatest_ > 0 ? -change[3] / greatest_ : 0.0;
+    rate = change[2] > 0 ? change[1] / change[2] : 0.0;
+    if (off_ <= tolerance && touch_ <= tightest) return;
+    loose = std::min(0.1, 0.2 * off_) * shortest_;
+    // What shrinks by one ratio from step to step ends where the geometric series does.
+    const bool alike = change[1] > 0.95 * std::sqrt(change[0] * change[2]);
+    if (smooth && ++since > 2 && alike && rate > 0.3 && rate < 0.98 && off_ < 0.3) {
+      const double further = 0.9 * rate / (1 - 0.9 * rate);
+      for_nodes(nodes_,
+                [&](std::size_t k) { q_[k] = std::clamp(z_[k] + further * last[k], 0.0, greatest_); });
+      since = 0;
+    } else {
+      std::swap(q_, z_);
+    }
+  }
+  steps_ = most_steps;
+}
+
+AdhesiveAnswer Descent::answer() const {
+  AdhesiveAnswer result;
+  HalfSpaceAnswer& at = result.contact;
+  at.pressure = Field(grid_.nx, grid_.ny);
+  at.gap = Field(grid_.nx, grid_.ny);
+  result.attraction = Field(grid_.nx, grid_.ny);
+  for (std::size_t k = 0; k < nodes_; ++k) {
+    at.pressure[k] = p_[k] * modulus_;
+    at.gap[k] = g_[k] * length_;
+    result.attraction[k] = q_[k] * modulus_;
+  }
+  at.approach = approach * length_;
+  at.offset = at.approach - range(problem_.contact.heights->values()).max;
+  result.mean_attraction = mean(q_) * modulus_;
+  at.mean_pressure = mean(p_) * modulus_ - result.mean_attraction;
+  at.contacts = std::count_if(p_.begin(), p_.end(), [](double p) { return p > 0; });
+  at.peak_pressure = range(at.pressure.values()).max;
+  at.iterations = applications_;
+  at.solver = "tangents of the attraction";
+  result.stationarity = off_;
+  result.rate = rate;
+  result.steps = steps_;
+  return result;
+}
+
+}  // namespace
+
+AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approach,
+                                  const AdhesiveAnswer* start, Monitor& monitor) {
+  Descent descent(problem, monitor);
+  if (start != nullptr) descent.begin_from(*start);
+  descent.approach = approach / problem.contact.grid.hx();
+  descent.run(problem.contact.tolerance);
+  return descent.answer();
+}
+
+AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pressure,
+                                  const AdhesiveAnswer* start, Monitor& monitor) {
+  Descent descent(problem, monitor);
+  if (start != nullptr)
+    descent.begin_from(*start);
+  else
+    descent.begin_touching();
+  descent.load = mean_pressure / problem.contact.modulus;
+  descent.run(problem.contact.tolerance);
+  if (descent.separates)
+    throw Error(ErrorCode::infeasible,
+                "the bodies separate under a mean pressure of " +
+                    format_quantity(mean_pressure, dimension::pressure) +
+                    ": no adhesive contact carries so great a pull",
+                "pull by less, or prescribe the `approach`");
+  return descent.answer();
+}
+
+}  // namespace asperity

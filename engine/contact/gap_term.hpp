@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// An attraction across the gap, as a solver sees it: a traction that falls with the gap g >= 0 and its
+// potential, whatever brought it. Exponential: w/ρ e^(−g/ρ); Dugdale (1960; Maugis 1992): w/ρ while g < ρ.
+// Both potentials are concave, which is what makes their descent monotone. The repulsion is a hard wall.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace asperity {
+
+enum class GapLaw { exponential, dugdale };
+
+struct GapTerm {
+  std::string effect;  // catalogue name
+  GapLaw law = GapLaw::exponential;
+  double work = 0;   // w, J/m²
+  double range = 0;  // ρ, m
+  // Of Dugdale's: the traction ends over gaps from (1 − edge)ρ to (1 + edge)ρ. A sharp end is caught by every
+  // node that it has to pass; the work is the same.
+  double edge = 0;
+
+  double greatest() const { return work / range; }  // Pa, at touch
+  // Pa, of g >= 0.
+  double traction(double g) const {
+    if (law == GapLaw::dugdale)
+      return greatest() * (edge > 0 ? std::clamp((1 + edge - g / range) / (2 * edge), 0.0, 1.0)
+                                    : static_cast<double>(g < range));
+    return greatest() * std::exp(-g / range);
+  }
+  // J/m² below what two faces far apart have, so <= 0.
+  double potential(double g) const {
+    if (law == GapLaw::exponential) return -work * std::exp(-g / range);
+    const double x = g / range, left = std::max(0.0, 1 + edge - x);
+    return -work * (left < 2 * edge ? left * left / (4 * edge) : std::max(0.0, 1 - x));
+  }
+};
+
+}  // namespace asperity
