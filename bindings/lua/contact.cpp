@@ -39,7 +39,7 @@ const Block<PressKeys>& press_block() {
   static const Block<PressKeys> block = [] {
     std::vector<Option<PressKeys>> options;
     for (const auto& entry : press_keys) {
-      const NumberRange range = entry.by == PressBy::flatten ? between(0, 1) : at_least(0);
+      const NumberRange range = entry.by == PressBy::flatten ? between(0, 1) : any();
       auto option = custom<PressKeys>(
           entry.key, entry.dimension == dimension::number ? "number" : asperity::describe(entry.dimension),
           entry.sentence,
@@ -58,6 +58,10 @@ const Block<PressKeys>& press_block() {
     }
     options.push_back(quantity("dwell", &PressKeys::dwell, dimension::time, at_least(0),
                                "how long the load stays; read by creep alone"));
+    options.push_back(
+        number("drawn_from", &PressKeys::drawn_from, any(),
+               "of bodies that attract each other: pressed to this first, in the SI unit of the "
+               "quantity given, and drawn back from there"));
     return Block<PressKeys>("press", std::move(options), [](PressKeys& keys, Problems& problems) {
       if (keys.given != 1)
         problems.push_back(
@@ -73,6 +77,7 @@ namespace {
 Values press(Call& call) {
   PressKeys keys = call.options(press_block());
   keys.request.dwell = keys.dwell;
+  keys.request.drawn_from = keys.drawn_from;
   return {object(call.self<SpecimenPair>().press(keys.request, call.session().monitor()))};
 }
 
@@ -84,7 +89,7 @@ const Block<SweepKeys>& sweep_block() {
   static const Block<SweepKeys> block = [] {
     std::vector<Option<SweepKeys>> options;
     for (const auto& entry : press_keys) {
-      const NumberRange range = entry.by == PressBy::flatten ? between(0, 1) : at_least(0);
+      const NumberRange range = entry.by == PressBy::flatten ? between(0, 1) : any();
       auto option = custom<SweepKeys>(
           entry.key,
           (entry.dimension == dimension::number ? "number" : asperity::describe(entry.dimension)) + "[]",
@@ -139,7 +144,8 @@ Values release_load(Call& call) {
 void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
                   const PressRequest& request, const asperity::State& state) {
   const Object self{&class_of<SpecimenPair>(), pair, false};
-  record_call(session, "contact:press", &self, press_block().resolved({1, request, request.dwell}),
+  record_call(session, "contact:press", &self,
+              press_block().resolved({1, request, request.dwell, request.drawn_from}),
               {object(asperity::State(state))});
 }
 

@@ -34,6 +34,7 @@ struct PressKeys {
   int given = 0;  // ways to say how far; exactly one is
   PressRequest request;
   std::optional<double> dwell;
+  std::optional<double> drawn_from;
 };
 const Block<PressKeys>& press_block();
 // Writes the journal's line of a press that an iterator made, as one made by hand stands there.

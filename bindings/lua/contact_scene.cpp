@@ -53,6 +53,36 @@ const Block<CreepOptions>& creep_block() {
   return block;
 }
 
+const Block<CapillarityOptions>& capillarity_block() {
+  using O = CapillarityOptions;
+  static const Block<O> block{
+      "capillarity",
+      {quantity("pressure", &O::pressure, dimension::pressure, at_least(0),
+                "how far the liquid is below the air; sets the radius of the meniscus"),
+       number("humidity", &O::humidity, {0, 1, false, true, false},
+              "relative; sets the radius and with it the pressure"),
+       quantity("surface_tension", &O::surface_tension, dimension::energy_per_area, above(0),
+                "of the liquid; that of water unless given"),
+       quantity("contact_angle", &O::contact_angle, dimension::angle, at_least(0),
+                "of the liquid on both bodies, below 90 deg"),
+       number("temperature", &O::temperature, above(0), "in kelvins; of `humidity`"),
+       number("molar_volume", &O::molar_volume, above(0), "of the liquid in m^3/mol; of `humidity`")}};
+  return block;
+}
+
+const Block<AdhesionOptions>& adhesion_block() {
+  using O = AdhesionOptions;
+  static const Block<O> block{
+      "adhesion",
+      {quantity("work", &O::work, dimension::energy_per_area, at_least(0), "of parting a unit of area")
+           .required(),
+       quantity("range", &O::range, dimension::length, above(0), "gap over which the attraction falls")
+           .required(),
+       choice("model", &O::model, {{"exponential", GapLaw::exponential}, {"dugdale", GapLaw::dugdale}},
+              "work/range e^(-gap/range), or work/range up to a gap of the range")}};
+  return block;
+}
+
 const Block<InterlockingOptions>& interlocking_block() {
   using O = InterlockingOptions;
   static const Block<O> block{
@@ -150,6 +180,8 @@ struct SceneKeys {
   std::optional<Elasticity> elasticity;
   std::optional<PlasticityOptions> plasticity;
   std::optional<CreepOptions> creep;
+  std::optional<CapillarityOptions> capillarity;
+  std::optional<AdhesionOptions> adhesion;
   std::optional<InterlockingOptions> interlocking;
   std::optional<AgeingOptions> ageing;
   std::optional<TangentialOptions> tangential;
@@ -213,6 +245,10 @@ const std::vector<Option<SceneKeys>>& effect_options() {
                  "pressure is limited by hardness, and what yields stays flattened; {} for its defaults"),
         table_of("creep", &K::creep, creep_block(),
                  "hardness falls with the dwell of the load; needs plasticity; {} for its defaults"),
+        table_of("capillarity", &K::capillarity, capillarity_block(),
+                 "liquid in narrow gaps pulls the bodies together, and the junctions carry that too"),
+        table_of("adhesion", &K::adhesion, adhesion_block(),
+                 "the surfaces attract each other across the gap; loads and approaches may be below zero"),
         table_of("ageing", &K::ageing, ageing_block(),
                  "tau0 of the friction law grows with the time the junctions rest"),
         table_of("interlocking", &K::interlocking, interlocking_block(),
@@ -307,6 +343,8 @@ Scene read_scene(Call& call) {
               keys.accuracy};
   scene.plasticity = keys.plasticity;
   scene.creep = keys.creep;
+  scene.capillarity = keys.capillarity;
+  scene.adhesion = keys.adhesion;
   scene.sliding = {keys.interlocking, keys.ageing, keys.tangential};
   if (Refinement* refinement = refinement_of(call.L)) {
     scene.accuracy.tolerance = refinement->tolerance_for(scene.accuracy.tolerance);

@@ -42,7 +42,8 @@ Values certificate_of(Call& call) {
       .add("tension", c.tension)
       .add("complementarity", c.complementarity)
       .add("load", c.load)
-      .add("cap", c.cap);
+      .add("cap", c.cap)
+      .add("attraction", c.attraction);
   return {std::move(record)};
 }
 
@@ -151,6 +152,9 @@ const Class& state_class() {
     c.fields = {
         {"load", "number", "force on the whole tile", dimension::force, read<&S::load>},
         {"pressure", "number", "load over the nominal area", dimension::pressure, read<&S::pressure>},
+        {"attraction", "number",
+         "force by which the bodies attract each other; the contacts carry load and this", dimension::force,
+         read<&S::attraction>},
         {"approach", "number", "from first touch", dimension::length, read<&S::approach>},
         {"indentation",
          "number",

@@ -15,8 +15,10 @@ struct Certificate {
   double load = 0;             // |mean p − p̄| / p̄
   double cap = 0;              // max(p − H)⁺ / H; 0 where no cap is in force
 
+  double attraction = 0;  // max |σ(g) − σ| / max σ; 0 without attraction across the gap
+
   // The greatest entry: the residual of the solve.
-  double worst() const { return std::max({penetration, tension, complementarity, load, cap}); }
+  double worst() const { return std::max({penetration, tension, complementarity, load, cap, attraction}); }
 };
 
 }  // namespace asperity

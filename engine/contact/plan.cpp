@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "engine/contact/discretisation_error.hpp"
+#include "engine/contact/effects/adhesion.hpp"
 #include "engine/contact/effects/ageing.hpp"
+#include "engine/contact/effects/capillarity.hpp"
 #include "engine/contact/effects/catalogue.hpp"
 #include "engine/contact/effects/creep.hpp"
 #include "engine/contact/effects/interlocking.hpp"
@@ -35,6 +37,10 @@ void line(std::string& text, std::string_view label, const std::string& content)
 
 }  // namespace
 
+bool Plan::attracts() const {
+  return std::any_of(attraction.begin(), attraction.end(), [](const GapTerm& term) { return term.work > 0; });
+}
+
 std::int64_t Plan::bytes_kept() const {
   std::int64_t sum = 0;
   for (const PlannedBuffer& buffer : buffers) sum += buffer.kept ? buffer.bytes : 0;
@@ -59,6 +65,7 @@ std::string Plan::text() const {
          format_bytes(buffer.bytes) + " " + buffer.name + (buffer.kept ? "" : ", for a moment"));
   line(result, "memory", format_bytes(bytes_kept()) + " kept, " + format_bytes(bytes_peak()) + " at most");
   line(result, "time", "about " + format_quantity(seconds, dimension::time, 3) + " for the first press");
+  for (const std::string& warning : warnings) line(result, "warning", warning);
   if (!effects_off.empty()) line(result, "off", joined(effects_off, ", ") + " (not named in the scene)");
   return result;
 }
@@ -76,6 +83,8 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
     plan_half_space(geometry, plan);
   if (scene.plasticity) plan_plasticity(*scene.plasticity, geometry, plan);
   if (scene.creep) plan_creep(*scene.creep, plan);
+  if (scene.capillarity) plan_capillarity(*scene.capillarity, geometry, plan);
+  if (scene.adhesion) plan_adhesion(*scene.adhesion, geometry, plan);
   if (scene.sliding.ageing) plan_ageing(*scene.sliding.ageing, plan);
   if (scene.sliding.interlocking) plan_interlocking(*scene.sliding.interlocking, geometry, plan);
   if (scene.sliding.tangential) plan_tangential(*scene.sliding.tangential, geometry, plan);

@@ -66,7 +66,9 @@ struct Plan {
   std::string solver;
   PlannedOperator elasticity;
   std::optional<PlannedYield> yield;  // none without the effect `plasticity`
+  std::vector<GapTerm> attraction;    // of the gap; a term of no work is left out of the solve
   std::vector<PlannedTerm> terms;
+  std::vector<std::string> warnings;  // of a grid that is too coarse for a term
   std::vector<PlannedBuffer> buffers;
   double transforms = 0;  // expected for a press, equivalents of the finest grid
   double seconds = 0;     // expected for the first press, a rough guess
@@ -77,6 +79,8 @@ struct Plan {
   std::vector<std::string> effects_run;
   std::vector<std::string> effects_off;
 
+  // Whether bodies attract each other at all, so that they may be pulled.
+  bool attracts() const;
   std::int64_t bytes_kept() const;
   std::int64_t bytes_peak() const;  // with the momentary ones
   std::string text() const;         // several lines, each ended

@@ -25,8 +25,22 @@ std::string_view name(PressBy by) {
   return {};
 }
 
-void check(const PressRequest& request) {
-  if (!(request.value >= 0 && std::isfinite(request.value)))
+void check(const PressRequest& request, bool attracts) {
+  if (attracts && request.by == PressBy::flatten)
+    throw Error(ErrorCode::bad_value, "`flatten` of bodies that attract each other is not computed",
+                "press by `pressure`, `load`, `approach` or `indentation`");
+  if (attracts && !std::isfinite(request.value))
+    throw Error(ErrorCode::bad_value, quoted(name(request.by)) + " is " + format_short(request.value),
+                "give a finite value; one below zero pulls");
+  if (request.drawn_from && !attracts)
+    throw Error(ErrorCode::bad_value, "`drawn_from` is given, and nothing attracts the bodies",
+                "name `adhesion` or `capillarity`, or leave it out: without them a state has no history");
+  if (request.drawn_from && !(*request.drawn_from >= request.value && std::isfinite(*request.drawn_from)))
+    throw Error(ErrorCode::bad_value,
+                "`drawn_from` is " + format_short(*request.drawn_from) + ", below the " +
+                    quoted(name(request.by)) + " of " + format_short(request.value),
+                "bodies are drawn back from a greater value");
+  if (!attracts && !(request.value >= 0 && std::isfinite(request.value)))
     throw Error(ErrorCode::bad_value, quoted(name(request.by)) + " is " + format_short(request.value),
                 "a contact without adhesion takes a finite value from zero up");
   if (request.by == PressBy::flatten && request.value > 1)

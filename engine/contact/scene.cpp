@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "engine/contact/discretisation_error.hpp"
@@ -53,6 +54,53 @@ void check(const CreepOptions& options) {
                 "give a finite number from zero up; 0.02 is usual");
   check_positive(options.onset, "onset", "s", false, "give a time above zero, such as \"1 s\"");
   check_positive(options.reference, "reference", "s", false, "give a time above zero, such as \"10 min\"");
+}
+
+void check(const AdhesionOptions& options) {
+  if (!(options.work >= 0 && std::isfinite(options.work)))
+    throw Error(ErrorCode::bad_value, "`work` of the adhesion is " + format_short(options.work) + " J/m^2",
+                "give a finite value from zero up, such as \"50 mJ/m^2\"");
+  check_positive(options.range, "range", "m", false,
+                 "give the length over which the attraction falls, such as \"1 nm\"");
+}
+
+void check(const CapillarityOptions& options) {
+  if (options.pressure.has_value() == options.humidity.has_value())
+    throw Error(
+        ErrorCode::bad_value,
+        std::string("`capillarity` names ") +
+            (options.pressure ? "both `pressure` and `humidity`" : "neither `pressure` nor `humidity`"),
+        "give the one that is known: the humidity sets the pressure");
+  if (options.pressure && !(*options.pressure >= 0 && std::isfinite(*options.pressure)))
+    throw Error(ErrorCode::bad_value,
+                "`pressure` of the liquid is " + format_short(*options.pressure) + " Pa",
+                "it is how far the liquid is below the air: give a finite value from zero up");
+  if (options.humidity && !(*options.humidity >= 0 && *options.humidity < 1))
+    throw Error(ErrorCode::bad_value, "`humidity` is " + format_short(*options.humidity),
+                "it is relative: give a number from 0 to below 1; at 1 the liquid floods every gap");
+  check_positive(options.surface_tension, "surface_tension", "N/m", false, "water has \"72.8 mN/m\"");
+  check_positive(options.temperature, "temperature", "K", false, "give kelvins, such as \"293 K\"");
+  check_positive(options.molar_volume, "molar_volume", "m^3/mol", false, "water has 1.8e-5");
+  if (!(options.contact_angle >= 0 && options.contact_angle < std::numbers::pi / 2))
+    throw Error(ErrorCode::bad_value,
+                "`contact_angle` is " + format_short(options.contact_angle * 180 / std::numbers::pi) + " deg",
+                "give an angle from 0 to below 90 deg: a liquid that does not wet does not attract");
+}
+
+// What is not computed beside an attraction across the gap.
+void check_attraction(const Scene& scene, const std::string& effect) {
+  const auto refuse = [&](const std::string& beside, const char* hint) {
+    throw Error(ErrorCode::bad_value, quoted(effect) + " is not computed " + beside + " by this version",
+                hint);
+  };
+  if (std::holds_alternative<BoxOptions>(scene.elasticity))
+    refuse("on box elements", "name elasticity=\"half_space\" beside it");
+  if (scene.plasticity) refuse("together with `plasticity`", "leave one of both out");
+  if (scene.sliding.tangential) refuse("together with `tangential`", "leave one of both out");
+  if (scene.accuracy.precision == Accuracy::Precision::single)
+    refuse("with `precision` \"single\"", "leave `precision` out");
+  if (scene.accuracy.estimate || scene.accuracy.asked)
+    refuse("with an estimate of the error of the grid", "leave `estimate` and `error` out, give `tolerance`");
 }
 
 void check(const AskedError& asked, bool plastic) {
@@ -115,6 +163,14 @@ void check(const Scene& scene) {
       throw Error(ErrorCode::bad_value,
                   "`creep` softens the hardness that the effect `plasticity` limits pressure by",
                   "name `plasticity` beside it, or leave `creep` out");
+  }
+  if (scene.adhesion) {
+    check_attraction(scene, "adhesion");
+    check(*scene.adhesion);
+  }
+  if (scene.capillarity) {
+    check_attraction(scene, "capillarity");
+    check(*scene.capillarity);
   }
   check(scene.sliding);
   if (scene.sliding.tangential && scene.plasticity)

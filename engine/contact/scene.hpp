@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/contact/boundary.hpp"
+#include "engine/contact/gap_term.hpp"
 #include "engine/contact/sliding.hpp"
 #include "engine/surface/surface.hpp"
 
@@ -47,6 +48,25 @@ struct CreepOptions {
   double onset = 1;        // t_c, s
   double reference = 600;  // t_ref, s: the dwell at which the hardness is the stated one
 };
+// The surfaces attract each other across the gap: w/ρ e^(−g/ρ), or Dugdale's constant w/ρ up to a gap of ρ.
+struct AdhesionOptions {
+  double work = 0;   // w, J/m²
+  double range = 0;  // ρ, m
+  GapLaw model = GapLaw::exponential;
+};
+
+// Liquid bridges gaps up to the height 2 r cos θ of a meniscus and pulls with the constant pressure p = γ/r.
+// Either the pressure is given, or the humidity, which sets the radius r = γ V_m/(R T |ln humidity|)
+// (Kelvin).
+struct CapillarityOptions {
+  std::optional<double> pressure{};  // Pa
+  std::optional<double> humidity{};  // relative, 0 … 1
+  double surface_tension = 0.0728;   // γ, N/m; water at 20 °C
+  double contact_angle = 0;          // θ, rad
+  double temperature = 293.15;       // T, K
+  double molar_volume = 1.8e-5;      // V_m, m³/mol
+};
+
 // H(t)/H; a press that names no dwell lasts t_ref.
 double softening(const CreepOptions& creep, std::optional<double> dwell);
 
@@ -77,6 +97,8 @@ struct Scene {
   Accuracy accuracy{};
   std::optional<PlasticityOptions> plasticity{};
   std::optional<CreepOptions> creep{};
+  std::optional<AdhesionOptions> adhesion{};
+  std::optional<CapillarityOptions> capillarity{};
   SlidingEffects sliding{};
 };
 

@@ -42,9 +42,11 @@ class Solution {
   virtual const ContactGeometry& geometry() const = 0;
 
   // Known when the solve ends; each O(1).
-  virtual double load() const = 0;            // N on the tile
-  virtual double pressure() const = 0;        // Pa, load over nominal area
-  virtual double approach() const = 0;        // m
+  virtual double load() const = 0;      // N on the tile
+  virtual double pressure() const = 0;  // Pa, load over nominal area
+  virtual double approach() const = 0;  // m
+  // N on the tile that an attraction across the gap adds to the load on the junctions.
+  virtual double attraction() const { return 0; }
   virtual std::int64_t contacts() const = 0;  // nodes with p > 0
   virtual double peak_pressure() const = 0;   // Pa
   virtual int iterations() const = 0;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/contact/elasticity/box/box_solver.hpp"
+#include "engine/contact/elasticity/half_space/adhesive_solver.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solver.hpp"
 
 namespace asperity {
@@ -11,6 +12,9 @@ namespace asperity {
 std::shared_ptr<const Solver> make_solver(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry) {
   if (const auto* box = std::get_if<BoxOperator>(&plan.elasticity))
     return std::make_shared<const BoxSolver>(plan, *box, std::move(geometry));
+  if (plan.attracts())
+    return std::make_shared<const AdhesiveSolver>(plan, std::get<HalfSpaceOperator>(plan.elasticity),
+                                                  std::move(geometry));
   return std::make_shared<const HalfSpaceSolver>(plan, std::get<HalfSpaceOperator>(plan.elasticity),
                                                  std::move(geometry));
 }

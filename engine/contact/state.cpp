@@ -122,6 +122,7 @@ State State::chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const {
 
 double State::load() const { return shared_->solution->load(); }
 double State::pressure() const { return shared_->solution->pressure(); }
+double State::attraction() const { return shared_->solution->attraction(); }
 double State::approach() const { return shared_->solution->approach(); }
 std::int64_t State::contacts() const { return shared_->solution->contacts(); }
 double State::peak_pressure() const { return shared_->solution->peak_pressure(); }

@@ -36,8 +36,10 @@ class State {
  public:
   State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCost cost);
 
-  double load() const;        // N on the tile
-  double pressure() const;    // Pa, load over nominal area
+  double load() const;      // N on the tile
+  double pressure() const;  // Pa, load over nominal area
+  // N on the tile, of an attraction across the gap: the contacts carry load() and this together.
+  double attraction() const;
   double approach() const;    // m from first touch
   double separation() const;  // m, of the mean planes of the undeformed bodies
   // approach / peak-to-valley of the combined heights; throws Error{bad_state} for pressed flats, which have

@@ -72,6 +72,8 @@ std::shared_ptr<const Solver> SpecimenPair::solver() {
 }
 
 void SpecimenPair::warn(const PressRequest& request, Monitor& monitor) {
+  if (!std::exchange(warned_of_plan_, true))
+    for (const std::string& warning : plan_.warnings) monitor.warn(warning);
   warn_of_a_step_at_the_rim(monitor);
   if (request.dwell && !scene_.creep && !std::exchange(warned_of_dwell_, true))
     monitor.warn(
@@ -81,7 +83,7 @@ void SpecimenPair::warn(const PressRequest& request, Monitor& monitor) {
 }
 
 State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
-  check(request);
+  check(request, plan_.attracts());
   warn(request, monitor);
   if (scene_.accuracy.asked && !chosen_ && request.value > 0) return choose_and_press(request, monitor);
   const bool first = solver_ == nullptr;
@@ -165,7 +167,7 @@ void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
 }
 
 void SpecimenPair::carry(const State& state) {
-  under_load_ = state.load() > 0;
+  under_load_ = state.load() > 0 || state.contacts() > 0;
   pressed_.reset();
   if (under_load_ && scene_.sliding.tangential) pressed_ = state;
 }

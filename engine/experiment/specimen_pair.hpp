@@ -91,6 +91,7 @@ class SpecimenPair {
   bool warned_of_rim_ = false;
   bool warned_of_mapping_ = false;
   bool warned_of_dwell_ = false;
+  bool warned_of_plan_ = false;
 };
 
 }  // namespace asperity

@@ -76,7 +76,7 @@ FrictionResult JunctionLaw::fresh(const State& state) const {
   const double area = state.area(), load = state.load();
   const double cell = state.geometry().grid().cell_area();
   result.adhesive_force = strength(0) * area;
-  result.load_force = alpha_ * load;
+  result.load_force = alpha_ * (load + state.attraction());
   if (tau_max_ && state.contacts() > 0) {
     const double room = *tau_max_ - tau0_;
     if (room <= 0) {

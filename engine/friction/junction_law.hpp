@@ -2,9 +2,10 @@
 // Static friction of a contact as the sum over its junctions of τ = min(τ0 + α P, τ_max), eq. (1) of the
 // source paper (Hanaor, Gan & Einav 2013): an adhesive strength, a part in proportion to the local
 // pressure, and a cap. The force is the one at which everything slides at once; partial slip and the
-// history of sliding are not part of it. Without a cap T = τ0 A + α F exactly, whatever the contact. Two
-// effects of the scene are read here: `ageing` lets τ0 grow with a rest, `interlocking` adds what the slopes
-// of the junctions resist.
+// history of sliding are not part of it. P is the pressure that a junction carries, so what an attraction
+// across the gap adds to the load rubs too, while μ is over the applied load alone. Without a cap T = τ0 A +
+// α F exactly, whatever the contact. Two effects of the scene are read here: `ageing` lets τ0 grow with a
+// rest, `interlocking` adds what the slopes of the junctions resist.
 #pragma once
 
 #include <optional>

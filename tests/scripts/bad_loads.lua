@@ -17,7 +17,7 @@ local s = bare:with{ material=steel }
 refused(function() lab.contact{ lower=s, upper=lab.rigid } end, "`effects` is missing")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="half_space" } } end, "a half-space needs `boundary`")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="rigid" } } end, "rigid", "not computed")
-refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box", adhesion={} } } end, "adhesion", "not computed")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box", adhesion={ work=1, range=1 } } } end, "adhesion", "not computed")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box", plasticity={} } } end, "plasticity", "not computed")
 refused(function() lab.contact{ lower=bare, upper=lab.rigid, effects=box } end, "elasticity", "the lower body", "no material")
 refused(function() lab.contact{ lower=s, upper=S.flat{ cells=8, size="1 mm", material=steel }, effects=box } end, "16 x 16 cells", "8 x 8 cells", "resampled")

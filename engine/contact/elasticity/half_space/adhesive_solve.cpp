@@ -214,6 +214,7 @@ void Descent::run(double tolerance) {
   for (const GapTerm& term : problem_.attraction)
     smooth = smooth && (term.law == GapLaw::exponential || term.edge > 0);
   int since = 0;
+  bool fresh = false;
   Array<double> last(nodes_);
   for (steps_ = 1; steps_ <= most_steps; ++steps_) {
     task_.advance();
@@ -237,7 +238,13 @@ void Descent::run(double tolerance) {
     });
     off_ = greatest_ > 0 ? -change[3] / greatest_ : 0.0;
     rate = change[2] > 0 ? change[1] / change[2] : 0.0;
-    if (off_ <= tolerance && touch_ <= tightest) return;
+    if (off_ <= tolerance && touch_ <= tightest) {
+      if (fresh) return;
+      fresh = true;  // once more from an application of its own: gaps were updated, not computed
+      loose = 0;
+      continue;
+    }
+    fresh = false;
     loose = std::min(0.1, 0.2 * off_) * shortest_;
     // What shrinks by one ratio from step to step ends where the geometric series does.
     const bool alike = change[1] > 0.95 * std::sqrt(change[0] * change[2]);
@@ -278,19 +285,70 @@ AdhesiveAnswer Descent::answer() const {
   return result;
 }
 
+// The certificate of what is handed out, by sums over it; refuses what missed the tolerance.
+void finish(const AdhesiveProblem& problem, AdhesiveAnswer& answer, std::optional<double> asked) {
+  HalfSpaceAnswer& at = answer.contact;
+  double shortest = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (const GapTerm& term : problem.attraction) {
+    shortest = std::min(shortest, term.range);
+    greatest += term.greatest();
+  }
+  const double length = problem.contact.rms > 0 ? problem.contact.rms : shortest;
+  const auto found = over_nodes<2, 1>(at.pressure.size(), [&](std::size_t k, double* v) {
+    v[0] = at.pressure[k];
+    v[1] = at.pressure[k] * std::abs(at.gap[k]);
+    v[2] = at.gap[k];
+  });
+  Certificate& certificate = at.certificate;
+  certificate.penetration = std::max(0.0, -found[2]) / length;
+  if (found[0] > 0) certificate.complementarity = found[1] / found[0] / length;
+  certificate.attraction = answer.stationarity;
+  if (asked) {
+    const double scale = std::max(std::abs(*asked), answer.mean_attraction);
+    certificate.load = scale > 0 ? std::abs(at.mean_pressure - *asked) / scale : 0.0;
+    at.mean_pressure = *asked;
+  }
+  at.converged = certificate.worst() <= problem.contact.tolerance;
+  if (at.converged || problem.contact.best_effort) return;
+  throw Error(ErrorCode::not_converged,
+              "the attraction and the gap agree to " + format_short(certificate.worst(), 3) + " after " +
+                  std::to_string(answer.steps) + " tangents, where `tolerance` asks for " +
+                  format_short(problem.contact.tolerance, 3),
+              "ask for a larger `tolerance`, or step away from the jump that is near");
+}
+
 }  // namespace
 
 AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approach,
                                   const AdhesiveAnswer* start, Monitor& monitor) {
+  if (!std::isfinite(approach))
+    throw Error(ErrorCode::bad_value, "`approach` is " + format_short(approach) + " m",
+                "give a finite length");
+  const HalfSpaceProblem& contact = problem.contact;
+  if (contact.boundary == Boundary::periodic) {
+    const auto h = contact.heights->values();
+    const double most = range(h).max - mean(h);
+    if (approach >= most)
+      throw Error(ErrorCode::infeasible,
+                  "an approach of " + format_quantity(approach, dimension::length) +
+                      " cannot be reached: this periodic tile is in full contact at " +
+                      format_quantity(most, dimension::length) + ", and more load brings it no nearer",
+                  "ask for a smaller `approach`, or press by `pressure`");
+  }
   Descent descent(problem, monitor);
   if (start != nullptr) descent.begin_from(*start);
-  descent.approach = approach / problem.contact.grid.hx();
-  descent.run(problem.contact.tolerance);
-  return descent.answer();
+  descent.approach = approach / contact.grid.hx();
+  descent.run(contact.tolerance);
+  AdhesiveAnswer answer = descent.answer();
+  finish(problem, answer, {});
+  return answer;
 }
 
 AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pressure,
                                   const AdhesiveAnswer* start, Monitor& monitor) {
+  if (!std::isfinite(mean_pressure))
+    throw Error(ErrorCode::bad_value, "the mean pressure is " + format_short(mean_pressure) + " Pa",
+                "give a finite pressure");
   Descent descent(problem, monitor);
   if (start != nullptr)
     descent.begin_from(*start);
@@ -302,9 +360,11 @@ AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pr
     throw Error(ErrorCode::infeasible,
                 "the bodies separate under a mean pressure of " +
                     format_quantity(mean_pressure, dimension::pressure) +
-                    ": no adhesive contact carries so great a pull",
+                    ": past the pull-off no contact carries the pull",
                 "pull by less, or prescribe the `approach`");
-  return descent.answer();
+  AdhesiveAnswer answer = descent.answer();
+  finish(problem, answer, mean_pressure);
+  return answer;
 }
 
 }  // namespace asperity

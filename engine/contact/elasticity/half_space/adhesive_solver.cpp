@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/adhesive_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
+#include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+double rms_of(const Field& heights) {
+  const double middle = mean(heights.values());
+  return std::sqrt(over_nodes<1>(heights.size(),
+                                 [&](std::size_t k, double* v) {
+                                   v[0] = (heights[k] - middle) * (heights[k] - middle);
+                                 })[0] /
+                   static_cast<double>(heights.size()));
+}
+
+}  // namespace
+
+struct AdhesiveSolver::Ready {
+  std::shared_ptr<const ContactGeometry> geometry;
+  HalfSpaceOperator half_space;
+  AdhesiveProblem problem;
+  std::string effect;  // whose cost the solve is: the first that attracts
+  StateCost cost;
+};
+
+class AdhesiveSolver::UnderLoad final : public Solution {
+ public:
+  UnderLoad(std::shared_ptr<const Ready> ready, AdhesiveAnswer answer)
+      : ready_(std::move(ready)), at_(std::move(answer)) {}
+
+  const ContactGeometry& geometry() const override { return *ready_->geometry; }
+  double load() const override { return at_.contact.mean_pressure * grid().area(); }
+  double pressure() const override { return at_.contact.mean_pressure; }
+  double attraction() const override { return at_.mean_attraction * grid().area(); }
+  double approach() const override { return at_.contact.approach; }
+  std::int64_t contacts() const override { return at_.contact.contacts; }
+  double peak_pressure() const override { return at_.contact.peak_pressure; }
+  int iterations() const override { return at_.contact.iterations; }
+  std::string_view solver() const override { return at_.contact.solver; }
+  Certificate certificate() const override { return at_.contact.certificate; }
+  // The problem is not convex: nothing is bounded.
+  SolutionError error() const override {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    SolutionError error{.load = unknown};
+    error.approach = error.mean_gap = error.energy = error.peak_pressure = unknown;
+    error.contacts = {0, static_cast<std::int64_t>(grid().nodes())};
+    error.may_differ = error.contacts.high;
+    return error;
+  }
+  // Of the contacts, the attraction held.
+  double stiffness() const override {
+    return contacts() > 0 ? contact_stiffness(ready_->problem.contact, at_.contact, Monitor::silent()) : 0.0;
+  }
+  double flatten() const override {
+    const double height = geometry().peak_to_valley();
+    return height > 0 ? 1 - range(at_.contact.gap.values()).span() / height : 0.0;
+  }
+  double mean_gap() const override {
+    return sum([&](std::size_t k) { return std::max(0.0, at_.contact.gap[k]); }) /
+           static_cast<double>(grid().nodes());
+  }
+  double energy() const override {
+    return 0.5 * grid().cell_area() * sum([&](std::size_t k) {
+             return (at_.contact.pressure[k] - at_.attraction[k]) * displacement(k);
+           });
+  }
+  PressureSplit split(double threshold) const override {
+    PressureSplit result;
+    for (const double p : at_.contact.pressure.values())
+      if (p > 0) ++(p >= threshold ? result.above : result.below);
+    result.sum_below = sum([&](std::size_t k) {
+      const double p = at_.contact.pressure[k];
+      return p > 0 && p < threshold ? p : 0.0;
+    });
+    return result;
+  }
+  std::int64_t bytes() const override {
+    return static_cast<std::int64_t>(3 * grid().nodes() * sizeof(double));
+  }
+  Array<std::uint8_t> contact_mask() const override {
+    Array<std::uint8_t> mask(grid().nodes());
+    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = at_.contact.pressure[k] > 0 ? 1 : 0;
+    return mask;
+  }
+  Field pressure_field() const override { return at_.contact.pressure; }
+  Field gap_field() const override {
+    return field(
+        [&](std::size_t k) { return at_.contact.pressure[k] > 0 ? 0.0 : std::max(0.0, at_.contact.gap[k]); });
+  }
+  Field displacement_field() const override {
+    return field([&](std::size_t k) { return displacement(k); });
+  }
+  Field lower_under_load() const override {
+    Field z = geometry().lower().heights();
+    const double share = ready_->half_space.lower_share;
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * displacement(k);
+    return z;
+  }
+  Field upper_under_load() const override {
+    const auto* rough = std::get_if<Surface>(&geometry().upper());
+    Field z = rough ? rough->heights() : Field(grid().nx, grid().ny);
+    const double share = 1 - ready_->half_space.lower_share;
+    if (share == 0) return z;
+    const Field own = geometry().pose().to_upper(displacement_field(), grid());
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * own[k];
+    return z;
+  }
+
+ private:
+  const Grid& grid() const { return ready_->problem.contact.grid; }
+  // K (p − σ) of both bodies.
+  double displacement(std::size_t k) const {
+    return at_.contact.gap[k] +
+           (at_.contact.approach - (geometry().combined_range().max - geometry().combined()[k]));
+  }
+  template <class Function>
+  Field field(Function function) const {
+    Field result(grid().nx, grid().ny);
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] = function(k);
+    return result;
+  }
+  template <class Function>
+  double sum(Function function) const {
+    return block_sum(field(function).values());
+  }
+
+  std::shared_ptr<const Ready> ready_;
+  AdhesiveAnswer at_;
+};
+
+AdhesiveSolver::AdhesiveSolver(const Plan& plan, const HalfSpaceOperator& half_space,
+                               std::shared_ptr<const ContactGeometry> geometry)
+    : plan_(plan) {
+  const CostScope scope;
+  auto ready = std::make_shared<Ready>();
+  ready->geometry = std::move(geometry);
+  ready->half_space = half_space;
+  HalfSpaceProblem& contact = ready->problem.contact;
+  contact.grid = ready->geometry->grid();
+  contact.boundary = ready->geometry->boundary();
+  contact.modulus = half_space.modulus;
+  contact.heights = {ready->geometry, &ready->geometry->combined()};
+  contact.rms = rms_of(*contact.heights);
+  contact.tolerance = plan.accuracy.tolerance;
+  contact.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
+  for (const GapTerm& term : plan.attraction)
+    if (term.work > 0) ready->problem.attraction.push_back(term);
+  ready->effect = ready->problem.attraction.front().effect;
+  ready->cost = {scope.so_far(), {{"elasticity", scope.so_far()}}};
+  ready_ = std::move(ready);
+}
+
+const ContactGeometry& AdhesiveSolver::geometry() const { return *ready_->geometry; }
+const StateCost& AdhesiveSolver::preparation() const { return ready_->cost; }
+
+State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const {
+  check(request, true);
+  const CostScope scope;
+  const AdhesiveProblem& problem = ready_->problem;
+  const double height = geometry().peak_to_valley();
+  if (request.by == PressBy::indentation && !(height > 0))
+    throw Error(
+        ErrorCode::bad_value,
+        "`indentation` is a fraction of a peak-to-valley that is zero: all combined heights are equal",
+        "give `pressure`, `load` or `approach`");
+  const bool by_load = request.by == PressBy::load || request.by == PressBy::pressure;
+  const double unit = request.by == PressBy::load          ? 1 / problem.contact.grid.area()
+                      : request.by == PressBy::indentation ? height
+                                                           : 1;
+  const auto solve = [&](double value, const AdhesiveAnswer* start) {
+    return by_load ? adhere_at_pressure(problem, value * unit, start, monitor)
+                   : adhere_at_approach(problem, value * unit, start, monitor);
+  };
+  std::optional<double> first = request.drawn_from;
+  if (by_load && !first && request.value < 0) first = 0;
+  std::optional<AdhesiveAnswer> before;
+  if (first && *first > request.value) before = solve(*first, nullptr);
+  AdhesiveAnswer answer = solve(request.value, before ? &*before : nullptr);
+  if (before) answer.contact.iterations += before->contact.iterations;
+  const Cost cost = scope.so_far();
+  return State(std::make_shared<const UnderLoad>(ready_, std::move(answer)), plan_,
+               {cost, {{ready_->effect, cost}}});
+}
+
+}  // namespace asperity
