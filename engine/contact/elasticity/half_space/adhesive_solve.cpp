@@ -208,7 +208,9 @@ double Descent::contact(double close, double target) {
 }
 
 void Descent::run(double tolerance) {
-  const double tightest = tolerance * shortest_;
+  // The certificate measures gaps by the rms height; the attraction sees them by its range.
+  const double rms = problem_.contact.rms / length_;
+  const double tightest = 0.5 * tolerance * (rms > 0 ? std::min(shortest_, rms) : shortest_);
   double loose = 0.1 * shortest_;
   bool smooth = true;
   for (const GapTerm& term : problem_.attraction)

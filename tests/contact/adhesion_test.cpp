@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/effects/adhesion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "tests/contact/contacts.hpp"
+
+namespace asperity {
+namespace {
+
+using test::elastic;
+using test::error_of;
+using test::press;
+using test::ready;
+using test::surface_of;
+
+// A paraboloid of radius 1 m on a tile of 1 m, E* = 1 Pa, under a rigid flat.
+Scene paraboloid(int n = 32) {
+  Surface body = surface_of(make_grid(n, n, 1, 1), [n](int i, int j) {
+    const double x = (i + 0.5) / n - 0.5, y = (j + 0.5) / n - 0.5;
+    return -0.5 * (x * x + y * y);
+  });
+  SurfaceTraits traits;
+  traits.material = elastic(1);
+  Scene scene{Surface(body.grid(), body.heights(), traits), rigid_material(), Boundary::free,
+              HalfSpaceOptions{}, Accuracy{}};
+  scene.accuracy.tolerance = 1e-5;
+  return scene;
+}
+Scene adhering(double work, double range = 0.05, GapLaw model = GapLaw::exponential) {
+  Scene scene = paraboloid();
+  scene.adhesion = AdhesionOptions{work, range, model};
+  return scene;
+}
+
+TEST(Adhesion, WithoutWorkItIsTheContactWithoutIt) {
+  const State with = press(adhering(0), PressBy::load, 0.01),
+              without = press(paraboloid(), PressBy::load, 0.01);
+  EXPECT_EQ(with.digest(), without.digest());
+  EXPECT_EQ(with.effects_run().back(), "adhesion");
+  EXPECT_EQ(with.cost().total.transforms, without.cost().total.transforms);
+}
+
+TEST(Adhesion, UnnamedItCostsNothing) {
+  const State state = press(paraboloid(), PressBy::load, 0.01);
+  for (const auto& [effect, cost] : state.cost().by_effect) EXPECT_EQ(effect, "elasticity");
+  EXPECT_EQ(state.attraction(), 0);
+}
+
+TEST(Adhesion, HoldsBodiesTogetherWithoutALoad) {
+  for (const GapLaw model : {GapLaw::exponential, GapLaw::dugdale}) {
+    const State state = press(adhering(0.01, 0.05, model), PressBy::load, 0);
+    EXPECT_EQ(state.load(), 0);
+    EXPECT_GT(state.contacts(), 0);
+    EXPECT_GT(state.approach(), 0);
+    EXPECT_TRUE(state.converged()) << state.text();
+    double sum = 0;
+    for (const double p : state.field("pressure")->values()) sum += p;
+    EXPECT_NEAR(sum * state.geometry().grid().cell_area(), state.attraction(), 1e-9 * state.attraction());
+    ASSERT_EQ(state.cost().by_effect.size(), 1U);
+    EXPECT_EQ(state.cost().by_effect.front().first, "adhesion");
+  }
+}
+
+TEST(Adhesion, APullIsCarriedUpToThePullOff) {
+  const auto contact = ready(adhering(0.01));
+  EXPECT_EQ(contact->press({PressBy::load, -0.03, {}}).load(), -0.03);
+  const std::string text = error_of([&] { contact->press({PressBy::load, -0.1, {}}); });
+  EXPECT_NE(text.find("the bodies separate under a mean pressure of -0.1 Pa"), std::string::npos) << text;
+}
+
+TEST(Adhesion, BodiesDrawnApartHoldLongerThanBodiesBroughtTogether) {
+  const auto contact = ready(adhering(0.01, 0.02));
+  const State coming = contact->press({PressBy::approach, -0.065, {}});
+  const State leaving = contact->press({PressBy::approach, -0.065, {}, 0.05});
+  EXPECT_EQ(coming.contacts(), 0);
+  EXPECT_GT(leaving.contacts(), 0);
+  EXPECT_LT(leaving.load(), coming.load());
+}
+
+TEST(Adhesion, WarnsWhereTheZoneThatPullsIsUnderFourCells) {
+  const auto plan_of = [](const Scene& scene) {
+    return make_plan(scene, ContactGeometry(scene, LatticeIsometry(32, 32)));
+  };
+  EXPECT_TRUE(plan_of(adhering(0.01, 0.05)).warnings.empty());
+  const Plan coarse = plan_of(adhering(0.01, 0.01));
+  ASSERT_EQ(coarse.warnings.size(), 1U);
+  EXPECT_NE(coarse.warnings.front().find("the zone where `adhesion` pulls beside a contact is about"),
+            std::string::npos);
+  EXPECT_TRUE(plan_of(adhering(0, 0.01)).warnings.empty());
+}
+
+TEST(Adhesion, WhatItIsNotComputedWithIsRefusedByName) {
+  const auto refused = [](const Scene& scene) { return error_of([&] { check(scene); }); };
+  EXPECT_EQ(refused(adhering(0.01)), "");
+  EXPECT_NE(refused(adhering(-1)).find("`work` of the adhesion is -1 J/m^2"), std::string::npos);
+  EXPECT_NE(refused(adhering(std::numeric_limits<double>::infinity())).find("`work`"), std::string::npos);
+  EXPECT_NE(refused(adhering(1, 0)).find("`range` is 0 m"), std::string::npos);
+  Scene scene = adhering(1);
+  scene.elasticity = BoxOptions{1.0};
+  EXPECT_NE(refused(scene).find("`adhesion` is not computed on box elements"), std::string::npos);
+  scene = adhering(1);
+  scene.plasticity = PlasticityOptions{1.0};
+  EXPECT_NE(refused(scene).find("together with `plasticity`"), std::string::npos);
+  scene = adhering(1);
+  scene.sliding.tangential = TangentialOptions{};
+  EXPECT_NE(refused(scene).find("together with `tangential`"), std::string::npos);
+  scene = adhering(1);
+  scene.accuracy.precision = Accuracy::Precision::single;
+  EXPECT_NE(refused(scene).find("`precision`"), std::string::npos);
+  scene = adhering(1);
+  scene.accuracy.estimate = true;
+  EXPECT_NE(refused(scene).find("estimate"), std::string::npos);
+}
+
+TEST(Adhesion, RequestsThatMakeNoSenseAreRefused) {
+  const auto contact = ready(adhering(0.01)), plain = ready(paraboloid());
+  const auto refused = [&](const Solver& on, const PressRequest& request) {
+    return error_of([&] { on.press(request); });
+  };
+  EXPECT_NE(refused(*contact, {PressBy::flatten, 0.5, {}}).find("`flatten` of bodies that attract"),
+            std::string::npos);
+  EXPECT_NE(refused(*contact, {PressBy::load, std::nan(""), {}}).find("`load` is nan"), std::string::npos);
+  EXPECT_NE(refused(*contact, {PressBy::load, 1, {}, 0.5}).find("`drawn_from` is 0.5, below the `load` of 1"),
+            std::string::npos);
+  EXPECT_NE(refused(*plain, {PressBy::load, 1, {}, 2}).find("nothing attracts the bodies"),
+            std::string::npos);
+  EXPECT_NE(refused(*plain, {PressBy::load, -1, {}}).find("without adhesion"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace asperity
