@@ -25,13 +25,22 @@ std::string_view name(PressBy by) {
   return {};
 }
 
+namespace {
+std::string value_text(const PressRequest& request) {
+  const char* unit = request.by == PressBy::pressure   ? " Pa"
+                     : request.by == PressBy::load     ? " N"
+                     : request.by == PressBy::approach ? " m"
+                                                       : "";
+  return quoted(name(request.by)) + " is " + format_short(request.value) + unit;
+}
+}  // namespace
+
 void check(const PressRequest& request, bool attracts) {
   if (attracts && request.by == PressBy::flatten)
     throw Error(ErrorCode::bad_value, "`flatten` of bodies that attract each other is not computed",
                 "press by `pressure`, `load`, `approach` or `indentation`");
   if (attracts && !std::isfinite(request.value))
-    throw Error(ErrorCode::bad_value, quoted(name(request.by)) + " is " + format_short(request.value),
-                "give a finite value; one below zero pulls");
+    throw Error(ErrorCode::bad_value, value_text(request), "give a finite value; one below zero pulls");
   if (request.drawn_from && !attracts)
     throw Error(ErrorCode::bad_value, "`drawn_from` is given, and nothing attracts the bodies",
                 "name `adhesion` or `capillarity`, or leave it out: without them a state has no history");
@@ -41,7 +50,7 @@ void check(const PressRequest& request, bool attracts) {
                     quoted(name(request.by)) + " of " + format_short(request.value),
                 "bodies are drawn back from a greater value");
   if (!attracts && !(request.value >= 0 && std::isfinite(request.value)))
-    throw Error(ErrorCode::bad_value, quoted(name(request.by)) + " is " + format_short(request.value),
+    throw Error(ErrorCode::bad_value, value_text(request),
                 "a contact without adhesion takes a finite value from zero up");
   if (request.by == PressBy::flatten && request.value > 1)
     throw Error(ErrorCode::bad_value, "`flatten` is " + format_short(request.value),

@@ -311,11 +311,12 @@ std::string State::text() const {
   const AlgebraicError& error = algebraic_error();
   // In the unit of the value, so that the two are compared at a glance.
   const auto within = [](double value, double by, Dimension dimension) {
+    if (!std::isfinite(by)) return format_quantity(value, dimension);
     const DisplayUnit unit = display_unit(std::abs(value), dimension);
     return format_short(value / unit.factor, 4) + " ± " + format_short(by / unit.factor, 2) + " " + unit.name;
   };
   std::string result = "contact under ";
-  if (error.pressure && *error.pressure > 1e-12 * pressure())
+  if (error.pressure && *error.pressure > 1e-12 * std::abs(pressure()))
     result += within(pressure(), *error.pressure, dimension::pressure);
   else
     result += format_quantity(pressure(), dimension::pressure);

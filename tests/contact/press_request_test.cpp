@@ -16,7 +16,7 @@ TEST(PressRequest, NegativeAndNonFiniteValuesAreRefusedByName) {
   EXPECT_EQ(error_of([] {
               check(PressRequest{PressBy::load, -1, {}});
             }),
-            "`load` is -1; a contact without adhesion takes a finite value from zero up");
+            "`load` is -1 N; a contact without adhesion takes a finite value from zero up");
   for (const PressBy by :
        {PressBy::pressure, PressBy::load, PressBy::approach, PressBy::indentation, PressBy::flatten})
     for (const double value : {-1e-300, inf, -inf, std::numeric_limits<double>::quiet_NaN()})

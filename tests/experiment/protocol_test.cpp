@@ -71,7 +71,7 @@ TEST(Protocol, RefusesNumbersThatNoContactTakes) {
       error_of([] {
         Protocol({{pressure(1)}, {pressure(-1)}});
       }),
-      "bad_value: event 2: `pressure` is -1; a contact without adhesion takes a finite value from zero up");
+      "bad_value: event 2: `pressure` is -1 Pa; a contact without adhesion takes a finite value from zero up");
   EXPECT_EQ(error_of([] { Protocol({{Protocol::Rotate{inf}}}); }),
             "bad_value: event 1: the angle of `rotate` is inf; give a finite value");
   EXPECT_EQ(error_of([] {

@@ -32,8 +32,8 @@ refused(function() P{ { rotate={ angle=1 } } } end, "`rotate` is a table; give a
 refused(function() P{ { rotate=math.huge } } end, "`rotate` is inf")
 refused(function() P{ { place=1 } } end, "`place` is the number 1; give a table of named keys, as c:place takes")
 refused(function() P{ { press={ pressure=1, load=2 } } } end, "2 are given")
-refused(function() P{ { release=true }, { press={ pressure=-1, dwell="1 m" } }, 3, { shift={ z=1 } } } end, "3 problems",
-  "\n  event 2: press: 2 problems\n    `pressure` is -1 Pa", "\n  event 3: it is the number 3", "\n  event 4: shift: unknown key `z`")
+refused(function() P{ { release=true }, { press={ pressure=math.huge, dwell="1 m" } }, 3, { shift={ z=1 } } } end, "3 problems",
+  "\n  event 2: press: 2 problems\n    `pressure` is inf Pa", "\n  event 3: it is the number 3", "\n  event 4: shift: unknown key `z`")
 
 local p = P{ { release=true } }
 refused(function() p:on(3) end, "`contact` is the number 3; give a contact")
