@@ -42,7 +42,7 @@ class Descent {
         r_(nodes_),
         before_(nodes_),
         free_(nodes_),
-        task_(monitor, "adhesion", most_steps) {
+        task_(monitor, "adhesion", 1000) {
     const auto h = problem.contact.heights->values();
     const double peak = range(h).max;
     for_nodes(nodes_, [&](std::size_t k) { drop_[k] = (peak - h[k]) / length_; });
@@ -70,7 +70,6 @@ class Descent {
   double approach = 0;         // δ, cells; found where the load is given
   std::optional<double> load;  // mean p − mean q asked for, E*
   bool separates = false;
-  double rate = 0;  // of what a step leaves of the change before it
 
   AdhesiveAnswer answer() const;
   double mean(const Array<double>& values) const {
@@ -128,6 +127,7 @@ double Descent::contact(double close, double target) {
   double old_rz = 0, worst = std::numeric_limits<double>::infinity();
   std::uint8_t* const free = free_.data();
   for (int pass = 0; pass < most_passes; ++pass) {
+    stop_flag().check();
     if (fixed) {
       const auto sums = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
         v[0] = p_[k] > 0 ? g_[k] : 0.0;
@@ -239,7 +239,7 @@ void Descent::run(double tolerance) {
       z_[k] = held;
     });
     off_ = greatest_ > 0 ? -change[3] / greatest_ : 0.0;
-    rate = change[2] > 0 ? change[1] / change[2] : 0.0;
+    const double rate = change[2] > 0 ? change[1] / change[2] : 0.0;
     if (off_ <= tolerance && touch_ <= tightest) {
       if (fresh) return;
       fresh = true;  // once more from an application of its own: gaps were updated, not computed
@@ -282,7 +282,6 @@ AdhesiveAnswer Descent::answer() const {
   at.iterations = applications_;
   at.solver = "tangents of the attraction";
   result.stationarity = off_;
-  result.rate = rate;
   result.steps = steps_;
   return result;
 }

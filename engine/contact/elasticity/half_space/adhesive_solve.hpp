@@ -29,8 +29,6 @@ struct AdhesiveAnswer {
   Field attraction;            // σ(g), Pa
   double mean_attraction = 0;  // Pa
   double stationarity = 0;     // max |σ(g) − σ held| / max σ
-  // Of the last step's change over the one before: below 1, or the state is not stable.
-  double rate = 0;
   int steps = 0;  // tangents taken
 };
 
