@@ -277,7 +277,7 @@ function Profile:write(path) end
 ---@field indentation? number approach over the peak-to-valley of the combined heights (number)
 ---@field flatten? number share of the peak-to-valley pressed away (number from 0 to 1)
 ---@field dwell? number|string how long the load stays; read by creep alone (a time at least 0)
----@field drawn_from? number of bodies that attract each other: pressed to this first, in the SI unit of the quantity given, and drawn back from there (number)
+---@field drawn_from? number|string of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from there (number|string)
 
 ---@class asperity.options.contact.sweep
 ---@field pressure? number|string[] a list: mean pressure over the tile (a pressure[])

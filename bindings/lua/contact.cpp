@@ -58,10 +58,21 @@ const Block<PressKeys>& press_block() {
     }
     options.push_back(quantity("dwell", &PressKeys::dwell, dimension::time, at_least(0),
                                "how long the load stays; read by creep alone"));
-    options.push_back(
-        number("drawn_from", &PressKeys::drawn_from, any(),
-               "of bodies that attract each other: pressed to this first, in the SI unit of the "
-               "quantity given, and drawn back from there"));
+    // Of the dimension of the quantity it goes with, which stands before it in the block.
+    auto drawn_from = custom<PressKeys>(
+        "drawn_from", "number|string",
+        "of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from "
+        "there",
+        [](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
+          OptionInfo same = info;
+          for (const auto& entry : press_keys)
+            if (entry.by == keys.request.by) same.dimension = entry.dimension;
+          keys.drawn_from = detail::read_quantity(value, same, any(), problems);
+        });
+    drawn_from.show = [](const PressKeys& keys) {
+      return keys.drawn_from ? format_exact(*keys.drawn_from) : std::string();
+    };
+    options.push_back(std::move(drawn_from));
     return Block<PressKeys>("press", std::move(options), [](PressKeys& keys, Problems& problems) {
       if (keys.given != 1)
         problems.push_back(
