@@ -145,6 +145,26 @@ TEST(AdhesiveSolve, JumpsInLaterThanItPullsOff) {
   EXPECT_EQ(at(problem, -0.3, &pressed).contact.contacts, 0);
 }
 
+TEST(AdhesiveSolve, UnderALoadOfShortRangeItSeparatesAtThePullOffOfJohnsonKendallAndRoberts) {
+  const AdhesiveProblem problem = paraboloid(160, 1.2, GapLaw::exponential, short_range, 1e-3);
+  AdhesiveAnswer held = under(problem, 0);
+  EXPECT_NO_THROW(held = under(problem, -0.97 * 0.0471238898, &held));
+  EXPECT_GT(radius(problem, held), 0.3281715);
+  EXPECT_THROW(under(problem, -1.03 * 0.0471238898, &held), Error);
+}
+
+// What is disturbed a little comes back: the state is stable.
+TEST(AdhesiveSolve, ADisturbedStateComesBack) {
+  const AdhesiveProblem problem = paraboloid(96, 0.9, GapLaw::exponential, 0.02, 1e-5);
+  const AdhesiveAnswer pressed = at(problem, 0.05), state = at(problem, -0.055, &pressed);
+  for (const double factor : {0.97, 1.03}) {
+    AdhesiveAnswer disturbed = state;
+    for (double& pull : disturbed.attraction.values()) pull *= factor;
+    const AdhesiveAnswer back = at(problem, -0.055, &disturbed);
+    EXPECT_NEAR(force(problem, back), force(problem, state), 1e-3 * std::abs(force(problem, state)));
+  }
+}
+
 TEST(AdhesiveSolve, APullPastThePullOffIsRefused) {
   const AdhesiveProblem problem = paraboloid(64, 8, GapLaw::dugdale, long_range, 1e-4);
   const AdhesiveAnswer rest = under(problem, 0);

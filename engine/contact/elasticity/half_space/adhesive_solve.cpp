@@ -289,11 +289,8 @@ AdhesiveAnswer Descent::answer() const {
 // The certificate of what is handed out, by sums over it; refuses what missed the tolerance.
 void finish(const AdhesiveProblem& problem, AdhesiveAnswer& answer, std::optional<double> asked) {
   HalfSpaceAnswer& at = answer.contact;
-  double shortest = std::numeric_limits<double>::infinity(), greatest = 0;
-  for (const GapTerm& term : problem.attraction) {
-    shortest = std::min(shortest, term.range);
-    greatest += term.greatest();
-  }
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const GapTerm& term : problem.attraction) shortest = std::min(shortest, term.range);
   const double length = problem.contact.rms > 0 ? problem.contact.rms : shortest;
   const auto found = over_nodes<2, 1>(at.pressure.size(), [&](std::size_t k, double* v) {
     v[0] = at.pressure[k];
