@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -22,6 +23,13 @@ void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& ge
       plan.seconds *= 10;
     }
     const double modulus = std::get<HalfSpaceOperator>(plan.elasticity).modulus;
+    constexpr double most = 100;  // of the modulus; beyond it no grid holds the tangents together
+    if (!(term.greatest() <= most * modulus))
+      throw Error(ErrorCode::bad_value,
+                  quoted(term.effect) + " pulls with " +
+                      format_quantity(term.greatest(), dimension::pressure) +
+                      " at touch, over a hundred times the contact modulus",
+                  "check the units of its work and range");
     const double zone = 0.25 * std::numbers::pi * modulus * term.work / (term.greatest() * term.greatest());
     const double cell = std::max(grid.hx(), grid.hy());
     constexpr double enough = 4;
