@@ -285,6 +285,11 @@ function Profile:write(path) end
 ---@field indentation? number[] a list: approach over the peak-to-valley of the combined heights (number[])
 ---@field flatten? number[] a list: share of the peak-to-valley pressed away (number[])
 
+---@class asperity.options.contact.shear
+---@field force? number|string that pulls the whole tile sideways (a force at least 0)
+---@field ratio? number of that force over the one that slides, friction times load (number from 0 to 1)
+---@field friction number|asperity.Law Coulomb's coefficient; a law stands for its mean coefficient on the contact (number|Law, required)
+
 ---@class asperity.options.contact.place
 ---@field seed integer of the turn and the shift that are drawn (integer at least 0, required)
 
@@ -306,6 +311,11 @@ function Contact:press(options) end
 ---@return fun(): asperity.State
 function Contact:sweep(options) end
 
+---Pulls the contact under its present load sideways, by less than makes it slide, and says which part of it slips (Cattaneo and Mindlin for spheres; by Jaeger and Ciavarella the difference of two normal contacts). Nothing of the contact changes; needs tangential.
+---@param options asperity.options.contact.shear
+---@return asperity.Shear
+function Contact:shear(options) end
+
 ---Takes the load off. The bodies recover elastically; what yielded stays.
 function Contact:release() end
 
@@ -325,8 +335,8 @@ function Contact:shift(options) end
 ---@return asperity.Contact
 function Contact:copy() end
 
----What a press will compute, what is off, and the expected transforms, memory and time, as text.
----@return string
+---What a press will compute, what is off, and the expected transforms, memory and time.
+---@return asperity.Plan
 function Contact:explain() end
 
 ---The lower body's surface as it is now, with all that yielded.
@@ -372,6 +382,8 @@ function Contact:close() end
 ---@field solver string what found the solution
 ---@field effects_run string[] effects that were computed
 ---@field effects_off string[] effects that the scene does not name
+---@field error asperity.StateError how far these numbers are from exact
+---@field chosen table cells, tolerance and precision that were chosen for accuracy={ error= }, and why; nil otherwise
 ---@field cost table seconds, transforms, bytes, and by effect
 ---@field digest string of pressures and approach
 local State = {}
@@ -395,6 +407,65 @@ function State:deformed(body) end
 ---@param options? asperity.options.state.distribution
 ---@return table
 function State:distribution(name, options) end
+
+---How far a state is from exact, in parts that are never mixed. A part is found when it is read.
+---@class asperity.StateError
+---@field algebraic asperity.AlgebraicError bounds against the exact solution on the same grid
+---@field discretisation asperity.DiscretisationError estimates against an ever finer grid; needs accuracy={ estimate=true } or { error= }
+local StateError = {}
+
+---Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units of the quantities; math.huge where nothing can be said. What they cost to find is no part of the cost of the state.
+---@class asperity.AlgebraicError
+---@field load number 0 but for rounding where the load was prescribed
+---@field pressure number of the load over the nominal area
+---@field approach number of the approach
+---@field indentation number of the indentation
+---@field separation number of the separation
+---@field mean_gap number of the mean gap
+---@field energy number of the elastic energy
+---@field peak_pressure number of the greatest pressure
+---@field secant_stiffness number of pressure over approach
+---@field contacts number of the number of nodes in contact
+---@field area number of the real contact area
+---@field area_fraction number of the area fraction
+---@field corrected_area_fraction number of the corrected area fraction
+---@field plastic_volume number of the plastic volume; needs plasticity
+---@field plastic_fraction number of the plastic fraction; needs plasticity
+---@field contacts_low integer nodes that are surely in contact
+---@field contacts_high integer those and the nodes that may be
+---@field area_low number area surely in contact
+---@field area_high number that and what may be
+---@field area_fraction_low number share of the nodes surely in contact
+---@field area_fraction_high number that and the share that may be
+---@field plastic_fraction_low number share of the nodes surely at the cap; needs plasticity
+---@field plastic_fraction_high number that and the share that may be; needs plasticity
+---@field cost table seconds, transforms and bytes of finding these bounds
+local AlgebraicError = {}
+
+---How far the numbers of a state are from those of an ever finer grid: estimates in the units of the quantities, from the same press on half and a quarter of the cells, or on twice the cells with estimate="finer"; math.huge where two coarser grids show that a value grows without end. Needs accuracy={ estimate=true } or "finer".
+---@class asperity.DiscretisationError
+---@field load number of the load; 0 where it was prescribed
+---@field pressure number of the load over the nominal area
+---@field approach number of the approach; most of it is the highest peak between the nodes
+---@field separation number of the separation
+---@field indentation number of the indentation
+---@field flatten number of the flattening
+---@field area number of the real contact area
+---@field area_fraction number of the area fraction; most of it is its stepped outline
+---@field corrected_area_fraction number of the corrected area fraction
+---@field peak_pressure number of the greatest pressure
+---@field mean_gap number of the mean gap
+---@field stiffness number of the stiffness, which is solved for on each grid
+---@field secant_stiffness number of pressure over approach
+---@field energy number of the elastic energy
+---@field plastic_volume number of the plastic volume; needs plasticity
+---@field plastic_fraction number of the plastic fraction; needs plasticity
+local DiscretisationError = {}
+
+---The value of a quantity with its estimated error taken off, where the sign of the error is known (area, area_fraction, approach, plastic_fraction); as it is elsewhere. With estimate="finer", the value of the finer grid, its own outline and first touch mended.
+---@param name string of the quantity
+---@return number
+function DiscretisationError:extrapolated(name) end
 
 ---@class asperity.options.field.picture
 ---@field title? string above the picture (string)
@@ -428,6 +499,31 @@ function Field:values() end
 ---@param options? asperity.options.field.picture
 ---@return string
 function Field:picture(path, options) end
+
+---What a press will compute, and what it is expected to cost; print() shows all of it.
+---@class asperity.Plan
+---@field solver string how it is solved
+---@field terms table[] the terms of the problem: effect and sentence
+---@field buffers table[] what is held in memory: name, bytes, and whether it is kept
+---@field transforms number Fourier transforms expected of a press, in equivalents of the finest grid
+---@field bytes integer memory expected, at most
+---@field seconds number expected for the first press, a rough guess
+---@field effects_run string[] effects that the scene names
+---@field effects_off string[] effects that it does not name, for which nothing is done
+---@field json string all of it, as JSON
+local Plan = {}
+
+---What a run has done so far and what it cost; print() shows all of it.
+---@class asperity.Ledger
+---@field seconds number of the run so far
+---@field unaccounted number seconds that are in no line: the script itself, and calls too short for one
+---@field transforms number Fourier transforms, each in equivalents of its contact's finest grid
+---@field bytes integer greatest memory of one call
+---@field calls table[] a line a call: call, in_case, times, seconds, transforms, bytes
+---@field by_effect table what the pressed contacts cost, effect by effect
+---@field effects_off string[] effects that no contact named, for which nothing was done
+---@field json string all of it, as JSON
+local Ledger = {}
 
 ---@class asperity.options.stylus.scan
 ---@field count? integer number of traces (integer from 1 to 100000, default 5)
@@ -494,6 +590,9 @@ function Protocol:plus(next) end
 ---@return string
 function Protocol:write(path) end
 
+---@class asperity.options.law.on
+---@field rest? number|string how long the junctions stand still under the load first; needs ageing (a time at least 0)
+
 ---A friction law of junctions.
 ---@class asperity.Law
 ---@field tau0 number adhesive strength
@@ -501,14 +600,41 @@ function Protocol:write(path) end
 ---@field tau_max number greatest strength; nil without a cap
 local Law = {}
 
----The friction of a state: force, mu, its adhesive and load parts, and the share of the area at the cap.
+---The friction of a state: force, mu, its adhesive and load parts, and the share of the area at the cap; with interlocking also what the slopes of the junctions add, with ageing by what tau0 grew.
 ---@param st asperity.State the contact under load
+---@param options? asperity.options.law.on
 ---@return table
-function Law:on(st) end
+function Law:on(st, options) end
+
+---A contact under load that is pulled sideways: part of it sticks, the rest slips.
+---@class asperity.Shear
+---@field load number force that presses the whole tile
+---@field force number force that pulls the whole tile sideways
+---@field ratio number of that force over the one that slides
+---@field friction number Coulomb's coefficient
+---@field slides boolean whether all of the contact slips
+---@field stick_area number area that sticks
+---@field stick_fraction number of the contact area that sticks
+---@field slip_fraction number of the contact area that slips
+---@field displacement number of the bodies over each other, along the force
+---@field stiffness number d shear stress / d displacement at this force, over the nominal area; 0 where all slips
+---@field cost table seconds, transforms and bytes of the second normal solve
+local Shear = {}
+
+---A field over the tile: the shear traction along the force, or 1 where it sticks.
+---@param name "shear"|"stick" which
+---@return asperity.Field
+function Shear:field(name) end
 
 ---@class asperity.options.tiltStage.raise
 ---@field repeats? integer number of trials (integer from 1 to 100000, default 5)
 ---@field seed? integer of placements and scatter (integer at least 0, default 1)
+---@field rest? number|string how long the junctions stand still under the load first; needs ageing (a time at least 0)
+
+---@class asperity.options.tiltStage.slip_growth
+---@field steps? integer equal steps of the angle up to the slip (integer from 1 to 10000, default 10)
+---@field seed? integer of the placement (integer at least 0, default 1)
+---@field rest? number|string how long the junctions stand still under the load first; needs ageing (a time at least 0)
 
 ---A tilt stage with a specimen on it.
 ---@class asperity.TiltStage
@@ -518,6 +644,11 @@ local TiltStage = {}
 ---@param options? asperity.options.tiltStage.raise
 ---@return table
 function TiltStage:raise(options) end
+
+---Which part of the contact slips at each angle before the specimen slides, as a list of angle, ratio (the pull over the one that slides), slip_fraction and, for boxes, displacement; needs tangential.
+---@param options? asperity.options.tiltStage.slip_growth
+---@return table[]
+function TiltStage:slip_growth(options) end
 
 ---@class asperity.options.notebook.expect
 ---@field where? table only rows in which these columns hold these values (table)
@@ -576,6 +707,45 @@ function Notebook:expect(column, options) end
 ---@return string
 function Notebook:chart(options) end
 
+---@class asperity.options.study.cheapest
+---@field error number greatest error, relative to the truth (absolute where the truth is 0) (number above 0, required)
+
+---What a study of work and precision found. print() shows its rows and the cheapest setting for 10 %, 1 % and 0.1 %.
+---@class asperity.Study
+---@field truth number the value that errors are measured against
+---@field truth_seconds number what that value took; 0 if it was given
+---@field relative boolean whether `error` is relative to the truth; it is absolute where the truth is 0
+---@field calls integer how often `ask` was called
+---@field seconds number time inside `ask`, over all calls
+---@field overhead number time of the study itself, over that inside `ask`
+local Study = {}
+
+---One table a setting: way, the knobs, value, error (relative to the truth), absolute_error, held_error (greatest error among it and the finer settings of its way), seconds (median), seconds_low and seconds_high (fastest and slowest run), first_seconds (of the first run, which is not timed), runs, steady (all answers the same bits), pareto (nothing is both faster and closer), failed, left_out and the reason.
+---@return table[]
+function Study:rows() end
+
+---Draws error against time on logarithmic axes, a line a way, bars from the fastest to the slowest run, rings about what nothing beats, and marks at the rim for settings that failed or were left out; returns the file.
+---@param path? string an .svg or .png under the run directory; default <name>.svg
+---@return string
+function Study:chart(path) end
+
+---The fastest setting whose error, and that of every finer measured setting of its way, is at most the one asked for: a setting that comes near the truth by accident, where the error changes its sign, is not taken. Settings count as finer along the list of their way (turned round where `cells` falls or `tolerance` rises). An error says what the best reached was.
+---@param options asperity.options.study.cheapest
+---@return asperity.StudyChoice
+function Study:cheapest(options) end
+
+---A setting that a study chose. print() shows its knobs as Lua source, to be pasted.
+---@class asperity.StudyChoice
+---@field knobs table its knobs, as `ask` was given them
+---@field way string the name of its way
+---@field seconds number median of its runs
+---@field value number its answer
+---@field error number its error, relative to the truth
+---@field absolute_error number its distance from the truth
+---@field held_error number greatest error among it and the finer settings of its way
+---@field confirmed integer how many finer settings of its way were measured
+local StudyChoice = {}
+
 ---@class asperity.options.lab.material
 ---@field young? number|string Young's modulus (a pressure above 0)
 ---@field poisson? number Poisson's ratio (number above -1 to 0.5)
@@ -619,6 +789,14 @@ function Notebook:chart(options) end
 ---@field cases? table the cases themselves, a list of tables, in place of over (table)
 ---@field run function function(case) returning a table of results, called once a case in a fresh copy of everything it uses: what it changes is seen by no other case (function, required)
 
+---@class asperity.options.lab.work_precision
+---@field ask function function(knobs) returning the quantity, one number; nil (and a message) or an error where a setting fails (function, required)
+---@field truth number|table the exact value, or the knobs of a finer setting whose answer is taken for it (number|table, required)
+---@field try table[] the ways: tables with a `name`, and knobs that `ask` understands; a knob given as a list is swept, from coarse to fine, and several lists go along together (table[], required)
+---@field repeats? integer timed runs of each setting, after a first one that is not timed (integer from 1 to 100000, default 5)
+---@field at_most? number|string longest time for the whole study, the truth included; it is quoted first, and settings that would not fit are left out (a time above 0)
+---@field name? string of the study and of <name>.csv, where its rows are kept (string)
+
 ---The laboratory: surfaces, contacts, friction, and the notebook that keeps what was found.
 ---@class asperity.lab
 ---@field rigid asperity.Material a body that does not deform
@@ -661,6 +839,15 @@ function lab.notebook(name) end
 ---@param options asperity.options.lab.ensemble
 ---@return table[]
 function lab.ensemble(options) end
+
+---Measures what accuracy costs: asks for one quantity by several ways over their settings, times each as the median of `repeats` runs, and compares with the truth. Every setting is run once untimed for its answer, then all are timed in rounds; a setting that fails keeps its row. What the study will take is said first on standard error.
+---@param options asperity.options.lab.work_precision
+---@return asperity.Study
+function lab.work_precision(options) end
+
+---What this run has done so far and what it cost, call by call and effect by effect, with what is in no line at the end.
+---@return asperity.Ledger
+function lab.ledger() end
 
 ---What the laboratory can do, or one function, value or field of it, as text.
 ---@param topic? string what to explain; nothing lists the topics
@@ -859,5 +1046,85 @@ lab.protocol = {}
 ---@param path string the file
 ---@return asperity.Protocol
 function lab.protocol.read(path) end
+
+---@class asperity.options.lab.exact.hertz
+---@field radius number|string of the paraboloid (a length above 0, required)
+---@field modulus number|string E* of the two bodies (a pressure above 0, required)
+---@field load? number|string normal force (a force above 0)
+---@field approach? number|string from first touch (a length above 0)
+---@field friction? asperity.Law adds the friction force and its ratio to the load (Law)
+
+---@class asperity.options.lab.exact.wave
+---@field amplitude number|string height of a crest above the mean (a length above 0, required)
+---@field wavelength number|string length of a wave (a length above 0, required)
+---@field modulus number|string E* of the two bodies (a pressure above 0, required)
+---@field pressure number|string mean pressure (a pressure above 0, required)
+
+---@class asperity.options.lab.exact.crossed_waves
+---@field amplitude number|string height of a crest above the mean (a length above 0, required)
+---@field wavelength number|string length of a wave (a length above 0, required)
+---@field modulus number|string E* of the two bodies (a pressure above 0, required)
+---@field pressure number|string mean pressure (a pressure above 0, required)
+
+---@class asperity.options.lab.exact.persson
+---@field modulus number|string E* of the two bodies (a pressure above 0, required)
+---@field rms_slope number of the combined heights (number above 0, required)
+---@field pressure number|string mean pressure (a pressure above 0, required)
+---@field hardness? number|string greatest pressure (a pressure above 0, or math.huge for never, default math.huge)
+
+---@class asperity.options.lab.exact.box_paraboloid
+---@field radius number|string of the paraboloid (a length above 0, required)
+---@field stiffness number|string of the elements (a stiffness per area above 0, required)
+---@field load? number|string normal force (a force above 0)
+---@field approach? number|string from first touch (a length above 0)
+
+---@class asperity.options.lab.exact.weierstrass_mandelbrot
+---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
+---@field D number fractal dimension of the surface (number from 2 to 3, required)
+---@field span? number length of the x side in units of L (number above 0, default 1)
+---@field L? number|string sample length (a length above 0, default "50 m")
+---@field G? number|string fractal roughness, the height scale (a length above 0, default "5 m")
+---@field gamma? number ratio of neighbouring wave numbers (number above 1, default 1.5)
+---@field M? integer number of ridges (directions) (integer from 1 to 4096, default 10)
+---@field n_max? integer highest frequency index (integer at least 0, default 100)
+---@field seed? integer of the random phases (integer at least 0, default 1)
+---@field phases? "golden"|function how the phases are drawn instead of from `seed`: the golden sequence that anyone can reproduce, or function(m, n) returning radians ("golden"|function)
+---@field band? "all"|"resolved" every wave as published (those past Nyquist alias), or only what the grid carries ("all"|"resolved", default "all")
+---@field material? asperity.Material what the body is made of (Material)
+---@field node table the node, {i, j} from 0 ({integer, integer}, required)
+
+---Answers in closed form, to hold a computed one against.
+---@class asperity.lab.exact
+lab.exact = {}
+
+---A paraboloid on an elastic half-space (Hertz 1882), frictionless and without adhesion.
+---@param options asperity.options.lab.exact.hertz
+---@return table
+function lab.exact.hertz(options) end
+
+---A wavy half-space h cos(2 pi x / wavelength) on a flat (Westergaard 1939).
+---@param options asperity.options.lab.exact.wave
+---@return table
+function lab.exact.wave(options) end
+
+---h cos(2 pi x / wavelength) cos(2 pi y / wavelength) on a flat, in full contact (Johnson, Greenwood & Higginson 1985).
+---@param options asperity.options.lab.exact.crossed_waves
+---@return table
+function lab.exact.crossed_waves(options) end
+
+---Real contact area of a rough half-space by Persson's theory (2001), with a hardness or without: a theory, some 20 % below simulations at light loads.
+---@param options asperity.options.lab.exact.persson
+---@return table
+function lab.exact.persson(options) end
+
+---A paraboloid on independent box elements.
+---@param options asperity.options.lab.exact.box_paraboloid
+---@return table
+function lab.exact.box_paraboloid(options) end
+
+---One height of a Weierstrass-Mandelbrot surface to the last digit of a double, summed in thousands of bits.
+---@param options asperity.options.lab.exact.weierstrass_mandelbrot
+---@return number
+function lab.exact.weierstrass_mandelbrot(options) end
 
 return lab
