@@ -271,13 +271,12 @@ function Profile:picture(path, options) end
 function Profile:write(path) end
 
 ---@class asperity.options.contact.press
----@field pressure? number|string mean pressure over the tile (a pressure)
----@field load? number|string force on the whole tile (a force)
----@field approach? number|string from first touch (a length)
----@field indentation? number approach over the peak-to-valley of the combined heights (number)
+---@field pressure? number|string mean pressure over the tile (a pressure at least 0)
+---@field load? number|string force on the whole tile (a force at least 0)
+---@field approach? number|string from first touch (a length at least 0)
+---@field indentation? number approach over the peak-to-valley of the combined heights (number at least 0)
 ---@field flatten? number share of the peak-to-valley pressed away (number from 0 to 1)
 ---@field dwell? number|string how long the load stays; read by creep alone (a time at least 0)
----@field drawn_from? number|string of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from there (number|string)
 
 ---@class asperity.options.contact.sweep
 ---@field pressure? number|string[] a list: mean pressure over the tile (a pressure[])
@@ -359,7 +358,6 @@ function Contact:close() end
 ---@class asperity.State
 ---@field load number force on the whole tile
 ---@field pressure number load over the nominal area
----@field attraction number force by which the bodies attract each other; the contacts carry load and this
 ---@field approach number from first touch
 ---@field indentation number approach over the peak-to-valley of the combined heights; of flats none, an error
 ---@field flatten number share of that peak-to-valley pressed away
@@ -444,7 +442,7 @@ local StateError = {}
 ---@field cost table seconds, transforms and bytes of finding these bounds
 local AlgebraicError = {}
 
----How far the numbers of a state are from those of an ever finer grid: estimates in the units of the quantities, from the same press on half and a quarter of the cells; math.huge where a value grows from grid to grid without end. Needs accuracy={ estimate=true }.
+---How far the numbers of a state are from those of an ever finer grid: estimates in the units of the quantities, from the same press on half and a quarter of the cells, or on twice the cells with estimate="finer"; math.huge where two coarser grids show that a value grows without end. Needs accuracy={ estimate=true } or "finer".
 ---@class asperity.DiscretisationError
 ---@field load number of the load; 0 where it was prescribed
 ---@field pressure number of the load over the nominal area
@@ -464,7 +462,7 @@ local AlgebraicError = {}
 ---@field plastic_fraction number of the plastic fraction; needs plasticity
 local DiscretisationError = {}
 
----The value of a quantity with its estimated error taken off, where the sign of the error is known (area, area_fraction, approach, plastic_fraction); as it is elsewhere.
+---The value of a quantity with its estimated error taken off, where the sign of the error is known (area, area_fraction, approach, plastic_fraction); as it is elsewhere. With estimate="finer", the value of the finer grid, its own outline and first touch mended.
 ---@param name string of the quantity
 ---@return number
 function DiscretisationError:extrapolated(name) end

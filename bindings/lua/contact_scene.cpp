@@ -117,6 +117,26 @@ struct AccuracyKeys : Accuracy {
   std::vector<std::string> of;
 };
 
+std::string_view estimate_text(Accuracy::Estimate estimate) {
+  switch (estimate) {
+    case Accuracy::Estimate::coarser:
+      return "true";
+    case Accuracy::Estimate::finer:
+      return "\"finer\"";
+    default:
+      return "false";
+  }
+}
+
+void read_estimate(const Argument& value, const OptionInfo& info, AccuracyKeys& keys, Problems& problems) {
+  if (value.is_boolean())
+    keys.estimate = value.boolean() ? Accuracy::Estimate::coarser : Accuracy::Estimate::none;
+  else if (value.is_text() && value.text() == "finer")
+    keys.estimate = Accuracy::Estimate::finer;
+  else
+    detail::wrong_type(value, info, "true, false or \"finer\"", problems);
+}
+
 // One name or a list of them.
 void read_names(const Argument& value, const OptionInfo& info, AccuracyKeys& keys, Problems& problems) {
   if (value.is_text()) {
@@ -139,6 +159,10 @@ void finish_accuracy(AccuracyKeys& keys, Problems& problems) {
     problems.push_back(
         "`error` and `tolerance` are both given; with `error` the tolerance is chosen, so leave `tolerance` "
         "out");
+  if (keys.error && keys.estimate == Accuracy::Estimate::finer)
+    problems.push_back(
+        "`error` and `estimate`=\"finer\" are both given; cells chosen for an `error` are compared with the "
+        "coarser ones tried before, so leave one of both out");
   if (!keys.of.empty() && !keys.error)
     problems.push_back("`of` is given without `error`; give the relative error as well, such as error=0.01");
   if (keys.given_tolerance) keys.tolerance = *keys.given_tolerance;
@@ -163,8 +187,13 @@ const Block<AccuracyKeys>& accuracy_block() {
        choice("on_failure", &O::on_failure, {{"error", O::OnFailure::error}, {"best", O::OnFailure::best}},
               "what a solve that misses its tolerance or `error` does: raise an error, or return the best it "
               "got"),
-       flag("estimate", &O::estimate,
-            "whether each press is solved on coarser grids too, for st.error.discretisation"),
+       custom<K>("estimate", "boolean|\"finer\"",
+                 "solves each press on other cells too, for st.error.discretisation: true on half and a "
+                 "quarter of them, which costs a third of the press; \"finer\" on twice the cells, which "
+                 "costs four to six times the press and is mostly within a factor of three of the true error",
+                 read_estimate)
+           .shown_by([](const K& keys) { return std::string(estimate_text(keys.estimate)); })
+           .defaults_to("false"),
        number("error", &K::error, {1e-6, 1, false, true, false},
               "relative error to be met instead of a tolerance: the first press chooses cells and tolerance"),
        custom<K>("of", "string|string[]", "quantities of a state whose error that is", read_names)

@@ -22,12 +22,12 @@ Values extrapolated(Call& call) {
 
 std::string describe(const void* self) {
   const auto& state = static_cast<const DiscretisationError*>(self)->state;
-  if (!state.coarser())
+  if (!state.other_grids())
     return "discretisation error: not estimated; give lab.contact accuracy={ estimate=true }";
   std::string text = "discretisation error, estimated from";
-  for (const CoarserSolutions::Level& level : state.coarser()->levels()) {
+  for (const OtherGrids::Level& level : state.other_grids()->levels()) {
     const Grid& grid = level.state.geometry().grid();
-    text += (&level == state.coarser()->levels().data() ? " " : " and ") + cells_text(grid.nx, grid.ny);
+    text += (&level == state.other_grids()->levels().data() ? " " : " and ") + cells_text(grid.nx, grid.ny);
   }
   const auto add = [&](const char* name, Dimension dimension) {
     const double error = discretisation_estimate(state, name).error;
@@ -57,8 +57,9 @@ const Class& discretisation_error_class() {
     c.article_name = "a discretisation error";
     c.sentence =
         "How far the numbers of a state are from those of an ever finer grid: estimates in the units of the "
-        "quantities, from the same press on half and a quarter of the cells; math.huge where a value grows "
-        "from grid to grid without end. Needs accuracy={ estimate=true }.";
+        "quantities, from the same press on half and a quarter of the cells, or on twice the cells with "
+        "estimate=\"finer\"; math.huge where two coarser grids show that a value grows without end. Needs "
+        "accuracy={ estimate=true } or \"finer\".";
     c.describe = describe;
     c.fields = {
         quantity_field("load", "of the load; 0 where it was prescribed", dimension::force),
@@ -85,7 +86,8 @@ const Class& discretisation_error_class() {
          .body = extrapolated,
          .sentence =
              "The value of a quantity with its estimated error taken off, where the sign of the error "
-             "is known (area, area_fraction, approach, plastic_fraction); as it is elsewhere.",
+             "is known (area, area_fraction, approach, plastic_fraction); as it is elsewhere. With "
+             "estimate=\"finer\", the value of the finer grid, its own outline and first touch mended.",
          .parameters = {{"name", "string", "of the quantity"}},
          .returns = "number",
          .example = "st.error.discretisation:extrapolated \"area_fraction\""},

@@ -88,7 +88,7 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
   if (scene.sliding.ageing) plan_ageing(*scene.sliding.ageing, plan);
   if (scene.sliding.interlocking) plan_interlocking(*scene.sliding.interlocking, geometry, plan);
   if (scene.sliding.tangential) plan_tangential(*scene.sliding.tangential, geometry, plan);
-  if (scene.accuracy.estimate) plan_estimate(geometry, plan);
+  plan_estimate(geometry, plan);
   for (const PlannedTerm& term : plan.terms)
     if (std::find(plan.effects_run.begin(), plan.effects_run.end(), term.effect) == plan.effects_run.end())
       plan.effects_run.push_back(term.effect);

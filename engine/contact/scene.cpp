@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/contact/discretisation_error.hpp"
+#include "engine/contact/finer_heights.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -142,7 +143,13 @@ void check(const Scene& scene) {
   if (!(tolerance >= 1e-15 && tolerance < 1))
     throw Error(ErrorCode::bad_value, "`tolerance` is " + format_short(tolerance),
                 "give a number from 1e-15 to below 1");
-  if (scene.accuracy.estimate || scene.accuracy.asked) check_estimate(grid);
+  const Accuracy::Estimate estimate = scene.accuracy.estimate;
+  if (estimate == Accuracy::Estimate::finer && scene.accuracy.asked)
+    throw Error(ErrorCode::bad_value, "`estimate` = \"finer\" and `error` are both given",
+                "cells chosen for an `error` are compared with the coarser ones tried before: leave one of "
+                "both out");
+  if (estimate == Accuracy::Estimate::finer) finer_grid(grid);
+  if (estimate == Accuracy::Estimate::coarser || scene.accuracy.asked) check_estimate(grid);
   if (scene.accuracy.asked) check(*scene.accuracy.asked, scene.plasticity.has_value());
   const bool single = scene.accuracy.precision == Accuracy::Precision::single;
   if (const auto* box = std::get_if<BoxOptions>(&scene.elasticity)) {

@@ -82,8 +82,9 @@ struct Accuracy {
   double tolerance = 1e-6;  // greatest relative entry of the certificate, in [1e-15, 1)
   Precision precision = Precision::double_;
   OnFailure on_failure = OnFailure::error;
-  // Solve each press on coarser grids as well, for an estimate of the error of the grid.
-  bool estimate = false;
+  // The other cells on which each press is solved as well, for an estimate of the error of the grid.
+  enum class Estimate { none, coarser, finer };
+  Estimate estimate = Estimate::none;
   // Choose cells and tolerance for this error (experiment/accuracy_choice.hpp); a solver does not read it.
   std::optional<AskedError> asked{};
   bool chosen = false;  // cells and tolerance are those that were chosen for it

@@ -108,9 +108,9 @@ State State::costing_also(const StateCost& more) const {
   return result;
 }
 
-State State::beside(std::shared_ptr<const CoarserSolutions> coarser) const {
+State State::beside(std::shared_ptr<const OtherGrids> other_grids) const {
   State result = *this;
-  result.coarser_ = std::move(coarser);
+  result.other_grids_ = std::move(other_grids);
   return result;
 }
 
@@ -134,8 +134,8 @@ std::string_view State::solver() const { return shared_->solution->solver(); }
 const ContactGeometry& State::geometry() const { return shared_->solution->geometry(); }
 std::int64_t State::bytes_held() const {
   std::int64_t bytes = shared_->solution->bytes();
-  if (coarser_)
-    for (const CoarserSolutions::Level& level : coarser_->levels()) bytes += level.state.bytes_held();
+  if (other_grids_)
+    for (const OtherGrids::Level& level : other_grids_->levels()) bytes += level.state.bytes_held();
   return bytes;
 }
 PressureSplit State::split(double threshold) const { return shared_->solution->split(threshold); }

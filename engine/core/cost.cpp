@@ -2,6 +2,7 @@
 #include "engine/core/cost.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace asperity {
 
@@ -12,7 +13,11 @@ thread_local std::int64_t thread_peak = 0;
 }  // namespace
 
 namespace cost {
-void count_transforms(double weighted) { thread_transforms += weighted; }
+// In steps of 2^-24, so that sums and differences are exact: a count does not depend on those before it.
+void count_transforms(double weighted) {
+  constexpr double steps = 1 << 24;
+  thread_transforms += std::round(weighted * steps) / steps;
+}
 void count_bytes(std::int64_t change) noexcept {
   thread_held += change;
   thread_peak = std::max(thread_peak, thread_held);

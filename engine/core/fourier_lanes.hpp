@@ -3,6 +3,9 @@
 // decimation in frequency leaves the bins in an order of its own, place(), and decimation in time takes them
 // back from it, so that a filter never sorts. Lengths whose prime factors are 2, 3, 5 and 7. A lane
 // meets the same operations whatever the width of the machine's vectors: the same bits. Unnormalised.
+// It stands beside FFTW, which does every other transform, for the filters of the half-space alone: FFTW
+// sorts each spectrum that a filter only multiplies, and chooses its operations, and so the last bits, by the
+// machine.
 #pragma once
 
 #include <vector>

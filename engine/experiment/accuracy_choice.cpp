@@ -173,7 +173,7 @@ struct Trial {
 Trial make_trial(Placed placed, double tolerance) {
   Trial trial{std::move(placed.scene), {}, {}, {}, {}, std::move(placed.source)};
   trial.scene.accuracy.tolerance = tolerance;
-  trial.scene.accuracy.estimate = true;
+  trial.scene.accuracy.estimate = Accuracy::Estimate::coarser;
   trial.scene.accuracy.chosen = true;
   trial.geometry = std::make_shared<const ContactGeometry>(trial.scene, placed.pose);
   trial.plan = make_plan(trial.scene, *trial.geometry);
@@ -198,10 +198,10 @@ std::vector<Grid> grids_to_try(const Grid& given, const Grid& finest) {
 }
 
 // The trial before, and the finer of the two grids that it was compared with.
-std::shared_ptr<const CoarserSolutions> coarser_than(const PressRequest& request, const State& before) {
-  std::vector<CoarserSolutions::Level> levels{{before.beside(nullptr), 2.0}};
-  levels.push_back(before.coarser()->levels().front());
-  return std::make_shared<const CoarserSolutions>(request, std::move(levels));
+std::shared_ptr<const OtherGrids> coarser_than(const PressRequest& request, const State& before) {
+  std::vector<OtherGrids::Level> levels{{before.beside(nullptr), 2.0}};
+  levels.push_back(before.other_grids()->levels().front());
+  return std::make_shared<const OtherGrids>(request, std::move(levels));
 }
 
 [[noreturn]] void refuse(const ChosenAccuracy& reached, const std::string& where) {

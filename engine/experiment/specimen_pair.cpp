@@ -31,12 +31,14 @@ Plan planned(const Scene& scene, const ContactGeometry& geometry) {
   return plan;
 }
 
-// Solves the coarser grids of the estimate; what they cost is counted as `estimate`.
+// Solves the other grids of the estimate; what they cost is counted as `estimate`.
 State with_estimate(const Scene& scene, const ContactGeometry& geometry, const Plan& plan,
                     const PressRequest& request, State state, const ChosenAccuracy* chosen,
                     Monitor& monitor) {
   const CostScope scope;
-  state = state.beside(solve_coarser(scene, geometry, plan, request, monitor));
+  state = state.beside(scene.accuracy.estimate == Accuracy::Estimate::finer
+                           ? solve_finer(scene, geometry, plan, request, monitor)
+                           : solve_coarser(scene, geometry, plan, request, monitor));
   if (chosen != nullptr) state = held_to(state, *chosen, scene);
   const Cost cost = scope.so_far();
   return state.costing_also({cost, {{"estimate", cost}}});
@@ -89,12 +91,14 @@ State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
   const bool first = solver_ == nullptr;
   const std::shared_ptr<const Solver> ready = solver();
   std::optional<State> solved;
-  if (scene_.accuracy.estimate) {
-    // A quarter of the cells and a sixteenth, with all that goes with them.
-    constexpr double share_of_press = 0.75;
+  if (scene_.accuracy.estimate != Accuracy::Estimate::none) {
+    // A quarter of the cells and a sixteenth, or four times the cells, with all that goes with them.
+    const bool finer = scene_.accuracy.estimate == Accuracy::Estimate::finer;
+    const double share_of_press = finer ? 0.2 : 0.75;
     const auto begun = PartMonitor::Clock::now();
     PartMonitor pressing(monitor, "press with an estimate", "press", 0, share_of_press, begun);
-    PartMonitor estimating(monitor, "press with an estimate", "coarser grids", share_of_press, 1, begun);
+    PartMonitor estimating(monitor, "press with an estimate", finer ? "finer grid" : "coarser grids",
+                           share_of_press, 1, begun);
     solved = ready->press(request, pressing);
     estimating.begin();
     solved = with_estimate(scene_, *geometry_, plan_, request, *solved, chosen_.get(), estimating);

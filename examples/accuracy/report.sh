@@ -54,7 +54,7 @@ cp "$runs"/*/*.svg docs/pictures/accuracy/
   cat "$here/page.md"
   printf '\nMachine: %s, %s processors; %s; %s.\n' \
     "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)" "$(nproc)" \
-    "$("$program" version | head -n 1)" "$(date -u +%Y-%m-%d)"
+    "$("$program" version | head -n 1 | tr -s ' ')" "$(date -u +%Y-%m-%d)"
   for section in "$runs"/*/section_*.md; do
     printf '%s %s\n' "$(basename -- "$section")" "$section"
   done | sort | while read -r _ section; do

@@ -4,7 +4,8 @@
 // periodic; light to heavy), of seeds on which nothing was tuned. Much of what cells do to a contact is
 // chance, and an estimate cannot know the sign and size of chance: so what is held to is that the true error
 // is within three times the estimate, and how often the estimate is more than three times the true error is
-// bounded apart. The area fraction, whose error is not chance, is held to both.
+// bounded apart. The area fraction, whose error is not chance, is held to both; and so are all quantities
+// where the estimate comes from a finer grid, which sees the chance of the coarser one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,37 +47,16 @@ Scene scene_on(const Surface& surface, int n, Boundary boundary, double hardness
 // Ratios of the estimate to the true error.
 class Survey {
  public:
+  explicit Survey(std::string from) : from_(std::move(from)) {}
+
   void hold(const State& state, const Values& truth) {
+    ++scenes_;
     for (const auto& [quantity, value] : truth) {
       const DiscretisationEstimate estimate = discretisation_estimate(state, quantity);
       const double off = std::abs(estimate.value - value);
       if (off <= 1e-9 * std::abs(value) && estimate.error <= 1e-6 * std::abs(value)) continue;
       ratios_[quantity].push_back(estimate.error / off);
     }
-  }
-
-  // Presses on the cells and, for what is not known exactly, on the many.
-  void scene(const Surface& surface, Boundary boundary, const PressRequest& request, double hardness = 0,
-             Values exact = {}) {
-    Scene scene = scene_on(surface, cells, boundary, hardness);
-    scene.accuracy.estimate = true;
-    const State state = SpecimenPair(scene).press(request);
-    if (exact.empty()) {
-      const State fine = SpecimenPair(scene_on(surface, true_cells, boundary, hardness)).press(request);
-      exact = {{"corrected_area_fraction", fine.corrected_area_fraction()},
-               {"area_fraction", fine.corrected_area_fraction()},
-               {"approach", fine.approach()},
-               {"separation", fine.separation()},
-               {"mean_gap", fine.mean_gap()},
-               {"energy", fine.energy()},
-               {"stiffness", fine.stiffness()}};
-      if (hardness > 0) {
-        exact["plastic_volume"] = fine.plastic_volume();
-        exact["plastic_fraction"] = fine.plastic_fraction();
-      }
-    }
-    hold(state, exact);
-    ++scenes_;
   }
 
   double covered(const std::string& quantity) const {
@@ -90,7 +70,8 @@ class Survey {
   }
 
   void print() const {
-    std::printf("%d scenes of %d x %d cells; estimate over true error:\n", scenes_, cells, cells);
+    std::printf("%d scenes of %d x %d cells; estimate from %s over true error:\n", scenes_, cells, cells,
+                from_.c_str());
     for (const auto& [quantity, found] : ratios_) {
       std::vector<double> sorted = found;
       std::sort(sorted.begin(), sorted.end());
@@ -113,11 +94,40 @@ class Survey {
            static_cast<double>(found.size());
   }
 
+  std::string from_;
   std::map<std::string, std::vector<double>> ratios_;
   int scenes_ = 0;
 };
 
-void add_exact(Survey& survey) {
+struct Surveys {
+  Survey coarser{"half and a quarter of the cells"}, finer{"twice the cells"};
+
+  // Presses on the cells and, for what is not known exactly, on the many.
+  void scene(const Surface& surface, Boundary boundary, const PressRequest& request, double hardness = 0,
+             Values exact = {}) {
+    if (exact.empty()) {
+      const State fine = SpecimenPair(scene_on(surface, true_cells, boundary, hardness)).press(request);
+      exact = {{"corrected_area_fraction", fine.corrected_area_fraction()},
+               {"area_fraction", fine.corrected_area_fraction()},
+               {"approach", fine.approach()},
+               {"separation", fine.separation()},
+               {"mean_gap", fine.mean_gap()},
+               {"energy", fine.energy()},
+               {"stiffness", fine.stiffness()}};
+      if (hardness > 0) {
+        exact["plastic_volume"] = fine.plastic_volume();
+        exact["plastic_fraction"] = fine.plastic_fraction();
+      }
+    }
+    Scene scene = scene_on(surface, cells, boundary, hardness);
+    for (Survey* survey : {&coarser, &finer}) {
+      scene.accuracy.estimate = survey == &coarser ? Accuracy::Estimate::coarser : Accuracy::Estimate::finer;
+      survey->hold(SpecimenPair(scene).press(request), exact);
+    }
+  }
+};
+
+void add_exact(Surveys& survey) {
   const Surface cap = sphere_surface({Grid{true_cells, true_cells, 1, 1}, 10, SphereShape::paraboloid});
   for (const double a : {0.07, 0.11, 0.17, 0.25, 0.37}) {
     const double load = 4.0 / 3 * modulus * a * a * a / 10, area = std::numbers::pi * a * a;
@@ -140,7 +150,7 @@ void add_exact(Survey& survey) {
                  {PressBy::pressure, share * std::numbers::pi * modulus * 0.01, {}});
 }
 
-void add_self_affine(Survey& survey, std::uint64_t seed) {
+void add_self_affine(Surveys& survey, std::uint64_t seed) {
   SelfAffineOptions o;
   o.grid = Grid{true_cells, true_cells, 1, 1};
   o.hurst = 0.8;
@@ -156,7 +166,7 @@ void add_self_affine(Survey& survey, std::uint64_t seed) {
     survey.scene(surface, Boundary::periodic, {PressBy::pressure, 0.1 * p * modulus, {}}, 0.05 * modulus);
 }
 
-void add_blasted(Survey& survey, std::uint64_t seed) {
+void add_blasted(Surveys& survey, std::uint64_t seed) {
   BeadBlastedOptions o;
   o.grid = Grid{true_cells, true_cells, 0.25e-3, 0.25e-3};
   o.ra = 2e-6;
@@ -166,7 +176,7 @@ void add_blasted(Survey& survey, std::uint64_t seed) {
     survey.scene(surface, Boundary::periodic, {PressBy::pressure, p * modulus, {}});
 }
 
-void add_fractal(Survey& survey, std::uint64_t seed) {
+void add_fractal(Surveys& survey, std::uint64_t seed) {
   WeierstrassMandelbrotOptions o;
   o.nx = o.ny = true_cells;
   o.D = 2.3;
@@ -179,12 +189,20 @@ void add_fractal(Survey& survey, std::uint64_t seed) {
     survey.scene(surface, Boundary::free, {PressBy::pressure, 0.1 * p * modulus, {}});
 }
 
+const Surveys& surveys() {
+  static const Surveys all = [] {
+    Surveys made;
+    add_exact(made);
+    for (const std::uint64_t seed : {101, 102, 103, 104}) add_self_affine(made, seed);
+    for (const std::uint64_t seed : {105, 106}) add_blasted(made, seed);
+    for (const std::uint64_t seed : {107, 108}) add_fractal(made, seed);
+    return made;
+  }();
+  return all;
+}
+
 TEST(DiscretisationEstimates, AreHonestOverManyScenes) {
-  Survey survey;
-  add_exact(survey);
-  for (const std::uint64_t seed : {101, 102, 103, 104}) add_self_affine(survey, seed);
-  for (const std::uint64_t seed : {105, 106}) add_blasted(survey, seed);
-  for (const std::uint64_t seed : {107, 108}) add_fractal(survey, seed);
+  const Survey& survey = surveys().coarser;
   survey.print();
   for (const char* quantity : {"area_fraction", "corrected_area_fraction", "approach", "energy"})
     EXPECT_GE(survey.covered(quantity), 0.9) << quantity;
@@ -193,6 +211,25 @@ TEST(DiscretisationEstimates, AreHonestOverManyScenes) {
   EXPECT_GE(survey.within("area_fraction"), 0.9);
   for (const char* quantity : {"corrected_area_fraction", "approach", "energy"})
     EXPECT_GE(survey.not_over(quantity), 0.5) << quantity;
+}
+
+TEST(DiscretisationEstimates, FromAFinerGridAreSharp) {
+  const Survey& survey = surveys().finer;
+  survey.print();
+  // Measured: 100, 95 and 94 %.
+  for (const char* quantity : {"area_fraction", "corrected_area_fraction", "approach"})
+    EXPECT_GE(survey.within(quantity), 0.9) << quantity;
+  // 86 %: 94 % of the true errors are within three estimates, and 92 % of the estimates within three true
+  // errors. Both errors are chance, that on twice the cells 0.29 of the other in the middle scene; of errors
+  // from normal laws whose widths stand in that ratio, 87 % would be.
+  EXPECT_GE(survey.within("energy"), 0.85);
+  // 91, 89, 88 and 100 %, and 84 % of the stiffness.
+  for (const char* quantity : {"separation", "mean_gap", "plastic_volume", "plastic_fraction"})
+    EXPECT_GE(survey.within(quantity), 0.85) << quantity;
+  EXPECT_GE(survey.within("stiffness"), 0.8);
+  for (const char* quantity : {"area_fraction", "corrected_area_fraction", "approach", "energy", "separation",
+                               "mean_gap", "stiffness", "plastic_volume", "plastic_fraction"})
+    EXPECT_GE(survey.covered(quantity), 0.9) << quantity;  // 94 % or more of each
 }
 
 }  // namespace

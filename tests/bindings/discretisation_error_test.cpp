@@ -42,6 +42,23 @@ TEST_F(AccuracyOfContact, EstimatesAreReadByName) {
             "script.lua:1: `plastic_volume` needs the effect `plasticity`, which this scene does not name");
 }
 
+TEST_F(AccuracyOfContact, AFinerGridIsAskedForByName) {
+  ASSERT_EQ(run("st = pressed{ estimate='finer' }\ne = st.error.discretisation"), "");
+  EXPECT_TRUE(holds("e.approach > 0 and e.approach < st.approach"));
+  EXPECT_TRUE(holds("e:extrapolated 'energy' ~= st.energy"));
+  EXPECT_TRUE(holds("st.cost.by_effect.estimate.transforms > 3 * st.cost.by_effect.elasticity.transforms"));
+  EXPECT_EQ(value("tostring(e)").rfind("discretisation error, estimated from 128 x 128 cells\n", 0), 0U);
+  EXPECT_NE(value("contact{ estimate='finer' }:explain()").find("the same press on 128 x 128 cells"),
+            std::string::npos);
+  EXPECT_EQ(run("contact{ estimate='fine' }"),
+            "script.lua:3: lab.contact: `accuracy`: `estimate` is the string \"fine\"; give true, false or "
+            "\"finer\"");
+  EXPECT_EQ(
+      run("contact{ estimate='finer', error=0.01 }"),
+      "script.lua:3: lab.contact: `accuracy`: `error` and `estimate`=\"finer\" are both given; cells "
+      "chosen for an `error` are compared with the coarser ones tried before, so leave one of both out");
+}
+
 TEST_F(AccuracyOfContact, NotAskedForCostsNothingAndSaysSo) {
   ASSERT_EQ(run("st = pressed()"), "");
   EXPECT_EQ(run("print(st.error.discretisation.approach)"),

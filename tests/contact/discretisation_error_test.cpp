@@ -24,7 +24,7 @@ using test::error_of;
 
 Scene half_space(Surface lower, Boundary boundary) {
   Scene scene{lower.with_material(elastic(1e9)), rigid_material(), boundary, HalfSpaceOptions{}, Accuracy{}};
-  scene.accuracy.estimate = true;
+  scene.accuracy.estimate = Accuracy::Estimate::coarser;
   return scene;
 }
 
@@ -194,7 +194,7 @@ TEST(DiscretisationEstimate, PlasticBodiesRememberOnCoarserGrids) {
 
 TEST(DiscretisationEstimate, BoxElementsHaveOneToo) {
   Scene scene = test::boxes(rough(64), 1e12);
-  scene.accuracy.estimate = true;
+  scene.accuracy.estimate = Accuracy::Estimate::coarser;
   const double before = cost::transforms();
   const State state = pressed(scene, {PressBy::pressure, 1e7, {}});
   EXPECT_EQ(cost::transforms(), before);
@@ -217,11 +217,96 @@ TEST(DiscretisationEstimate, CostsAThirdOfThePress) {
       << plan.text();
 }
 
+State pressed_beside_finer(Scene scene, const PressRequest& request) {
+  scene.accuracy.estimate = Accuracy::Estimate::finer;
+  check(scene);
+  const auto geometry = std::make_shared<const ContactGeometry>(
+      scene, LatticeIsometry(scene.lower.grid().nx, scene.lower.grid().ny));
+  const Plan plan = make_plan(scene, *geometry);
+  return make_solver(plan, geometry)->press(request).beside(solve_finer(scene, *geometry, plan, request));
+}
+
+TEST(EstimateFromAFinerGrid, HertzErrorsAreWithinAFactorOfThree) {
+  for (const double a : {0.13, 0.21, 0.31}) {
+    const State state =
+        pressed_beside_finer(half_space(paraboloid(64), Boundary::free), {PressBy::load, hertz_load(a), {}});
+    EXPECT_EQ(state.other_grids()->levels()[0].state.geometry().grid().nx, 128);
+    const double area = std::numbers::pi * a * a;
+    const std::pair<const char*, double> exact[] = {
+        {"area_fraction", area}, {"approach", a * a / 10}, {"energy", 0.4 * hertz_load(a) * a * a / 10}};
+    for (const auto& [name, value] : exact) {
+      const DiscretisationEstimate estimate = discretisation_estimate(state, name);
+      const double off = std::abs(estimate.value - value);
+      EXPECT_LE(off, 3 * estimate.error) << name << " " << a;
+      EXPECT_LE(estimate.error, 3 * off) << name << " " << a;
+      EXPECT_LT(std::abs(estimate.extrapolated - value), off) << name << " " << a;
+    }
+    EXPECT_EQ(discretisation_estimate(state, "load").error, 0);
+  }
+}
+
+TEST(EstimateFromAFinerGrid, FullContactAndNoLoad) {
+  const Scene scene = half_space(sine_surface({Grid{32, 32, 1, 1}, 0.01, {}, 2}), Boundary::periodic);
+  const State full = pressed_beside_finer(scene, {PressBy::pressure, 1e8, {}});
+  EXPECT_EQ(discretisation_estimate(full, "area_fraction").error, 0);
+  EXPECT_EQ(discretisation_estimate(full, "stiffness").error, 0);
+  const State none = pressed_beside_finer(scene, {PressBy::pressure, 0, {}});
+  EXPECT_EQ(discretisation_estimate(none, "approach").error, 0);
+}
+
+TEST(EstimateFromAFinerGrid, CostsAboutFiveTimesThePress) {
+  Scene scene = half_space(rough(128), Boundary::periodic);
+  scene.accuracy.estimate = Accuracy::Estimate::finer;
+  const auto geometry = std::make_shared<const ContactGeometry>(scene, LatticeIsometry(128, 128));
+  const Plan plan = make_plan(scene, *geometry);
+  const PressRequest request{PressBy::pressure, 5e6, {}};
+  const CostScope press;
+  make_solver(plan, geometry)->press(request);
+  const double of_press = press.so_far().transforms;
+  const CostScope estimate;
+  solve_finer(scene, *geometry, plan, request);
+  EXPECT_GT(estimate.so_far().transforms, 3 * of_press);
+  EXPECT_LT(estimate.so_far().transforms, 6 * of_press);
+  EXPECT_NE(plan.text().find("estimate      the same press on 256 x 256 cells, with it about 5.6 times the"),
+            std::string::npos)
+      << plan.text();
+  scene.accuracy.estimate = Accuracy::Estimate::none;
+  const Plan bare = make_plan(scene, *geometry);
+  EXPECT_GE(plan.bytes_peak(), 5 * bare.bytes_peak());
+  EXPECT_NEAR(plan.transforms, 5.57 * bare.transforms, 0.01 * plan.transforms);
+}
+
+TEST(EstimateFromAFinerGrid, PlasticBodiesRemember) {
+  Scene scene = half_space(rough(64), Boundary::periodic);
+  scene.plasticity = PlasticityOptions{.hardness = 5e7, .hardening = 1e12};
+  const PressRequest request{PressBy::pressure, 1e7, {}};
+  const State state = pressed_beside_finer(scene, request);
+  const DiscretisationEstimate estimate = discretisation_estimate(state, "plastic_volume");
+  EXPECT_GT(estimate.error, 0);
+  EXPECT_LT(estimate.relative(), 0.5);
+  HardnessMemory memory;
+  memory.lower = std::make_shared<const Field>(64, 64, 1e12);
+  const ContactGeometry hard(scene, LatticeIsometry(64, 64), memory);
+  const auto finer = solve_finer(scene, hard, make_plan(scene, hard), request);
+  EXPECT_EQ(finer->levels()[0].state.plastic_volume(), 0);
+}
+
+TEST(EstimateFromAFinerGrid, IsNotOfACoarserOne) {
+  Scene scene = half_space(paraboloid(15), Boundary::free);
+  scene.accuracy.estimate = Accuracy::Estimate::finer;
+  EXPECT_EQ(error_of([&] { check(scene); }), "");
+  scene.accuracy.asked = AskedError{0.01, {"approach"}};
+  EXPECT_EQ(
+      error_of([&] { check(scene); }),
+      "`estimate` = \"finer\" and `error` are both given; cells chosen for an `error` are compared with "
+      "the coarser ones tried before: leave one of both out");
+}
+
 TEST(DiscretisationEstimate, SaysWhatIsMissing) {
   Scene scene = half_space(paraboloid(32), Boundary::free);
-  scene.accuracy.estimate = false;
+  scene.accuracy.estimate = Accuracy::Estimate::none;
   const State state = test::press(scene, PressBy::load, hertz_load(0.2));
-  EXPECT_EQ(state.coarser(), nullptr);
+  EXPECT_EQ(state.other_grids(), nullptr);
   EXPECT_EQ(error_of([&] { discretisation_estimate(state, "approach"); }),
             "the discretisation error of `approach` was not estimated in this press; give lab.contact "
             "accuracy={ estimate=true }, which solves coarser grids as well");

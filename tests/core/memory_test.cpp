@@ -97,6 +97,18 @@ TEST_F(Memory, ScopeSeesThePeak) {
   EXPECT_EQ(empty.so_far().bytes, 0);
 }
 
+TEST(Cost, ACountDoesNotDependOnThoseBeforeIt) {
+  const auto counted = [] {
+    const CostScope scope;
+    for (int k = 0; k < 30; ++k) cost::count_transforms(1.0 / 7);
+    return scope.so_far().transforms;
+  };
+  const double first = counted();
+  EXPECT_NEAR(first, 30.0 / 7, 30e-8);
+  cost::count_transforms(1e5 / 3);
+  EXPECT_EQ(counted(), first);
+}
+
 TEST(Cost, AddsUp) {
   Cost sum{1.0, 2.0, 30};
   sum += Cost{0.5, 1.0, 20};

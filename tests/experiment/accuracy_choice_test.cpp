@@ -262,18 +262,72 @@ TEST(SpecimenPair, AnEstimateIsPartOfThePress) {
   };
   Scene scene{rough(128), rigid_material(), Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
   const State bare = SpecimenPair(scene).press({PressBy::pressure, 1e7, {}});
-  scene.accuracy.estimate = true;
+  scene.accuracy.estimate = Accuracy::Estimate::coarser;
   Watcher watcher;
   const State state = SpecimenPair(scene).press({PressBy::pressure, 1e7, {}}, watcher);
   EXPECT_FALSE(watcher.falls_);
   EXPECT_GE(watcher.last_, 0.75);
   EXPECT_EQ(state.digest(), bare.digest());
-  EXPECT_EQ(bare.coarser(), nullptr);
+  EXPECT_EQ(bare.other_grids(), nullptr);
   ASSERT_EQ(state.cost().by_effect.size(), 2u);
   EXPECT_EQ(state.cost().by_effect[1].first, "estimate");
   EXPECT_EQ(state.cost().by_effect[0].second.transforms, bare.cost().total.transforms);
   EXPECT_GT(state.bytes_held(), bare.bytes_held());
   EXPECT_LT(static_cast<double>(state.bytes_held()), 1.32 * static_cast<double>(bare.bytes_held()));
+}
+
+TEST(SpecimenPair, AnEstimateFromAFinerGridIsPartOfThePress) {
+  Scene scene{rough(64, 1, 8), rough(64, 2, 8), Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
+  const State bare = SpecimenPair(scene).press({PressBy::pressure, 1e7, {}});
+  scene.accuracy.estimate = Accuracy::Estimate::finer;
+  SpecimenPair pair(scene);
+  const State state = pair.press({PressBy::pressure, 1e7, {}});
+  EXPECT_EQ(state.digest(), bare.digest());
+  EXPECT_EQ(pair.lower().grid().nx, 64);
+  ASSERT_EQ(state.cost().by_effect.size(), 2u);
+  EXPECT_EQ(state.cost().by_effect[1].first, "estimate");
+  EXPECT_EQ(state.cost().by_effect[0].second.transforms, bare.cost().total.transforms);
+  EXPECT_GT(state.cost().by_effect[1].second.transforms, 3 * bare.cost().total.transforms);
+  EXPECT_EQ(state.other_grids()->levels()[0].state.geometry().grid().nx, 128);
+}
+
+TEST(SpecimenPair, APressWhoseFinerGridFailsLeavesThePair) {
+  class StopLater final : public Monitor {
+   public:
+    void progress(std::string_view, double) override {}
+    void progress_of_parts(std::string_view, double, std::string_view part, double) override {
+      if (part == "finer grid") stop_flag().raise(StopReason::interrupt);
+    }
+    void warn(std::string_view) override {}
+  };
+  Scene scene{rough(128, 1, 8), rigid_material(), Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
+  scene.accuracy.estimate = Accuracy::Estimate::finer;
+  scene.plasticity = PlasticityOptions{};
+  SpecimenPair pair(scene);
+  const std::string digest = pair.lower().digest();
+  StopLater monitor;
+  const std::string stopped = error_of([&] { pair.press({PressBy::pressure, 1e7, {}}, monitor); });
+  stop_flag().clear();
+  EXPECT_EQ(stopped, "interrupted");
+  EXPECT_EQ(pair.lower().digest(), digest);
+  EXPECT_FALSE(pair.under_load());
+  {
+    // Enough for the press and not for four times as much.
+    Scene bare = scene;
+    bare.accuracy.estimate = Accuracy::Estimate::none;
+    memory::set_limit(memory::held() + 2 * SpecimenPair(bare).plan().bytes_peak());
+    EXPECT_EQ(error_of([&] { SpecimenPair(bare).press({PressBy::pressure, 1e7, {}}); }), "");
+    EXPECT_NE(error_of([&] { pair.press({PressBy::pressure, 1e7, {}}); }), "");
+    memory::set_limit(0);
+  }
+  EXPECT_EQ(pair.lower().digest(), digest);
+  EXPECT_FALSE(pair.under_load());
+  EXPECT_GT(pair.press({PressBy::pressure, 1e7, {}}).plastic_volume(), 0);
+  EXPECT_NE(pair.lower().digest(), digest);
+  // What yielded is interpolated and does not yield again.
+  pair.release();
+  const State again = pair.press({PressBy::pressure, 0.5e7, {}});
+  EXPECT_LT(discretisation_estimate(again, "area_fraction").relative(), 0.5);
 }
 
 TEST(AccuracyChoice, CopiesChooseForThemselves) {

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contact on other cells is made of the combined heights as they lie, under a body without heights that
+// keeps the material of the upper one: no turn or shift has to be found again on other cells.
+#include "engine/contact/other_grids.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/finer_heights.hpp"
+#include "engine/contact/solver.hpp"
+#include "engine/core/cost.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/operations/resampling.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr int fewest_cells = 8;
+constexpr double loose_enough = 1e-5, close_enough = 1e-6;
+
+int halved(int cells) { return cells < 2 * fewest_cells ? cells : (cells + 1) / 2; }
+
+double transform_work(const Grid& grid) {
+  const auto n = static_cast<double>(grid.nodes());
+  return n * std::log2(std::max(n, 2.0));
+}
+
+Field on_cells(const Field& field, const Grid& from, const Grid& to, bool periodic) {
+  return at_cells(Surface(from, field, {.material = {}, .periodic = periodic, .aliased_share = {}}), to.nx,
+                  to.ny)
+      .surface.heights();
+}
+
+// No node is softer or harder than all it lies between.
+Field hardness_on_cells(const Field& hardness, const Grid& from, const Grid& to) {
+  Field result = on_cells(hardness, from, to, false);
+  const Range known = range(hardness.values());
+  for (double& value : result.values()) value = std::clamp(value, known.min, known.max);
+  return result;
+}
+
+bool periodic_together(const Scene& scene) {
+  const auto* upper = std::get_if<Surface>(&scene.upper);
+  return scene.lower.traits().periodic && (upper == nullptr || upper->traits().periodic);
+}
+
+State press_on(const Grid& grid, Field heights, double tolerance, const Scene& scene,
+               const ContactGeometry& geometry, const Plan& given_plan, const PressRequest& request,
+               Monitor& monitor) {
+  const Grid& given = geometry.grid();
+  const auto* upper = std::get_if<Surface>(&scene.upper);
+  Scene there = scene;
+  there.lower = Surface(
+      grid, std::move(heights),
+      {.material = scene.lower.material(), .periodic = periodic_together(scene), .aliased_share = {}});
+  if (upper != nullptr)
+    there.upper = Surface(grid, Field(grid.nx, grid.ny),
+                          {.material = upper->material(), .periodic = true, .aliased_share = {}});
+  there.accuracy.tolerance = std::max(scene.accuracy.tolerance, tolerance);
+  there.accuracy.on_failure = Accuracy::OnFailure::best;
+  there.accuracy.estimate = Accuracy::Estimate::none;
+  there.accuracy.asked.reset();
+  there.sliding = {};
+
+  const LatticeIsometry flat_pose(grid.nx, grid.ny);
+  HardnessMemory memory;
+  if (const HardnessMemory& known = geometry.hardness(); known.lower || known.upper || known.upper_here) {
+    const LocalHardness local =
+        given_plan.yield ? local_hardness(geometry, *given_plan.yield) : LocalHardness{};
+    if (local.lower)
+      memory.lower = std::make_shared<const Field>(hardness_on_cells(*local.lower, given, grid));
+    if (local.upper)
+      memory.upper =
+          std::make_shared<const Field>(flat_pose.to_upper(hardness_on_cells(*local.upper, given, grid)));
+  }
+  auto geometry_there = std::make_shared<const ContactGeometry>(there, flat_pose, std::move(memory));
+  Plan plan = make_plan(there, *geometry_there);
+  if (plan.yield && given_plan.yield) plan.yield->carried = given_plan.yield->carried;
+  // A solver counts against its own finest grid; here that is the one given.
+  const double before = cost::transforms();
+  State state = make_solver(plan, std::move(geometry_there))->press(request, monitor);
+  const double weight = transform_work(grid) / transform_work(given);
+  cost::count_transforms((weight - 1) * (cost::transforms() - before));
+  return state;
+}
+
+}  // namespace
+
+std::vector<Grid> coarser_grids(const Grid& grid) {
+  std::vector<Grid> grids;
+  Grid last = grid;
+  while (grids.size() < 2) {
+    const Grid next{halved(last.nx), halved(last.ny), grid.size_x, grid.size_y};
+    if (next == last) break;
+    grids.push_back(next);
+    last = next;
+  }
+  return grids;
+}
+
+void check_estimate(const Grid& grid) {
+  if (coarser_grids(grid).empty())
+    throw Error(ErrorCode::bad_value,
+                "`estimate` was asked for a tile of " + std::to_string(grid.nx) + " x " +
+                    std::to_string(grid.ny) + " cells",
+                "an estimate compares with half the cells: give at least " +
+                    std::to_string(2 * fewest_cells) + " along x or y, or leave `estimate` out");
+}
+
+std::shared_ptr<const OtherGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
+                                                const Plan& plan, const PressRequest& request,
+                                                Monitor& monitor) {
+  check_estimate(geometry.grid());
+  const std::vector<Grid> grids = coarser_grids(geometry.grid());
+  std::vector<OtherGrids::Level> levels;
+  Grid finer = geometry.grid();
+  for (const Grid& grid : grids) {
+    Field heights = on_cells(geometry.combined(), geometry.grid(), grid, periodic_together(scene));
+    State state = press_on(grid, std::move(heights), loose_enough, scene, geometry, plan, request, monitor);
+    const double across = static_cast<double>(finer.nx) / grid.nx,
+                 up = static_cast<double>(finer.ny) / grid.ny;
+    levels.push_back({std::move(state), std::max(across, up)});
+    finer = grid;
+  }
+  return std::make_shared<const OtherGrids>(request, std::move(levels));
+}
+
+std::shared_ptr<const OtherGrids> solve_finer(const Scene& scene, const ContactGeometry& geometry,
+                                              const Plan& plan, const PressRequest& request,
+                                              Monitor& monitor) {
+  const Grid grid = finer_grid(geometry.grid());
+  State state = press_on(grid, finer_heights(scene, geometry, monitor), close_enough, scene, geometry, plan,
+                         request, monitor);
+  return std::make_shared<const OtherGrids>(request, std::vector<OtherGrids::Level>{{std::move(state), 0.5}});
+}
+
+void plan_estimate(const ContactGeometry& geometry, Plan& plan) {
+  if (plan.accuracy.estimate == Accuracy::Estimate::none) return;
+  const Grid& fine = geometry.grid();
+  double kept = 0, work = 0;
+  if (plan.accuracy.estimate == Accuracy::Estimate::finer) {
+    const Grid grid = finer_grid(fine);
+    const auto held = static_cast<std::int64_t>(3 * static_cast<double>(grid.nodes()) * sizeof(double));
+    const double solve = static_cast<double>(plan.bytes_peak()) * static_cast<double>(grid.nodes()) /
+                         static_cast<double>(fine.nodes());
+    work = transform_work(grid) / transform_work(fine);
+    plan.estimate = "the same press on " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +
+                    " cells, with it about " + format_short(1 + work, 2) +
+                    " times the cost of the press alone, by effect as `estimate`";
+    plan.buffers.push_back({"heights, pressures and gaps of the finer grid", held});
+    plan.buffers.push_back({"the solve on the finer grid",
+                            std::max<std::int64_t>(0, static_cast<std::int64_t>(solve) - held), false});
+    plan.transforms *= 1 + work;
+    plan.seconds *= 1 + work;
+    return;
+  }
+  std::vector<std::string> cells;
+  for (const Grid& grid : coarser_grids(fine)) {
+    kept += static_cast<double>(grid.nodes());
+    work += transform_work(grid) / transform_work(fine);
+    cells.push_back(std::to_string(grid.nx) + " x " + std::to_string(grid.ny));
+  }
+  if (cells.empty()) return;
+  plan.estimate = "the same press on " + joined(cells, " and ") + " cells, by effect as `estimate`";
+  plan.buffers.push_back({"heights, pressures and gaps of the coarser grids",
+                          static_cast<std::int64_t>(3 * kept * sizeof(double))});
+  plan.transforms *= 1 + work;
+  plan.seconds *= 1 + work;
+}
+
+}  // namespace asperity

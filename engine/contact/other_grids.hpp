@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A press solved once more on other cells of its tile, of the same bodies as they lie: on half and a quarter
+// of the cells, or on twice as many. What it says of the error of the grid is in discretisation_error.hpp.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/contact/plan.hpp"
+#include "engine/contact/press_request.hpp"
+#include "engine/contact/scene.hpp"
+#include "engine/contact/state.hpp"
+#include "engine/core/monitor.hpp"
+
+namespace asperity {
+
+// The same press on other grids than that of a state: on one or two coarser ones, the finer first, or on one
+// finer grid.
+class OtherGrids {
+ public:
+  struct Level {
+    State state;
+    double ratio = 2;  // width of a cell over that of the next finer grid; below 1 of a finer grid
+  };
+  OtherGrids(const PressRequest& request, std::vector<Level> levels)
+      : request_(request), levels_(std::move(levels)) {}
+
+  const PressRequest& request() const { return request_; }
+  std::span<const Level> levels() const { return levels_; }
+  bool finer() const { return levels_.front().ratio < 1; }
+
+ private:
+  PressRequest request_;
+  std::vector<Level> levels_;
+};
+
+// The grids that a press on `grid` is compared with: half the cells a side and a quarter, where 8 cells are
+// left along x or y; a side of fewer than 16 keeps its cells. Odd cells are halved upwards.
+std::vector<Grid> coarser_grids(const Grid& grid);
+
+// Solves `request` on coarser grids for the bodies as they lie in `geometry`, with what they and `plan`,
+// which is theirs, remember of earlier events, to a tolerance of 1e-5 or that of the scene, whichever is
+// looser. Heights are those of every second node, or interpolated where the cells are odd. Costs 1/4 + 1/16
+// of the press, in time and in transforms of the finest grid. Throws what a press throws, and
+// Error{bad_value} naming `estimate` where there are too few cells; a coarser grid that misses its tolerance
+// counts with the best it reached.
+std::shared_ptr<const OtherGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
+                                                const Plan& plan, const PressRequest& request,
+                                                Monitor& monitor = Monitor::silent());
+
+// The same on twice the cells (finer_heights.hpp), to a tolerance of 1e-6 or that of the scene, whichever is
+// looser. Costs four to six times the press; throws what finer_grid throws.
+std::shared_ptr<const OtherGrids> solve_finer(const Scene& scene, const ContactGeometry& geometry,
+                                              const Plan& plan, const PressRequest& request,
+                                              Monitor& monitor = Monitor::silent());
+
+// Throws Error{bad_value} naming `estimate` where the tile has too few cells for it.
+void check_estimate(const Grid& grid);
+
+// Adds to the plan of a press what the estimate that it asks for takes.
+void plan_estimate(const ContactGeometry& geometry, Plan& plan);
+
+}  // namespace asperity

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Benches for counting what effects do: boxes and half-spaces under two rough bodies, with elasticity alone,
+// on one thread so that every count is of this thread.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/contact/scene.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/surface/generators/self_affine.hpp"
+#include "tests/contact/contacts.hpp"
+
+namespace asperity::counted {
+
+inline constexpr double never = std::numeric_limits<double>::infinity();
+inline constexpr double hardness = 0.15, pressed = 0.01, tolerance = 1e-8;
+
+using Names = std::vector<std::string>;
+inline bool holds(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+struct Bench {
+  const char* name;
+  Boundary boundary;
+  Elasticity elasticity;
+};
+inline const std::vector<Bench> benches = {{"boxes", Boundary::free, BoxOptions{3.0}},
+                                           {"periodic half-space", Boundary::periodic, HalfSpaceOptions{}},
+                                           {"free half-space", Boundary::free, HalfSpaceOptions{}}};
+
+inline Surface rough(std::uint64_t seed, int cells = 48) {
+  SelfAffineOptions options;
+  options.grid = make_grid(cells, cells, 1, 1);
+  options.hurst = 0.8;
+  options.rms_slope = 0.1;
+  options.short_wave = 8.0 / cells;
+  options.seed = seed;
+  return self_affine_surface(options).with_material(test::elastic(1, 0.3));
+}
+
+inline Scene bare_scene(const Bench& bench) {
+  return {rough(1), rough(2), bench.boundary, bench.elasticity, Accuracy{tolerance}};
+}
+
+class OnOneThread : public testing::Test {
+ protected:
+  void SetUp() override {
+    threads_ = thread_count();
+    set_thread_count(1);
+  }
+  void TearDown() override { set_thread_count(threads_); }
+
+ private:
+  int threads_ = 1;
+};
+
+}  // namespace asperity::counted

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Only what a scene names is computed, proved by counting: transforms, peak bytes, buffers, memory kept and
+// applications of the operator, for every effect alone and every pair of effects, on boxes and half-spaces.
+// A new effect is a row of `effects`; an effect of the catalogue without a row fails.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/contact/effects/catalogue.hpp"
+#include "engine/contact/elasticity/half_space/half_space_solve.hpp"
+#include "engine/core/text.hpp"
+#include "engine/experiment/specimen_pair.hpp"
+#include "engine/friction/junction_law.hpp"
+#include "tests/experiment/counted_scenes.hpp"
+
+namespace asperity {
+namespace {
+
+using namespace counted;
+
+// What may be named beside elasticity.
+struct Effect {
+  const char* name;
+  std::function<void(Scene&)> add;
+  bool of_boxes = true;            // computed for box elements too
+  const char* needs = nullptr;     // another effect
+  const char* excludes = nullptr;  // an effect it cannot be together with
+  bool changes_the_normal_contact = false;
+  const char* line = nullptr;    // of the cost of a press; none where a press does nothing for it
+  bool of_the_accuracy = false;  // not of the catalogue
+};
+
+const std::vector<Effect> effects = {
+    {.name = "plasticity",
+     .add = [](Scene& scene) { scene.plasticity = PlasticityOptions{hardness}; },
+     .of_boxes = false,
+     .excludes = "tangential",
+     .changes_the_normal_contact = true,
+     .line = "plasticity"},
+    {.name = "creep",
+     .add = [](Scene& scene) { scene.creep = CreepOptions{}; },
+     .of_boxes = false,
+     .needs = "plasticity",
+     .excludes = "tangential",
+     .changes_the_normal_contact = true},
+    {.name = "ageing",
+     .add =
+         [](Scene& scene) {
+           scene.sliding.ageing = AgeingOptions{0.1, 1};
+         }},
+    {.name = "interlocking", .add = [](Scene& scene) { scene.sliding.interlocking = InterlockingOptions{}; }},
+    {.name = "tangential",
+     .add = [](Scene& scene) { scene.sliding.tangential = TangentialOptions{1.2}; },
+     .excludes = "plasticity"},
+    {.name = "estimate on coarser grids",
+     .add = [](Scene& scene) { scene.accuracy.estimate = Accuracy::Estimate::coarser; },
+     .excludes = "estimate on a finer grid",
+     .line = "estimate",
+     .of_the_accuracy = true},
+    {.name = "estimate on a finer grid",
+     .add = [](Scene& scene) { scene.accuracy.estimate = Accuracy::Estimate::finer; },
+     .excludes = "estimate on coarser grids",
+     .line = "estimate",
+     .of_the_accuracy = true},
+};
+
+const Effect& effect_named(std::string_view name) {
+  return *std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; });
+}
+
+// The names with those they need, none twice; empty where they do not go together on this bench.
+Names completed(const Names& asked, const Bench& bench) {
+  Names names;
+  for (const std::string& name : asked) {
+    const Effect& effect = effect_named(name);
+    if (effect.needs != nullptr && !holds(names, effect.needs)) names.emplace_back(effect.needs);
+    if (!holds(names, name)) names.push_back(name);
+  }
+  for (const std::string& name : names) {
+    const Effect& effect = effect_named(name);
+    if (effect.excludes != nullptr && holds(names, effect.excludes)) return {};
+    if (!effect.of_boxes && std::holds_alternative<BoxOptions>(bench.elasticity)) return {};
+  }
+  return names;
+}
+
+Scene with_effects(Scene scene, const Names& names) {
+  for (const std::string& name : names) effect_named(name).add(scene);
+  return scene;
+}
+
+struct Counted {
+  Cost press;                                           // of the call
+  std::vector<std::pair<std::string, Cost>> by_effect;  // as the state tells it
+  std::int64_t kept = 0;                                // by the pair, the state gone
+  std::size_t buffers = 0;
+  std::int64_t planned = 0;
+  int iterations = 0;
+  std::string digest;
+  Names run, off, terms;
+
+  double transforms_of(std::string_view effect) const {
+    for (const auto& [name, cost] : by_effect)
+      if (name == effect) return cost.transforms;
+    return 0;
+  }
+  Names lines() const {
+    Names names;
+    for (const auto& entry : by_effect) names.push_back(entry.first);
+    return names;
+  }
+};
+
+Counted count_once(const Scene& scene, const PressRequest& request) {
+  Counted result;
+  SpecimenPair pair(scene);
+  const std::int64_t before = memory::held();
+  {
+    const CostScope scope;
+    const State state = pair.press(request);
+    result.press = scope.so_far();
+    result.by_effect = state.cost().by_effect;
+    result.iterations = state.iterations();
+    result.digest = state.digest();
+    result.run = state.effects_run();
+    result.off = state.effects_off();
+  }
+  result.kept = memory::held() - before;
+  result.buffers = pair.plan().buffers.size();
+  result.planned = pair.plan().bytes_peak();
+  for (const PlannedTerm& term : pair.plan().terms) result.terms.push_back(term.effect);
+  return result;
+}
+
+// The second time: what the process keeps for every contact of a size is there by then.
+Counted count(const Scene& scene, const PressRequest& request = {PressBy::pressure, pressed, {}}) {
+  count_once(scene, request);
+  return count_once(scene, request);
+}
+
+using EffectsCounted = OnOneThread;
+
+TEST_F(EffectsCounted, EveryEffectThatIsComputedHasARow) {
+  for (const EffectEntry& entry : known_effects()) {
+    if (entry.availability != Availability::computed || entry.name == "elasticity") continue;
+    EXPECT_TRUE(
+        std::any_of(effects.begin(), effects.end(), [&](const Effect& e) { return entry.name == e.name; }))
+        << entry.name << " is computed, but nothing here counts what it does when it is not named";
+  }
+}
+
+// A scene that names elasticity alone is its solver and nothing else: to the transform, and to the byte but
+// for what the solver is handed and what it hands out.
+TEST_F(EffectsCounted, ABareHalfSpaceIsItsSolverAlone) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
+    SCOPED_TRACE(name(boundary));
+    Scene scene = bare_scene({"", boundary, HalfSpaceOptions{}});
+    SpecimenPair pair(scene);
+    const std::shared_ptr<const Solver> solver = pair.solver();
+    const ContactGeometry geometry(scene, LatticeIsometry(48, 48));
+    HalfSpaceProblem problem;
+    problem.grid = geometry.grid();
+    problem.boundary = boundary;
+    problem.modulus = std::get<HalfSpaceOperator>(pair.plan().elasticity).modulus;
+    problem.heights = std::make_shared<const Field>(geometry.combined());
+    const double middle = mean(problem.heights->values());
+    Array<double> squares(problem.heights->size());
+    for (std::size_t k = 0; k < squares.size(); ++k)
+      squares[k] = ((*problem.heights)[k] - middle) * ((*problem.heights)[k] - middle);
+    problem.rms = std::sqrt(block_sum(squares) / static_cast<double>(squares.size()));
+    problem.tolerance = tolerance;
+    const auto bare = [&] {
+      const CostScope scope;
+      const HalfSpaceAnswer answer = solve_at_pressure(problem, pressed, nullptr, Monitor::silent());
+      return std::pair{scope.so_far(), answer.pressure};
+    };
+    bare();
+    const auto [cost, pressures] = bare();
+    const CostScope scope;
+    const State state = pair.press({PressBy::pressure, pressed, {}});
+    const Cost mine = scope.so_far();
+    EXPECT_EQ(mine.transforms, cost.transforms);
+    EXPECT_EQ(mine.bytes, cost.bytes);
+    const std::shared_ptr<const Field> field = state.field("pressure");
+    EXPECT_TRUE(std::equal(pressures.values().begin(), pressures.values().end(), field->values().begin()));
+  }
+}
+
+TEST_F(EffectsCounted, WhatIsNotNamedContributesNothing) {
+  for (const Bench& bench : benches) {
+    const Counted bare = count(bare_scene(bench));
+    EXPECT_EQ(bare.lines(), Names{"elasticity"});
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+      for (std::size_t k = i; k < effects.size(); ++k) {
+        const Names named = completed({effects[i].name, effects[k].name}, bench);
+        if (named.empty()) continue;
+        SCOPED_TRACE(std::string(bench.name) + ": " + joined(named, " and "));
+        const Counted found = count(with_effects(bare_scene(bench), named));
+
+        // Lines of the cost: those of what is named and no other, and together they are the whole.
+        Names expected = {"elasticity"};
+        for (const std::string& name : named)
+          if (effect_named(name).line != nullptr) expected.emplace_back(effect_named(name).line);
+        Names lines = found.lines();
+        std::sort(lines.begin(), lines.end());
+        std::sort(expected.begin(), expected.end());
+        EXPECT_EQ(lines, expected);
+        double transforms = 0;
+        for (const auto& entry : found.by_effect) transforms += entry.second.transforms;
+        EXPECT_DOUBLE_EQ(transforms, found.press.transforms);
+        for (const Effect& effect : effects) {
+          const bool on = holds(named, effect.name) && !effect.of_the_accuracy;
+          EXPECT_EQ(holds(found.terms, effect.name), on) << effect.name;
+          EXPECT_EQ(holds(found.run, effect.name), on) << effect.name;
+          if (!effect.of_the_accuracy) {
+            EXPECT_EQ(holds(found.off, effect.name), !on) << effect.name;
+          }
+        }
+
+        // Each of them taken away again: what it did is gone, and nothing else.
+        for (const std::string& name : named) {
+          const Effect& effect = effect_named(name);
+          if (effect.changes_the_normal_contact) continue;
+          Names others = named;
+          others.erase(std::find(others.begin(), others.end(), name));
+          const Counted without = count(with_effects(bare_scene(bench), others));
+          EXPECT_EQ(found.digest, without.digest) << name;
+          EXPECT_EQ(found.iterations, without.iterations) << name;
+          EXPECT_EQ(found.transforms_of("elasticity"), without.transforms_of("elasticity")) << name;
+          if (effect.line != nullptr) {
+            EXPECT_DOUBLE_EQ(found.press.transforms - found.transforms_of(effect.line),
+                             without.press.transforms)
+                << name;
+            continue;
+          }
+          EXPECT_EQ(found.press.transforms, without.press.transforms) << name;
+          EXPECT_EQ(found.press.bytes, without.press.bytes) << name;
+          EXPECT_EQ(found.buffers, without.buffers) << name;
+          EXPECT_EQ(found.planned, without.planned) << name;
+          // The one thing kept is the state that a pull starts from.
+          if (name != "tangential") {
+            EXPECT_EQ(found.kept, without.kept) << name;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(EffectsCounted, OnlyAPullKeepsTheStateItStartsFrom) {
+  for (const Bench& bench : benches) {
+    if (std::holds_alternative<BoxOptions>(bench.elasticity)) continue;
+    const Counted bare = count(bare_scene(bench)),
+                  pulled = count(with_effects(bare_scene(bench), {"tangential"}));
+    const auto nodes = static_cast<std::int64_t>(48 * 48);
+    // Nothing stays of a press without it, and with it the pressures and gaps of one state.
+    EXPECT_EQ(bare.kept, 0) << bench.name;
+    EXPECT_EQ(pulled.kept, 2 * 8 * nodes) << bench.name;
+  }
+}
+
+// Friction is asked of a state: what the scene did not name is not worked out for it either.
+TEST_F(EffectsCounted, FrictionWorksOutWhatIsNamed) {
+  const JunctionLaw law({.tau0 = 0.01, .alpha = 0.2});
+  for (const Bench& bench : benches) {
+    SCOPED_TRACE(bench.name);
+    const auto cost_of = [&](const Names& named, std::optional<double> rest) {
+      SpecimenPair pair(with_effects(bare_scene(bench), named));
+      const State state = pair.press({PressBy::pressure, pressed, {}});
+      const CostScope scope;
+      const FrictionResult result = law.on(state, rest);
+      EXPECT_EQ(result.interlocking_force.has_value(), holds(named, "interlocking"));
+      EXPECT_EQ(result.strengthening.has_value(), holds(named, "ageing"));
+      return scope.so_far();
+    };
+    for (const Names& named : {Names{}, Names{"tangential"}}) {
+      const Cost cost = cost_of(named, {});
+      EXPECT_EQ(cost.transforms, 0);
+      EXPECT_EQ(cost.bytes, 0);
+    }
+    EXPECT_EQ(cost_of({"ageing"}, 600).bytes, 0);
+    EXPECT_GE(cost_of({"interlocking"}, {}).bytes, 3 * 8 * 48 * 48);
+    EXPECT_EQ(cost_of({"interlocking"}, {}).transforms, 0);
+  }
+}
+
+// An estimate solves beside the press and changes nothing of it.
+TEST_F(EffectsCounted, AnEstimateChangesNoBitAndShowsWhatItCost) {
+  for (const Bench& bench : benches) {
+    const Counted bare = count(bare_scene(bench));
+    for (const Effect& effect : effects) {
+      if (!effect.of_the_accuracy) continue;
+      SCOPED_TRACE(std::string(bench.name) + ": " + effect.name);
+      const Counted estimated = count(with_effects(bare_scene(bench), {effect.name}));
+      EXPECT_EQ(estimated.digest, bare.digest);
+      EXPECT_EQ(estimated.transforms_of("elasticity"), bare.press.transforms);
+      EXPECT_EQ(estimated.lines(), (Names{"elasticity", "estimate"}));
+      EXPECT_GT(estimated.by_effect.back().second.bytes, 0);
+      if (std::holds_alternative<HalfSpaceOptions>(bench.elasticity)) {
+        EXPECT_GT(estimated.transforms_of("estimate"), 0);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace asperity

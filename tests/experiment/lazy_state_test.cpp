@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What nobody reads of a state is never computed: transforms and bytes counted around the first and the
+// second reading of each lazy quantity. And a state outlives its contact: it is a value of its own, and what
+// is read of it once the contact is gone is what would have been read before.
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/parallel.hpp"
+#include "engine/experiment/specimen_pair.hpp"
+#include "engine/surface/generators/self_affine.hpp"
+#include "tests/contact/contacts.hpp"
+
+namespace asperity {
+namespace {
+
+constexpr int cells = 48;
+constexpr std::int64_t grid_bytes = 8LL * cells * cells;
+
+// What reading a quantity of a half-space state takes.
+struct LazyQuantity {
+  const char* name;
+  std::function<double(const State&)> read;
+  bool transforms = false;  // applies the operator
+  std::int64_t kept = 0;    // of counted memory once it is read
+  bool kept_answer = true;  // the second reading works nothing out
+};
+
+double sum_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+std::vector<LazyQuantity> lazy_quantities() {
+  std::vector<LazyQuantity> all = {
+      {"mean_gap", [](const State& s) { return s.mean_gap(); }},
+      {"energy", [](const State& s) { return s.energy(); }},
+      {"stiffness", [](const State& s) { return s.stiffness(); }, true},
+      {"corrected_area_fraction", [](const State& s) { return s.corrected_area_fraction(); }},
+      {"spots", [](const State& s) { return static_cast<double>(s.spots()); }},
+      {"spots8", [](const State& s) { return static_cast<double>(s.spots8()); }},
+      {"spot_areas", [](const State& s) { return sum_of(s.spot_areas()); }},
+      {"plastic_volume", [](const State& s) { return s.plastic_volume(); }},
+      {"algebraic_error", [](const State& s) { return s.algebraic_error().approach; }, true},
+      {"deformed", [](const State& s) { return s.deformed("lower").heights()[5]; }, false, 0, false},
+  };
+  for (const std::string& name : State::field_names())
+    all.push_back({name.c_str(), [name](const State& s) { return (*s.field(name))[5]; }, false, grid_bytes});
+  return all;
+}
+
+Scene plastic_scene() {
+  const auto rough = [](std::uint64_t seed) {
+    SelfAffineOptions options;
+    options.grid = make_grid(cells, cells, 1, 1);
+    options.hurst = 0.8;
+    options.rms_slope = 0.1;
+    options.short_wave = 8.0 / cells;
+    options.seed = seed;
+    return self_affine_surface(options).with_material(test::elastic(1, 0.3));
+  };
+  Scene scene{rough(1), rough(2), Boundary::periodic, HalfSpaceOptions{}, Accuracy{1e-8}};
+  scene.plasticity = PlasticityOptions{0.05};
+  return scene;
+}
+constexpr PressRequest under = {PressBy::pressure, 0.01, {}};
+
+struct Reading {
+  Cost cost;
+  std::int64_t kept;
+  double value;
+};
+Reading read(const State& state, const LazyQuantity& quantity) {
+  const std::int64_t before = memory::held();
+  const CostScope scope;
+  const double value = quantity.read(state);
+  return {scope.so_far(), memory::held() - before, value};
+}
+
+class LazyState : public testing::Test {
+ protected:
+  void SetUp() override {
+    threads_ = thread_count();
+    set_thread_count(1);
+  }
+  void TearDown() override { set_thread_count(threads_); }
+
+ private:
+  int threads_ = 1;
+};
+
+TEST_F(LazyState, EachQuantityIsWorkedOutWhenItIsReadAndOnce) {
+  for (const LazyQuantity& quantity : lazy_quantities()) {
+    SCOPED_TRACE(quantity.name);
+    SpecimenPair pair(plastic_scene());
+    // What the process keeps for every contact of a size is there by then.
+    quantity.read(pair.press(under));
+    SpecimenPair fresh(plastic_scene());
+    const State state = fresh.press(under);
+    const Reading first = read(state, quantity), second = read(state, quantity);
+    EXPECT_GT(first.cost.bytes, 0);
+    EXPECT_EQ(first.cost.transforms > 0, quantity.transforms);
+    EXPECT_EQ(first.kept, quantity.kept);
+    EXPECT_EQ(second.value, first.value);
+    EXPECT_EQ(second.cost.transforms, 0);
+    EXPECT_EQ(second.cost.bytes, quantity.kept_answer ? 0 : first.cost.bytes);
+    EXPECT_EQ(second.kept, 0);
+  }
+}
+
+// To read one is to work out that one: the others cost what they cost on a state of which nothing was read.
+TEST_F(LazyState, ReadingOneWorksOutNoField) {
+  const std::vector<LazyQuantity> all = lazy_quantities();
+  for (const LazyQuantity& quantity : all) {
+    SpecimenPair pair(plastic_scene());
+    const State state = pair.press(under);
+    quantity.read(state);
+    for (const std::string& name : State::field_names()) {
+      if (name == quantity.name) continue;
+      const std::int64_t before = memory::held();
+      state.field(name);
+      EXPECT_EQ(memory::held() - before, grid_bytes) << name << " after " << quantity.name;
+    }
+  }
+}
+
+// What is known when the solve ends costs nothing to read.
+TEST_F(LazyState, WhatTheSolveFoundIsThere) {
+  SpecimenPair pair(plastic_scene());
+  const State state = pair.press(under);
+  const CostScope scope;
+  EXPECT_GT(state.load() + state.pressure() + state.approach() + state.area() + state.area_fraction() +
+                state.peak_pressure() + state.secant_stiffness() + state.residual() +
+                static_cast<double>(state.contacts() + state.iterations()),
+            0);
+  EXPECT_TRUE(state.converged());
+  EXPECT_EQ(scope.so_far().transforms, 0);
+  EXPECT_EQ(scope.so_far().bytes, 0);
+}
+
+// The cost of a press is of the press: nothing read afterwards is added to it.
+TEST_F(LazyState, ReadingIsNotInTheCostOfThePress) {
+  SpecimenPair pair(plastic_scene());
+  const State state = pair.press(under);
+  const double transforms = state.cost().total.transforms;
+  const std::int64_t bytes = state.cost().total.bytes;
+  for (const LazyQuantity& quantity : lazy_quantities()) quantity.read(state);
+  EXPECT_EQ(state.cost().total.transforms, transforms);
+  EXPECT_EQ(state.cost().total.bytes, bytes);
+}
+
+TEST_F(LazyState, AStateOutlivesItsContact) {
+  for (const LazyQuantity& quantity : lazy_quantities()) {
+    SCOPED_TRACE(quantity.name);
+    auto pair = std::make_unique<SpecimenPair>(plastic_scene());
+    SpecimenPair twin(plastic_scene());
+    const State state = pair->press(under), other = twin.press(under);
+    // The bodies have yielded, turned and gone since.
+    pair->release();
+    pair->place(3);
+    pair->press(under);
+    pair.reset();
+    EXPECT_EQ(quantity.read(state), quantity.read(other));
+    EXPECT_EQ(state.digest(), other.digest());
+  }
+}
+
+TEST_F(LazyState, WithTheContactAndItsStatesAllMemoryGoes) {
+  { SpecimenPair(plastic_scene()).press(under).stiffness(); }
+  const std::int64_t before = memory::held();
+  {
+    std::optional<State> state = SpecimenPair(plastic_scene()).press(under);
+    for (const LazyQuantity& quantity : lazy_quantities()) quantity.read(*state);
+    EXPECT_GT(memory::held(), before + 5 * grid_bytes);
+  }
+  EXPECT_EQ(memory::held(), before);
+}
+
+}  // namespace
+}  // namespace asperity

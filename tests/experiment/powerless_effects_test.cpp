@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// An effect of no strength changes no number and is shown all the same: in the plan, in the effects that ran,
+// and in the cost where a press does anything for it. Bit for bit on half-spaces as on boxes, since each is
+// the very problem without it; a limit that no pressure reaches is another problem to the solver, and the
+// same solution within its tolerance. A new effect that can be without strength is a row of `powerless`.
+#include <functional>
+#include <optional>
+
+#include "engine/experiment/specimen_pair.hpp"
+#include "engine/friction/junction_law.hpp"
+#include "tests/experiment/counted_scenes.hpp"
+
+namespace asperity {
+namespace {
+
+using namespace counted;
+using PowerlessEffects = OnOneThread;
+
+struct Powerless {
+  const char* name;
+  std::function<void(Scene&)> without, with;  // what both name; what one names beside it
+  std::optional<double> dwell{};
+  const char* term;            // that the plan shows all the same
+  const char* line = nullptr;  // that the cost shows all the same
+  bool of_boxes = true;
+};
+
+const std::vector<Powerless> powerless = {
+    {.name = "plasticity of infinite hardness",
+     .without = [](Scene&) {},
+     .with = [](Scene& s) { s.plasticity = PlasticityOptions{never}; },
+     .term = "plasticity",
+     .line = "plasticity",
+     .of_boxes = false},
+    {.name = "plasticity of infinite hardness that hardens",
+     .without = [](Scene&) {},
+     .with =
+         [](Scene& s) {
+           s.plasticity = PlasticityOptions{never, 1.0};
+         },
+     .term = "plasticity",
+     .line = "plasticity",
+     .of_boxes = false},
+    {.name = "infinite hardening",
+     .without = [](Scene& s) { s.plasticity = PlasticityOptions{hardness}; },
+     .with =
+         [](Scene& s) {
+           s.plasticity = PlasticityOptions{hardness, never};
+         },
+     .term = "plasticity",
+     .line = "plasticity",
+     .of_boxes = false},
+    {.name = "creep of rate zero",
+     .without = [](Scene& s) { s.plasticity = PlasticityOptions{hardness}; },
+     .with =
+         [](Scene& s) {
+           s.creep = CreepOptions{0, 1, 600};
+         },
+     .dwell = 86400,
+     .term = "creep",
+     .of_boxes = false},
+    {.name = "creep of infinite hardness",
+     .without = [](Scene& s) { s.plasticity = PlasticityOptions{never}; },
+     .with = [](Scene& s) { s.creep = CreepOptions{}; },
+     .dwell = 86400,
+     .term = "creep",
+     .of_boxes = false},
+    {.name = "ageing of rate zero",
+     .without = [](Scene&) {},
+     .with =
+         [](Scene& s) {
+           s.sliding.ageing = AgeingOptions{0, 1};
+         },
+     .term = "ageing"},
+    {.name = "interlocking that nobody asks friction of",
+     .without = [](Scene&) {},
+     .with = [](Scene& s) { s.sliding.interlocking = InterlockingOptions{}; },
+     .term = "interlocking"},
+    {.name = "tangential that nobody pulls",
+     .without = [](Scene&) {},
+     .with = [](Scene& s) { s.sliding.tangential = TangentialOptions{1.2}; },
+     .term = "tangential"},
+};
+
+TEST_F(PowerlessEffects, OfNoStrengthAnEffectChangesNoBitAndIsShown) {
+  for (const Bench& bench : benches) {
+    for (const Powerless& row : powerless) {
+      if (!row.of_boxes && std::holds_alternative<BoxOptions>(bench.elasticity)) continue;
+      SCOPED_TRACE(std::string(bench.name) + ": " + row.name);
+      Scene without = bare_scene(bench);
+      row.without(without);
+      Scene with = without;
+      row.with(with);
+      SpecimenPair one(without), other(with);
+      const PressRequest request{PressBy::pressure, pressed, row.dwell};
+      const State a = one.press(request), b = other.press(request);
+      EXPECT_EQ(a.digest(), b.digest());
+      EXPECT_EQ(a.cost().total.transforms, b.cost().total.transforms);
+      EXPECT_EQ(a.energy(), b.energy());
+      EXPECT_EQ(a.mean_gap(), b.mean_gap());
+      EXPECT_EQ(a.stiffness(), b.stiffness());
+      EXPECT_EQ(one.lower().digest(), other.lower().digest());
+      EXPECT_EQ(one.upper().digest(), other.upper().digest());
+      // An event later, after a turn, they are still the same.
+      one.place(7);
+      other.place(7);
+      EXPECT_EQ(one.press(request).digest(), other.press(request).digest());
+
+      const auto& terms = other.plan().terms;
+      EXPECT_TRUE(
+          std::any_of(terms.begin(), terms.end(), [&](const auto& t) { return t.effect == row.term; }));
+      EXPECT_TRUE(holds(b.effects_run(), row.term));
+      if (row.line != nullptr) {
+        const auto& lines = b.cost().by_effect;
+        EXPECT_TRUE(
+            std::any_of(lines.begin(), lines.end(), [&](const auto& l) { return l.first == row.line; }));
+      }
+    }
+  }
+}
+
+// A cap that no pressure reaches is another problem to the solver, with the same solution.
+TEST_F(PowerlessEffects, ACapOutOfReachChangesNothingBeyondTheTolerance) {
+  for (const Bench& bench : benches) {
+    if (std::holds_alternative<BoxOptions>(bench.elasticity)) continue;
+    for (const double hardening : {never, 1.0}) {
+      Scene capped = bare_scene(bench);
+      capped.plasticity = PlasticityOptions{1e6, hardening};
+      SpecimenPair one(bare_scene(bench)), other(capped);
+      const State a = one.press({PressBy::pressure, pressed, {}}),
+                  b = other.press({PressBy::pressure, pressed, {}});
+      ASSERT_LT(a.peak_pressure(), 1e6);
+      const double within = 10 * tolerance;
+      EXPECT_NEAR(b.approach() / a.approach(), 1, within) << bench.name;
+      EXPECT_NEAR(b.energy() / a.energy(), 1, within) << bench.name;
+      EXPECT_NEAR(b.mean_gap() / a.mean_gap(), 1, within) << bench.name;
+      EXPECT_EQ(b.contacts(), a.contacts()) << bench.name;
+      EXPECT_EQ(b.plastic_volume(), 0) << bench.name;
+      EXPECT_EQ(other.lower().digest(), one.lower().digest()) << bench.name;
+      EXPECT_EQ(b.cost().by_effect.back().first, "plasticity") << bench.name;
+    }
+  }
+}
+
+// Between level bodies slopes add nothing, and rate zero lets nothing grow: the very numbers of the plain
+// law.
+TEST_F(PowerlessEffects, OfNoStrengthAnEffectLeavesFrictionAsItIs) {
+  const JunctionLaw law({.tau0 = 0.013, .alpha = 0.21, .tau_max = 0.015});
+  for (const Bench& bench : benches) {
+    SCOPED_TRACE(bench.name);
+    const Surface level =
+        Surface(make_grid(24, 24, 1, 1), Field(24, 24)).with_material(test::elastic(1, 0.3));
+    Scene plain{level, level, bench.boundary, bench.elasticity, Accuracy{tolerance}};
+    Scene with = plain;
+    with.sliding.interlocking = InterlockingOptions{};
+    with.sliding.ageing = AgeingOptions{0, 1};
+    if (std::holds_alternative<HalfSpaceOptions>(bench.elasticity) && bench.boundary == Boundary::free)
+      continue;  // a punch: it sinks in at its rim, and its junctions are not level
+    SpecimenPair one(plain), other(with);
+    const PressRequest request{PressBy::pressure, pressed, {}};
+    const FrictionResult a = law.on(one.press(request)), b = law.on(other.press(request), 3600);
+    EXPECT_EQ(a.force, b.force);
+    EXPECT_EQ(a.adhesive_force, b.adhesive_force);
+    EXPECT_EQ(a.load_force, b.load_force);
+    EXPECT_EQ(a.capped_fraction, b.capped_fraction);
+    EXPECT_EQ(*b.interlocking_force, 0);
+    EXPECT_EQ(*b.strengthening, 1);
+  }
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,64 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- What a script does not read of a state is not computed, and the ledger tells when it is. A state is a value
+-- of its own: after c:close() it can still be read, and what is read then is what it was.
+local lab = require "asperity"
+local unit = lab.material{ young=1, poisson=0.3, hardness=0.05 }
+local function rough(seed)
+  return lab.surface.self_affine{ cells=128, size=1, hurst=0.8, rms_slope=0.1, short_wave=1 / 16, seed=seed,
+    material=unit }
+end
+local function bench()
+  return lab.contact{ lower=rough(1), upper=rough(2), boundary="periodic",
+    effects={ elasticity="half_space", plasticity={} } }
+end
+local function calls()
+  local lines = {}
+  for _, line in ipairs(lab.ledger().calls) do lines[line.call] = line end
+  return lines
+end
+
+-- What is there when the solve ends costs no transform to read.
+local c = bench()
+local st = c:press{ pressure=0.01 }
+local before = lab.ledger().transforms
+assert(st.cost.transforms > 0 and before >= st.cost.transforms)
+local _ = st.area_fraction + st.approach + st.peak_pressure + st.contacts + st.residual + st.mean_gap + st.energy
+  + st.spots + st.plastic_volume
+assert(lab.ledger().transforms == before)
+
+-- A stiffness takes a linear solve: when it is first read, and not again.
+assert(calls()["State.stiffness"] == nil)
+local stiffness = st.stiffness
+local after = lab.ledger().transforms
+assert(after > before and calls()["State.stiffness"].times == 1)
+assert(st.stiffness == stiffness and lab.ledger().transforms == after)
+-- So do the bounds of its errors.
+local bound = st.error.algebraic.approach
+local bounded = lab.ledger().transforms
+assert(bounded > after and st.error.algebraic.approach == bound and lab.ledger().transforms == bounded)
+-- None of it is counted as the press's own.
+assert(st.cost.transforms <= before)
+
+-- Closed, the contact is gone; the state is not.
+local readers = {
+  load=function(s) return s.load end, approach=function(s) return s.approach end,
+  mean_gap=function(s) return s.mean_gap end, energy=function(s) return s.energy end,
+  stiffness=function(s) return s.stiffness end, spots=function(s) return s.spots end,
+  spots8=function(s) return s.spots8 end, area=function(s) return s.corrected_area_fraction end,
+  largest=function(s) return s:spot_areas()[1] end, volume=function(s) return s.plastic_volume end,
+  bound=function(s) return s.error.algebraic.approach end, digest=function(s) return s.digest end,
+  pressure=function(s) return s:field "pressure":value(5, 7) end, gap=function(s) return s:field "gap".max end,
+  contact=function(s) return s:field "contact".mean end, plastic=function(s) return s:field "plastic".max end,
+  displacement=function(s) return s:field "displacement".min end,
+  lower=function(s) return s:deformed "lower".digest end, upper=function(s) return s:deformed "upper".digest end,
+  density=function(s) return s:distribution("gap").mean end,
+  mu=function(s) return lab.friction{ tau0=0.01, alpha=0.2 }:on(s).mu end, text=function(s) return s.solver end,
+}
+for name, read in lab.sorted(readers) do
+  local open, closing = bench(), bench()
+  local kept, orphan = open:press{ pressure=0.01 }, closing:press{ pressure=0.01 }
+  closing:close()
+  local ok, message = pcall(function() return closing:press{ pressure=0.02 } end)
+  assert(not ok and message:find("a contact was used after it was closed", 1, true), message)
+  assert(read(orphan) == read(kept), name)
+end
