@@ -151,7 +151,7 @@ LedgerScope::LedgerScope(Ledger& ledger, std::string_view owner, std::string_vie
 LedgerScope::~LedgerScope() {
   innermost = outer_;
   const Cost all = cost_.so_far();
-  if (!lasting_ && all.seconds < shortest) return;
+  if (forgotten_ || (!lasting_ && all.seconds < shortest)) return;
   Cost own = all;
   own.seconds = std::max(own.seconds - inner_.seconds, 0.0);
   own.transforms = std::max(own.transforms - inner_.transforms, 0.0);

@@ -70,10 +70,17 @@ TEST(Ledger, AShortCallHasNoLineUnlessItLasts) {
     const LedgerScope outer(ledger, "", "outer", false, true);
     { const LedgerScope brief(ledger, "", "brief", false, false); }
     { const LedgerScope lasting(ledger, "", "lasting", false, true); }
+    {
+      LedgerScope kept(ledger, "", "kept", false, false), forgotten(ledger, "", "forgotten", false, true);
+      kept.keep();
+      forgotten.forget();
+    }
   }
   const LedgerReport report = ledger.report();
   EXPECT_EQ(line_of(report, "brief"), nullptr);
   EXPECT_NE(line_of(report, "lasting"), nullptr);
+  EXPECT_NE(line_of(report, "kept"), nullptr);
+  EXPECT_EQ(line_of(report, "forgotten"), nullptr);
 }
 
 TEST(Ledger, CasesAreKeptApartWhateverThreadRunsThem) {
