@@ -144,6 +144,7 @@ int next_of(lua_State* L) {
       enter_effects(call.session(), *results);
       return *std::move(results);
     }
+    scope.forget();  // the turn that ends it is none
     block->reset();
     return {Value()};
   });

@@ -176,9 +176,8 @@ Values call_function(lua_State* L, const Entry& entry) {
       function.heavy && (call.session().explanation == nullptr || function.returns != surface_class().name);
   if (call.session().dry_run && (left_out || placeholder_self || any_unknown(call)))
     return dry_call(call, function);
-  // Of a call that gives an iterator the turns count.
-  const bool lasting = function.heavy && !function.returns.starts_with("iterator");
-  const LedgerScope scope = ledger_scope(call.session(), call.function_name(), lasting);
+  LedgerScope scope = ledger_scope(call.session(), call.function_name(), function.heavy);
+  if (function.returns.starts_with("iterator")) scope.forget();  // its turns count
   Values results = function.body(call);
   if (function.heavy) {
     enter_effects(call.session(), results);

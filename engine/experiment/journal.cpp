@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/patient_lock.hpp"
 #include "engine/experiment/aside_file.hpp"
 
 namespace asperity {
@@ -45,7 +46,7 @@ std::int64_t Journal::count() const {
 }
 
 bool Journal::close(std::string_view event, const Json& fields, std::chrono::milliseconds patience) {
-  const std::unique_lock lock(mutex_, patience);
+  const std::unique_lock lock = lock_within(mutex_, patience);
   if (!lock.owns_lock()) return false;
   if (closed_) return true;
   closed_ = true;

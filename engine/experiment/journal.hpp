@@ -45,7 +45,7 @@ class Journal {
   int descriptor_ = -1;
   std::int64_t count_ = 0;
   bool closed_ = false;
-  mutable std::timed_mutex mutex_;
+  mutable std::mutex mutex_;
 };
 
 }  // namespace asperity

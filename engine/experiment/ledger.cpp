@@ -112,11 +112,11 @@ void Ledger::add(std::string_view call, bool in_case, const Cost& own) {
 
 void Ledger::add_effects(std::span<const std::pair<std::string, Cost>> by_effect) {
   const std::scoped_lock lock(mutex_);
-  for (const auto& [effect, cost] : by_effect) {
+  for (const auto& added : by_effect) {
     auto known = std::find_if(by_effect_.begin(), by_effect_.end(),
-                              [&](const auto& entry) { return entry.first == effect; });
-    if (known == by_effect_.end()) known = by_effect_.insert(by_effect_.end(), {effect, {}});
-    known->second += cost;
+                              [&](const auto& entry) { return entry.first == added.first; });
+    if (known == by_effect_.end()) known = by_effect_.insert(by_effect_.end(), {added.first, {}});
+    known->second += added.second;
   }
 }
 
@@ -151,7 +151,7 @@ LedgerScope::LedgerScope(Ledger& ledger, std::string_view owner, std::string_vie
 LedgerScope::~LedgerScope() {
   innermost = outer_;
   const Cost all = cost_.so_far();
-  if (!lasting_ && all.seconds < shortest) return;
+  if (forgotten_ || (!lasting_ && all.seconds < shortest)) return;
   Cost own = all;
   own.seconds = std::max(own.seconds - inner_.seconds, 0.0);
   own.transforms = std::max(own.transforms - inner_.transforms, 0.0);

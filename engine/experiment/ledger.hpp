@@ -64,15 +64,16 @@ class LedgerScope {
   // `owner` may be empty: the line is then that of `call`, otherwise "owner.call". Both outlive the scope.
   LedgerScope(Ledger& ledger, std::string_view owner, std::string_view call, bool in_case, bool lasting);
   ~LedgerScope();
-  // Gives it a line however short it is.
+  // Gives it a line however short it is; or none, however long.
   void keep() { lasting_ = true; }
+  void forget() { forgotten_ = true; }
   LedgerScope(const LedgerScope&) = delete;
   LedgerScope& operator=(const LedgerScope&) = delete;
 
  private:
   Ledger& ledger_;
   std::string_view owner_, call_;
-  bool in_case_, lasting_;
+  bool in_case_, lasting_, forgotten_ = false;
   LedgerScope* outer_;
   CostScope cost_;
   Cost inner_;  // of recorded calls made from here

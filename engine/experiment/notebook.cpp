@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "engine/core/patient_lock.hpp"
 #include "engine/experiment/aside_file.hpp"
 
 namespace asperity {
@@ -76,7 +77,7 @@ Table Notebook::table() const {
 }
 
 bool Notebook::save(std::chrono::milliseconds patience) {
-  const std::unique_lock lock(mutex_, patience);
+  const std::unique_lock lock = lock_within(mutex_, patience);
   if (!lock.owns_lock()) return false;
   if (stale_ && !csv_.empty()) rewrite();
   return true;

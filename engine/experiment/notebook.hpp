@@ -53,7 +53,7 @@ class Notebook {
   const std::filesystem::path csv_;
   Journal& journal_;
   ExpectationLog& log_;
-  mutable std::timed_mutex mutex_;
+  mutable std::mutex mutex_;
   Table table_;
   bool stale_ = false;  // the file lacks a row or has an old header
 };

@@ -12,6 +12,7 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/patient_lock.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/aside_file.hpp"
 #include "engine/experiment/run_facts.hpp"
@@ -238,7 +239,7 @@ bool RunDirectory::finish(RunStatus status, std::string_view reason, std::chrono
       if (!first) first = std::current_exception();
     }
   };
-  std::unique_lock lock(mutex_, patience);
+  const std::unique_lock lock = lock_within(mutex_, patience);
   // Without the lock the list of notebooks and the manifest may be half changed: what is on disk
   // already then stays as it is.
   if (lock.owns_lock())

@@ -101,7 +101,7 @@ class RunDirectory {
   ExpectationLog expectations_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 
-  mutable std::timed_mutex mutex_;  // of everything below
+  mutable std::mutex mutex_;  // of everything below
   Json manifest_ = Json::object();
   Json unhashed_ = Json::object();
   std::set<std::string> outputs_;

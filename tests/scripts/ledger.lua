@@ -24,7 +24,7 @@ print(ledger)
 local lines = {}
 for _, line in ipairs(ledger.calls) do lines[line.call] = line end
 assert(lines["contact:press"].times == 3)
-assert(lines["contact:sweep"].times == 2)
+assert(lines["contact:sweep"].times == 2, "a line counts the states, not the call nor the turn that ends it")
 assert(lines["lab.surface.self_affine"].times == 1)
 assert(math.abs(ledger.by_effect.elasticity.transforms - transforms) < 1e-9)
 assert(not pcall(function() return ledger.by_effect.plasticity end), "an effect that was not named has no line")

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A lock that is waited for so long and no longer.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+namespace asperity {
+
+// The mutex, locked if that could be done within `patience` (owns_lock() tells). It asks every
+// millisecond: the timed wait of std::timed_mutex is a call that the thread sanitizer of g++ 12 does not
+// see, so that it takes every unlocking after it for a fault.
+inline std::unique_lock<std::mutex> lock_within(std::mutex& mutex, std::chrono::milliseconds patience) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  std::unique_lock lock(mutex, std::try_to_lock);
+  while (!lock.owns_lock() && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    lock.try_lock();
+  }
+  return lock;
+}
+
+}  // namespace asperity
