@@ -100,7 +100,7 @@ void check_attraction(const Scene& scene, const std::string& effect) {
   if (scene.sliding.tangential) refuse("together with `tangential`", "leave one of both out");
   if (scene.accuracy.precision == Accuracy::Precision::single)
     refuse("with `precision` \"single\"", "leave `precision` out");
-  if (scene.accuracy.estimate || scene.accuracy.asked)
+  if (scene.accuracy.estimate != Accuracy::Estimate::none || scene.accuracy.asked)
     refuse("with an estimate of the error of the grid", "leave `estimate` and `error` out, give `tolerance`");
 }
 

@@ -114,7 +114,7 @@ TEST(Adhesion, WhatItIsNotComputedWithIsRefusedByName) {
   scene.accuracy.precision = Accuracy::Precision::single;
   EXPECT_NE(refused(scene).find("`precision`"), std::string::npos);
   scene = adhering(1);
-  scene.accuracy.estimate = true;
+  scene.accuracy.estimate = Accuracy::Estimate::coarser;
   EXPECT_NE(refused(scene).find("estimate"), std::string::npos);
 }
 
