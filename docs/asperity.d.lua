@@ -271,12 +271,13 @@ function Profile:picture(path, options) end
 function Profile:write(path) end
 
 ---@class asperity.options.contact.press
----@field pressure? number|string mean pressure over the tile (a pressure at least 0)
----@field load? number|string force on the whole tile (a force at least 0)
----@field approach? number|string from first touch (a length at least 0)
----@field indentation? number approach over the peak-to-valley of the combined heights (number at least 0)
+---@field pressure? number|string mean pressure over the tile (a pressure)
+---@field load? number|string force on the whole tile (a force)
+---@field approach? number|string from first touch (a length)
+---@field indentation? number approach over the peak-to-valley of the combined heights (number)
 ---@field flatten? number share of the peak-to-valley pressed away (number from 0 to 1)
 ---@field dwell? number|string how long the load stays; read by creep alone (a time at least 0)
+---@field drawn_from? number|string|any|any[] of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from there; or a list of values gone to in turn (number|string|(number|string)[])
 
 ---@class asperity.options.contact.sweep
 ---@field pressure? number|string[] a list: mean pressure over the tile (a pressure[])
@@ -306,7 +307,7 @@ local Contact = {}
 ---@return asperity.State
 function Contact:press(options) end
 
----One state after another along a list of loads, up or down.
+---One state after another along a list of loads, up or down. Bodies that attract each other are followed on their branch: each state is drawn from the turns of the list before it.
 ---@param options asperity.options.contact.sweep
 ---@return fun(): asperity.State
 function Contact:sweep(options) end
@@ -358,6 +359,8 @@ function Contact:close() end
 ---@class asperity.State
 ---@field load number force on the whole tile
 ---@field pressure number load over the nominal area
+---@field attraction number force by which the bodies attract each other; the contacts carry load and this
+---@field drawn_from number[] the branch of bodies that attract each other: values of the prescribed quantity gone to in turn before this one; empty where they were brought together from apart
 ---@field approach number from first touch
 ---@field indentation number approach over the peak-to-valley of the combined heights; of flats none, an error
 ---@field flatten number share of that peak-to-valley pressed away
@@ -414,7 +417,7 @@ function State:distribution(name, options) end
 ---@field discretisation asperity.DiscretisationError estimates against an ever finer grid; needs accuracy={ estimate=true } or { error= }
 local StateError = {}
 
----Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units of the quantities; math.huge where nothing can be said. What they cost to find is no part of the cost of the state.
+---Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units of the quantities; math.huge where nothing can be said, as of bodies that attract each other. What they cost to find is no part of the cost of the state.
 ---@class asperity.AlgebraicError
 ---@field load number 0 but for rounding where the load was prescribed
 ---@field pressure number of the load over the nominal area

@@ -60,17 +60,23 @@ const Block<PressKeys>& press_block() {
                                "how long the load stays; read by creep alone"));
     // Of the dimension of the quantity it goes with, which stands before it in the block.
     auto drawn_from = custom<PressKeys>(
-        "drawn_from", "number|string",
+        "drawn_from", "number|string|(number|string)[]",
         "of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from "
-        "there",
+        "there; or a list of values gone to in turn",
         [](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
           OptionInfo same = info;
           for (const auto& entry : press_keys)
             if (entry.by == keys.request.by) same.dimension = entry.dimension;
-          keys.drawn_from = detail::read_quantity(value, same, any(), problems);
+          const auto read_one = [&](const Argument& one) {
+            if (auto v = detail::read_quantity(one, same, any(), problems)) keys.drawn_from.push_back(*v);
+          };
+          if (!value.is_table()) return read_one(value);
+          for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, read_one);
         });
     drawn_from.show = [](const PressKeys& keys) {
-      return keys.drawn_from ? format_exact(*keys.drawn_from) : std::string();
+      std::vector<std::string> turns;
+      for (const double turn : keys.drawn_from) turns.push_back(format_exact(turn));
+      return turns.size() > 1 ? "{" + joined(turns, ", ") + "}" : joined(turns, "");
     };
     options.push_back(std::move(drawn_from));
     return Block<PressKeys>("press", std::move(options), [](PressKeys& keys, Problems& problems) {
@@ -129,18 +135,26 @@ const Block<SweepKeys>& sweep_block() {
   return block;
 }
 
+// Where bodies attract each other, a sweep follows the branch that it is on: each state is drawn from the
+// turns of the loads before it.
 Values sweep(Call& call) {
   const SweepKeys keys = call.options(sweep_block());
   auto pair = call.shared_self<SpecimenPair>();
-  return {Iterator{
-      [pair, requests = keys.requests, k = std::size_t{0}](Call& step) mutable -> std::optional<Values> {
-        if (k >= requests.size()) return std::nullopt;
-        const asperity::State state = pair->press(requests[k], step.session().monitor());
-        record_press(step.session(), pair, requests[k], state);
-        ++k;  // only now: a press that failed for lack of memory is tried once more
-        return Values{object(state)};
-      },
-      call.function_name()}};
+  return {Iterator{[pair, requests = keys.requests, k = std::size_t{0},
+                    visited = std::vector<double>()](Call& step) mutable -> std::optional<Values> {
+                     if (k >= requests.size()) return std::nullopt;
+                     PressRequest request = requests[k];
+                     const bool by_load = request.by == PressBy::load || request.by == PressBy::pressure;
+                     if (k == 0 && by_load && request.value < 0)
+                       visited.push_back(0);  // a pull starts from no load
+                     if (pair->plan().attracts()) request.drawn_from = turns_before(visited, request.value);
+                     const asperity::State state = pair->press(request, step.session().monitor());
+                     record_press(step.session(), pair, request, state);
+                     visited.push_back(request.value);
+                     ++k;  // only now: a press that failed for lack of memory is tried once more
+                     return Values{object(state)};
+                   },
+                   call.function_name()}};
 }
 
 // --- the bench
@@ -249,7 +263,9 @@ const Class& contact_class() {
          .heavy = true},
         {.name = "sweep",
          .body = sweep,
-         .sentence = "One state after another along a list of loads, up or down.",
+         .sentence =
+             "One state after another along a list of loads, up or down. Bodies that attract each other "
+             "are followed on their branch: each state is drawn from the turns of the list before it.",
          .options = &sweep_block(),
          .returns = "iterator<State>",
          .example = "for st in c:sweep{ pressure={\"1 MPa\", \"10 MPa\"} } do print(st.area_fraction) end",

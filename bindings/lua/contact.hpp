@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bindings/lua/registry.hpp"
 #include "engine/contact/state.hpp"
@@ -34,7 +35,7 @@ struct PressKeys {
   int given = 0;  // ways to say how far; exactly one is
   PressRequest request;
   std::optional<double> dwell;
-  std::optional<double> drawn_from;
+  std::vector<double> drawn_from;
 };
 const Block<PressKeys>& press_block();
 // Writes the journal's line of a press that an iterator made, as one made by hand stands there.

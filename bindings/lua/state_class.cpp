@@ -155,6 +155,12 @@ const Class& state_class() {
         {"attraction", "number",
          "force by which the bodies attract each other; the contacts carry load and this", dimension::force,
          read<&S::attraction>},
+        {"drawn_from",
+         "number[]",
+         "the branch of bodies that attract each other: values of the prescribed quantity gone to in turn "
+         "before this one; empty where they were brought together from apart",
+         {},
+         [](Call& call) -> Values { return {numbers(call.self<S>().drawn_from())}; }},
         {"approach", "number", "from first touch", dimension::length, read<&S::approach>},
         {"indentation",
          "number",

@@ -3,6 +3,7 @@
 #include "bindings/lua/state_error.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "bindings/lua/catalogue.hpp"
@@ -70,6 +71,8 @@ std::string describe_bounds(const void* self) {
   std::string text = "algebraic error, at most";
   for (const Record::Entry& entry : record.entries)
     text += "\n  " + entry.field + std::string(18 - entry.field.size(), ' ') + show(entry);
+  if (!std::isfinite(e.approach))
+    text += "\n  inf: nothing can be said, as of bodies that attract each other";
   return text + "\n  nodes in contact  " + std::to_string(e.contact_bracket.low) + " to " +
          std::to_string(e.contact_bracket.high) + " of " + std::to_string(e.nodes);
 }
@@ -89,7 +92,8 @@ const Class& make_bounds_class() {
     c.sentence =
         "Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units "
         "of "
-        "the quantities; math.huge where nothing can be said. What they cost to find is no part of the cost "
+        "the quantities; math.huge where nothing can be said, as of bodies that attract each other. What "
+        "they cost to find is no part of the cost "
         "of "
         "the state.";
     c.describe = describe_bounds;

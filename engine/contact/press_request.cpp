@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/press_request.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -35,29 +36,50 @@ std::string value_text(const PressRequest& request) {
 }
 }  // namespace
 
-void check(const PressRequest& request, bool attracts) {
-  if (attracts && request.by == PressBy::flatten)
-    throw Error(ErrorCode::bad_value, "`flatten` of bodies that attract each other is not computed",
-                "press by `pressure`, `load`, `approach` or `indentation`");
-  if (attracts && !std::isfinite(request.value))
+void check_numbers(const PressRequest& request) {
+  if (!std::isfinite(request.value))
     throw Error(ErrorCode::bad_value, value_text(request), "give a finite value; one below zero pulls");
-  if (request.drawn_from && !attracts)
-    throw Error(ErrorCode::bad_value, "`drawn_from` is given, and nothing attracts the bodies",
-                "name `adhesion` or `capillarity`, or leave it out: without them a state has no history");
-  if (request.drawn_from && !(*request.drawn_from >= request.value && std::isfinite(*request.drawn_from)))
-    throw Error(ErrorCode::bad_value,
-                "`drawn_from` is " + format_short(*request.drawn_from) + ", below the " +
-                    quoted(name(request.by)) + " of " + format_short(request.value),
-                "bodies are drawn back from a greater value");
-  if (!attracts && !(request.value >= 0 && std::isfinite(request.value)))
-    throw Error(ErrorCode::bad_value, value_text(request),
-                "a contact without adhesion takes a finite value from zero up");
-  if (request.by == PressBy::flatten && request.value > 1)
+  if (request.by == PressBy::flatten && !(request.value >= 0 && request.value <= 1))
     throw Error(ErrorCode::bad_value, "`flatten` is " + format_short(request.value),
                 "it is a fraction of the peak-to-valley: give a number from 0 to 1");
+  for (const double turn : request.drawn_from)
+    if (!std::isfinite(turn))
+      throw Error(ErrorCode::bad_value, "`drawn_from` is " + format_short(turn), "give a finite value");
   if (request.dwell && !(*request.dwell >= 0))
     throw Error(ErrorCode::bad_value, "`dwell` is " + format_short(*request.dwell) + " s",
                 "give a time from zero up");
+}
+
+void check(const PressRequest& request, bool attracts) {
+  if (!attracts && !(request.value >= 0 && std::isfinite(request.value)))
+    throw Error(ErrorCode::bad_value, value_text(request),
+                "a contact without adhesion takes a finite value from zero up");
+  if (attracts && request.by == PressBy::flatten)
+    throw Error(ErrorCode::bad_value, "`flatten` of bodies that attract each other is not computed",
+                "press by `pressure`, `load`, `approach` or `indentation`");
+  check_numbers(request);
+  const std::vector<double>& turns = request.drawn_from;
+  if (!turns.empty() && !attracts)
+    throw Error(ErrorCode::bad_value, "`drawn_from` is given, and nothing attracts the bodies",
+                "name `adhesion` or `capillarity`, or leave it out: without them a state has no history");
+  if (turns.size() == 1 && turns.front() < request.value)
+    throw Error(ErrorCode::bad_value,
+                "`drawn_from` is " + format_short(turns.front()) + ", below the " + quoted(name(request.by)) +
+                    " of " + format_short(request.value),
+                "bodies are drawn back from a greater value");
+}
+
+std::vector<double> turns_before(std::span<const double> visited, double value) {
+  std::vector<double> turns;
+  for (bool highest = true; !visited.empty(); highest = !highest) {
+    // The last of equal ones: what lies between two is wiped out.
+    const auto turn = highest ? std::max_element(visited.rbegin(), visited.rend())
+                              : std::min_element(visited.rbegin(), visited.rend());
+    if (highest ? value >= *turn : value <= *turn) break;
+    turns.push_back(*turn);
+    visited = visited.last(static_cast<std::size_t>(turn - visited.rbegin()));
+  }
+  return turns;
 }
 
 }  // namespace asperity

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
+#include <vector>
 
 namespace asperity {
 
@@ -19,17 +21,24 @@ struct PressRequest {
   PressBy by = PressBy::pressure;
   double value = 0;               // zero leaves the bodies just touching, with no contact
   std::optional<double> dwell{};  // s; read by creep alone, so without that effect it changes nothing
-  // Of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from
-  // there.
-  std::optional<double> drawn_from{};
+  // Of bodies that attract each other: values of the same quantity, gone to one after another before this
+  // one. Empty for bodies that are brought together from apart.
+  std::vector<double> drawn_from{};
 };
 
 // The script key: "pressure", "load", …
 std::string_view name(PressBy by);
 
-// Throws Error{bad_value} naming the key when the value is not finite, or negative where bodies do not
-// attract each other; when `flatten` is above 1, or `dwell` is negative; and for `drawn_from` where nothing
-// attracts or below the value.
+// Throws Error{bad_value} naming the key for numbers that no contact could take: a value that is not finite,
+// `flatten` outside 0 … 1, a negative `dwell`.
+void check_numbers(const PressRequest& request);
+// Those, and what a contact does not take whose bodies attract each other or do not: a negative value and
+// `drawn_from` where nothing attracts, `flatten` where something does, and one `drawn_from` below the value.
 void check(const PressRequest& request, bool attracts = false);
+
+// Where `value` is drawn from when `visited` was gone through before it, in this order: the turns that still
+// tell, a greatest value, the least after it, the greatest after that, … Going past an earlier turn wipes it
+// out, since the branches of a contact are monotone (return-point memory; Sethna et al. 1993). O(n²) at most.
+std::vector<double> turns_before(std::span<const double> visited, double value);
 
 }  // namespace asperity

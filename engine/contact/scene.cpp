@@ -171,13 +171,15 @@ void check(const Scene& scene) {
                   "`creep` softens the hardness that the effect `plasticity` limits pressure by",
                   "name `plasticity` beside it, or leave `creep` out");
   }
+  // Without strength it is part of no solve, whatever else is in the scene.
   if (scene.adhesion) {
-    check_attraction(scene, "adhesion");
     check(*scene.adhesion);
+    if (scene.adhesion->work > 0) check_attraction(scene, "adhesion");
   }
   if (scene.capillarity) {
-    check_attraction(scene, "capillarity");
     check(*scene.capillarity);
+    if (scene.capillarity->pressure.value_or(1) > 0 && scene.capillarity->humidity.value_or(1) > 0)
+      check_attraction(scene, "capillarity");
   }
   check(scene.sliding);
   if (scene.sliding.tangential && scene.plasticity)

@@ -123,6 +123,10 @@ State State::chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const {
 double State::load() const { return shared_->solution->load(); }
 double State::pressure() const { return shared_->solution->pressure(); }
 double State::attraction() const { return shared_->solution->attraction(); }
+std::vector<double> State::drawn_from() const {
+  const std::span<const double> turns = shared_->solution->drawn_from();
+  return {turns.begin(), turns.end()};
+}
 double State::approach() const { return shared_->solution->approach(); }
 std::int64_t State::contacts() const { return shared_->solution->contacts(); }
 double State::peak_pressure() const { return shared_->solution->peak_pressure(); }

@@ -40,6 +40,9 @@ class State {
   double pressure() const;  // Pa, load over nominal area
   // N on the tile, of an attraction across the gap: the contacts carry load() and this together.
   double attraction() const;
+  // Of such bodies: values of the prescribed quantity gone to in turn before this one. Empty where they were
+  // brought together from apart.
+  std::vector<double> drawn_from() const;
   double approach() const;    // m from first touch
   double separation() const;  // m, of the mean planes of the undeformed bodies
   // approach / peak-to-valley of the combined heights; throws Error{bad_state} for pressed flats, which have

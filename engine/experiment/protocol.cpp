@@ -51,7 +51,10 @@ struct Kind {
 
 struct Detail {
   std::string operator()(const PressRequest& s) const {
-    return " " + load_text(s) + (s.dwell ? " for " + duration(*s.dwell) : "");
+    std::string text = " " + load_text(s);
+    for (std::size_t k = 0; k < s.drawn_from.size(); ++k)
+      text += (k == 0 ? " drawn from " : " and then ") + load_text({s.by, s.drawn_from[k]});
+    return text + (s.dwell ? " for " + duration(*s.dwell) : "");
   }
   std::string operator()(const Protocol::Release&) const { return ""; }
   std::string operator()(const Protocol::Place& s) const { return " with seed " + std::to_string(s.seed); }
@@ -65,7 +68,7 @@ struct Detail {
 };
 
 struct Checker {
-  void operator()(const PressRequest& s) const { check(s); }
+  void operator()(const PressRequest& s) const { check_numbers(s); }
   void operator()(const Protocol::Release&) const {}
   void operator()(const Protocol::Place&) const {}
   void operator()(const Protocol::Rotate& s) const { finite(s.angle, "the angle of `rotate`"); }
@@ -85,6 +88,7 @@ struct Adder {
   void operator()(const PressRequest& s) const {
     digester.add(name(s.by)).add(s.value);
     if (s.dwell) digester.add("dwell").add(*s.dwell);
+    for (const double turn : s.drawn_from) digester.add("drawn_from").add(turn);
   }
   void operator()(const Protocol::Release&) const {}
   void operator()(const Protocol::Place& s) const { digester.add(static_cast<std::int64_t>(s.seed)); }

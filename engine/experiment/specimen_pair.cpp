@@ -44,6 +44,13 @@ State with_estimate(const Scene& scene, const ContactGeometry& geometry, const P
   return state.costing_also({cost, {{"estimate", cost}}});
 }
 
+// An attraction of no work is part of no solve; the ledger shows it all the same.
+State showing_what_costs_nothing(const Plan& plan, State state) {
+  for (const GapTerm& term : plan.attraction)
+    if (!(term.work > 0)) state = state.costing_also({{}, {{term.effect, {}}}});
+  return state;
+}
+
 int whole_cells(double length, double cell, std::string_view key) {
   const double cells = length / cell;
   const double whole = std::round(cells);
@@ -108,6 +115,7 @@ State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
   State state = *std::move(solved);
   if (first) state = state.costing_also(ready->preparation());
   if (plan_.yield) state = state.costing_also(flatten_for_good(state, monitor));
+  state = showing_what_costs_nothing(plan_, std::move(state));
   carry(state);
   return state;
 }
@@ -122,6 +130,7 @@ State SpecimenPair::choose_and_press(const PressRequest& request, Monitor& monit
   after.chosen_ = choice.state.chosen();
   State state = std::move(choice.state);
   if (after.plan_.yield) state = state.costing_also(after.flatten_for_good(state, monitor));
+  state = showing_what_costs_nothing(plan_, std::move(state));
   after.carry(state);
   *this = std::move(after);
   return state;

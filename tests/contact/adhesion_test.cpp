@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "tests/contact/contacts.hpp"
 
@@ -62,8 +63,10 @@ TEST(Adhesion, HoldsBodiesTogetherWithoutALoad) {
     double sum = 0;
     for (const double p : state.field("pressure")->values()) sum += p;
     EXPECT_NEAR(sum * state.geometry().grid().cell_area(), state.attraction(), 1e-9 * state.attraction());
-    ASSERT_EQ(state.cost().by_effect.size(), 1U);
-    EXPECT_EQ(state.cost().by_effect.front().first, "adhesion");
+    ASSERT_EQ(state.cost().by_effect.size(), 2U);
+    EXPECT_EQ(state.cost().by_effect.front().first, "elasticity");
+    EXPECT_EQ(state.cost().by_effect.back().first, "adhesion");
+    for (const auto& [effect, cost] : state.cost().by_effect) EXPECT_GT(cost.transforms, 0) << effect;
   }
 }
 
@@ -77,10 +80,74 @@ TEST(Adhesion, APullIsCarriedUpToThePullOff) {
 TEST(Adhesion, BodiesDrawnApartHoldLongerThanBodiesBroughtTogether) {
   const auto contact = ready(adhering(0.01, 0.02));
   const State coming = contact->press({PressBy::approach, -0.065, {}});
-  const State leaving = contact->press({PressBy::approach, -0.065, {}, 0.05});
+  const State leaving = contact->press({PressBy::approach, -0.065, {}, {0.05}});
   EXPECT_EQ(coming.contacts(), 0);
   EXPECT_GT(leaving.contacts(), 0);
   EXPECT_LT(leaving.load(), coming.load());
+}
+
+// Along a sweep each state is drawn from the turns before it. Drawn further apart and let back it lies
+// between the two branches: the nodes at the rim of the contact hold both ways.
+TEST(Adhesion, TurnsGoneThroughBeforeTellTheBranch) {
+  const auto contact = ready(adhering(0.01, 0.02));
+  const auto at = [&](std::vector<double> turns) {
+    return contact->press({PressBy::approach, -0.065, {}, std::move(turns)});
+  };
+  const State coming = at({}), leaving = at({0.05}), back = at({0.05, -0.07}), lost = at({0.05, -0.3});
+  EXPECT_EQ(coming.drawn_from(), std::vector<double>{});
+  EXPECT_EQ(back.drawn_from(), (std::vector<double>{0.05, -0.07}));
+  EXPECT_EQ(coming.contacts(), 0);
+  EXPECT_GT(back.contacts(), 0);
+  EXPECT_LE(back.contacts(), leaving.contacts());
+  EXPECT_NEAR(back.load(), leaving.load(), 0.1 * std::abs(leaving.load()));
+  EXPECT_EQ(lost.contacts(), 0);
+  EXPECT_NEAR(lost.load(), coming.load(), 1e-3 * std::abs(coming.load()));
+  EXPECT_EQ(contact->press({PressBy::load, -0.01, {}}).drawn_from(), std::vector<double>{0});
+}
+
+// The turn that is kept changes no bit.
+TEST(Adhesion, DrawnFromTheSameTurnTwiceTheSecondTimeIsCheaperAndTheSame) {
+  const PressRequest request{PressBy::approach, -0.05, {}, {0.05}};
+  const auto contact = ready(adhering(0.01, 0.02));
+  contact->press({PressBy::approach, -0.03, {}, {0.05}});
+  const State second = contact->press(request), first = ready(adhering(0.01, 0.02))->press(request);
+  EXPECT_EQ(second.digest(), first.digest());
+  EXPECT_EQ(second.iterations(), first.iterations());
+  EXPECT_LT(second.cost().total.transforms, first.cost().total.transforms);
+  EXPECT_EQ(contact->press({PressBy::load, -0.01, {}, {0.05}}).digest(),
+            ready(adhering(0.01, 0.02))->press({PressBy::load, -0.01, {}, {0.05}}).digest());
+}
+
+// Of such states no bound is known, and none is given.
+TEST(Adhesion, ErrorsAreInfiniteWhereNothingIsBounded) {
+  const State state = press(adhering(0.01), PressBy::load, 0.01);
+  const AlgebraicError& error = state.algebraic_error();
+  for (const double bound : {error.approach, error.mean_gap, error.energy, error.peak_pressure, *error.load,
+                             error.indentation, error.separation, *error.secant_stiffness})
+    EXPECT_EQ(bound, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(error.contact_bracket.low, 0);
+  EXPECT_EQ(error.contact_bracket.high, 32 * 32);
+}
+
+TEST(Adhesion, CapillarityBesideItHasACostOfItsOwn) {
+  Scene scene = adhering(0.01, 0.02);
+  scene.capillarity = CapillarityOptions{.pressure = 0.1, .surface_tension = 0.005};
+  const State state = press(scene, PressBy::load, 0.01);
+  std::vector<std::string> effects;
+  double transforms = 0;
+  for (const auto& [effect, cost] : state.cost().by_effect) {
+    effects.push_back(effect);
+    transforms += cost.transforms;
+    EXPECT_GT(cost.transforms, 0) << effect;
+  }
+  EXPECT_EQ(effects, (std::vector<std::string>{"elasticity", "capillarity", "adhesion"}));
+  EXPECT_DOUBLE_EQ(transforms, state.cost().total.transforms);
+}
+
+TEST(Adhesion, NumbersTooFarApartAreRefused) {
+  const auto contact = ready(adhering(0.01));
+  const std::string text = error_of([&] { contact->press({PressBy::approach, 1e308, {}}); });
+  EXPECT_NE(text.find("the numbers of this contact overflow"), std::string::npos) << text;
 }
 
 TEST(Adhesion, WarnsWhereTheZoneThatPullsIsUnderFourCells) {
@@ -116,6 +183,9 @@ TEST(Adhesion, WhatItIsNotComputedWithIsRefusedByName) {
   scene = adhering(1);
   scene.accuracy.estimate = Accuracy::Estimate::coarser;
   EXPECT_NE(refused(scene).find("estimate"), std::string::npos);
+  scene.adhesion->work = 0;  // then there is nothing to compute
+  scene.plasticity = PlasticityOptions{1.0};
+  EXPECT_EQ(refused(scene), "");
 }
 
 TEST(Adhesion, RequestsThatMakeNoSenseAreRefused) {
@@ -126,9 +196,10 @@ TEST(Adhesion, RequestsThatMakeNoSenseAreRefused) {
   EXPECT_NE(refused(*contact, {PressBy::flatten, 0.5, {}}).find("`flatten` of bodies that attract"),
             std::string::npos);
   EXPECT_NE(refused(*contact, {PressBy::load, std::nan(""), {}}).find("`load` is nan N"), std::string::npos);
-  EXPECT_NE(refused(*contact, {PressBy::load, 1, {}, 0.5}).find("`drawn_from` is 0.5, below the `load` of 1"),
-            std::string::npos);
-  EXPECT_NE(refused(*plain, {PressBy::load, 1, {}, 2}).find("nothing attracts the bodies"),
+  EXPECT_NE(
+      refused(*contact, {PressBy::load, 1, {}, {0.5}}).find("`drawn_from` is 0.5, below the `load` of 1"),
+      std::string::npos);
+  EXPECT_NE(refused(*plain, {PressBy::load, 1, {}, {2}}).find("nothing attracts the bodies"),
             std::string::npos);
   EXPECT_NE(refused(*plain, {PressBy::load, -1, {}}).find("without adhesion"), std::string::npos);
 }

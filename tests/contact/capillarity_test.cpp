@@ -64,7 +64,7 @@ TEST(Capillarity, TheJunctionsCarryItsPullBesideTheLoad) {
   for (const double p : state.field("pressure")->values()) carried += p;
   carried *= state.geometry().grid().cell_area();
   EXPECT_NEAR(carried, state.load() + state.attraction(), 1e-9 * carried);
-  EXPECT_EQ(state.cost().by_effect.front().first, "capillarity");
+  EXPECT_EQ(state.cost().by_effect.back().first, "capillarity");
 }
 
 TEST(Capillarity, OptionsOutOfRangeAreRefused) {

@@ -2,7 +2,9 @@
 // What a press refuses whatever the contact.
 #include "engine/contact/press_request.hpp"
 
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "tests/contact/contacts.hpp"
 
@@ -33,6 +35,34 @@ TEST(PressRequest, FlattenIsAFraction) {
             }).find("`flatten` is 1"),
             0U);
   EXPECT_EQ(error_of([] { check(PressRequest{PressBy::indentation, 3, {}}); }), "");
+}
+
+TEST(PressRequest, NumbersMayBePullsUntilAContactIsPulled) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const auto refused = [](const PressRequest& request) { return error_of([&] { check_numbers(request); }); };
+  EXPECT_EQ(refused({PressBy::load, -1, {}, {2}}), "");
+  EXPECT_NE(refused({PressBy::load, -inf}).find("`load` is -inf N"), std::string::npos);
+  EXPECT_NE(refused({PressBy::load, 0, {}, {inf}}).find("`drawn_from` is inf"), std::string::npos);
+  EXPECT_NE(refused({PressBy::flatten, -0.1}).find("`flatten` is -0.1"), std::string::npos);
+  EXPECT_EQ(error_of([] { check({PressBy::load, 2, {}, {3, 1}}, true); }), "");
+}
+
+TEST(PressRequest, TurnsPastWhichAPathWentAreForgotten) {
+  const auto turns = [](std::vector<double> visited, double value) { return turns_before(visited, value); };
+  using Turns = std::vector<double>;
+  EXPECT_EQ(turns({}, 1), Turns{});
+  EXPECT_EQ(turns({1, 2, 3}, 4), Turns{});
+  EXPECT_EQ(turns({1, 2, 3}, 3), Turns{});
+  EXPECT_EQ(turns({1, 2, 3}, std::nextafter(3.0, 0.0)), Turns{3});
+  EXPECT_EQ(turns({1, 3, 2}, 1), Turns{3});
+  EXPECT_EQ(turns({1, 3, 1}, 2), (Turns{3, 1}));
+  EXPECT_EQ(turns({3, 0, 2, 1}, 1.5), (Turns{3, 0, 2, 1}));
+  EXPECT_EQ(turns({3, 0, 2, 1}, 2), (Turns{3, 0}));
+  EXPECT_EQ(turns({3, 0, 2, 1}, 2.5), (Turns{3, 0}));
+  EXPECT_EQ(turns({3, 0, 2, 1}, -1), Turns{3});
+  EXPECT_EQ(turns({3, 0, 2, 1}, 3), Turns{});
+  EXPECT_EQ(turns({3, 1, 3, 2}, 2.5), (Turns{3, 2}));
+  EXPECT_EQ(turns({3, 1, 2, 1}, 1.5), (Turns{3, 1}));
 }
 
 TEST(PressRequest, DwellIsNotNegative) {

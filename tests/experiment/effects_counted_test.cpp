@@ -24,9 +24,9 @@ using namespace counted;
 struct Effect {
   const char* name;
   std::function<void(Scene&)> add;
-  bool of_boxes = true;            // computed for box elements too
-  const char* needs = nullptr;     // another effect
-  const char* excludes = nullptr;  // an effect it cannot be together with
+  bool of_boxes = true;         // computed for box elements too
+  const char* needs = nullptr;  // another effect
+  Names excludes{};             // effects it cannot be together with
   bool changes_the_normal_contact = false;
   const char* line = nullptr;    // of the cost of a press; none where a press does nothing for it
   bool of_the_accuracy = false;  // not of the catalogue
@@ -36,14 +36,14 @@ const std::vector<Effect> effects = {
     {.name = "plasticity",
      .add = [](Scene& scene) { scene.plasticity = PlasticityOptions{hardness}; },
      .of_boxes = false,
-     .excludes = "tangential",
+     .excludes = {"tangential", "adhesion", "capillarity"},
      .changes_the_normal_contact = true,
      .line = "plasticity"},
     {.name = "creep",
      .add = [](Scene& scene) { scene.creep = CreepOptions{}; },
      .of_boxes = false,
      .needs = "plasticity",
-     .excludes = "tangential",
+     .excludes = {"tangential", "adhesion", "capillarity"},
      .changes_the_normal_contact = true},
     {.name = "ageing",
      .add =
@@ -53,15 +53,33 @@ const std::vector<Effect> effects = {
     {.name = "interlocking", .add = [](Scene& scene) { scene.sliding.interlocking = InterlockingOptions{}; }},
     {.name = "tangential",
      .add = [](Scene& scene) { scene.sliding.tangential = TangentialOptions{1.2}; },
-     .excludes = "plasticity"},
+     .excludes = {"plasticity", "adhesion", "capillarity"}},
+    {.name = "capillarity",
+     .add =
+         [](Scene& scene) {
+           scene.capillarity = CapillarityOptions{.pressure = 1e-3, .surface_tension = 5e-6};
+         },
+     .of_boxes = false,
+     .excludes = {"estimate on coarser grids", "estimate on a finer grid"},
+     .changes_the_normal_contact = true,
+     .line = "capillarity"},
+    {.name = "adhesion",
+     .add =
+         [](Scene& scene) {
+           scene.adhesion = AdhesionOptions{1e-5, 0.01};
+         },
+     .of_boxes = false,
+     .excludes = {"estimate on coarser grids", "estimate on a finer grid"},
+     .changes_the_normal_contact = true,
+     .line = "adhesion"},
     {.name = "estimate on coarser grids",
      .add = [](Scene& scene) { scene.accuracy.estimate = Accuracy::Estimate::coarser; },
-     .excludes = "estimate on a finer grid",
+     .excludes = {"estimate on a finer grid"},
      .line = "estimate",
      .of_the_accuracy = true},
     {.name = "estimate on a finer grid",
      .add = [](Scene& scene) { scene.accuracy.estimate = Accuracy::Estimate::finer; },
-     .excludes = "estimate on coarser grids",
+     .excludes = {"estimate on coarser grids"},
      .line = "estimate",
      .of_the_accuracy = true},
 };
@@ -80,7 +98,8 @@ Names completed(const Names& asked, const Bench& bench) {
   }
   for (const std::string& name : names) {
     const Effect& effect = effect_named(name);
-    if (effect.excludes != nullptr && holds(names, effect.excludes)) return {};
+    for (const std::string& other : effect.excludes)
+      if (holds(names, other)) return {};
     if (!effect.of_boxes && std::holds_alternative<BoxOptions>(bench.elasticity)) return {};
   }
   return names;

@@ -65,7 +65,7 @@ Scene plastic_scene() {
   scene.plasticity = PlasticityOptions{0.05};
   return scene;
 }
-constexpr PressRequest under = {PressBy::pressure, 0.01, {}};
+const PressRequest under = {PressBy::pressure, 0.01, {}};
 
 struct Reading {
   Cost cost;

@@ -76,6 +76,29 @@ const std::vector<Powerless> powerless = {
      .without = [](Scene&) {},
      .with = [](Scene& s) { s.sliding.interlocking = InterlockingOptions{}; },
      .term = "interlocking"},
+    {.name = "adhesion of work zero",
+     .without = [](Scene&) {},
+     .with =
+         [](Scene& s) {
+           s.adhesion = AdhesionOptions{0, 0.01};
+         },
+     .term = "adhesion",
+     .line = "adhesion"},
+    {.name = "capillarity of pressure zero",
+     .without = [](Scene&) {},
+     .with = [](Scene& s) { s.capillarity = CapillarityOptions{.pressure = 0.0}; },
+     .term = "capillarity",
+     .line = "capillarity"},
+    {.name = "capillarity in dry air, and adhesion of work zero, of bodies that yield",
+     .without = [](Scene& s) { s.plasticity = PlasticityOptions{hardness}; },
+     .with =
+         [](Scene& s) {
+           s.capillarity = CapillarityOptions{.humidity = 0.0};
+           s.adhesion = AdhesionOptions{0, 0.01};
+         },
+     .term = "capillarity",
+     .line = "capillarity",
+     .of_boxes = false},
     {.name = "tangential that nobody pulls",
      .without = [](Scene&) {},
      .with = [](Scene& s) { s.sliding.tangential = TangentialOptions{1.2}; },

@@ -43,6 +43,8 @@ TEST(Protocol, ReadsAsAListing) {
             "  8  press to `indentation` 0.1\n"
             "  9  press to `flatten` 1");
   EXPECT_EQ(Protocol({{Protocol::Release{}}}).text(), "protocol of 1 event\n  1  release");
+  EXPECT_EQ(Protocol({{PressRequest{PressBy::load, -1, {}, {2, 0.5}}}}).text(),
+            "protocol of 1 event\n  1  press -1 N drawn from 2 N and then 500 mN");
 }
 
 TEST(Protocol, LongListingsLeaveOutTheMiddle) {
@@ -67,11 +69,10 @@ TEST(Protocol, RefusesNoEvents) {
 
 TEST(Protocol, RefusesNumbersThatNoContactTakes) {
   constexpr double inf = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(
-      error_of([] {
-        Protocol({{pressure(1)}, {pressure(-1)}});
-      }),
-      "bad_value: event 2: `pressure` is -1 Pa; a contact without adhesion takes a finite value from zero up");
+  EXPECT_EQ(error_of([] {
+              Protocol({{pressure(1)}, {pressure(-inf)}});
+            }),
+            "bad_value: event 2: `pressure` is -inf Pa; give a finite value; one below zero pulls");
   EXPECT_EQ(error_of([] { Protocol({{Protocol::Rotate{inf}}}); }),
             "bad_value: event 1: the angle of `rotate` is inf; give a finite value");
   EXPECT_EQ(error_of([] {
@@ -91,6 +92,9 @@ TEST(Protocol, DigestsAreThoseOfStepsAndTimes) {
       {{pressure(1, 0.0)}},
       {{pressure(1), 0.0}},
       {{PressRequest{PressBy::load, 1, {}}}},
+      {{PressRequest{PressBy::load, -1, {}}}},
+      {{PressRequest{PressBy::load, 1, {}, {2}}}},
+      {{PressRequest{PressBy::load, 1, {}, {3, 2}}}},
       {{pressure(1)}, {pressure(1)}},
       {{Protocol::Release{}}},
       {{Protocol::Place{1}}},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/contact/effects/adhesion.hpp"
+#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 
 namespace asperity {
@@ -26,6 +27,11 @@ void plan_capillarity(const CapillarityOptions& options, const ContactGeometry& 
     plan_gap_term({"capillarity", GapLaw::dugdale, 0, 1, 0.5}, "no liquid: nothing pulls", geometry, plan);
     return;
   }
+  if (!std::isfinite(liquid.height))
+    throw Error(ErrorCode::bad_value,
+                "the liquid pulls with " + format_quantity(liquid.pressure, dimension::pressure) +
+                    ", so little that its meniscus has no height that a number holds",
+                "give `capillarity` a `pressure` of 0 for no liquid, or check its units");
   plan_gap_term({"capillarity", GapLaw::dugdale, liquid.pressure * liquid.height, liquid.height, 0.5},
                 "liquid pulls with " + format_quantity(liquid.pressure, dimension::pressure) +
                     " in gaps under " + format_quantity(liquid.height, dimension::length),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/contact_preconditioner.hpp"
@@ -18,8 +19,9 @@ namespace asperity {
 
 namespace {
 
-constexpr int most_steps = 4000;  // tangents
-constexpr int most_passes = 400;  // of one tangent's contact
+constexpr int most_steps = 4000;          // tangents
+constexpr int most_passes = 400;          // of one tangent's contact
+constexpr int most_applications = 20000;  // of K, all tangents together
 
 // Lengths in cells, pressures in E*: u = K p.
 class Descent {
@@ -84,6 +86,7 @@ class Descent {
     return sum / modulus_;
   }
   void apply(const Array<double>& p, Array<double>& u) {
+    stop_flag().check();
     compliance_.apply(p, u);
     ++applications_;
   }
@@ -101,6 +104,8 @@ class Descent {
   }
   double contact(double close, double target);
 
+  CostScope scope_;
+  Cost first_contact_;
   const AdhesiveProblem& problem_;
   Grid grid_;
   std::size_t nodes_;
@@ -126,8 +131,7 @@ double Descent::contact(double close, double target) {
   bool same = false;
   double old_rz = 0, worst = std::numeric_limits<double>::infinity();
   std::uint8_t* const free = free_.data();
-  for (int pass = 0; pass < most_passes; ++pass) {
-    stop_flag().check();
+  for (int pass = 0; pass < most_passes && applications_ < most_applications; ++pass) {
     if (fixed) {
       const auto sums = over_nodes<2>(nodes_, [&](std::size_t k, double* v) {
         v[0] = p_[k] > 0 ? g_[k] : 0.0;
@@ -146,6 +150,10 @@ double Descent::contact(double close, double target) {
       free[k] = in;
     });
     worst = -found[3];
+    if (!std::isfinite(worst))
+      throw Error(ErrorCode::infeasible,
+                  "the numbers of this contact overflow: load, attraction, range and cells are too far apart",
+                  "check the units of `work`, `range`, the load and the size");
     if (worst <= close || found[1] == 0) break;
     const double middle = fixed ? found[2] / found[1] : 0.0;
     for_nodes(nodes_, [&](std::size_t k) { r_[k] = free[k] ? middle - g_[k] : 0.0; });
@@ -218,7 +226,7 @@ void Descent::run(double tolerance) {
   int since = 0;
   bool fresh = false;
   Array<double> last(nodes_);
-  for (steps_ = 1; steps_ <= most_steps; ++steps_) {
+  for (steps_ = 1; steps_ <= most_steps && applications_ < most_applications; ++steps_) {
     task_.advance();
     double target = 0;
     if (load) {
@@ -229,6 +237,7 @@ void Descent::run(double tolerance) {
       }
     }
     touch_ = contact(std::max(tightest, loose), target);
+    if (steps_ == 1) first_contact_ = scope_.so_far();
     const auto change = over_nodes<3, 1>(nodes_, [&](std::size_t k, double* v) {
       const double held = traction(g_[k]), by = held - q_[k], old = last[k];
       v[0] = by * by;
@@ -259,7 +268,7 @@ void Descent::run(double tolerance) {
       std::swap(q_, z_);
     }
   }
-  steps_ = most_steps;
+  --steps_;
 }
 
 AdhesiveAnswer Descent::answer() const {
@@ -283,6 +292,14 @@ AdhesiveAnswer Descent::answer() const {
   at.solver = "tangents of the attraction";
   result.stationarity = off_;
   result.steps = steps_;
+  result.first_contact = first_contact_;
+  const std::vector<GapTerm>& terms = problem_.attraction;
+  for (const GapTerm& term : terms)
+    result.shares.push_back(over_nodes<1>(nodes_, [&](std::size_t k, double* v) {
+      v[0] = term.traction(std::max(0.0, at.gap[k])) / modulus_;
+    })[0]);
+  const double all = std::accumulate(result.shares.begin(), result.shares.end(), 0.0);
+  for (double& share : result.shares) share = all > 0 ? share / all : 1 / static_cast<double>(terms.size());
   return result;
 }
 

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
@@ -31,19 +34,28 @@ struct AdhesiveSolver::Ready {
   std::shared_ptr<const ContactGeometry> geometry;
   HalfSpaceOperator half_space;
   AdhesiveProblem problem;
-  std::string effect;  // whose cost the solve is: the first that attracts
   StateCost cost;
+
+  // Where the last press was drawn from.
+  struct Turn {
+    bool by_load = false;
+    std::vector<double> values;
+    AdhesiveAnswer answer;
+  };
+  mutable std::mutex mutex;
+  mutable std::shared_ptr<const Turn> turn;
 };
 
 class AdhesiveSolver::UnderLoad final : public Solution {
  public:
-  UnderLoad(std::shared_ptr<const Ready> ready, AdhesiveAnswer answer)
-      : ready_(std::move(ready)), at_(std::move(answer)) {}
+  UnderLoad(std::shared_ptr<const Ready> ready, AdhesiveAnswer answer, std::vector<double> drawn_from)
+      : ready_(std::move(ready)), at_(std::move(answer)), drawn_from_(std::move(drawn_from)) {}
 
   const ContactGeometry& geometry() const override { return *ready_->geometry; }
   double load() const override { return at_.contact.mean_pressure * grid().area(); }
   double pressure() const override { return at_.contact.mean_pressure; }
   double attraction() const override { return at_.mean_attraction * grid().area(); }
+  std::span<const double> drawn_from() const override { return drawn_from_; }
   double approach() const override { return at_.contact.approach; }
   std::int64_t contacts() const override { return at_.contact.contacts; }
   double peak_pressure() const override { return at_.contact.peak_pressure; }
@@ -138,6 +150,7 @@ class AdhesiveSolver::UnderLoad final : public Solution {
 
   std::shared_ptr<const Ready> ready_;
   AdhesiveAnswer at_;
+  std::vector<double> drawn_from_;
 };
 
 AdhesiveSolver::AdhesiveSolver(const Plan& plan, const HalfSpaceOperator& half_space,
@@ -157,7 +170,6 @@ AdhesiveSolver::AdhesiveSolver(const Plan& plan, const HalfSpaceOperator& half_s
   contact.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
   for (const GapTerm& term : plan.attraction)
     if (term.work > 0) ready->problem.attraction.push_back(term);
-  ready->effect = ready->problem.attraction.front().effect;
   ready->cost = {scope.so_far(), {{"elasticity", scope.so_far()}}};
   ready_ = std::move(ready);
 }
@@ -183,15 +195,60 @@ State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const
     return by_load ? adhere_at_pressure(problem, value * unit, start, monitor)
                    : adhere_at_approach(problem, value * unit, start, monitor);
   };
-  std::optional<double> first = request.drawn_from;
-  if (by_load && !first && request.value < 0) first = 0;
-  std::optional<AdhesiveAnswer> before;
-  if (first && *first > request.value) before = solve(*first, nullptr);
-  AdhesiveAnswer answer = solve(request.value, before ? &*before : nullptr);
-  if (before) answer.contact.iterations += before->contact.iterations;
-  const Cost cost = scope.so_far();
-  return State(std::make_shared<const UnderLoad>(ready_, std::move(answer)), plan_,
-               {cost, {{ready_->effect, cost}}});
+  std::vector<double> turns = request.drawn_from;
+  if (by_load && (turns.empty() ? request.value : turns.front()) < 0) turns.insert(turns.begin(), 0.0);
+  Cost contacts;  // of the first tangents
+  std::shared_ptr<const Ready::Turn> from;
+  if (!turns.empty()) {
+    std::vector<double> values = turns;
+    for (double& value : values) value *= unit;
+    {
+      const std::lock_guard lock(ready_->mutex);
+      if (ready_->turn && ready_->turn->by_load == by_load && ready_->turn->values == values)
+        from = ready_->turn;
+    }
+    if (!from) {
+      auto made = std::make_shared<Ready::Turn>();
+      int iterations = 0;
+      for (std::size_t k = 0; k < turns.size(); ++k) {
+        made->answer = solve(turns[k], k > 0 ? &made->answer : nullptr);
+        iterations += made->answer.contact.iterations;
+        contacts += made->answer.first_contact;
+      }
+      made->answer.contact.iterations = iterations;
+      made->by_load = by_load;
+      made->values = std::move(values);
+      from = std::move(made);
+      const std::lock_guard lock(ready_->mutex);
+      ready_->turn = from;
+    }
+  }
+  AdhesiveAnswer answer = solve(request.value, from ? &from->answer : nullptr);
+  contacts += answer.first_contact;
+  if (from) answer.contact.iterations += from->answer.contact.iterations;
+  const StateCost cost = parted(scope.so_far(), contacts, answer);
+  return State(std::make_shared<const UnderLoad>(ready_, std::move(answer), std::move(turns)), plan_, cost);
+}
+
+StateCost AdhesiveSolver::parted(const Cost& whole, const Cost& contacts,
+                                 const AdhesiveAnswer& answer) const {
+  StateCost cost{whole, {{"elasticity", {contacts.seconds, contacts.transforms, whole.bytes}}}};
+  const auto field = static_cast<std::int64_t>(geometry().grid().nodes() * sizeof(double));
+  Cost left = whole;
+  left.seconds -= contacts.seconds;
+  left.transforms -= contacts.transforms;
+  left.bytes = field;
+  double share_left = 1;
+  const std::vector<GapTerm>& terms = ready_->problem.attraction;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const double share = k + 1 == terms.size() ? 1 : answer.shares[k] / share_left;
+    const Cost own{share * left.seconds, share * left.transforms, field};
+    cost.by_effect.emplace_back(terms[k].effect, own);
+    left.seconds -= own.seconds;
+    left.transforms -= own.transforms;
+    share_left = std::max(share_left - answer.shares[k], std::numeric_limits<double>::min());
+  }
+  return cost;
 }
 
 }  // namespace asperity

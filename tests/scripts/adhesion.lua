@@ -1,0 +1,87 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Bodies that attract each other: pulls, the branch a state is on, and what is said of what is not computed.
+--! error: warning: the zone where `adhesion` pulls beside a contact is about
+local lab = require "asperity"
+local unit = lab.material{ name="unit", young="1 Pa", poisson=0 }
+local body = lab.surface.sphere{ cells=32, size=1, radius=1, shape="paraboloid", material=unit }
+local function bench(effects, accuracy)
+  effects.elasticity = effects.elasticity or "half_space"
+  return lab.contact{ lower=body, upper=lab.rigid, boundary="free", effects=effects,
+    accuracy=accuracy or { tolerance=1e-4 } }
+end
+local function refused(call, ...)
+  local ok, message = pcall(call)
+  assert(not ok)
+  for _, part in ipairs{...} do assert(message:find(part, 1, true), message) end
+end
+
+-- A pull is carried up to the pull-off; one that nothing carries leaves the contact as it was.
+local c = bench{ adhesion={ work=0.01, range=0.05 } }
+local held = c:press{ load=-0.03 }
+assert(held.load == -0.03 and held.contacts > 0 and held.attraction > 0.03)
+assert(#held.drawn_from == 1 and held.drawn_from[1] == 0)
+refused(function() c:press{ load=-0.1 } end, "the bodies separate")
+assert(c:press{ load=-0.03 }.digest == held.digest)
+
+-- A sweep goes along its branch.
+local states = {}
+for st in c:sweep{ approach={ -0.3, -0.02, 0.02, -0.02, -0.01, -0.3 } } do table.insert(states, st) end
+assert(#states[2].drawn_from == 0 and #states[3].drawn_from == 0)
+assert(#states[4].drawn_from == 1 and states[4].drawn_from[1] == 0.02)
+assert(#states[5].drawn_from == 2 and states[5].drawn_from[2] == -0.02)
+assert(states[4].contacts >= states[2].contacts and states[6].contacts == 0)
+assert(c:press{ approach=-0.01, drawn_from={ 0.02, -0.02 } }.digest == states[5].digest)
+
+-- A protocol pulls too.
+local p = lab.protocol{ { press={ load=0.01 } }, { press={ load=-0.02, drawn_from="10 mN" } }, { release=true } }
+assert(tostring(p):find("press -20 mN drawn from 10 mN", 1, true), tostring(p))
+local loads = {}
+for event, st in p:on(c) do if st then table.insert(loads, st.load) end end
+assert(loads[1] == 0.01 and loads[2] == -0.02)
+refused(function() p:write "pull.csv" end, "a log holds neither pulls")
+local plain = bench{}
+refused(function() for _ in p:on(plain) do end end, "event 2", "a contact without adhesion")
+refused(function() plain:press{ load=0, drawn_from=0.01 } end, "`drawn_from` is given, and nothing attracts")
+
+-- Each effect has a line of its own in the ledger.
+local both = bench{ adhesion={ work=0.01, range=0.05 }, capillarity={ pressure=0.05, surface_tension=0.002 } }
+local st = both:press{ load=0.01 }
+local sum = 0
+for _, effect in ipairs{ "elasticity", "adhesion", "capillarity" } do
+  assert(st.cost.by_effect[effect].transforms > 0, effect)
+  sum = sum + st.cost.by_effect[effect].transforms
+end
+assert(math.abs(sum - st.cost.transforms) < 1e-9 * sum)
+assert(lab.ledger().by_effect.capillarity.transforms > 0)
+
+-- Of no strength they are shown and change nothing, on boxes as beside what they are not computed with.
+local none = { work=0, range=1 }
+for _, effects in ipairs{ { elasticity={ model="box", stiffness=3 } }, {}, { plasticity={ hardness=0.5 } },
+  { tangential={} } } do
+  local without = bench(effects):press{ load=0.01 }
+  effects.adhesion, effects.capillarity = none, { humidity=0 }
+  local with = bench(effects):press{ load=0.01 }
+  assert(with.digest == without.digest)
+  assert(with.cost.by_effect.adhesion.transforms == 0 and with.cost.by_effect.capillarity.transforms == 0)
+end
+
+-- Nothing is bounded of them, and it is said; what is not computed is refused by name.
+assert(st.error.algebraic.approach == math.huge and st.error.algebraic.energy == math.huge)
+assert(tostring(st.error):find("of bodies that attract each other", 1, true), tostring(st.error))
+assert(not tostring(st):find("inf", 1, true), tostring(st))
+local some = { work=0.01, range=0.05 }
+for _, effects in ipairs{ { elasticity="box", adhesion=some }, { plasticity={}, adhesion=some },
+  { tangential={}, adhesion=some }, { tangential={}, capillarity={ humidity=0.5 } } } do
+  refused(function() bench(effects) end, "is not computed")
+end
+refused(function() bench({ adhesion=some }, { precision="single" }) end, "`precision`")
+refused(function() bench({ adhesion=some }, { estimate=true }) end, "estimate")
+refused(function() c:press{ flatten=0.5 } end, "`flatten`")
+refused(function() c:press{ load=1, drawn_from=0.5 } end, "`drawn_from` is 0.5, below the `load` of 1")
+refused(function() c:press{ load=1, drawn_from="2 um" } end, "`drawn_from`")
+
+-- A grid too coarse for the zone that pulls is warned of, once.
+local coarse = bench{ adhesion={ work=0.01, range=0.01 } }
+assert(tostring(coarse:explain()):find("under four", 1, true))
+coarse:press{ load=0.01 }
+print "as it should be"
