@@ -5,7 +5,7 @@
 
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
-  number = 21, title = "What is not computed",
+  number = 22, title = "What is not computed",
   edge = "work of adhesion from 1e-30 to 1e30 J/m^2 on boxes and beside plasticity, every effect that has a"
     .. " name, boxes in single precision, any boundary",
   elsewhere = "A key that the program does not know, or knows and has not written yet, is passed over:"
