@@ -326,8 +326,11 @@ std::string State::text() const {
     result += format_quantity(pressure(), dimension::pressure);
   result += " (" + format_quantity(load(), dimension::force) + "): approach " +
             within(approach(), error.approach, dimension::length) + ", area fraction " +
-            format_short(area_fraction(), 4) + " ± " + format_short(error.area_fraction, 2) + " of " +
-            std::to_string(shared_->grid().nodes()) + " nodes, energy " +
+            format_short(area_fraction(), 4) +
+            (error.contact_bracket.low > 0 || error.contact_bracket.high < error.nodes
+                 ? " ± " + format_short(error.area_fraction, 2)
+                 : std::string()) +
+            " of " + std::to_string(shared_->grid().nodes()) + " nodes, energy " +
             within(energy(), error.energy, dimension::energy);
   if (error.plastic_volume)
     result += ", plastic volume " + within(plastic_volume(), *error.plastic_volume, dimension::volume) +

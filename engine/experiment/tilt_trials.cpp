@@ -43,11 +43,14 @@ TiltProbe probe(const Solver& contact, const JunctionLaw& law, double pressure,
     if (state.contacts() < std::min(enough, nodes)) continue;
     const FrictionResult friction = law.on(state, options.rest);
     const double corrected = state.corrected_area_fraction() / state.area_fraction();
-    return {pressure, state.contacts(), state.plastic_change().has_value(),
+    return {pressure,
+            state.contacts(),
+            state.plastic_change().has_value(),
             state.corrected_area_fraction() / state.pressure(),
             (friction.adhesive_force * corrected + friction.load_force +
              friction.interlocking_force.value_or(0)) /
-                state.load()};
+                state.load(),
+            state.attraction() / state.load()};
   }
 }
 
@@ -113,6 +116,11 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
       add_sentence(note,
                    "spots yield under the probe pressure, which bounds area per load by one over the "
                    "hardness; without `plasticity` the probe is elastic");
+    if (const double pull = mean_of(result.probes, &TiltProbe::attraction); pull > 0)
+      add_sentence(note,
+                   "the bodies attract each other by " + format_short(pull, 3) +
+                       " of the load at the probe pressures, which is taken to hold down to the weight; "
+                       "bodies that stick without a load hold more");
     add_sentence(note,
                  "real area per load is taken from the probe pressures down to the weight; tau0 is an "
                  "effective, calibrated number, so only ratios of mu are predictions");

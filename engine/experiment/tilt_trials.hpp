@@ -4,8 +4,9 @@
 // each angle. A box contact is solved at every angle's load. On a half-space the weight of a specimen rests
 // on less than one cell, so the contact is solved where the grid resolves it, at the probe pressures, and
 // what a load makes of area and friction there is taken to hold down to the weight: real area grows in
-// proportion to load. A rough counter-body is put down afresh for every trial; on a flat every placement
-// is the same contact and trials differ only by the scatter asked for.
+// proportion to load. So does what an attraction across the gap adds, unless the bodies stick without a load
+// (Pastewka & Robbins 2014). A rough counter-body is put down afresh for every trial; on a flat every
+// placement is the same contact and trials differ only by the scatter asked for.
 #pragma once
 
 #include <cstdint>
@@ -40,6 +41,7 @@ struct TiltProbe {
   double area_per_load = 0;   // 1/Pa, of the corrected area
   double mu = 0;              // friction over load, its adhesive part on the corrected area; may be negative
                               // where junctions interlock
+  double attraction = 0;      // over load, of bodies that attract each other across the gap
 };
 
 struct TiltResult {

@@ -120,13 +120,17 @@ TEST(Adhesion, DrawnFromTheSameTurnTwiceTheSecondTimeIsCheaperAndTheSame) {
 
 // Of such states no bound is known, and none is given.
 TEST(Adhesion, ErrorsAreInfiniteWhereNothingIsBounded) {
-  const State state = press(adhering(0.01), PressBy::load, 0.01);
+  const State state = press(adhering(0.01), PressBy::approach, 0.01);
   const AlgebraicError& error = state.algebraic_error();
   for (const double bound : {error.approach, error.mean_gap, error.energy, error.peak_pressure, *error.load,
                              error.indentation, error.separation, *error.secant_stiffness})
     EXPECT_EQ(bound, std::numeric_limits<double>::infinity());
   EXPECT_EQ(error.contact_bracket.low, 0);
   EXPECT_EQ(error.contact_bracket.high, 32 * 32);
+  EXPECT_EQ(state.text().find("±"), std::string::npos) << state.text();
+  EXPECT_EQ(state.text().find("inf"), std::string::npos) << state.text();
+  const State loaded = press(adhering(0.01), PressBy::load, -0.01);
+  EXPECT_LE(*loaded.algebraic_error().load, 1e-14 * 0.01);  // what was asked for
 }
 
 TEST(Adhesion, CapillarityBesideItHasACostOfItsOwn) {

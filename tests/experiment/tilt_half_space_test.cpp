@@ -66,6 +66,22 @@ TEST(TiltHalfSpace, AProbeUnderFiftyNodesIsRaisedAndSaysSo) {
   EXPECT_NE(result.note.find("the probe pressure was raised to"), std::string::npos);
 }
 
+// Eq. (1) of the source paper with a liquid: the junctions carry its pull too, and the weight divides.
+TEST(TiltHalfSpace, WhatTheBodiesAttractEachOtherByRaisesTheAngleAndIsTold) {
+  Scene scene = on_quartz().scene();
+  const TiltResult dry = raise(SpecimenPair(scene), law, stage({30 * megapascal}));
+  EXPECT_EQ(dry.note.find("attract"), std::string::npos);
+  EXPECT_EQ(dry.probes.at(0).attraction, 0);
+  scene.capillarity = CapillarityOptions{.pressure = 100 * megapascal, .surface_tension = 5};
+  const SpecimenPair pair(scene);
+  const TiltResult wet = raise(pair, law, stage({30 * megapascal}));
+  EXPECT_NE(wet.note.find("the bodies attract each other by"), std::string::npos) << wet.note;
+  const double pull = wet.probes.at(0).attraction;
+  ASSERT_GT(pull, 0.01);
+  EXPECT_NEAR(std::tan(wet.angle), 0.2 * (1 + pull) + 500 * megapascal * *wet.area_per_load, 1e-9);
+  EXPECT_GT(wet.angle, dry.angle);
+}
+
 TEST(TiltHalfSpace, SpotsThatYieldUnderTheProbeAreTold) {
   const std::string told = "spots yield under the probe pressure";
   Scene scene = on_quartz().scene();

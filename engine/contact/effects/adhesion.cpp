@@ -19,6 +19,7 @@ void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& ge
       const auto field = static_cast<std::int64_t>(grid.nodes() * sizeof(double));
       plan.buffers.push_back({"attraction of each state", field});
       plan.buffers.push_back({"turn that presses are drawn from", 3 * field});
+      plan.buffers.push_back({"work of the tangents", 5 * field, false});
       plan.solver = "tangents of the attraction, each a contact by preconditioned descent";
       plan.transforms *= 10;
       plan.seconds *= 10;

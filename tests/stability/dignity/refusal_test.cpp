@@ -52,6 +52,11 @@ std::vector<Path> paths() {
     result.plasticity = PlasticityOptions{{}, hardening};
     return result;
   };
+  const auto adhering = [&](Boundary boundary, GapLaw model) {
+    Scene result = scene(boundary, HalfSpaceOptions{});
+    result.adhesion = AdhesionOptions{10, 1e-6, model};
+    return result;
+  };
   const Scene elastic = scene(Boundary::periodic, HalfSpaceOptions{});
   const PressRequest pressure{PressBy::pressure, 100 * megapascal, {}};
   return {{"box elements", scene(Boundary::free, BoxOptions{}), pressure},
@@ -63,7 +68,11 @@ std::vector<Path> paths() {
           {"hardening", yielding(Boundary::periodic, 1e15), pressure},
           {"by approach", elastic, {PressBy::approach, 1e-6, {}}},
           {"capped, by approach", yielding(Boundary::periodic, infinity), {PressBy::approach, 1e-6, {}}},
-          {"by flattening", elastic, {PressBy::flatten, 0.2, {}}}};
+          {"by flattening", elastic, {PressBy::flatten, 0.2, {}}},
+          {"adhering", adhering(Boundary::periodic, GapLaw::exponential), pressure},
+          {"adhering, drawn back",
+           adhering(Boundary::free, GapLaw::dugdale),
+           {PressBy::approach, 1e-6, {}, {2e-6}}}};
 }
 
 // Raises the flag of the process after some time, from another thread; lowered when it goes.
@@ -180,11 +189,17 @@ TEST_P(Refusals, TooLittleMemory) {
 
 TEST_P(Refusals, WhatCannotBeAskedFor) {
   const PressBy by = GetParam().request.by;
-  for (const double value : {-1.0, std::nan(""), infinity, -infinity})
+  for (const double value : {-1.0, std::nan(""), infinity, -infinity}) {
+    if (value == -1 && GetParam().scene.adhesion) continue;  // a pull
     EXPECT_TRUE(refused({by, value, {}}, Monitor::silent())) << value;
+  }
   if (GetParam().scene.plasticity && !(GetParam().scene.plasticity->hardening < infinity)) {
     EXPECT_EQ(refused({PressBy::pressure, hardness, {}}, Monitor::silent()), ErrorCode::infeasible);
     EXPECT_TRUE(refused({PressBy::approach, 1.0, {}}, Monitor::silent()));
+  }
+  if (GetParam().scene.adhesion) {
+    EXPECT_EQ(refused({PressBy::pressure, -1e9, {}}, Monitor::silent()), ErrorCode::infeasible);
+    EXPECT_TRUE(refused({PressBy::flatten, 0.1, {}}, Monitor::silent()));
   }
   expect_unharmed();
 }

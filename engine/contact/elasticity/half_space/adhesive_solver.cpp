@@ -48,8 +48,12 @@ struct AdhesiveSolver::Ready {
 
 class AdhesiveSolver::UnderLoad final : public Solution {
  public:
-  UnderLoad(std::shared_ptr<const Ready> ready, AdhesiveAnswer answer, std::vector<double> drawn_from)
-      : ready_(std::move(ready)), at_(std::move(answer)), drawn_from_(std::move(drawn_from)) {}
+  UnderLoad(std::shared_ptr<const Ready> ready, AdhesiveAnswer answer, bool by_load,
+            std::vector<double> drawn_from)
+      : ready_(std::move(ready)),
+        at_(std::move(answer)),
+        by_load_(by_load),
+        drawn_from_(std::move(drawn_from)) {}
 
   const ContactGeometry& geometry() const override { return *ready_->geometry; }
   double load() const override { return at_.contact.mean_pressure * grid().area(); }
@@ -62,10 +66,11 @@ class AdhesiveSolver::UnderLoad final : public Solution {
   int iterations() const override { return at_.contact.iterations; }
   std::string_view solver() const override { return at_.contact.solver; }
   Certificate certificate() const override { return at_.contact.certificate; }
-  // The problem is not convex: nothing is bounded.
+  // The problem is not convex: nothing is bounded but what was asked for.
   SolutionError error() const override {
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    SolutionError error{.load = unknown};
+    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+    SolutionError error{.load = by_load_ ? rounding * std::abs(load()) : unknown};
     error.approach = error.mean_gap = error.energy = error.peak_pressure = unknown;
     error.contacts = {0, static_cast<std::int64_t>(grid().nodes())};
     error.may_differ = error.contacts.high;
@@ -150,6 +155,7 @@ class AdhesiveSolver::UnderLoad final : public Solution {
 
   std::shared_ptr<const Ready> ready_;
   AdhesiveAnswer at_;
+  bool by_load_;
   std::vector<double> drawn_from_;
 };
 
@@ -219,15 +225,18 @@ State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const
       made->by_load = by_load;
       made->values = std::move(values);
       from = std::move(made);
-      const std::lock_guard lock(ready_->mutex);
-      ready_->turn = from;
     }
   }
   AdhesiveAnswer answer = solve(request.value, from ? &from->answer : nullptr);
   contacts += answer.first_contact;
   if (from) answer.contact.iterations += from->answer.contact.iterations;
+  if (from) {  // not before: a press that is refused leaves no trace
+    const std::lock_guard lock(ready_->mutex);
+    ready_->turn = std::move(from);
+  }
   const StateCost cost = parted(scope.so_far(), contacts, answer);
-  return State(std::make_shared<const UnderLoad>(ready_, std::move(answer), std::move(turns)), plan_, cost);
+  return State(std::make_shared<const UnderLoad>(ready_, std::move(answer), by_load, std::move(turns)), plan_,
+               cost);
 }
 
 StateCost AdhesiveSolver::parted(const Cost& whole, const Cost& contacts,
