@@ -513,6 +513,7 @@ function Field:picture(path, options) end
 ---@field seconds number expected for the first press, a rough guess
 ---@field effects_run string[] effects that the scene names
 ---@field effects_off string[] effects that it does not name, for which nothing is done
+---@field warnings string[] of a grid that is too coarse for an effect; the first press gives them too
 ---@field json string all of it, as JSON
 local Plan = {}
 

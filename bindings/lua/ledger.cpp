@@ -109,6 +109,11 @@ const Class& class_of<Plan>() {
          "effects that it does not name, for which nothing is done",
          {},
          [](Call& call) { return texts(call.self<Plan>().effects_off); }},
+        {"warnings",
+         "string[]",
+         "of a grid that is too coarse for an effect; the first press gives them too",
+         {},
+         [](Call& call) { return texts(call.self<Plan>().warnings); }},
         {"json", "string", "all of it, as JSON", {}, [](Call& call) -> Values {
            return {to_json(call.self<Plan>()).text(2)};
          }}};

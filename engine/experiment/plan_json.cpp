@@ -19,6 +19,7 @@ Json to_json(const Plan& plan) {
                        {"bytes_kept", plan.bytes_kept()},
                        {"bytes_peak", plan.bytes_peak()},
                        {"seconds", plan.seconds},
+                       {"warnings", Json::strings(plan.warnings)},
                        {"effects_run", Json::strings(plan.effects_run)},
                        {"effects_off", Json::strings(plan.effects_off)}});
 }

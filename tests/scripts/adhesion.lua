@@ -82,6 +82,8 @@ refused(function() c:press{ load=1, drawn_from="2 um" } end, "`drawn_from`")
 
 -- A grid too coarse for the zone that pulls is warned of, once.
 local coarse = bench{ adhesion={ work=0.01, range=0.01 } }
-assert(tostring(coarse:explain()):find("under four", 1, true))
+local plan = coarse:explain()
+assert(tostring(plan):find("under four", 1, true) and plan.warnings[1]:find("under four", 1, true))
+assert(plan.json:find("under four", 1, true) and #plain:explain().warnings == 0)
 coarse:press{ load=0.01 }
 print "as it should be"

@@ -9,7 +9,8 @@
 local lab = require "asperity"
 local case = require "asperity.hard_case"{
   number = 23, title = "Attraction out of proportion",
-  edge = "work from 1e-30 to 1e30 J/m^2, range from 1e-30 to 1e30 m, pull and load from 1e-30 to 1e30 N,"
+  edge = "work from 1e-30 to 1e30 J/m^2, range from 1e-30 to 1e30 m,"
+    .. " traction at touch up to 100 of the modulus, pull and load from 1e-30 to 1e30 N,"
     .. " approach from -1e30 to 1e30 m, humidity from 1e-300 to 1 - 2^-53, 1 to 31 cells a side",
   elsewhere = "The descent into the attraction shrinks its steps without end, or goes round between two"
     .. " contacts, and the run never returns; or what it stopped at is handed out as an answer.",
@@ -93,6 +94,14 @@ sweep("range", function(row, boundary)
   for decade = -30, 30, 4 do
     adhering(row, boundary, 0.01, 10.0 ^ decade, { load = 0.01 })
     adhering(row, boundary, 10.0 ^ (decade - 1), 10.0 ^ decade, { approach = -0.01, drawn_from = 0.02 })
+  end
+end)
+sweep("traction", function(row, boundary)
+  for _, traction in ipairs{ 1, 10, 100 } do
+    for _, range in ipairs{ 1, 0.1, 0.01, 1e-3, 1e-5 } do
+      adhering(row, boundary, traction * range, range, { load = 0.01 })
+      adhering(row, boundary, traction * range, range, { approach = -0.01, drawn_from = 0.01 })
+    end
   end
 end)
 sweep("load", function(row, boundary)
