@@ -67,6 +67,33 @@ TEST(Capillarity, TheJunctionsCarryItsPullBesideTheLoad) {
   EXPECT_EQ(state.cost().by_effect.back().first, "capillarity");
 }
 
+// A liquid of long range holds a sphere with 4πRγ cos θ (McFarlane & Tabor 1950), here in the limit of
+// Derjaguin, Muller & Toporov: a Tabor number of 0.05.
+TEST(Capillarity, HoldsASphereWithTheForceOfItsMeniscus) {
+  const int n = 96;
+  const double size = 8, tension = 0.01, angle = std::numbers::pi / 3;
+  Surface body = surface_of(make_grid(n, n, size, size), [&](int i, int j) {
+    const double x = ((i + 0.5) / n - 0.5) * size, y = ((j + 0.5) / n - 0.5) * size;
+    return -0.5 * (x * x + y * y);
+  });
+  SurfaceTraits traits;
+  traits.material = elastic(1);
+  Scene scene{Surface(body.grid(), body.heights(), traits), rigid_material(), Boundary::free,
+              HalfSpaceOptions{}, Accuracy{}};
+  scene.accuracy.tolerance = 1e-4;
+  const double work = 2 * tension * std::cos(angle);
+  scene.capillarity =
+      CapillarityOptions{.pressure = work / 0.95, .surface_tension = tension, .contact_angle = angle};
+  ASSERT_NEAR(meniscus(*scene.capillarity).height, 0.95, 1e-12);
+  const double held = 4 * std::numbers::pi * tension * std::cos(angle);
+  const auto contact = test::ready(scene);
+  EXPECT_GT(contact->press({PressBy::load, -0.97 * held, {}}).contacts(), 0);
+  EXPECT_NE(error_of([&] {
+              contact->press({PressBy::load, -1.01 * held, {}});
+            }).find("the bodies separate"),
+            std::string::npos);
+}
+
 TEST(Capillarity, OptionsOutOfRangeAreRefused) {
   const auto refused = [](const CapillarityOptions& options) {
     return error_of([&] { check(rough(options)); });
