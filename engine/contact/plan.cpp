@@ -72,9 +72,12 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
         {"combined heights", static_cast<std::int64_t>(geometry.grid().nodes() * sizeof(double))});
   if (const auto* box = std::get_if<BoxOptions>(&scene.elasticity))
     plan_box(*box, geometry, plan);
+  else if (std::holds_alternative<RigidOptions>(scene.elasticity))
+    plan_rigid(geometry, plan);
   else
     plan_half_space(geometry, plan);
   if (scene.plasticity) plan_plasticity(*scene.plasticity, geometry, plan);
+  if (std::holds_alternative<BoxOperator>(plan.elasticity)) plan_yield_of_boxes(geometry, plan);
   if (scene.creep) plan_creep(*scene.creep, plan);
   if (scene.sliding.ageing) plan_ageing(*scene.sliding.ageing, plan);
   if (scene.sliding.interlocking) plan_interlocking(*scene.sliding.interlocking, geometry, plan);

@@ -111,9 +111,16 @@ void check(const Scene& scene) {
     if (single)
       throw Error(ErrorCode::bad_value, "`precision` is \"single\" for box elements",
                   "their solution is a closed form in double precision; leave `precision` out");
-    if (scene.plasticity)
-      throw Error(ErrorCode::bad_value, "`plasticity` of box elements is not computed by this version",
-                  "name elasticity=\"half_space\" beside it");
+  }
+  if (std::holds_alternative<RigidOptions>(scene.elasticity)) {
+    if (single)
+      throw Error(ErrorCode::bad_value, "`precision` is \"single\" for rigid bodies",
+                  "their solution is a closed form in double precision; leave `precision` out");
+    if (!scene.plasticity)
+      throw Error(
+          ErrorCode::bad_value,
+          "rigid bodies carry a load only where they yield, and this scene does not name `plasticity`",
+          "name `plasticity` beside elasticity=\"rigid\", or name another elasticity");
   }
   if (scene.plasticity) check(*scene.plasticity);
   if (scene.creep) {

@@ -143,7 +143,6 @@ Verdict check(const Trial& given, std::uint64_t salt) {
 
 }  // namespace
 
-const Family events{
-    "events", {.model = Wanted::Model::half_space, .yields = true, .heaviest = 10}, check, 1000};
+const Family events{"events", {.yields = true, .heaviest = 10}, check, 1000};
 
 }  // namespace asperity::stability
