@@ -90,4 +90,18 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
   return plan;
 }
 
+Plan make_plan_like(const Plan& before, const Scene& scene, const ContactGeometry& geometry) {
+  Scene same = scene;
+  const auto* box = std::get_if<BoxOperator>(&before.elasticity);
+  if (box != nullptr && std::holds_alternative<BoxOptions>(same.elasticity))
+    same.elasticity = BoxOptions{box->stiffness};
+  Plan plan = make_plan(same, geometry);
+  plan.elasticity = before.elasticity;
+  const auto of_elasticity = [](const PlannedTerm& term) { return term.effect == "elasticity"; };
+  const auto known = std::find_if(before.terms.begin(), before.terms.end(), of_elasticity);
+  if (known != before.terms.end())
+    std::replace_if(plan.terms.begin(), plan.terms.end(), of_elasticity, *known);
+  return plan;
+}
+
 }  // namespace asperity

@@ -87,4 +87,8 @@ struct Plan {
 // cannot be formed (a flat has no peak-to-valley to set the stiffness by). O(1).
 Plan make_plan(const Scene& scene, const ContactGeometry& geometry);
 
+// The plan of the scene of `before` for bodies that have yielded since, or on other cells: what a default
+// took from the bodies as placed (boxes as stiff as E*/peak-to-valley) stays as it was.
+Plan make_plan_like(const Plan& before, const Scene& scene, const ContactGeometry& geometry);
+
 }  // namespace asperity

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/experiment/specimen_pair.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -30,14 +29,6 @@ Plan planned(const Scene& scene, const ContactGeometry& geometry) {
   Plan plan = make_plan(scene, geometry);
   plan.choice = choice_text(scene, plan);
   return plan;
-}
-
-// Boxes as stiff as E*/peak-to-valley of the bodies as placed stay so while these yield.
-void keep_elasticity(const Plan& before, Plan& plan) {
-  plan.elasticity = before.elasticity;
-  const auto of_elasticity = [](const PlannedTerm& term) { return term.effect == "elasticity"; };
-  const auto known = std::find_if(before.terms.begin(), before.terms.end(), of_elasticity);
-  std::replace_if(plan.terms.begin(), plan.terms.end(), of_elasticity, *known);
 }
 
 // Solves the other grids of the estimate; what they cost is counted as `estimate`.
@@ -143,8 +134,8 @@ StateCost SpecimenPair::flatten_for_good(const State& state, Monitor& monitor) {
     scene.upper = std::move(after.upper);
     auto geometry =
         std::make_shared<const ContactGeometry>(scene, *geometry_, after.hardness, change->approach);
-    Plan plan = planned(scene, *geometry);
-    keep_elasticity(plan_, plan);
+    Plan plan = make_plan_like(plan_, scene, *geometry);
+    plan.choice = plan_.choice;
     plan.yield->carried = plan_.yield->carried;
     if (change->carried) asperity::carry(plan.yield->carried, *change->carried);
     constexpr double noticeable = 0.05;

@@ -25,7 +25,7 @@ ends() {
 cat > events.lua <<'LUA'
 local lab = require "asperity"
 local count, ending = tonumber((...)), select(2, ...)
-local s = lab.surface.self_affine{ cells = 32, size = 1, hurst = 0.8, rms_height = 0.01, seed = 4,
+local s = lab.surface.self_affine{ cells = 32, size = 1, hurst = 0.8, rms_height = 0.01, short_wave = 0.2, seed = 4,
   material = lab.material{ young = 1, poisson = 0.3, hardness = 0.1 } }
 local c = lab.contact{ lower = s, upper = lab.rigid, boundary = "periodic",
   effects = { elasticity = "half_space", plasticity = {} } }
@@ -35,7 +35,7 @@ for n = 1, count do
   book:write{ n = n, area = st.area_fraction, chance = math.random() }
   print("event", n)
 end
-c:lower():save "worn.npy"
+c:lower():write "worn.npy"
 if ending == "error" then error "no more" end
 if ending == "exit" then os.exit(1) end
 LUA

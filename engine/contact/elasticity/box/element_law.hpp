@@ -25,11 +25,12 @@ struct ElementLaw {
     if (yields(depth, yield)) return yield + slope_past_yield() * (depth - depth_at_yield(yield));
     return std::min(stiffness * depth, yield);
   }
-  // How much of the shortening recovers, and how much stays, under a pressure at a depth.
-  double elastic_part(double pressure) const { return pressure / stiffness; }
-  double plastic_part(double depth, double pressure, double yield) const {
-    if (hardening != 0) return std::max(0.0, pressure - yield) / hardening;
-    return pressure >= yield ? std::max(0.0, depth - depth_at_yield(yield)) : 0.0;
+  // What of the shortening stays. From the depth and not from the pressure, in which a weak hardening leaves
+  // few digits of it.
+  double plastic_part(double depth, double yield) const {
+    if (!yields(depth, yield)) return 0;
+    const double past = depth - depth_at_yield(yield);
+    return hardening == 0 || rigid() ? past : past * (stiffness / (stiffness + hardening));
   }
 };
 

@@ -139,8 +139,9 @@ class YieldingBoxSolver::UnderLoad final : public Solution {
     double elastic, plastic;  // parts of its shortening, m
   };
   static Element element(const ElementLaw& law, const RestingPlane& plane, double drop, double yield) {
-    const double pressure = plane.pressure(law, drop, yield), depth = plane.high - drop;
-    return {depth, yield, pressure, law.elastic_part(pressure), law.plastic_part(depth, pressure, yield)};
+    const double pressure = plane.pressure(law, drop, yield);
+    return {plane.high - drop, yield, pressure, pressure / law.stiffness,
+            plane.plastic_part(law, drop, yield)};
   }
 
   const SortedDrops& drops() const { return ready_->drops; }
@@ -243,7 +244,7 @@ SolutionError YieldingBoxSolver::UnderLoad::error() const {
   if (contacts_ == 0) return error;
   const double depth = approach(), least = std::numeric_limits<double>::denorm_min();
   const ElementLaw& law = elements_->law();
-  double off = std::max(rounding * (depth + law.depth_at_yield(ready_->yield.hardness())), 2 * least);
+  double off = std::max(rounding * depth, 2 * least);
   const auto brackets = [&] {
     return elements_->mean_pressure(depth - off) <= pressure_ * (1 - rounding) &&
            elements_->mean_pressure(depth + off) >= pressure_ * (1 + rounding);

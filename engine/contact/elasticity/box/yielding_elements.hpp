@@ -24,9 +24,18 @@ struct RestingPlane {
   double share = 1;
 
   double pressure(const ElementLaw& law, double drop, double yield) const {
-    const double above = law.pressure(high - drop, yield);
+    return mixed([&](double plane) { return law.pressure(plane - drop, yield); });
+  }
+  double plastic_part(const ElementLaw& law, double drop, double yield) const {
+    return mixed([&](double plane) { return law.plastic_part(plane - drop, yield); });
+  }
+
+ private:
+  template <class Function>
+  double mixed(Function at) const {
+    const double above = at(high);
     if (share == 1) return above;
-    const double below = law.pressure(low - drop, yield);
+    const double below = at(low);
     return below + share * (above - below);
   }
 };
