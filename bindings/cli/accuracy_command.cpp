@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/accuracy_command.hpp"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "bindings/cli/muted.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/argument.hpp"
@@ -30,29 +30,6 @@ constexpr const char* study_name = "accuracy";
 constexpr const char* wanted =
     "`asperity accuracy` studies a script that returns one number: end it with one, as in "
     "`return st.area_fraction`";
-
-// Standard output goes nowhere while it lives.
-class Muted {
- public:
-  Muted() {
-    std::fflush(stdout);
-    kept_ = ::dup(STDOUT_FILENO);
-    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (kept_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
-    if (nowhere >= 0) ::close(nowhere);
-  }
-  ~Muted() {
-    std::fflush(stdout);
-    if (kept_ < 0) return;
-    ::dup2(kept_, STDOUT_FILENO);
-    ::close(kept_);
-  }
-  Muted(const Muted&) = delete;
-  Muted& operator=(const Muted&) = delete;
-
- private:
-  int kept_ = -1;
-};
 
 // Where a repeated run writes; gone, with all in it, afterwards.
 class ScratchFolder {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bindings/cli/accuracy_command.hpp"
+#include "bindings/cli/replay_command.hpp"
 #include "bindings/cli/run_command.hpp"
 #include "bindings/lua/help.hpp"
 #include "bindings/lua/version.hpp"
@@ -38,6 +39,7 @@ void print_materials() {
 
 constexpr const char* usage =
     "asperity run SCRIPT [options] [-- arguments]   run a script and keep what it finds\n"
+    "asperity replay RUN                            run a recorded run again and compare\n"
     "asperity check SCRIPT                          look for mistakes without running it\n"
     "asperity explain SCRIPT                        what it will compute, and at what cost\n"
     "asperity accuracy SCRIPT [options]              what accuracy costs a script that returns a number\n"
@@ -86,6 +88,9 @@ void add_run_options(CLI::App& command, cli::RunCommand& run, std::string& memor
   command.add_option("--threads", run.threads, "threads to use (default: one a processor)")
       ->check(CLI::Range(1, 4096));
   command.add_option("--limit-memory", memory, "most memory, e.g. 4G");
+}
+
+void add_trust(CLI::App& command, cli::RunCommand& run) {
   command.add_flag("--trust", run.trust, "give the script the whole of Lua, and files anywhere");
 }
 
@@ -100,6 +105,8 @@ int main(int argc, char** argv) {
 
   cli::RunCommand run, check, explain;
   cli::AccuracyCommand accuracy;
+  cli::ReplayCommand replay;
+  std::string replay_time, replay_memory;
   std::string run_time, check_time, explain_time, accuracy_time, memory, accuracy_memory, at_most, truth,
       topic;
   bool reference = false, types = false, explain_json = false;
@@ -107,6 +114,18 @@ int main(int argc, char** argv) {
   CLI::App& run_command = *app.add_subcommand("run", "run a script and keep what it finds");
   add_script_options(run_command, run, run_time);
   add_run_options(run_command, run, memory);
+  add_trust(run_command, run);
+
+  CLI::App& replay_command = *app.add_subcommand(
+      "replay",
+      "run the script of a recorded run again, with its arguments and seed, and compare every result");
+  replay_command.add_option("run", replay.recorded, "the directory of the run")->required();
+  add_run_options(replay_command, replay.run, replay_memory);
+  replay_command.add_option("--limit-time", replay_time, "end it after this long, e.g. 60s or \"2 min\"");
+  replay_command.footer(
+      "Every call, row, expectation and file is compared by its digest; times and dates are not. Exit status "
+      "1 "
+      "where anything differs. What the script prints is dropped.");
 
   CLI::App& accuracy_command = *app.add_subcommand(
       "accuracy",
@@ -114,6 +133,7 @@ int main(int argc, char** argv) {
       "`cells` times 1/4, 1/2, 1, 2, rounded) and with looser and tighter contacts, and each is timed");
   add_script_options(accuracy_command, accuracy.run, accuracy_time);
   add_run_options(accuracy_command, accuracy.run, accuracy_memory);
+  add_trust(accuracy_command, accuracy.run);
   accuracy_command.add_option("--at-most", at_most,
                               "time for all runs together (default 5 min); quoted first and kept");
   accuracy_command.add_option("--repeats", accuracy.repeats, "timed runs of each setting (default 3)")
@@ -170,12 +190,14 @@ int main(int argc, char** argv) {
       return q.value;
     };
     run.limit_time = seconds(run_time);
+    replay.run.limit_time = seconds(replay_time);
     check.limit_time = seconds(check_time);
     explain.limit_time = seconds(explain_time);
     accuracy.run.limit_time = seconds(accuracy_time);
     accuracy.at_most = seconds(at_most).value_or(accuracy.at_most);
     if (!truth.empty()) accuracy.truth = exact_value(truth);
     if (!memory.empty()) run.limit_memory = cli::parse_bytes(memory);
+    if (!replay_memory.empty()) replay.run.limit_memory = cli::parse_bytes(replay_memory);
     if (!accuracy_memory.empty()) accuracy.run.limit_memory = cli::parse_bytes(accuracy_memory);
   } catch (const CLI::Success& success) {
     return app.exit(success);
@@ -188,6 +210,7 @@ int main(int argc, char** argv) {
   }
 
   if (run_command.parsed()) return cli::run(run);
+  if (replay_command.parsed()) return cli::replay(replay);
   if (check_command.parsed()) return cli::check(check);
   if (explain_command.parsed()) return cli::explain(explain, explain_json);
   if (accuracy_command.parsed()) return cli::accuracy(accuracy);

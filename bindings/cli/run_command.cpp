@@ -149,7 +149,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   std::shared_ptr<RunDirectory> run;
   set_thread_count(command.threads);
   try {
-    text = read_script(command.script);
+    text = command.text ? *command.text : read_script(command.script);
     RunSetup setup;
     setup.script_name = command.script;
     setup.script_text = text;
@@ -237,23 +237,27 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   return status;
 }
 
+std::string run_script(RunContext& context, const std::function<int(int)>& at_exit) {
+  lua::Session session(context.monitor);
+  session.run = context.run;
+  session.exit_hook = [&](int code) {
+    if (code == 0 && context.run->expectations().failed() > 0) code = failed;
+    context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed,
+                        "os.exit(" + std::to_string(code) + ")");
+    context.summary();
+    code = at_exit(code);
+    std::fflush(nullptr);
+    std::_Exit(code);
+  };
+  const lua::State state = make_state(session, context.command);
+  const Watchdog::Watching watching(context.watchdog, state.get());
+  if (execute(state.get(), context.command, context.text, 0) == LUA_OK) return "";
+  return lua::error_text(state.get(), -1);
+}
+
 int run(const RunCommand& command) {
-  return in_run_directory(command, [&command](RunContext& context) -> std::string {
-    lua::Session session(context.monitor);
-    session.run = context.run;
-    session.exit_hook = [&context](int code) {
-      if (code == 0 && context.run->expectations().failed() > 0) code = failed;
-      context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed,
-                          "os.exit(" + std::to_string(code) + ")");
-      context.summary();
-      std::fflush(nullptr);
-      std::_Exit(code);
-    };
-    const lua::State state = make_state(session, command);
-    const Watchdog::Watching watching(context.watchdog, state.get());
-    if (execute(state.get(), command, context.text, 0) == LUA_OK) return "";
-    return lua::error_text(state.get(), -1);
-  });
+  return in_run_directory(
+      command, [](RunContext& context) { return run_script(context, [](int code) { return code; }); });
 }
 
 namespace {

@@ -31,6 +31,7 @@ struct RunCommand {
   std::optional<double> limit_time;          // seconds
   bool trust = false;
   std::vector<std::string> arguments;
+  std::optional<std::string> text;  // of the script, where it is not read from its file
 };
 
 // Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage, 130 interrupted.
@@ -52,6 +53,10 @@ struct RunContext {
 // Makes the run directory, sets the limits and watches for stops; then `work`, which returns why the run
 // failed, "" if it did not; and closes the directory. Returns the exit status.
 int in_run_directory(const RunCommand& command, const std::function<std::string(RunContext&)>& work);
+
+// Runs the script to its end, or to its os.exit: then the directory is closed, `at_exit` is asked for the
+// exit status, given that of the script, and the program ends there. Returns why it failed, "" if it did not.
+std::string run_script(RunContext& context, const std::function<int(int)>& at_exit);
 
 // A Lua state for the command's script, whose session is given what the command says.
 lua::State make_state(lua::Session& session, const RunCommand& command);

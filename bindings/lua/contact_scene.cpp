@@ -240,7 +240,7 @@ void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems)
     if (!read) return;
   } else {
     problems.push_back("`effects.elasticity` is " + value.describe() +
-                       "; give \"half_space\", \"box\" or { model=\"box\", stiffness= }");
+                       "; give \"half_space\", \"box\", \"rigid\" or { model=\"box\", stiffness= }");
     return;
   }
   collect(problems, [&] {
@@ -249,11 +249,12 @@ void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems)
       keys.elasticity = BoxOptions{given.stiffness};
       return;
     }
-    keys.elasticity = HalfSpaceOptions{};
+    const bool rigid = given.model == "rigid";
+    keys.elasticity = rigid ? Elasticity(RigidOptions{}) : Elasticity(HalfSpaceOptions{});
     if (given.stiffness)
-      problems.push_back(
-          "`effects.elasticity.stiffness` is of box elements; the stiffness of a half-space "
-          "follows from the materials");
+      problems.push_back(rigid ? "`effects.elasticity.stiffness` is of box elements; rigid bodies have none"
+                               : "`effects.elasticity.stiffness` is of box elements; the stiffness of a "
+                                 "half-space follows from the materials");
   });
 }
 
@@ -261,11 +262,10 @@ void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems)
 const std::vector<Option<SceneKeys>>& effect_options() {
   using K = SceneKeys;
   static const std::vector<Option<K>> options = [] {
-    Option<K> elasticity =
-        custom<K>("elasticity", "\"half_space\"|\"box\"|table", "how the bodies give way and recover",
-                  [](const Argument& value, const OptionInfo&, K& keys, Problems& problems) {
-                    read_elasticity(value, keys, problems);
-                  });
+    Option<K> elasticity = custom<K>("elasticity", "\"half_space\"|\"box\"|\"rigid\"|table",
+                                     "how the bodies give way and recover",
+                                     [](const Argument& value, const OptionInfo&, K& keys,
+                                        Problems& problems) { read_elasticity(value, keys, problems); });
     elasticity.info.inner = &elasticity_block();
     elasticity.info.required = true;
     return std::vector<Option<K>>{
@@ -314,7 +314,7 @@ void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys
     });
   }
   if (std::find(names.begin(), names.end(), "elasticity") == names.end())
-    problems.push_back("`effects` names no elasticity; give elasticity=\"half_space\" or \"box\"");
+    problems.push_back("`effects` names no elasticity; give elasticity=\"half_space\", \"box\" or \"rigid\"");
 }
 
 Option<SceneKeys> effects() {

@@ -79,7 +79,8 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
           std::make_shared<const Field>(flat_pose.to_upper(hardness_on_cells(*local.upper, given, grid)));
   }
   auto geometry_there = std::make_shared<const ContactGeometry>(there, flat_pose, std::move(memory));
-  Plan plan = make_plan(there, *geometry_there);
+  Plan plan = given_plan.yield ? make_plan_like(given_plan, there, *geometry_there)
+                               : make_plan(there, *geometry_there);
   if (plan.yield && given_plan.yield) plan.yield->carried = given_plan.yield->carried;
   // A solver counts against its own finest grid; here that is the one given.
   const double before = cost::transforms();

@@ -79,9 +79,12 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
         {"combined heights", static_cast<std::int64_t>(geometry.grid().nodes() * sizeof(double))});
   if (const auto* box = std::get_if<BoxOptions>(&scene.elasticity))
     plan_box(*box, geometry, plan);
+  else if (std::holds_alternative<RigidOptions>(scene.elasticity))
+    plan_rigid(geometry, plan);
   else
     plan_half_space(geometry, plan);
   if (scene.plasticity) plan_plasticity(*scene.plasticity, geometry, plan);
+  if (std::holds_alternative<BoxOperator>(plan.elasticity)) plan_yield_of_boxes(geometry, plan);
   if (scene.creep) plan_creep(*scene.creep, plan);
   if (scene.capillarity) plan_capillarity(*scene.capillarity, geometry, plan);
   if (scene.adhesion) plan_adhesion(*scene.adhesion, geometry, plan);
@@ -93,6 +96,20 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
     if (std::find(plan.effects_run.begin(), plan.effects_run.end(), term.effect) == plan.effects_run.end())
       plan.effects_run.push_back(term.effect);
   plan.effects_off = effects_not_in(plan.effects_run);
+  return plan;
+}
+
+Plan make_plan_like(const Plan& before, const Scene& scene, const ContactGeometry& geometry) {
+  Scene same = scene;
+  const auto* box = std::get_if<BoxOperator>(&before.elasticity);
+  if (box != nullptr && std::holds_alternative<BoxOptions>(same.elasticity))
+    same.elasticity = BoxOptions{box->stiffness};
+  Plan plan = make_plan(same, geometry);
+  plan.elasticity = before.elasticity;
+  const auto of_elasticity = [](const PlannedTerm& term) { return term.effect == "elasticity"; };
+  const auto known = std::find_if(before.terms.begin(), before.terms.end(), of_elasticity);
+  if (known != before.terms.end())
+    std::replace_if(plan.terms.begin(), plan.terms.end(), of_elasticity, *known);
   return plan;
 }
 

@@ -30,7 +30,7 @@ struct PlannedBuffer {
   bool kept = true;  // for as long as the bodies lie like this, or only for a moment
 };
 
-// Box elements: u = p / stiffness, node by node.
+// Box elements: u = p / stiffness, node by node; of rigid bodies with an infinite stiffness.
 struct BoxOperator {
   double stiffness = 0;           // Pa/m
   double reference_pressure = 0;  // Pa; loads far below it are refused
@@ -55,7 +55,8 @@ struct PlannedYield {
   std::vector<CarriedLoad> carried{};
 
   double hardness() const { return std::min(lower_hardness, upper_hardness); }
-  bool hardens() const { return std::isfinite(hardening) && std::isfinite(hardness()); }
+  bool limits() const { return std::isfinite(hardness()); }  // whether anything can yield
+  bool hardens() const { return limits() && std::isfinite(hardening); }
 };
 
 // The share of the plastic approach that the lower of two bodies takes: H_upper/(H_lower + H_upper).
@@ -89,5 +90,9 @@ struct Plan {
 // Throws Error that names effect and body when an effect lacks a property of a material, or a default
 // cannot be formed (a flat has no peak-to-valley to set the stiffness by). O(1).
 Plan make_plan(const Scene& scene, const ContactGeometry& geometry);
+
+// The plan of the scene of `before` for bodies that have yielded since, or on other cells: what a default
+// took from the bodies as placed (boxes as stiff as E*/peak-to-valley) stays as it was.
+Plan make_plan_like(const Plan& before, const Scene& scene, const ContactGeometry& geometry);
 
 }  // namespace asperity

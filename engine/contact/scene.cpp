@@ -94,7 +94,7 @@ void check_attraction(const Scene& scene, const std::string& effect) {
     throw Error(ErrorCode::bad_value, quoted(effect) + " is not computed " + beside + " by this version",
                 hint);
   };
-  if (std::holds_alternative<BoxOptions>(scene.elasticity))
+  if (!std::holds_alternative<HalfSpaceOptions>(scene.elasticity))
     refuse("on box elements", "name elasticity=\"half_space\" beside it");
   if (scene.plasticity) refuse("together with `plasticity`", "leave one of both out");
   if (scene.sliding.tangential) refuse("together with `tangential`", "leave one of both out");
@@ -159,9 +159,16 @@ void check(const Scene& scene) {
     if (single)
       throw Error(ErrorCode::bad_value, "`precision` is \"single\" for box elements",
                   "their solution is a closed form in double precision; leave `precision` out");
-    if (scene.plasticity)
-      throw Error(ErrorCode::bad_value, "`plasticity` of box elements is not computed by this version",
-                  "name elasticity=\"half_space\" beside it");
+  }
+  if (std::holds_alternative<RigidOptions>(scene.elasticity)) {
+    if (single)
+      throw Error(ErrorCode::bad_value, "`precision` is \"single\" for rigid bodies",
+                  "their solution is a closed form in double precision; leave `precision` out");
+    if (!scene.plasticity)
+      throw Error(
+          ErrorCode::bad_value,
+          "rigid bodies carry a load only where they yield, and this scene does not name `plasticity`",
+          "name `plasticity` beside elasticity=\"rigid\", or name another elasticity");
   }
   if (scene.plasticity) check(*scene.plasticity);
   if (scene.creep) {

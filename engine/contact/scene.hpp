@@ -30,7 +30,10 @@ struct BoxOptions {
 // Elastic half-spaces: every pressure moves every node.
 struct HalfSpaceOptions {};
 
-using Elasticity = std::variant<BoxOptions, HalfSpaceOptions>;
+// No elastic deformation: a node gives way only by yielding, so the scene names `plasticity` beside it.
+struct RigidOptions {};
+
+using Elasticity = std::variant<BoxOptions, HalfSpaceOptions, RigidOptions>;
 
 // Pressure is limited by hardness, and what yields stays flattened. The volume that yields is removed,
 // not redistributed.

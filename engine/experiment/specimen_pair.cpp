@@ -145,7 +145,8 @@ StateCost SpecimenPair::flatten_for_good(const State& state, Monitor& monitor) {
     scene.upper = std::move(after.upper);
     auto geometry =
         std::make_shared<const ContactGeometry>(scene, *geometry_, after.hardness, change->approach);
-    Plan plan = planned(scene, *geometry);
+    Plan plan = make_plan_like(plan_, scene, *geometry);
+    plan.choice = plan_.choice;
     plan.yield->carried = plan_.yield->carried;
     if (change->carried) asperity::carry(plan.yield->carried, *change->carried);
     constexpr double noticeable = 0.05;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which limit is in force, and what is refused.
-#include "engine/contact/elasticity/half_space/yield_law.hpp"
+#include "engine/contact/yield_law.hpp"
 
 #include <gtest/gtest.h>
 

@@ -35,13 +35,11 @@ struct Effect {
 const std::vector<Effect> effects = {
     {.name = "plasticity",
      .add = [](Scene& scene) { scene.plasticity = PlasticityOptions{hardness}; },
-     .of_boxes = false,
      .excludes = {"tangential", "adhesion", "capillarity"},
      .changes_the_normal_contact = true,
      .line = "plasticity"},
     {.name = "creep",
      .add = [](Scene& scene) { scene.creep = CreepOptions{}; },
-     .of_boxes = false,
      .needs = "plasticity",
      .excludes = {"tangential", "adhesion", "capillarity"},
      .changes_the_normal_contact = true},

@@ -22,7 +22,6 @@ struct Powerless {
   std::optional<double> dwell{};
   const char* term;            // that the plan shows all the same
   const char* line = nullptr;  // that the cost shows all the same
-  bool of_boxes = true;
 };
 
 const std::vector<Powerless> powerless = {
@@ -30,8 +29,7 @@ const std::vector<Powerless> powerless = {
      .without = [](Scene&) {},
      .with = [](Scene& s) { s.plasticity = PlasticityOptions{never}; },
      .term = "plasticity",
-     .line = "plasticity",
-     .of_boxes = false},
+     .line = "plasticity"},
     {.name = "plasticity of infinite hardness that hardens",
      .without = [](Scene&) {},
      .with =
@@ -39,8 +37,7 @@ const std::vector<Powerless> powerless = {
            s.plasticity = PlasticityOptions{never, 1.0};
          },
      .term = "plasticity",
-     .line = "plasticity",
-     .of_boxes = false},
+     .line = "plasticity"},
     {.name = "infinite hardening",
      .without = [](Scene& s) { s.plasticity = PlasticityOptions{hardness}; },
      .with =
@@ -48,8 +45,7 @@ const std::vector<Powerless> powerless = {
            s.plasticity = PlasticityOptions{hardness, never};
          },
      .term = "plasticity",
-     .line = "plasticity",
-     .of_boxes = false},
+     .line = "plasticity"},
     {.name = "creep of rate zero",
      .without = [](Scene& s) { s.plasticity = PlasticityOptions{hardness}; },
      .with =
@@ -57,14 +53,12 @@ const std::vector<Powerless> powerless = {
            s.creep = CreepOptions{0, 1, 600};
          },
      .dwell = 86400,
-     .term = "creep",
-     .of_boxes = false},
+     .term = "creep"},
     {.name = "creep of infinite hardness",
      .without = [](Scene& s) { s.plasticity = PlasticityOptions{never}; },
      .with = [](Scene& s) { s.creep = CreepOptions{}; },
      .dwell = 86400,
-     .term = "creep",
-     .of_boxes = false},
+     .term = "creep"},
     {.name = "ageing of rate zero",
      .without = [](Scene&) {},
      .with =
@@ -108,7 +102,6 @@ const std::vector<Powerless> powerless = {
 TEST_F(PowerlessEffects, OfNoStrengthAnEffectChangesNoBitAndIsShown) {
   for (const Bench& bench : benches) {
     for (const Powerless& row : powerless) {
-      if (!row.of_boxes && std::holds_alternative<BoxOptions>(bench.elasticity)) continue;
       SCOPED_TRACE(std::string(bench.name) + ": " + row.name);
       Scene without = bare_scene(bench);
       row.without(without);

@@ -16,9 +16,10 @@ local bare = S.sine{ cells=16, size="1 mm", amplitude="1 um" }
 local s = bare:with{ material=steel }
 refused(function() lab.contact{ lower=s, upper=lab.rigid } end, "`effects` is missing")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="half_space" } } end, "a half-space needs `boundary`")
-refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="rigid" } } end, "rigid", "not computed")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="rigid" } } end, "rigid", "does not name `plasticity`")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box", adhesion={ work=1, range=1 } } } end, "adhesion", "not computed")
-refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box", plasticity={} } } end, "plasticity", "not computed")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="rigid", plasticity={ hardness=math.huge } } } end, "their `hardness` is infinite")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity={ model="rigid", stiffness=1e9 }, plasticity={} } } end, "`effects.elasticity.stiffness`", "rigid bodies have none")
 refused(function() lab.contact{ lower=bare, upper=lab.rigid, effects=box } end, "elasticity", "the lower body", "no material")
 refused(function() lab.contact{ lower=s, upper=S.flat{ cells=8, size="1 mm", material=steel }, effects=box } end, "16 x 16 cells", "8 x 8 cells", "resampled")
 refused(function() lab.contact{ lower=s, upper=S.flat{ cells=16, size="2 mm", material=steel }, effects=box } end, "2 mm x 2 mm")

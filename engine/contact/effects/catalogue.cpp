@@ -31,7 +31,7 @@ constexpr std::array models = {
     EffectEntry{"half_space", "every pressure moves every node, as on an elastic half-space",
                 Availability::computed},
     EffectEntry{"rigid", "no elastic deformation; the bodies rest on what has yielded",
-                Availability::not_yet},
+                Availability::computed},
 };
 
 std::vector<std::string> names(std::span<const EffectEntry> entries, bool computed_only) {

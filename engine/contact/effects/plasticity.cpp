@@ -104,6 +104,21 @@ LocalHardness local_hardness(const ContactGeometry& geometry, const PlannedYield
   return local;
 }
 
+YieldLaw yield_law(const PlannedYield& yield, const LocalHardness& local, double factor) {
+  YieldLaw law;
+  if (!std::isfinite(yield.hardness())) return law;
+  law.cap = factor * yield.hardness();
+  if (!yield.hardens()) return law;
+  law.hardening = yield.hardening;
+  if (!local.lower && !local.upper) return law;
+  Field limit = local.lower ? *local.lower : *local.upper;
+  for (std::size_t k = 0; k < limit.size(); ++k)
+    limit[k] = factor * std::min(local.lower ? (*local.lower)[k] : yield.lower_hardness,
+                                 local.upper ? (*local.upper)[k] : yield.upper_hardness);
+  law.yield = std::make_shared<const Field>(std::move(limit));
+  return law;
+}
+
 YieldedBodies yielded_bodies(const ContactGeometry& geometry, const PlannedYield& yield,
                              const PlasticChange& change) {
   const Grid& grid = geometry.grid();

@@ -9,6 +9,7 @@
 
 #include "engine/contact/plan.hpp"
 #include "engine/contact/solution.hpp"
+#include "engine/contact/yield_law.hpp"
 
 namespace asperity {
 
@@ -36,5 +37,8 @@ struct LocalHardness {
   std::shared_ptr<const Field> lower, upper;
 };
 LocalHardness local_hardness(const ContactGeometry& geometry, const PlannedYield& yield);
+
+// What limits the pressure while the hardness is `factor` of the one stated.
+YieldLaw yield_law(const PlannedYield& yield, const LocalHardness& local, double factor);
 
 }  // namespace asperity

@@ -42,8 +42,7 @@ case:refused("adhesion of boxes", scene{ elasticity = "box", adhesion = { work =
   model = "exponential" } }, "adhesion", "not computed")
 case:refused("capillarity of boxes", scene{ elasticity = "box", capillarity = { humidity = 0.5 } },
   "capillarity", "not computed")
-case:refused("rigid bodies", scene{ elasticity = "rigid" }, "rigid", "not computed")
-case:refused("boxes that yield", scene{ elasticity = "box", plasticity = {} }, "plasticity", "not computed")
+case:refused("rigid bodies that cannot yield", scene{ elasticity = "rigid" }, "`plasticity`")
 case:refused("boxes in single precision", scene({ elasticity = "box" }, "periodic", { precision = "single" }),
   "single")
 case:refused("`adhesoin`", scene{ elasticity = "half_space", adhesoin = {} }, "did you mean `adhesion`")

@@ -22,7 +22,8 @@
 namespace asperity::stability {
 namespace {
 
-const Family* const families[] = {&conditions, &monotony, &rescaling, &symmetry, &events, &threads};
+const Family* const families[] = {&conditions, &monotony,           &rescaling, &symmetry,
+                                  &events,     &events_of_elements, &threads};
 
 struct Settings {
   std::string family;

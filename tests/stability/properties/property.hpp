@@ -32,7 +32,7 @@ struct Family {
   int scenes;  // a run
 };
 
-extern const Family conditions, monotony, rescaling, symmetry, events, threads;
+extern const Family conditions, monotony, rescaling, symmetry, events, events_of_elements, threads;
 
 // The contact of a trial, fresh, under its pressure.
 inline State pressed(const Scene& scene, double pressure) {

@@ -278,6 +278,12 @@ Trial draw_trial(std::uint64_t seed, std::uint64_t index, const Wanted& wanted) 
     if (!(span > 0) || draw.chance(0.5)) box.stiffness = modulus / amplitude * draw.decades(-2, 2);
     scene.elasticity = box;
     trial.pressure = box.stiffness.value_or(modulus / span) * (span > 0 ? span : amplitude) * share;
+    if (wanted.yields || draw.chance(0.45)) {
+      draw_yield(draw, trial, modulus);
+      // Elements are pressed up to a thousand times their heights: further, no double holds their gaps.
+      scene.plasticity->hardening *= trial.pressure / (span > 0 ? span : amplitude) / (modulus / grid.hx());
+      if (draw.chance(0.4)) scene.elasticity = RigidOptions{};
+    }
   }
   return trial;
 }

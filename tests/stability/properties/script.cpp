@@ -46,7 +46,9 @@ std::string surface_text(const Surface& surface) {
 std::string effects_text(const Scene& scene) {
   std::string text = "effects={ elasticity=";
   const auto* box = std::get_if<BoxOptions>(&scene.elasticity);
-  if (box == nullptr)
+  if (std::holds_alternative<RigidOptions>(scene.elasticity))
+    text += "\"rigid\"";
+  else if (box == nullptr)
     text += "\"half_space\"";
   else if (box->stiffness)
     text += "{ model=\"box\", stiffness=" + exact(*box->stiffness) + " }";

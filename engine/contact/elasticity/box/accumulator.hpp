@@ -28,6 +28,10 @@ class Accumulator {
     add(other.high_);
     add(other.low_);
   }
+  void subtract(const Accumulator& other) {
+    add(-other.high_);
+    add(-other.low_);
+  }
   double value() const { return high_; }
 
  private:

@@ -3,14 +3,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
+#include "engine/contact/elasticity/box/yielding_elements.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
+
+namespace {
+
+// What every plan of elements has: the operator, and the heights sorted.
+void plan_sorting(const BoxOperator& box, const ContactGeometry& geometry, Plan& plan) {
+  const std::size_t nodes = geometry.grid().nodes();
+  constexpr double seconds_per_node = 4e-8;  // of sorting, measured on one core
+  plan.elasticity = box;
+  plan.solver = "closed form (sorted heights)";
+  plan.buffers.push_back({"sorted heights and their sums", SortedDrops::bytes(nodes)});
+  plan.buffers.push_back(
+      {"while sorting",
+       SortedDrops::bytes_while_sorting(nodes) - static_cast<std::int64_t>(nodes * sizeof(double)), false});
+  plan.seconds = std::max(1e-6, seconds_per_node * static_cast<double>(nodes));
+}
+
+}  // namespace
 
 void plan_box(const BoxOptions& options, const ContactGeometry& geometry, Plan& plan) {
   const double height = geometry.peak_to_valley();
@@ -39,19 +58,35 @@ void plan_box(const BoxOptions& options, const ContactGeometry& geometry, Plan& 
                 "the stiffness of the box elements comes to " + format_short(box.stiffness) + " Pa/m",
                 "check the units of the heights and of `young`, or give `stiffness`");
   box.lower_share = lower_elastic_share(geometry);
-
-  const std::size_t nodes = geometry.grid().nodes();
-  constexpr double seconds_per_node = 4e-8;  // of sorting, measured on one core
-  plan.elasticity = box;
-  plan.solver = "closed form (sorted heights)";
   plan.terms.push_back({"elasticity", "box elements, stiffness " +
                                           format_quantity(box.stiffness, dimension::stiffness) + " (" +
                                           origin + ")"});
-  plan.buffers.push_back({"sorted heights and their sums", SortedDrops::bytes(nodes)});
+  plan_sorting(box, geometry, plan);
+}
+
+void plan_rigid(const ContactGeometry& geometry, Plan& plan) {
+  BoxOperator box;
+  box.stiffness = std::numeric_limits<double>::infinity();
+  plan.terms.push_back({"elasticity", "rigid bodies, which rest on what has yielded"});
+  plan_sorting(box, geometry, plan);
+}
+
+void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan) {
+  const auto& box = std::get<BoxOperator>(plan.elasticity);
+  if (!plan.yield || !plan.yield->limits()) {
+    if (!std::isfinite(box.stiffness))
+      throw Error(ErrorCode::bad_state,
+                  "rigid bodies carry a load only where they yield, and their `hardness` is infinite",
+                  "give a finite `hardness`, or name another elasticity");
+    return;
+  }
+  const std::size_t nodes = geometry.grid().nodes();
+  plan.solver = "closed form (sorted elements)";
   plan.buffers.push_back(
-      {"while sorting",
-       SortedDrops::bytes_while_sorting(nodes) - static_cast<std::int64_t>(nodes * sizeof(double)), false});
-  plan.seconds = std::max(1e-6, seconds_per_node * static_cast<double>(nodes));
+      {"sums over the elements in the order in which they yield", YieldingElements::bytes(nodes)});
+  if (plan.yield->hardens())
+    plan.buffers.push_back({"elements of bodies that have hardened, in order",
+                            static_cast<std::int64_t>(3 * nodes * sizeof(double))});
 }
 
 }  // namespace asperity

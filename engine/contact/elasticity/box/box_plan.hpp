@@ -16,4 +16,11 @@ namespace asperity {
 // Throws Error{bad_state} naming effect and body, or Error{bad_value} naming `stiffness`.
 void plan_box(const BoxOptions& options, const ContactGeometry& geometry, Plan& plan);
 
+// The same without elastic shortening.
+void plan_rigid(const ContactGeometry& geometry, Plan& plan);
+
+// What yielding adds once the plan says whether anything does; nothing otherwise. Throws Error{bad_state}
+// for rigid bodies that cannot yield: nothing would carry a load.
+void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan);
+
 }  // namespace asperity

@@ -13,7 +13,7 @@
 
 #include "engine/contact/boundary.hpp"
 #include "engine/contact/certificate.hpp"
-#include "engine/contact/elasticity/half_space/yield_law.hpp"
+#include "engine/contact/yield_law.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/contact/deformed_bodies.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/approach_solve.hpp"
 #include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
@@ -62,22 +63,6 @@ struct HalfSpaceSolver::Ready {
       ready->hardness = local_hardness(*ready->geometry, *ready->yield);
     ready->cost = elastic(scope);
     return ready;
-  }
-
-  // What limits the pressure when its hardness is `factor` of the one stated.
-  YieldLaw law(double factor) const {
-    YieldLaw law;
-    if (!yield || !std::isfinite(yield->hardness())) return law;
-    law.cap = factor * yield->hardness();
-    if (!yield->hardens()) return law;
-    law.hardening = yield->hardening;
-    if (!hardness.lower && !hardness.upper) return law;
-    Field limit(problem.grid.nx, problem.grid.ny);
-    for (std::size_t k = 0; k < limit.size(); ++k)
-      limit[k] = factor * std::min(hardness.lower ? (*hardness.lower)[k] : yield->lower_hardness,
-                                   hardness.upper ? (*hardness.upper)[k] : yield->upper_hardness);
-    law.yield = std::make_shared<const Field>(std::move(limit));
-    return law;
   }
 };
 
@@ -140,14 +125,21 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
   Field displacement_field() const override {
     return field([&](std::size_t k) { return displacement(k); });
   }
-  Field lower_under_load() const override;
-  Field upper_under_load() const override;
+  Field lower_under_load() const override {
+    return lower_heights(geometry(), ready_->yield, deformation());
+  }
+  Field upper_under_load() const override {
+    return upper_heights(geometry(), ready_->yield, deformation());
+  }
 
  private:
   double nodes() const { return static_cast<double>(at_.pressure.size()); }
   // The elastic displacement of both bodies: what K p gives. Near a light contact all terms are small.
   double displacement(std::size_t k) const {
     return at_.gap[k] + (at_.approach - (geometry().combined_range().max - (*problem_.heights)[k]));
+  }
+  Deformation deformation() const {
+    return {displacement_field(), ready_->half_space.lower_share, plastic_change()};
   }
   CarriedLoad carried() const { return {at_.mean_pressure, factor_}; }
   // w: what the limit on the pressure leaves open.
@@ -223,34 +215,6 @@ std::optional<PlasticChange> HalfSpaceSolver::UnderLoad::plastic_change() const 
   return change;
 }
 
-Field HalfSpaceSolver::UnderLoad::lower_under_load() const {
-  Field z = geometry().lower().heights();
-  if (const double share = ready_->half_space.lower_share; share != 0)
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * displacement(k);
-  if (const auto change = plastic_change()) {
-    const YieldedBodies after = yielded_bodies(geometry(), *ready_->yield, *change);
-    const Field& before = geometry().lower().heights();
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= before[k] - after.lower.heights()[k];
-  }
-  return z;
-}
-
-Field HalfSpaceSolver::UnderLoad::upper_under_load() const {
-  const Grid& grid = problem_.grid;
-  const auto* rough = std::get_if<Surface>(&geometry().upper());
-  Field z = rough ? rough->heights() : Field(grid.nx, grid.ny);
-  if (const double share = 1 - ready_->half_space.lower_share; share != 0) {
-    const Field own = geometry().pose().to_upper(displacement_field(), grid);
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * own[k];
-  }
-  if (const auto change = plastic_change(); change && rough) {
-    const YieldedBodies after = yielded_bodies(geometry(), *ready_->yield, *change);
-    const Field& now = std::get<Surface>(after.upper).heights();
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= rough->heights()[k] - now[k];
-  }
-  return z;
-}
-
 HalfSpaceSolver::HalfSpaceSolver(const Plan& plan, const HalfSpaceOperator& half_space,
                                  std::shared_ptr<const ContactGeometry> geometry)
     : plan_(plan), ready_(Ready::make(plan, half_space, std::move(geometry))) {}
@@ -271,7 +235,7 @@ State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) cons
   const double factor =
       ready_->yield && ready_->yield->creep ? softening(*ready_->yield->creep, request.dwell) : 1.0;
   HalfSpaceProblem problem = ready_->problem;
-  problem.yield = ready_->law(factor);
+  if (ready_->yield) problem.yield = yield_law(*ready_->yield, ready_->hardness, factor);
   Reported asked;
   HalfSpaceAnswer answer = [&] {
     switch (request.by) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/half_space/yield_law.hpp"
+#include "engine/contact/yield_law.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/box/yielding_box_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/contact/deformed_bodies.hpp"
+#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/sorted_drops.hpp"
+#include "engine/contact/elasticity/box/yielding_elements.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+StateCost elastic(const CostScope& scope) {
+  const Cost cost = scope.so_far();
+  return {cost, {{"elasticity", cost}}};
+}
+
+constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+struct YieldingBoxSolver::Ready {
+  std::shared_ptr<const ContactGeometry> geometry;
+  BoxOperator box;
+  PlannedYield yield;
+  LocalHardness hardness;  // empty unless events have left fields of it
+  SortedDrops drops;
+  YieldingElements alike;  // of one yield pressure
+  StateCost cost;
+
+  Ready(std::shared_ptr<const ContactGeometry> g, const BoxOperator& b, const PlannedYield& y)
+      : geometry(std::move(g)),
+        box(b),
+        yield(y),
+        hardness(y.hardens() ? local_hardness(*geometry, y) : LocalHardness{}),
+        drops(geometry->combined().values()),
+        alike({b.stiffness, y.hardens() ? y.hardening : 0}, drops.drops(), y.hardness()) {}
+
+  static std::shared_ptr<const Ready> make(std::shared_ptr<const ContactGeometry> geometry,
+                                           const BoxOperator& box, const PlannedYield& yield) {
+    const CostScope scope;
+    auto ready = std::make_shared<Ready>(std::move(geometry), box, yield);
+    ready->cost = elastic(scope);
+    return ready;
+  }
+
+  std::shared_ptr<const YieldingElements> elements(const YieldLaw& law) const {
+    if (!law.yield) return std::make_shared<const YieldingElements>(alike, law.cap);
+    Array<double> below(drops.size());
+    const std::span<const double> h = geometry->combined().values();
+    std::transform(h.begin(), h.end(), below.begin(), [&](double z) { return drops.peak() - z; });
+    return std::make_shared<const YieldingElements>(alike.law(), below, law.yield->values());
+  }
+};
+
+class YieldingBoxSolver::UnderLoad final : public Solution {
+ public:
+  // `law` the yield pressures that held, `factor` the softening by creep.
+  UnderLoad(std::shared_ptr<const Ready> ready, std::shared_ptr<const YieldingElements> elements,
+            YieldLaw law, const RestingPlane& plane, double pressure, double load, double factor)
+      : ready_(std::move(ready)),
+        elements_(std::move(elements)),
+        law_(std::move(law)),
+        plane_(plane),
+        pressure_(pressure),
+        load_(load),
+        factor_(factor),
+        fits_(covered(ready_->yield.carried, carried())),
+        contacts_(count([](const Element& e) { return e.pressure > 0; })),
+        yielded_(count([](const Element& e) { return e.pressure > 0 && e.pressure >= e.yield; })),
+        peak_pressure_(greatest([](const Element& e) { return e.pressure; })) {}
+
+  const ContactGeometry& geometry() const override { return *ready_->geometry; }
+  double load() const override { return load_; }
+  double pressure() const override { return pressure_; }
+  double approach() const override { return std::max(0.0, plane_.high); }
+  std::int64_t contacts() const override { return contacts_; }
+  double peak_pressure() const override { return peak_pressure_; }
+  int iterations() const override { return 0; }
+  std::string_view solver() const override { return "closed form (sorted elements)"; }
+  std::int64_t yielded() const override { return yielded_; }
+  double plastic_volume() const override {
+    return fits_ ? 0.0 : sum([](const Element& e) { return e.plastic; }) * cell();
+  }
+  std::optional<PlasticChange> plastic_change() const override;
+
+  double stiffness() const override {
+    const ElementLaw& law = elements_->law();
+    const double elastic = law.rigid() ? 0 : law.stiffness * static_cast<double>(contacts_ - yielded_);
+    return (elastic + law.slope_past_yield() * static_cast<double>(yielded_)) / nodes();
+  }
+  double flatten() const override {
+    const double height = drops().peak_to_valley();
+    return height > 0 ? std::min(1.0, approach() / height) : 0.0;
+  }
+  double mean_gap() const override { return drops().remaining_gap(approach()) / nodes(); }
+  double energy() const override {
+    return 0.5 * cell() * sum([](const Element& e) { return e.pressure * e.elastic; });
+  }
+  Certificate certificate() const override;
+  SolutionError error() const override;
+  PressureSplit split(double threshold) const override {
+    PressureSplit result;
+    result.above = count([&](const Element& e) { return e.pressure > 0 && e.pressure >= threshold; });
+    result.below = contacts_ - result.above;
+    result.sum_below = sum([&](const Element& e) { return e.pressure < threshold ? e.pressure : 0.0; });
+    return result;
+  }
+
+  Array<std::uint8_t> contact_mask() const override {
+    const Field pressure = pressure_field();
+    Array<std::uint8_t> mask(pressure.size());
+    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = pressure[k] > 0 ? 1 : 0;
+    return mask;
+  }
+  Field pressure_field() const override {
+    return field([](const Element& e) { return e.pressure; });
+  }
+  Field gap_field() const override {
+    return field([](const Element& e) { return e.pressure > 0 ? 0.0 : std::max(0.0, -e.depth); });
+  }
+  Field displacement_field() const override {
+    return field([](const Element& e) { return e.elastic; });
+  }
+  Field lower_under_load() const override { return lower_heights(geometry(), ready_->yield, deformation()); }
+  Field upper_under_load() const override { return upper_heights(geometry(), ready_->yield, deformation()); }
+
+ private:
+  struct Element {
+    double depth, yield, pressure;
+    double elastic, plastic;  // parts of its shortening, m
+  };
+  static Element element(const ElementLaw& law, const RestingPlane& plane, double drop, double yield) {
+    const double pressure = plane.pressure(law, drop, yield);
+    return {plane.high - drop, yield, pressure, pressure / law.stiffness,
+            plane.plastic_part(law, drop, yield)};
+  }
+
+  const SortedDrops& drops() const { return ready_->drops; }
+  double nodes() const { return static_cast<double>(drops().size()); }
+  double cell() const { return geometry().grid().cell_area(); }
+  CarriedLoad carried() const { return {pressure_, factor_}; }
+  Deformation deformation() const {
+    return {displacement_field(), ready_->box.lower_share, plastic_change()};
+  }
+
+  template <class Function>
+  double sum_at(const RestingPlane& plane, Function function) const {
+    return elements_->sum(
+        [&](double drop, double yield) { return function(element(elements_->law(), plane, drop, yield)); });
+  }
+  template <class Function>
+  double sum(Function function) const {
+    return sum_at(plane_, function);
+  }
+  template <class Test>
+  std::int64_t count_at(const RestingPlane& plane, Test test) const {
+    std::int64_t number = 0;
+    for (std::size_t k = 0; k < elements_->size(); ++k)
+      if (test(element(elements_->law(), plane, elements_->drop(k), elements_->yield(k)))) ++number;
+    return number;
+  }
+  template <class Test>
+  std::int64_t count(Test test) const {
+    return count_at(plane_, test);
+  }
+  template <class Function>
+  double greatest_at(const RestingPlane& plane, Function function) const {
+    double most = 0;
+    for (std::size_t k = 0; k < elements_->size(); ++k)
+      most =
+          std::max(most, function(element(elements_->law(), plane, elements_->drop(k), elements_->yield(k))));
+    return most;
+  }
+  template <class Function>
+  double greatest(Function function) const {
+    return greatest_at(plane_, function);
+  }
+  // In the frame of the lower body.
+  template <class Function>
+  Field field(Function function) const {
+    Field result = geometry().combined();
+    for (std::size_t k = 0; k < result.size(); ++k)
+      result[k] = function(element(elements_->law(), plane_, drops().peak() - result[k],
+                                   law_.yield ? (*law_.yield)[k] : law_.cap));
+    return result;
+  }
+
+  std::shared_ptr<const Ready> ready_;
+  std::shared_ptr<const YieldingElements> elements_;
+  YieldLaw law_;
+  RestingPlane plane_;
+  double pressure_, load_, factor_;
+  bool fits_;  // the bodies have carried this load as they lie
+  std::int64_t contacts_, yielded_;
+  double peak_pressure_;
+};
+
+std::optional<PlasticChange> YieldingBoxSolver::UnderLoad::plastic_change() const {
+  if (fits_ || yielded_ == 0) return {};
+  PlasticChange change{field([](const Element& e) { return e.plastic; }), {}, carried()};
+  if (range(change.approach.values()).max == 0) return {};
+  if (law_.hardens())
+    // At the reference dwell, so that the same press again finds nodes exactly as hard as it left them.
+    change.hardness = field([&](const Element& e) { return e.plastic > 0 ? e.pressure / factor_ : 0.0; });
+  return change;
+}
+
+Certificate YieldingBoxSolver::UnderLoad::certificate() const {
+  Certificate result;
+  if (contacts_ == 0) {
+    // Nothing touches: right for no load, and the whole load is missing otherwise.
+    result.load = pressure_ > 0 ? 1 : 0;
+    return result;
+  }
+  // Heights that are all equal have no rms; the approach is then the only length.
+  const double length = drops().rms() > 0 ? drops().rms() : std::max(approach(), drops().peak_to_valley());
+  const double total = sum([](const Element& e) { return e.pressure; });
+  result.load = std::abs(total / nodes() - pressure_) / pressure_;
+  result.tension = greatest([](const Element& e) { return -e.pressure; }) / pressure_;
+  if (!law_.hardens())
+    result.cap = greatest([](const Element& e) { return std::max(0.0, e.pressure - e.yield) / e.yield; });
+  if (!(length > 0)) return result;
+  // What is left between the plane and an element shortened by both its parts.
+  const auto gap = [](const Element& e) { return (e.elastic + e.plastic) - e.depth; };
+  result.penetration = greatest([&](const Element& e) { return -gap(e); }) / length;
+  result.complementarity =
+      sum([&](const Element& e) { return e.pressure * std::max(0.0, gap(e)); }) / total / length;
+  return result;
+}
+
+// Every quantity grows or falls with the depth alone: the bounds are what they are at two planes of which the
+// one surely carries too little and the other too much.
+SolutionError YieldingBoxSolver::UnderLoad::error() const {
+  SolutionError error{.load = 0.0};
+  if (contacts_ == 0) return error;
+  const double depth = approach(), least = std::numeric_limits<double>::denorm_min();
+  const ElementLaw& law = elements_->law();
+  double off = std::max(rounding * depth, 2 * least);
+  const auto brackets = [&] {
+    return elements_->mean_pressure(depth - off) <= pressure_ * (1 - rounding) &&
+           elements_->mean_pressure(depth + off) >= pressure_ * (1 + rounding);
+  };
+  const double furthest = depth + drops().peak_to_valley() + law.depth_at_yield(peak_pressure_);
+  while (!brackets() && off < furthest) off *= 2;
+  const RestingPlane low{depth - off, depth - off, 1}, high{depth + off, depth + off, 1};
+  const auto touches = [](const Element& e) { return e.pressure > 0; };
+  const auto yields = [](const Element& e) { return e.pressure > 0 && e.pressure >= e.yield; };
+  const auto between = [&](auto function) { return sum_at(high, function) - sum_at(low, function); };
+
+  error.load =
+      rounding * load_ + std::abs(sum([](const Element& e) { return e.pressure; }) / nodes() - pressure_) *
+                             geometry().grid().area();
+  error.approach = off;
+  error.mean_gap =
+      (drops().remaining_gap(std::max(0.0, depth - off)) - drops().remaining_gap(depth + off)) / nodes() +
+      rounding * mean_gap();
+  error.energy =
+      0.5 * cell() * between([](const Element& e) { return e.pressure * e.elastic; }) + rounding * energy();
+  error.peak_pressure =
+      std::max(0.0, greatest_at(high, [](const Element& e) { return e.pressure; }) - peak_pressure_) +
+      rounding * peak_pressure_;
+  error.plastic_volume =
+      fits_ ? 0.0
+            : cell() * between([](const Element& e) { return e.plastic; }) + rounding * plastic_volume();
+  error.contacts = {count_at(low, touches), count_at(high, touches)};
+  error.yielded = {count_at(low, yields), count_at(high, yields)};
+  error.may_differ = error.contacts.high - error.contacts.low;
+  return error;
+}
+
+YieldingBoxSolver::YieldingBoxSolver(const Plan& plan, const BoxOperator& box,
+                                     std::shared_ptr<const ContactGeometry> geometry)
+    : plan_(plan), ready_(Ready::make(std::move(geometry), box, *plan.yield)) {}
+
+const ContactGeometry& YieldingBoxSolver::geometry() const { return *ready_->geometry; }
+const StateCost& YieldingBoxSolver::preparation() const { return ready_->cost; }
+
+State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
+  check(request);
+  const CostScope scope;
+  const double height = geometry().peak_to_valley(), tile = geometry().grid().area();
+  const double factor = ready_->yield.creep ? softening(*ready_->yield.creep, request.dwell) : 1.0;
+  const YieldLaw law = yield_law(ready_->yield, ready_->hardness, factor);
+  const auto elements = ready_->elements(law);
+  const std::string asked = quoted(name(request.by)) + " is " + format_short(request.value);
+  const bool by_load = request.by == PressBy::pressure || request.by == PressBy::load;
+  if ((request.by == PressBy::indentation || request.by == PressBy::flatten) && !(height > 0))
+    throw Error(ErrorCode::bad_value,
+                quoted(name(request.by)) +
+                    " is a fraction of a peak-to-valley that is zero: all combined heights are equal",
+                "give `pressure`, `load` or `approach`");
+
+  RestingPlane plane{-std::numeric_limits<double>::denorm_min(), -std::numeric_limits<double>::denorm_min(),
+                     1};
+  double pressure = 0, load = 0;
+  if (request.value > 0 && by_load) {
+    pressure = request.by == PressBy::load ? request.value / tile : request.value;
+    load = request.by == PressBy::load ? request.value : request.value * tile;
+    if (pressure >= elements->greatest_mean_pressure())
+      throw Error(ErrorCode::infeasible,
+                  "a mean pressure of " + format_quantity(pressure, dimension::pressure) +
+                      " cannot be carried: the elements carry " +
+                      format_quantity(elements->greatest_mean_pressure(), dimension::pressure) +
+                      " at most, their `hardness`",
+                  "press with less than the hardness, or give `hardening`");
+    plane = elements->plane_under(pressure);
+  } else if (request.value > 0) {
+    const double depth = request.by == PressBy::approach ? request.value : request.value * height;
+    plane = {depth, depth, 1};
+    pressure = elements->mean_pressure(depth);
+    load = pressure * tile;
+  }
+
+  constexpr double least = 1e-280;  // of the hardness
+  if (request.value > 0 && pressure < least * law.cap)
+    throw Error(ErrorCode::bad_value,
+                asked + ", a pressure under 1e-280 of the hardness: too small to mean anything",
+                "give zero for no load, or check its unit");
+  auto solution = std::make_shared<const UnderLoad>(ready_, elements, law, plane, pressure, load, factor);
+  if (!std::isfinite(plane.high * plane.high * static_cast<double>(elements->size())) ||
+      !std::isfinite(load) || !std::isfinite(solution->peak_pressure()) || !std::isfinite(solution->energy()))
+    throw Error(ErrorCode::bad_value,
+                asked + ", so large that the numbers of the solution leave the range of a double",
+                "check its unit");
+  const State state(std::move(solution), plan_, elastic(scope));
+  if (plan_.accuracy.on_failure == Accuracy::OnFailure::error && !state.converged())
+    throw Error(ErrorCode::not_converged,
+                "the residual of the closed form is " + format_short(state.residual(), 3) +
+                    ", above the `tolerance` of " + format_short(plan_.accuracy.tolerance),
+                "it is rounding that remains; raise `tolerance` or set `on_failure` to \"best\"");
+  return state;
+}
+
+}  // namespace asperity

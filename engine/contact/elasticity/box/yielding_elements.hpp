@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elements that may yield, sorted, and the plane that rests on them under a mean pressure. With drops g_i
+// below the highest and yield pressures Y_i, the mean pressure at depth d is a sum over those touched
+// (g_i < d) and those past their yield (g_i + Y_i/k < d): both are first parts of a sorted sequence, whose
+// sums are kept as pairs of doubles, so that a difference of two of them keeps its digits. The mean pressure
+// never falls with d; halving finds the two neighbouring doubles between which it passes what is asked, and
+// the rest is made up by mixing the pressures at the two. Rigid elements, whose pressure jumps, need nothing
+// else. The order of the nodes shows in no bit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "engine/contact/elasticity/box/accumulator.hpp"
+#include "engine/contact/elasticity/box/element_law.hpp"
+#include "engine/core/memory.hpp"
+
+namespace asperity {
+
+// A plane between two depths: pressures are those at `low`, and `share` of what they grow by up to `high`.
+struct RestingPlane {
+  double low = 0, high = 0;  // m; the same, or neighbouring doubles
+  double share = 1;
+
+  double pressure(const ElementLaw& law, double drop, double yield) const {
+    return mixed([&](double plane) { return law.pressure(plane - drop, yield); });
+  }
+  double plastic_part(const ElementLaw& law, double drop, double yield) const {
+    return mixed([&](double plane) { return law.plastic_part(plane - drop, yield); });
+  }
+
+ private:
+  template <class Function>
+  double mixed(Function at) const {
+    const double above = at(high);
+    if (share == 1) return above;
+    const double below = at(low);
+    return below + share * (above - below);
+  }
+};
+
+class YieldingElements {
+ public:
+  // One yield pressure for all; `sorted` drops stay with the caller for as long as this lives.
+  YieldingElements(const ElementLaw& law, std::span<const double> sorted, double yield);
+  // Each with its own; copied. O(n log n).
+  YieldingElements(const ElementLaw& law, std::span<const double> drops, std::span<const double> yields);
+  YieldingElements(const YieldingElements&) = delete;
+  YieldingElements& operator=(const YieldingElements&) = delete;
+  // The same drops with another yield pressure, of elements that have one for all. O(n/256).
+  YieldingElements(const YieldingElements& others, double yield);
+
+  const ElementLaw& law() const { return law_; }
+  std::size_t size() const { return drops_.size(); }
+  double drop(std::size_t k) const { return drops_[k]; }  // in this order
+  double yield(std::size_t k) const { return yields_.empty() ? one_yield_ : yields_[k]; }
+
+  // Pa, at a depth. O(log n).
+  double mean_pressure(double depth) const;
+  // Pa; infinite where the elements harden. A mean pressure as great has no plane.
+  double greatest_mean_pressure() const;
+  // The plane under a mean pressure above zero and below the greatest. O(log n).
+  RestingPlane plane_under(double mean_pressure) const;
+
+  // Σ term(drop, yield), to about a rounding of the terms.
+  template <class Term>
+  double sum(Term term) const {
+    Accumulator total;
+    for (std::size_t k = 0; k < size(); ++k) total.add(term(drop(k), yield(k)));
+    return total.value();
+  }
+
+  // Bytes kept beside the sorted drops.
+  static std::int64_t bytes(std::size_t elements);
+
+ private:
+  // Sums of the first so many of a sequence.
+  class FirstSums {
+   public:
+    void build(std::span<const double> values);
+    Accumulator of(std::span<const double> values, std::size_t count) const;
+
+   private:
+    Array<Accumulator> every_block_;
+  };
+  Accumulator yields_of_first(std::size_t count) const;
+
+  ElementLaw law_;
+  double one_yield_ = 0;
+  double last_to_yield_ = 0;  // the depth at which all do
+  // In order of the drops; with yields of their own in order of the depth at which each begins to yield.
+  std::span<const double> drops_;
+  std::span<const double> yields_;
+  Array<double> own_drops_, own_yields_, by_drop_;
+  FirstSums drop_sums_, yield_sums_, by_drop_sums_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run read back from its directory: what it takes to run it again, what it found, and where another run of
+// the same script found something else. Members named "unhashed" (dates, seconds, machine, threads) are left
+// out: all the rest of two equal runs is equal to the byte. Reads JSON and digests files; runs nothing.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/experiment/json.hpp"
+
+namespace asperity {
+
+struct RecordedRun {
+  std::filesystem::path root;
+  std::string status;       // "done", "failed", "interrupted", "killed", or "running" where it was cut off
+  std::string script_path;  // as it was given
+  std::string script_text;
+  std::vector<std::string> arguments;
+  std::int64_t seed = 1;
+  bool trusted = false;
+  Json versions;
+  std::vector<Json> journal;  // a line each
+  Json manifest;
+
+  // Whether it came to its own end, so that its journal is whole and its files are listed.
+  bool ended() const { return status == "done" || status == "failed"; }
+};
+
+// Throws Error{bad_file} where there is no run, where its script is no longer the one that ran, or where a
+// line of the journal is no JSON or is missing. The last line of a run that was cut off may be torn; it is
+// left out.
+RecordedRun read_run(const std::filesystem::path& root);
+
+// What the files of a run no longer are: a sentence each for an output that is missing or whose content is
+// not that of the manifest.
+std::vector<std::string> altered_outputs(const RecordedRun& run);
+
+struct Difference {
+  std::string where;  // "line 4, contact:press, result"
+  std::string recorded, again;
+};
+
+// In the order of the journal, then inputs, outputs and expectations. Of a run that did not come to its end
+// only the lines it wrote are compared.
+std::vector<Difference> differences(const RecordedRun& recorded, const RecordedRun& again);
+
+}  // namespace asperity

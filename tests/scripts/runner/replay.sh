@@ -1,0 +1,89 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# asperity replay: equal runs, one that failed, one that ended by os.exit, one that was cut off, records that
+# were altered, and a script whose numbers differ from run to run.
+#
+#   tests/scripts/runner/replay.sh PROGRAM FOLDER
+set -eu
+program=$1
+folder=$2
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+
+fail() { echo "replay: $*" >&2; exit 1; }
+# status text command...: the command ends so, and prints that.
+ends() {
+  wanted=$1 text=$2
+  shift 2
+  status=0
+  "$@" > output 2>&1 || status=$?
+  [ "$status" = "$wanted" ] || { cat output; fail "$* ended with $status instead of $wanted"; }
+  grep -qF -- "$text" output || { cat output; fail "$* did not print: $text"; }
+}
+
+cat > events.lua <<'LUA'
+local lab = require "asperity"
+local count, ending = tonumber((...)), select(2, ...)
+local s = lab.surface.self_affine{ cells = 32, size = 1, hurst = 0.8, rms_height = 0.01, short_wave = 0.2, seed = 4,
+  material = lab.material{ young = 1, poisson = 0.3, hardness = 0.1 } }
+local c = lab.contact{ lower = s, upper = lab.rigid, boundary = "periodic",
+  effects = { elasticity = "half_space", plasticity = {} } }
+local book = lab.notebook "events"
+for n = 1, count do
+  local st = c:press{ pressure = 0.01 * n }
+  book:write{ n = n, area = st.area_fraction, chance = math.random() }
+  print("event", n)
+end
+c:lower():write "worn.npy"
+if ending == "error" then error "no more" end
+if ending == "exit" then os.exit(1) end
+LUA
+
+"$program" run events.lua --out run --seed 5 -- 3 none > printed 2> /dev/null
+[ "$(wc -l < printed)" = 3 ] || fail "the run did not print"
+ends 0 "run: the same again" "$program" replay run --out again
+grep -q event output && fail "a replay printed what the script prints"
+cmp run/events.csv again/events.csv
+cmp run/worn.npy again/worn.npy
+ends 0 "the same again" "$program" replay again --out third --threads 1
+ends 2 "not empty" "$program" replay run --out again
+
+# A run that failed fails the same way again.
+"$program" run events.lua --out failed -- 1 error > printed 2>&1 && fail "the error was passed over"
+ends 0 "the same again" "$program" replay failed --out failed-again
+"$program" run events.lua --out exited -- 1 exit > printed 2>&1 && fail "os.exit was passed over"
+ends 0 "the same again" "$program" replay exited --out exited-again
+
+# One that was cut off is compared as far as it came; its last line may be torn.
+cp -r run torn
+sed -i 's/"status": "done"/"status": "running"/' torn/manifest.json
+head -n 4 run/journal.jsonl > torn/journal.jsonl
+printf '{"n":5,"ev' >> torn/journal.jsonl
+ends 0 "as far as it had come" "$program" replay torn --out torn-again
+
+# What was altered is found.
+cp -r run result
+sed -i '3s/"result":"[0-9a-f]*"/"result":"00000000000000000000000000000000"/' result/journal.jsonl
+ends 1 "line 3, contact:press, result" "$program" replay result --out result-again
+cp -r run field
+printf x >> field/worn.npy
+ends 1 '`worn.npy` was altered since the run' "$program" replay field --out field-again
+cp -r run script
+echo "-- more" >> script/script.lua
+ends 2 "is not the script that ran" "$program" replay script --out script-again
+[ -e script-again ] && fail "an altered script was run"
+cp -r run line
+sed -i 3d line/journal.jsonl
+ends 2 "does not carry its number" "$program" replay line --out line-again
+ends 2 "that can be read" "$program" replay nowhere --out nowhere-again
+
+# A script that the clock decides differs, and the place is named.
+cat > clock.lua <<'LUA'
+local lab = require "asperity"
+lab.notebook "times":write{ seconds = os.clock() + os.time() }
+LUA
+"$program" run clock.lua --out clock --trust > printed 2>&1
+sleep 1
+ends 1 "times, row.seconds" "$program" replay clock --out clock-again
+echo "replay: all as it should be"
