@@ -13,12 +13,23 @@
 
 namespace asperity {
 
-// SINGLE_TABLE
+// User time in single precision over that in double, for tolerances of 1e-3, 1e-5 and 1e-7, by
+// bench_half_space precision=6 seeds=2 threads=1 (and boundary=free) on a machine that others used, which
+// moved single numbers by some 0.05, and more where a solve takes a few milliseconds:
+//
+//     cells      periodic            free
+//      64²       1.08  1.35  0.94    1.33  1.54  1.48
+//     128²       1.04  0.98  1.06    1.32  1.37  1.49
+//     256²       1.12  0.94  0.99    1.29  1.15  1.13
+//     512²       1.01  0.93  0.89    1.04  1.00  0.98
+//     1024²      0.95  0.89  0.86    0.99  0.89  0.89
+//
+// A tenth is saved from the last on; before it, what is saved is lost in what the timings differ by.
 inline constexpr std::int64_t fewest_nodes_for_single = std::int64_t{1024} * 1024;
 
 // Down to this tolerance a solve takes as many transforms in either precision. At 1e-8 single precision takes
-// 13 % more on a free boundary, at 1e-9 14 to 25 % more on any, and at 1e-12 nearly twice as many, for it is
-// begun again in double.
+// 8 to 14 % more on a free boundary, at 1e-9 12 to 25 % more on any, and at 1e-12 mostly nearly twice as
+// many, for it is begun again in double.
 inline constexpr double tightest_tolerance_for_single = 1e-7;
 
 struct PrecisionChoice {
