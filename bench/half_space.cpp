@@ -7,6 +7,9 @@
 //   bench_half_space sizes=512,2048 seeds=1 threads=2  what is asked
 //   bench_half_space plain=1024                        plain conjugate gradients up to this size; default 512
 //   bench_half_space boundary=free                     the same heights on a free boundary
+//   bench_half_space precision=12                      steps in single against double precision, 12 solves of
+//                                                      each by turns: user time, which other programs on the
+//                                                      machine change least, and pairs, over tolerances
 //
 // A pair is one transform forward and one back, of the finest grid; coarser grids are counted by n ln n.
 // Plain conjugate gradients (Polonsky & Keer 1999) apply the operator twice an iteration. The bare pair is
@@ -15,12 +18,14 @@
 // single precision, its certificate as ever. Memory is the peak of a solve in grids of doubles, heights and
 // answer left out.
 #include <fftw3.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -39,11 +44,12 @@ struct Settings {
   int seeds = 5;
   int plain = 512;
   int threads = 0;
+  int precision = 0;
   Boundary boundary = Boundary::periodic;
 };
 
 [[noreturn]] void usage(const std::string& word) {
-  std::fprintf(stderr, "%s is none of sizes=, seeds=, plain=, threads=, boundary=free|periodic\n",
+  std::fprintf(stderr, "%s is none of sizes=, seeds=, plain=, threads=, precision=, boundary=free|periodic\n",
                word.c_str());
   std::exit(2);
 }
@@ -69,6 +75,8 @@ Settings read(int count, char** words) {
       settings.plain = number;
     } else if (key == "threads") {
       settings.threads = number;
+    } else if (key == "precision") {
+      settings.precision = number;
     } else if (key == "boundary" && (value == "free" || value == "periodic")) {
       settings.boundary = value == "free" ? Boundary::free : Boundary::periodic;
     } else {
@@ -202,7 +210,8 @@ struct Ours {
   std::string solver;
 };
 
-Ours ours(std::shared_ptr<const Field> h, double mean_pressure, double cap, bool single, Boundary boundary) {
+Ours ours(std::shared_ptr<const Field> h, double mean_pressure, double cap, bool single, Boundary boundary,
+          double to = tolerance) {
   HalfSpaceProblem problem;
   problem.grid = make_grid(h->nx(), h->ny(), h->nx(), h->ny());
   problem.boundary = boundary;
@@ -213,7 +222,7 @@ Ours ours(std::shared_ptr<const Field> h, double mean_pressure, double cap, bool
   for (const double z : h->values()) squares += (z - middle) * (z - middle);
   problem.rms = std::sqrt(squares / static_cast<double>(h->size()));
   problem.yield.cap = cap;
-  problem.tolerance = tolerance;
+  problem.tolerance = to;
   problem.single = single;
   const CostScope scope;
   const HalfSpaceAnswer answer = solve_at_pressure(problem, mean_pressure, nullptr, Monitor::silent());
@@ -276,10 +285,44 @@ void table(const Settings& settings) {
   }
 }
 
+double user_seconds() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return static_cast<double>(used.ru_utime.tv_sec) + 1e-6 * static_cast<double>(used.ru_utime.tv_usec);
+}
+
+void precisions(const Settings& settings) {
+  std::printf("%s boundary, %d solves of each seed in either precision by turns, %d seeds, %d thread(s)\n",
+              settings.boundary == Boundary::free ? "free" : "periodic", settings.precision, settings.seeds,
+              thread_count());
+  std::printf("%6s %9s | %12s %12s %7s | %12s %12s %7s\n", "n", "tolerance", "double pairs", "single pairs",
+              "ratio", "double user", "single user", "ratio");
+  for (const int n : settings.sizes)
+    for (const double to : {1e-3, 1e-5, 1e-7, 1e-8, 1e-9}) {
+      double pairs[2] = {0, 0}, seconds[2] = {0, 0};
+      for (int seed = 1; seed <= settings.seeds; ++seed) {
+        const auto h = std::make_shared<const Field>(heights(n, static_cast<std::uint64_t>(seed)));
+        for (int turn = 0; turn < settings.precision; ++turn)
+          for (const bool single : {false, true}) {
+            const double before = user_seconds();
+            pairs[single] +=
+                ours(h, 0.1 * slope, std::numeric_limits<double>::infinity(), single, settings.boundary, to)
+                    .pairs;
+            seconds[single] += user_seconds() - before;
+          }
+      }
+      const double solves = static_cast<double>(settings.precision) * settings.seeds;
+      std::printf("%6d %9.0e | %12.1f %12.1f %7.3f | %12.4f %12.4f %7.3f\n", n, to, pairs[0] / solves,
+                  pairs[1] / solves, pairs[1] / pairs[0], seconds[0] / solves, seconds[1] / solves,
+                  seconds[1] / seconds[0]);
+      std::fflush(stdout);
+    }
+}
+
 }  // namespace
 
 int main(int count, char** words) {
   const Settings settings = read(count, words);
   if (settings.threads > 0) set_thread_count(settings.threads);
-  table(settings);
+  settings.precision > 0 ? precisions(settings) : table(settings);
 }

@@ -445,7 +445,7 @@ local StateError = {}
 ---@field cost table seconds, transforms and bytes of finding these bounds
 local AlgebraicError = {}
 
----How far the numbers of a state are from those of an ever finer grid: estimates in the units of the quantities, from the same press on half and a quarter of the cells, or on twice the cells with estimate="finer"; math.huge where two coarser grids show that a value grows without end. Needs accuracy={ estimate=true } or "finer".
+---How far the numbers of a state are from those of an ever finer grid: estimates in the units of the quantities, from the same press on half and a quarter of the cells, or on thrice the cells with estimate="finer"; math.huge where two coarser grids show that a value grows without end. Needs accuracy={ estimate=true } or "finer".
 ---@class asperity.DiscretisationError
 ---@field load number of the load; 0 where it was prescribed
 ---@field pressure number of the load over the nominal area
@@ -465,7 +465,7 @@ local AlgebraicError = {}
 ---@field plastic_fraction number of the plastic fraction; needs plasticity
 local DiscretisationError = {}
 
----The value of a quantity with its estimated error taken off, where the sign of the error is known (area, area_fraction, approach, plastic_fraction); as it is elsewhere. With estimate="finer", the value of the finer grid, its own outline and first touch mended.
+---The value of a quantity with its estimated error taken off, where the sign of the error is known (area, area_fraction, approach, secant_stiffness, plastic_fraction; of a prescribed approach load, pressure, separation, mean_gap, energy); as it is elsewhere. With estimate="finer", the value of the finer grid, its own outline and first touch mended.
 ---@param name string of the quantity
 ---@return number
 function DiscretisationError:extrapolated(name) end

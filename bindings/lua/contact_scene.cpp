@@ -113,6 +113,7 @@ const Block<TangentialOptions>& tangential_block() {
 
 struct AccuracyKeys : Accuracy {
   std::optional<double> given_tolerance;
+  std::optional<Precision> given_precision;
   std::optional<double> error;
   std::vector<std::string> of;
 };
@@ -166,6 +167,8 @@ void finish_accuracy(AccuracyKeys& keys, Problems& problems) {
   if (!keys.of.empty() && !keys.error)
     problems.push_back("`of` is given without `error`; give the relative error as well, such as error=0.01");
   if (keys.given_tolerance) keys.tolerance = *keys.given_tolerance;
+  keys.precision_named = keys.given_precision.has_value();
+  if (keys.given_precision) keys.precision = *keys.given_precision;
   if (!keys.error) return;
   if (keys.of.empty()) keys.of = {"corrected_area_fraction"};
   keys.asked = AskedError{*keys.error, keys.of};
@@ -180,22 +183,32 @@ const Block<AccuracyKeys>& accuracy_block() {
               "bound on every relative entry of the certificate")
            .defaults_to("1e-06"),
        choice(
-           "precision", &O::precision, {{"double", O::Precision::double_}, {"single", O::Precision::single}},
+           "precision", &K::given_precision,
+           {{"double", O::Precision::double_}, {"single", O::Precision::single}},
            "of the transforms inside a half-space solve: \"single\" halves their memory and is refined until "
            "the certificate, always double, meets the tolerance; a periodic tile of odd `nx`, or of a side "
-           "with a prime factor over 7, stays in double; boxes refuse it"),
+           "with a prime factor over 7, stays in double; boxes refuse it; with `error` it is chosen where it "
+           "is not named")
+           .shown_by([](const K& keys) {
+             return std::string(keys.precision == O::Precision::single ? "\"single\"" : "\"double\"");
+           })
+           .defaults_to("\"double\""),
        choice("on_failure", &O::on_failure, {{"error", O::OnFailure::error}, {"best", O::OnFailure::best}},
               "what a solve that misses its tolerance or `error` does: raise an error, or return the best it "
               "got"),
-       custom<K>("estimate", "boolean|\"finer\"",
-                 "solves each press on other cells too, for st.error.discretisation: true on half and a "
-                 "quarter of them, which costs a third of the press; \"finer\" on twice the cells, which "
-                 "costs four to six times the press and is mostly within a factor of three of the true error",
-                 read_estimate)
+       custom<K>(
+           "estimate", "boolean|\"finer\"",
+           "solves each press on other cells too, for st.error.discretisation: true on half and a "
+           "quarter of them, which costs a third of the press and mostly bounds the error; \"finer\" on "
+           "thrice the "
+           "cells a side, which costs about eleven times the press and is within a factor of three of the "
+           "true error, above and below, in nine cases of ten",
+           read_estimate)
            .shown_by([](const K& keys) { return std::string(estimate_text(keys.estimate)); })
            .defaults_to("false"),
        number("error", &K::error, {1e-6, 1, false, true, false},
-              "relative error to be met instead of a tolerance: the first press chooses cells and tolerance"),
+              "relative error to be met instead of a tolerance: the first press chooses cells, tolerance and "
+              "precision"),
        custom<K>("of", "string|string[]", "quantities of a state whose error that is", read_names)
            .defaults_to("\"corrected_area_fraction\"")},
       finish_accuracy};

@@ -57,7 +57,7 @@ const Class& discretisation_error_class() {
     c.article_name = "a discretisation error";
     c.sentence =
         "How far the numbers of a state are from those of an ever finer grid: estimates in the units of the "
-        "quantities, from the same press on half and a quarter of the cells, or on twice the cells with "
+        "quantities, from the same press on half and a quarter of the cells, or on thrice the cells with "
         "estimate=\"finer\"; math.huge where two coarser grids show that a value grows without end. Needs "
         "accuracy={ estimate=true } or \"finer\".";
     c.describe = describe;
@@ -86,7 +86,8 @@ const Class& discretisation_error_class() {
          .body = extrapolated,
          .sentence =
              "The value of a quantity with its estimated error taken off, where the sign of the error "
-             "is known (area, area_fraction, approach, plastic_fraction); as it is elsewhere. With "
+             "is known (area, area_fraction, approach, secant_stiffness, plastic_fraction; of a prescribed "
+             "approach load, pressure, separation, mean_gap, energy); as it is elsewhere. With "
              "estimate=\"finer\", the value of the finer grid, its own outline and first touch mended.",
          .parameters = {{"name", "string", "of the quantity"}},
          .returns = "number",
@@ -110,6 +111,7 @@ Value chosen_record(const asperity::State& state) {
   record.add("cells", List{{chosen.nx, chosen.ny}})
       .add("tolerance", chosen.tolerance)
       .add("precision", chosen.precision == Accuracy::Precision::single ? "single" : "double")
+      .add("why_precision", chosen.why_precision)
       .add("error", chosen.error)
       .add("of", chosen.of)
       .add("met", chosen.met())

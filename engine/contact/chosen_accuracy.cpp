@@ -31,7 +31,7 @@ std::string ChosenAccuracy::reason() const {
 std::string ChosenAccuracy::text() const {
   return cells_text(nx, ny) + (source.empty() ? "" : " (" + source + ")") + ", tolerance " +
          format_short(tolerance) + ", " + (precision == Accuracy::Precision::single ? "single" : "double") +
-         " precision: " + reason();
+         " precision" + (why_precision.empty() ? "" : " (" + why_precision + ")") + ": " + reason();
 }
 
 }  // namespace asperity

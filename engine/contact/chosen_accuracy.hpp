@@ -29,7 +29,8 @@ struct ChosenAccuracy {
   int nx = 0, ny = 0;
   double tolerance = 0;
   Accuracy::Precision precision = Accuracy::Precision::double_;
-  double error = 0;  // of this state, as in TriedGrid
+  std::string why_precision;  // in a few words
+  double error = 0;           // of this state, as in TriedGrid
   std::string of;
   std::string source;  // how the bodies were put on these cells
   std::vector<TriedGrid> tried;

@@ -61,7 +61,7 @@ double between(const Field& field, double x, double y, int last_x, int last_y, d
          v * ((1 - u) * field(i, above) + u * field(right, above));
 }
 
-// Turned by `angle` about the middle of the nodes of the contact, which are every second one; NaN where the
+// Turned by `angle` about the middle of the nodes of the contact, which are every third one; NaN where the
 // body of the contact has no node.
 Field turned_about(const Field& field, const Grid& given, const Grid& fine, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -97,16 +97,17 @@ void add_what_mapping_lost(const Scene& scene, const ContactGeometry& geometry, 
 }  // namespace
 
 Grid finer_grid(const Grid& grid) {
-  const auto doubled = [](int cells) { return cells > 1 ? 2 * cells : cells; };
-  const Grid fine{doubled(grid.nx), doubled(grid.ny), grid.size_x, grid.size_y};
   const std::string asked = "`estimate` = \"finer\" was asked for a tile of " + std::to_string(grid.nx) +
                             " x " + std::to_string(grid.ny) + " cells";
-  if (fine == grid) throw Error(ErrorCode::bad_value, asked, "give at least 2 along x or y");
-  if (std::max(fine.nx, fine.ny) > max_cells)
+  if (std::max(grid.nx, grid.ny) < 2)
+    throw Error(ErrorCode::bad_value, asked, "give at least 2 along x or y");
+  if (std::max(grid.nx, grid.ny) > max_cells / times_finer)
     throw Error(ErrorCode::bad_value, asked,
-                "it needs twice the cells, and a tile has at most " + std::to_string(max_cells) +
-                    " a side: estimate=true compares with coarser ones");
-  return fine;
+                "it needs " + std::to_string(times_finer) +
+                    " times the cells a side, and a tile has at most " + std::to_string(max_cells) +
+                    ": estimate=true compares with coarser ones");
+  const auto times = [](int cells) { return cells > 1 ? times_finer * cells : cells; };
+  return {times(grid.nx), times(grid.ny), grid.size_x, grid.size_y};
 }
 
 Field finer_heights(const Scene& scene, const ContactGeometry& geometry, Monitor& monitor) {

@@ -137,7 +137,8 @@ std::shared_ptr<const OtherGrids> solve_finer(const Scene& scene, const ContactG
   const Grid grid = finer_grid(geometry.grid());
   State state = press_on(grid, finer_heights(scene, geometry, monitor), close_enough, scene, geometry, plan,
                          request, monitor);
-  return std::make_shared<const OtherGrids>(request, std::vector<OtherGrids::Level>{{std::move(state), 0.5}});
+  return std::make_shared<const OtherGrids>(
+      request, std::vector<OtherGrids::Level>{{std::move(state), 1.0 / times_finer}});
 }
 
 void plan_estimate(const ContactGeometry& geometry, Plan& plan) {

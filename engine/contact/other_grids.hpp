@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A press solved once more on other cells of its tile, of the same bodies as they lie: on half and a quarter
-// of the cells, or on twice as many. What it says of the error of the grid is in discretisation_error.hpp.
+// of the cells, or on thrice as many a side. What it says of the error of the grid is in
+// discretisation_error.hpp.
 #pragma once
 
 #include <memory>
@@ -50,8 +51,8 @@ std::shared_ptr<const OtherGrids> solve_coarser(const Scene& scene, const Contac
                                                 const Plan& plan, const PressRequest& request,
                                                 Monitor& monitor = Monitor::silent());
 
-// The same on twice the cells (finer_heights.hpp), to a tolerance of 1e-6 or that of the scene, whichever is
-// looser. Costs four to six times the press; throws what finer_grid throws.
+// The same on thrice the cells a side (finer_heights.hpp), to a tolerance of 1e-6 or that of the scene,
+// whichever is looser. Costs nine to twelve times the press; throws what finer_grid throws.
 std::shared_ptr<const OtherGrids> solve_finer(const Scene& scene, const ContactGeometry& geometry,
                                               const Plan& plan, const PressRequest& request,
                                               Monitor& monitor = Monitor::silent());

@@ -74,7 +74,7 @@ struct Plan {
   double transforms = 0;  // expected for a press, equivalents of the finest grid
   double seconds = 0;     // expected for the first press, a rough guess
   Accuracy accuracy;
-  std::string choice;      // of cells and tolerance for an error that was asked for; empty: none
+  std::string choice;      // of cells, tolerance and precision for an error that was asked for; empty: none
   std::string estimate;    // what is solved beside it for the discretisation error; empty: nothing
   SlidingEffects sliding;  // of a contact pulled sideways, their defaults filled in
   std::vector<std::string> effects_run;

@@ -84,13 +84,15 @@ struct Accuracy {
   enum class Precision { double_, single };
   double tolerance = 1e-6;  // greatest relative entry of the certificate, in [1e-15, 1)
   Precision precision = Precision::double_;
+  bool precision_named = false;  // by the script: it is not chosen where an error is asked for
   OnFailure on_failure = OnFailure::error;
   // The other cells on which each press is solved as well, for an estimate of the error of the grid.
   enum class Estimate { none, coarser, finer };
   Estimate estimate = Estimate::none;
-  // Choose cells and tolerance for this error (experiment/accuracy_choice.hpp); a solver does not read it.
+  // Choose cells, tolerance and precision for this error (experiment/accuracy_choice.hpp); a solver does not
+  // read it.
   std::optional<AskedError> asked{};
-  bool chosen = false;  // cells and tolerance are those that were chosen for it
+  bool chosen = false;  // cells, tolerance and precision are those that were chosen for it
 };
 
 struct Scene {

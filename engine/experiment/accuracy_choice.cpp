@@ -17,6 +17,7 @@
 #include "engine/core/memory.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/part_monitor.hpp"
+#include "engine/experiment/precision_choice.hpp"
 #include "engine/surface/operations/resampling.hpp"
 
 namespace asperity {
@@ -167,12 +168,14 @@ struct Trial {
   Plan plan;
   std::shared_ptr<const Solver> solver;
   std::optional<State> state;
-  std::string source;
+  std::string source, why_precision;
 };
 
 Trial make_trial(Placed placed, double tolerance) {
-  Trial trial{std::move(placed.scene), {}, {}, {}, {}, std::move(placed.source)};
+  PrecisionChoice precision = choose_precision(placed.scene, placed.scene.lower.grid(), tolerance);
+  Trial trial{std::move(placed.scene), {}, {}, {}, {}, std::move(placed.source), std::move(precision.why)};
   trial.scene.accuracy.tolerance = tolerance;
+  trial.scene.accuracy.precision = precision.precision;
   trial.scene.accuracy.estimate = Accuracy::Estimate::coarser;
   trial.scene.accuracy.chosen = true;
   trial.geometry = std::make_shared<const ContactGeometry>(trial.scene, placed.pose);
@@ -223,10 +226,11 @@ std::string choice_text(const Scene& scene, const Plan& plan) {
   if (!scene.accuracy.asked) return {};
   const AskedError& asked = *scene.accuracy.asked;
   const std::string error = percent_text(asked.error) + " of " + joined(asked.of, " and ");
-  if (scene.accuracy.chosen)
-    return "cells and tolerance as the first press chose them for an error of " + error;
+  const std::string what =
+      scene.accuracy.precision_named ? "cells and tolerance" : "cells, tolerance and precision";
+  if (scene.accuracy.chosen) return what + " as the first press chose them for an error of " + error;
   const std::vector<Grid> grids = grids_to_try(scene.lower.grid(), finest_grid(scene.lower.grid(), plan));
-  return "the first press chooses cells and tolerance for an error of " + error + ", from " +
+  return "the first press chooses " + what + " for an error of " + error + ", from " +
          cells_text(grids.front().nx, grids.front().ny) + " up to " +
          cells_text(grids.back().nx, grids.back().ny) + "; what follows is of the cells given";
 }
@@ -255,7 +259,6 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
 
   ChosenAccuracy chosen;
   chosen.asked = asked;
-  chosen.precision = scene.accuracy.precision;
   double tolerance = first_tolerance(asked.error);
   const CostScope scope;
   Cost last;  // of the press that is kept
@@ -295,6 +298,8 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
       chosen.error = found.error;
       chosen.of = found.of;
       chosen.source = trial->source;
+      chosen.precision = trial->scene.accuracy.precision;
+      chosen.why_precision = trial->why_precision;
       // More cells would not help where the bound of the solve is what is missing.
       if (!chosen.met() && note.empty() && found.error - found.algebraic <= asked.error &&
           tolerance > tightest) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells and tolerance chosen for an error that was asked for: the same press of the same surfaces on grids
-// from coarse to fine, each twice the cells of the one before, until the estimate of the discretisation
-// error (contact/discretisation_error.hpp), times the margin that covers 19 scenes in 20, and the algebraic
-// bound together are within what was asked for. The grids before a grid are the coarser ones its estimate
-// needs, so nothing is solved twice. Surfaces that generators made are made again with all their waves and
-// features; others are sampled at every second node, and beyond the cells they came with interpolated, which
-// adds no roughness that was not measured. The precision is the one named: single precision saves a tenth of
-// the memory, and no time that would show before some 2048 cells a side. Two rough bodies lie on each other
+// Cells, tolerance and precision chosen for an error that was asked for: the same press of the same surfaces
+// on grids from coarse to fine, each twice the cells of the one before, until the estimate of the
+// discretisation error (contact/discretisation_error.hpp), times the margin that covers 19 scenes in 20, and
+// the algebraic bound together are within what was asked for. The grids before a grid are the coarser ones
+// its estimate needs, so nothing is solved twice. Surfaces that generators made are made again with all their
+// waves and features; others are sampled at every second node, and beyond the cells they came with
+// interpolated, which adds no roughness that was not measured. The precision follows from cells and tolerance
+// (precision_choice.hpp) where none is named. Two rough bodies lie on each other
 // as they did on the cells given, exactly on coarser cells and on a periodic boundary; on finer cells of a
 // free one the upper body is turned over about the middle of the new nodes, up to one given cell away.
 #pragma once

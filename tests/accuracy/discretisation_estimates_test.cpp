@@ -100,16 +100,18 @@ class Survey {
 };
 
 struct Surveys {
-  Survey coarser{"half and a quarter of the cells"}, finer{"twice the cells"};
+  Survey coarser{"half and a quarter of the cells"}, finer{"thrice the cells"};
 
   // Presses on the cells and, for what is not known exactly, on the many.
   void scene(const Surface& surface, Boundary boundary, const PressRequest& request, double hardness = 0,
              Values exact = {}) {
     if (exact.empty()) {
       const State fine = SpecimenPair(scene_on(surface, true_cells, boundary, hardness)).press(request);
+      // An approach counts from the first touch, which on this grid, too, is between the nodes.
+      const double rise = rise_between_nodes(fine.geometry().combined(), boundary == Boundary::periodic);
       exact = {{"corrected_area_fraction", fine.corrected_area_fraction()},
                {"area_fraction", fine.corrected_area_fraction()},
-               {"approach", fine.approach()},
+               {"approach", fine.approach() + rise},
                {"separation", fine.separation()},
                {"mean_gap", fine.mean_gap()},
                {"energy", fine.energy()},
@@ -119,7 +121,24 @@ struct Surveys {
         exact["plastic_fraction"] = fine.plastic_fraction();
       }
     }
-    Scene scene = scene_on(surface, cells, boundary, hardness);
+    hold(scene_on(surface, cells, boundary, hardness), request, exact);
+  }
+
+  // The truth is pressed from the first touch, which is between the nodes of its grid, too.
+  void at_approach(const Surface& surface, Boundary boundary, double share) {
+    const double approach = share * range(surface.heights().values()).span();
+    const double rise = rise_between_nodes(surface.heights(), boundary == Boundary::periodic);
+    const State fine = SpecimenPair(scene_on(surface, true_cells, boundary, 0))
+                           .press({PressBy::approach, approach - rise, {}});
+    hold(scene_on(surface, cells, boundary, 0), {PressBy::approach, approach, {}},
+         {{"load", fine.load()},
+          {"secant_stiffness", fine.pressure() / approach},
+          {"separation", fine.separation()},
+          {"mean_gap", fine.mean_gap()},
+          {"energy", fine.energy()}});
+  }
+
+  void hold(Scene scene, const PressRequest& request, const Values& exact) {
     for (Survey* survey : {&coarser, &finer}) {
       scene.accuracy.estimate = survey == &coarser ? Accuracy::Estimate::coarser : Accuracy::Estimate::finer;
       survey->hold(SpecimenPair(scene).press(request), exact);
@@ -176,6 +195,24 @@ void add_blasted(Surveys& survey, std::uint64_t seed) {
     survey.scene(surface, Boundary::periodic, {PressBy::pressure, p * modulus, {}});
 }
 
+void add_at_approach(Surveys& survey, std::uint64_t seed) {
+  SelfAffineOptions o;
+  o.grid = Grid{true_cells, true_cells, 1, 1};
+  o.hurst = 0.8;
+  o.rms_slope = 0.1;
+  o.roll_off = 0.5;
+  o.short_wave = 1.0 / 16;
+  o.seed = seed;
+  const Surface surface = self_affine_surface(o);
+  for (const double share : {0.1, 0.25}) survey.at_approach(surface, Boundary::periodic, share);
+  survey.at_approach(surface, Boundary::free, 0.2);
+  BeadBlastedOptions b;
+  b.grid = Grid{true_cells, true_cells, 0.25e-3, 0.25e-3};
+  b.ra = 2e-6;
+  b.seed = seed;
+  survey.at_approach(bead_blasted_surface(b), Boundary::periodic, 0.3);
+}
+
 void add_fractal(Surveys& survey, std::uint64_t seed) {
   WeierstrassMandelbrotOptions o;
   o.nx = o.ny = true_cells;
@@ -193,12 +230,26 @@ const Surveys& surveys() {
   static const Surveys all = [] {
     Surveys made;
     add_exact(made);
-    for (const std::uint64_t seed : {101, 102, 103, 104}) add_self_affine(made, seed);
-    for (const std::uint64_t seed : {105, 106}) add_blasted(made, seed);
-    for (const std::uint64_t seed : {107, 108}) add_fractal(made, seed);
+    for (const std::uint64_t seed : {101, 102, 103, 104, 301, 302, 303, 304}) add_self_affine(made, seed);
+    for (const std::uint64_t seed : {105, 106, 305, 306}) add_blasted(made, seed);
+    for (const std::uint64_t seed : {107, 108, 307, 308}) add_fractal(made, seed);
     return made;
   }();
   return all;
+}
+
+// Errors that are mostly those of the first touch, which is seen: 94 % of them within three estimates, and 75
+// to 81 % within a factor of three; 100 % from the finer grid.
+TEST(DiscretisationEstimates, OfAPrescribedApproach) {
+  Surveys survey;
+  for (const std::uint64_t seed : {309, 310, 311, 312}) add_at_approach(survey, seed);
+  survey.coarser.print();
+  survey.finer.print();
+  for (const char* quantity : {"load", "secant_stiffness", "separation", "mean_gap", "energy"}) {
+    EXPECT_GE(survey.coarser.covered(quantity), 0.9) << quantity;
+    EXPECT_GE(survey.coarser.within(quantity), 0.7) << quantity;
+    EXPECT_GE(survey.finer.within(quantity), 0.9) << quantity;
+  }
 }
 
 TEST(DiscretisationEstimates, AreHonestOverManyScenes) {
@@ -208,28 +259,25 @@ TEST(DiscretisationEstimates, AreHonestOverManyScenes) {
     EXPECT_GE(survey.covered(quantity), 0.9) << quantity;
   for (const char* quantity : {"separation", "mean_gap", "stiffness", "plastic_volume", "plastic_fraction"})
     EXPECT_GE(survey.covered(quantity), 0.85) << quantity;
+  // 98, 87 and 82 %. Of what is chance, here most of the energy, 54 %: of two errors from like normal laws
+  // one is within a factor of three of the other in 59 %.
   EXPECT_GE(survey.within("area_fraction"), 0.9);
-  for (const char* quantity : {"corrected_area_fraction", "approach", "energy"})
-    EXPECT_GE(survey.not_over(quantity), 0.5) << quantity;
+  EXPECT_GE(survey.within("approach"), 0.85);
+  EXPECT_GE(survey.within("corrected_area_fraction"), 0.8);
+  EXPECT_GE(survey.not_over("energy"), 0.5);
 }
 
 TEST(DiscretisationEstimates, FromAFinerGridAreSharp) {
   const Survey& survey = surveys().finer;
   survey.print();
-  // Measured: 100, 95 and 94 %.
-  for (const char* quantity : {"area_fraction", "corrected_area_fraction", "approach"})
+  // Above and below. Measured: 100, 93, 98, 97, 96, 93, 100 and 100 %.
+  for (const char* quantity : {"area_fraction", "corrected_area_fraction", "approach", "energy", "separation",
+                               "mean_gap", "plastic_volume", "plastic_fraction"})
     EXPECT_GE(survey.within(quantity), 0.9) << quantity;
-  // 86 %: 94 % of the true errors are within three estimates, and 92 % of the estimates within three true
-  // errors. Both errors are chance, that on twice the cells 0.29 of the other in the middle scene; of errors
-  // from normal laws whose widths stand in that ratio, 87 % would be.
-  EXPECT_GE(survey.within("energy"), 0.85);
-  // 91, 89, 88 and 100 %, and 84 % of the stiffness.
-  for (const char* quantity : {"separation", "mean_gap", "plastic_volume", "plastic_fraction"})
-    EXPECT_GE(survey.within(quantity), 0.85) << quantity;
-  EXPECT_GE(survey.within("stiffness"), 0.8);
+  EXPECT_GE(survey.within("stiffness"), 0.85);  // 88 %
   for (const char* quantity : {"area_fraction", "corrected_area_fraction", "approach", "energy", "separation",
                                "mean_gap", "stiffness", "plastic_volume", "plastic_fraction"})
-    EXPECT_GE(survey.covered(quantity), 0.9) << quantity;  // 94 % or more of each
+    EXPECT_GE(survey.covered(quantity), 0.95) << quantity;  // 97 % or more of each
 }
 
 }  // namespace

@@ -46,9 +46,9 @@ TEST_F(AccuracyOfContact, AFinerGridIsAskedForByName) {
   ASSERT_EQ(run("st = pressed{ estimate='finer' }\ne = st.error.discretisation"), "");
   EXPECT_TRUE(holds("e.approach > 0 and e.approach < st.approach"));
   EXPECT_TRUE(holds("e:extrapolated 'energy' ~= st.energy"));
-  EXPECT_TRUE(holds("st.cost.by_effect.estimate.transforms > 3 * st.cost.by_effect.elasticity.transforms"));
-  EXPECT_EQ(value("tostring(e)").rfind("discretisation error, estimated from 128 x 128 cells\n", 0), 0U);
-  EXPECT_NE(value("contact{ estimate='finer' }:explain()").find("the same press on 128 x 128 cells"),
+  EXPECT_TRUE(holds("st.cost.by_effect.estimate.transforms > 7 * st.cost.by_effect.elasticity.transforms"));
+  EXPECT_EQ(value("tostring(e)").rfind("discretisation error, estimated from 192 x 192 cells\n", 0), 0U);
+  EXPECT_NE(value("contact{ estimate='finer' }:explain()").find("the same press on 192 x 192 cells"),
             std::string::npos);
   EXPECT_EQ(run("contact{ estimate='fine' }"),
             "script.lua:3: lab.contact: `accuracy`: `estimate` is the string \"fine\"; give true, false or "
@@ -75,11 +75,16 @@ TEST_F(AccuracyOfContact, NotAskedForCostsNothingAndSaysSo) {
 
 TEST_F(AccuracyOfContact, AnErrorChoosesTheCells) {
   ASSERT_EQ(run("c = contact{ error=0.03 }\nbefore = c:explain()\nst = c:press{ pressure='500 MPa' }"), "");
-  EXPECT_NE(value("before").find("the first press chooses cells and tolerance for an error of 3 % of "
-                                 "corrected_area_fraction"),
-            std::string::npos);
+  EXPECT_NE(
+      value("before").find("the first press chooses cells, tolerance and precision for an error of 3 % of "
+                           "corrected_area_fraction"),
+      std::string::npos);
   EXPECT_TRUE(holds("st.chosen.met and st.chosen.error <= 0.03"));
   EXPECT_TRUE(holds("st.chosen.of == 'corrected_area_fraction' and st.chosen.precision == 'double'"));
+  EXPECT_EQ(value("st.chosen.why_precision"), "single saves no time worth it on fewer than 1048576 nodes");
+  ASSERT_EQ(run("named = contact{ error=0.03, precision='single' }:press{ pressure='500 MPa' }.chosen"), "");
+  EXPECT_TRUE(holds("named.precision == 'single' and named.why_precision == 'as named'"));
+  EXPECT_TRUE(holds("named.text:find('single precision (as named)', 1, true) ~= nil"));
   EXPECT_TRUE(holds("st.chosen.tolerance <= 3e-5 and #st.chosen.tried >= 1"));
   EXPECT_TRUE(holds("c:lower().cells[1] == st.chosen.cells[1]"));
   EXPECT_TRUE(holds("st.chosen.tried[#st.chosen.tried].cells[1] == st.chosen.cells[1]"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bodies on twice the cells lie as they did: the nodes of the contact are every second node of the finer one,
-// for every turn and shift; generated surfaces show what lies between the nodes, others are interpolated.
+// Bodies on thrice the cells lie as they did: the nodes of the contact are every third node of the finer
+// ones, for every turn and shift; generated surfaces show what lies between the nodes, others are
+// interpolated.
 #include "engine/contact/finer_heights.hpp"
 
 #include <gtest/gtest.h>
@@ -47,14 +48,15 @@ double off_at_shared_nodes(const Scene& scene, const Pose& pose) {
   return worst / geometry.peak_to_valley();
 }
 
-TEST(FinerGrid, DoublesEverySideOfMoreThanOneCell) {
-  EXPECT_EQ(finer_grid(Grid{15, 8, 2, 1}), (Grid{30, 16, 2, 1}));
-  EXPECT_EQ(finer_grid(Grid{32768, 1, 1, 1}), (Grid{65536, 1, 1, 1}));
-  EXPECT_EQ(error_of([] {
-              finer_grid(Grid{32769, 4, 1, 1});
-            }),
-            "`estimate` = \"finer\" was asked for a tile of 32769 x 4 cells; it needs twice the cells, and a "
-            "tile has at most 65536 a side: estimate=true compares with coarser ones");
+TEST(FinerGrid, HasThriceTheCellsOfEverySideOfMoreThanOne) {
+  EXPECT_EQ(finer_grid(Grid{15, 8, 2, 1}), (Grid{45, 24, 2, 1}));
+  EXPECT_EQ(finer_grid(Grid{21845, 1, 1, 1}), (Grid{65535, 1, 1, 1}));
+  EXPECT_EQ(
+      error_of([] {
+        finer_grid(Grid{21846, 4, 1, 1});
+      }),
+      "`estimate` = \"finer\" was asked for a tile of 21846 x 4 cells; it needs 3 times the cells a side, "
+      "and a tile has at most 65536: estimate=true compares with coarser ones");
   EXPECT_EQ(error_of([] {
               finer_grid(Grid{1, 1, 1, 1});
             }),
@@ -65,7 +67,7 @@ TEST(FinerHeights, GeneratedBodiesAreMadeAgain) {
   const Surface surface = rough(32, 32, 1);
   const Scene scene{surface, rigid_material(), Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
   const Field fine = finer_heights(scene, ContactGeometry(scene, LatticeIsometry(32, 32)));
-  const Field again = at_cells(surface, 64, 64).surface.heights();
+  const Field again = at_cells(surface, 96, 96).surface.heights();
   EXPECT_TRUE(std::equal(fine.values().begin(), fine.values().end(), again.values().begin()));
 }
 
@@ -107,9 +109,9 @@ TEST(FinerHeights, TurnedOffTheLatticeAboutTheSamePlace) {
     for (int i = 0; i < 32; ++i) {
       const double given = geometry.combined()(i, j);
       // The lowest node of all, or one without a body over it.
-      if (given == lowest && fine(2 * i, 2 * j) == lowest_fine) continue;
+      if (given == lowest && fine(3 * i, 3 * j) == lowest_fine) continue;
       ++covered;
-      EXPECT_NEAR(fine(2 * i, 2 * j), given, 1e-12) << i << " " << j;
+      EXPECT_NEAR(fine(3 * i, 3 * j), given, 1e-12) << i << " " << j;
     }
   EXPECT_GT(covered, 700);
 }

@@ -268,6 +268,20 @@ TEST(HalfSpaceCompliance, StatesWhatItHolds) {
     }
 }
 
+TEST(HalfSpaceCompliance, SaysBeforehandWhereItCanBeSingle) {
+  int possible = 0;
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+    for (const int nx : {1, 2, 15, 16, 22, 28, 101})
+      for (const int ny : {1, 2, 15, 16, 22, 28, 101}) {
+        const bool said = HalfSpaceCompliance::single_possible(nx, ny, boundary);
+        EXPECT_EQ(said, HalfSpaceCompliance(nx, ny, 1, boundary, 1, true).single()) << nx << " " << ny;
+        EXPECT_FALSE(HalfSpaceCompliance(nx, ny, 1, boundary).single());
+        possible += said ? 1 : 0;
+      }
+  EXPECT_GT(possible, 0);
+  EXPECT_LT(possible, 98);
+}
+
 TEST(HalfSpaceCompliance, MovesWithItsWorkSpace) {
   HalfSpaceCompliance first(16, 16, 1, Boundary::periodic);
   const Field p = noise(16, 16, 1);

@@ -175,6 +175,10 @@ void HalfSpaceCompliance::apply(const Source& source, const Sink& sink, std::spa
 
 bool HalfSpaceCompliance::single() const { return parts_->singles.has_value(); }
 
+bool HalfSpaceCompliance::single_possible(int nx, int ny, Boundary boundary) {
+  return FourierLaneFilter<double>::possible(period(nx, boundary), period(ny, boundary));
+}
+
 void HalfSpaceCompliance::count_pressures_in(double unit) {
   if (unit > 0 && std::isfinite(unit))
     parts_->scale = std::ldexp(1.0, std::clamp(-std::ilogb(unit), -1000, 1000));

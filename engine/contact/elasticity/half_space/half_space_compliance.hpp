@@ -35,6 +35,7 @@ class HalfSpaceCompliance {
   // over 7. u is then K p to some 1e-6 of the greatest u. `unit` is about what pressures are, to within
   // twenty powers of ten; 1 at first.
   bool single() const;
+  static bool single_possible(int nx, int ny, Boundary boundary);
   void count_pressures_in(double unit);
   // As apply(), in double precision all the same.
   void apply_in_double(std::span<const double> p, std::span<double> u);
