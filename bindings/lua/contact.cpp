@@ -208,13 +208,16 @@ Values shift(Call& call) {
   return {};
 }
 
-Values copy(Call& call) { return {object(SpecimenPair(call.self<SpecimenPair>()))}; }
+Values copy(Call& call) { return {object(call.self<SpecimenPair>().copy())}; }
 Values explain(Call& call) { return {object(Plan(call.self<SpecimenPair>().plan()))}; }
 Values lower(Call& call) { return {object(Surface(call.self<SpecimenPair>().lower()))}; }
 Values upper(Call& call) { return {object(call.self<SpecimenPair>().upper())}; }
 
+void close_states(void* self) { static_cast<SpecimenPair*>(self)->close(); }
+
 Values close(Call& call) {
   if (Object* self = Argument(call.L, 1).as_object(class_of<SpecimenPair>())) {
+    if (self->pointer != nullptr) close_states(self->pointer.get());
     self->pointer.reset();
     self->closed = true;
   }
@@ -253,6 +256,7 @@ const Class& contact_class() {
     c.shareable = false;
     c.describe = describe;
     c.digest = digest;
+    c.closing = close_states;
     c.methods = {
         {.name = "press",
          .body = press,
@@ -311,7 +315,10 @@ const Class& contact_class() {
          .returns = "Surface"},
         {.name = "close",
          .body = close,
-         .sentence = "Frees the contact's memory now instead of when Lua collects it."},
+         .sentence =
+             "Frees the memory of the contact and of its states now instead of when Lua collects them. "
+             "What was read of a state stays, and its load, approach, area, peak pressure and digest; "
+             "reading anything else of it is an error."},
     };
     return c;
   }();

@@ -101,13 +101,31 @@ int outer_length(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
-// __gc and __close: drops the native value. Safe to run twice.
+void drop(Object* object) {
+  if (object == nullptr) return;
+  object->pointer.reset();
+  object->closed = true;
+}
+
+// __gc: drops the native value. Safe to run twice.
 int release(lua_State* L) {
-  if (Object* object = native_at(L, 1)) {
-    object->pointer.reset();
-    object->closed = true;
-  }
+  drop(native_at(L, 1));
   return 0;
+}
+
+// __close: the same, after what the class does before it.
+int outer_close(lua_State* L) {
+  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const int results = [&] {
+    return guarded(L, type.name, [&]() -> Values {
+      Object* object = native_at(L, 1);
+      if (object != nullptr && object->pointer != nullptr && type.closing != nullptr)
+        type.closing(object->pointer.get());
+      drop(object);
+      return {};
+    });
+  }();
+  return results < 0 ? lua_error(L) : results;
 }
 
 void set_class_method(lua_State* L, const char* name, lua_CFunction function, const Class& type) {
@@ -151,7 +169,7 @@ void push_metatable(lua_State* L, const Class& type) {
   set_class_method(L, "__eq", outer_equal, type);
   if (type.length != nullptr) set_class_method(L, "__len", outer_length, type);
   set_class_method(L, "__gc", release, type);
-  set_class_method(L, "__close", release, type);
+  set_class_method(L, "__close", outer_close, type);
   lua_pushvalue(L, -1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &type);
 }

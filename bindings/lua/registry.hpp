@@ -67,6 +67,7 @@ struct Class {
   std::size_t (*native_bytes)(const void* self) = nullptr;  // memory Lua cannot see
   bool (*equal)(const void* a, const void* b) = nullptr;
   std::string (*digest)(const void* self) = nullptr;  // of its content, for the journal
+  void (*closing)(void* self) = nullptr;              // before it is closed by hand or by <close>
   std::vector<std::string> names() const;             // fields and methods
 };
 

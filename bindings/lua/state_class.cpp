@@ -67,7 +67,7 @@ Dimension field_dimension(const std::string& name) {
 Values field(Call& call) {
   const Contacting& state = call.self<Contacting>();
   const std::string name = call.text(1, "name");
-  return {object(StateField{name, state.geometry().grid(), state.field(name), field_dimension(name)})};
+  return {object(StateField{name, state.grid(), state.field(name), field_dimension(name)})};
 }
 
 Values deformed(Call& call) { return {object(call.self<Contacting>().deformed(call.text(1, "body")))}; }

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "engine/contact/elasticity/box/box_solver.hpp"
-#include "engine/contact/elasticity/half_space/adhesive_solver.hpp"
 #include "engine/contact/elasticity/box/yielding_box_solver.hpp"
+#include "engine/contact/elasticity/half_space/adhesive_solver.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solver.hpp"
 
 namespace asperity {

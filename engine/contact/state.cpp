@@ -7,8 +7,10 @@
 #include <functional>
 #include <mutex>
 #include <numbers>
+#include <utility>
 
 #include "engine/contact/chosen_accuracy.hpp"
+#include "engine/contact/closed_solution.hpp"
 #include "engine/contact/discretisation_error.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/regions.hpp"
@@ -54,7 +56,8 @@ StateCost& StateCost::operator+=(const StateCost& other) {
 }
 
 struct State::Shared {
-  std::shared_ptr<const Solution> solution;
+  Grid tile;
+  bool periodic = false;
   double tolerance;
   std::vector<std::string> effects_run, effects_off;
   SlidingEffects sliding;
@@ -67,6 +70,13 @@ struct State::Shared {
   Lazy<std::string> digest;
   std::array<Lazy<std::shared_ptr<const Field>>, 5> fields;
 
+  mutable std::mutex mutex;                  // of what follows
+  std::shared_ptr<const Solution> solution;  // or what is left of it
+  bool closed = false;
+
+  const Grid& grid() const { return tile; }
+  bool wraps() const { return periodic; }
+
   bool runs(std::string_view effect) const {
     return std::find(effects_run.begin(), effects_run.end(), effect) != effects_run.end();
   }
@@ -75,10 +85,21 @@ struct State::Shared {
       throw Error(ErrorCode::bad_state,
                   quoted(what) + " needs the effect `plasticity`, which this scene does not name");
   }
-  bool wraps() const { return solution->geometry().boundary() == Boundary::periodic; }
-  const Grid& grid() const { return solution->geometry().grid(); }
+  std::shared_ptr<const Solution> now() const {
+    const std::lock_guard lock(mutex);
+    return solution;
+  }
   Array<std::int64_t> find_regions(Neighbours neighbours) const {
-    return region_sizes(solution->contact_mask(), grid().nx, grid().ny, neighbours, wraps());
+    return region_sizes(now()->contact_mask(), grid().nx, grid().ny, neighbours, wraps());
+  }
+  const std::string& find_digest() {
+    return digest.get([&] {
+      const std::shared_ptr<const Solution> known = now();
+      Digester digester;
+      digester.add("state").add(known->load()).add(known->pressure()).add(known->approach());
+      digester.add(known->pressure_field().values());
+      return digester.hex();
+    });
   }
   // Nodes in each region joined by edges, largest first.
   const std::vector<std::int64_t>& sizes_of_spots() {
@@ -93,6 +114,8 @@ struct State::Shared {
 
 State::State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCost cost)
     : shared_(std::make_shared<Shared>()), cost_(std::make_shared<const StateCost>(std::move(cost))) {
+  shared_->tile = solution->geometry().grid();
+  shared_->periodic = solution->geometry().boundary() == Boundary::periodic;
   shared_->solution = std::move(solution);
   shared_->tolerance = plan.accuracy.tolerance;
   shared_->effects_run = plan.effects_run;
@@ -120,29 +143,41 @@ State State::chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const {
   return result;
 }
 
-double State::load() const { return shared_->solution->load(); }
-double State::pressure() const { return shared_->solution->pressure(); }
-double State::attraction() const { return shared_->solution->attraction(); }
+void State::close(const Watch& watch) {
+  const std::shared_ptr<Shared> shared = watch.lock();
+  if (!shared) return;
+  shared->find_digest();
+  const std::lock_guard lock(shared->mutex);
+  if (std::exchange(shared->closed, true)) return;
+  shared->solution = std::make_shared<const ClosedSolution>(*shared->solution);
+}
+State::Watch State::watch() const { return shared_; }
+
+double State::load() const { return shared_->now()->load(); }
+double State::pressure() const { return shared_->now()->pressure(); }
+double State::attraction() const { return shared_->now()->attraction(); }
 std::vector<double> State::drawn_from() const {
-  const std::span<const double> turns = shared_->solution->drawn_from();
+  const std::shared_ptr<const Solution> solution = shared_->now();
+  const std::span<const double> turns = solution->drawn_from();
   return {turns.begin(), turns.end()};
 }
-double State::approach() const { return shared_->solution->approach(); }
-std::int64_t State::contacts() const { return shared_->solution->contacts(); }
-double State::peak_pressure() const { return shared_->solution->peak_pressure(); }
+double State::approach() const { return shared_->now()->approach(); }
+std::int64_t State::contacts() const { return shared_->now()->contacts(); }
+double State::peak_pressure() const { return shared_->now()->peak_pressure(); }
 double State::stiffness() const {
-  return shared_->stiffness.get([&] { return shared_->solution->stiffness(); });
+  return shared_->stiffness.get([&] { return shared_->now()->stiffness(); });
 }
-int State::iterations() const { return shared_->solution->iterations(); }
-std::string_view State::solver() const { return shared_->solution->solver(); }
-const ContactGeometry& State::geometry() const { return shared_->solution->geometry(); }
+int State::iterations() const { return shared_->now()->iterations(); }
+std::string State::solver() const { return std::string(shared_->now()->solver()); }
+const Grid& State::grid() const { return shared_->grid(); }
+const ContactGeometry& State::geometry() const { return shared_->now()->geometry(); }
 std::int64_t State::bytes_held() const {
-  std::int64_t bytes = shared_->solution->bytes();
+  std::int64_t bytes = shared_->now()->bytes();
   if (other_grids_)
     for (const OtherGrids::Level& level : other_grids_->levels()) bytes += level.state.bytes_held();
   return bytes;
 }
-PressureSplit State::split(double threshold) const { return shared_->solution->split(threshold); }
+PressureSplit State::split(double threshold) const { return shared_->now()->split(threshold); }
 const std::vector<std::string>& State::effects_run() const { return shared_->effects_run; }
 const std::vector<std::string>& State::effects_off() const { return shared_->effects_off; }
 const SlidingEffects& State::sliding() const { return shared_->sliding; }
@@ -160,7 +195,7 @@ double State::indentation() const {
   return approach() / height;
 }
 double State::flatten() const {
-  return shared_->flatten.get([&] { return shared_->solution->flatten(); });
+  return shared_->flatten.get([&] { return shared_->now()->flatten(); });
 }
 double State::separation() const {
   return shared_->separation.get([&] {
@@ -175,20 +210,20 @@ double State::area_fraction() const {
 }
 
 double State::mean_gap() const {
-  return shared_->mean_gap.get([&] { return shared_->solution->mean_gap(); });
+  return shared_->mean_gap.get([&] { return shared_->now()->mean_gap(); });
 }
 
 double State::energy() const {
-  return shared_->energy.get([&] { return shared_->solution->energy(); });
+  return shared_->energy.get([&] { return shared_->now()->energy(); });
 }
 
 const Certificate& State::certificate() const {
-  return shared_->certificate.get([&] { return shared_->solution->certificate(); });
+  return shared_->certificate.get([&] { return shared_->now()->certificate(); });
 }
 
 const AlgebraicError& State::algebraic_error() const {
   return shared_->algebraic_error.get(
-      [&] { return find_algebraic_error(*shared_->solution, shared_->runs("plasticity")); });
+      [&] { return find_algebraic_error(*shared_->now(), shared_->runs("plasticity")); });
 }
 
 double State::corrected_area_fraction() const {
@@ -199,7 +234,7 @@ double State::corrected_area_fraction() const {
     constexpr double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
     const Grid& grid = shared_->grid();
     const BoundaryEdges edges =
-        boundary_edges(shared_->solution->contact_mask(), grid.nx, grid.ny, shared_->wraps());
+        boundary_edges(shared_->now()->contact_mask(), grid.nx, grid.ny, shared_->wraps());
     // An edge between columns is hy long and stands for hx across it, and the other way about.
     const auto cells = static_cast<double>(edges.between_columns + edges.between_rows);
     return (static_cast<double>(contacts()) - excess * cells) / static_cast<double>(grid.nodes());
@@ -220,14 +255,7 @@ std::vector<double> State::spot_areas() const {
   return areas;
 }
 
-const std::string& State::digest() const {
-  return shared_->digest.get([&] {
-    Digester digester;
-    digester.add("state").add(load()).add(pressure()).add(approach());
-    digester.add(shared_->solution->pressure_field().values());
-    return digester.hex();
-  });
-}
+const std::string& State::digest() const { return shared_->find_digest(); }
 
 std::span<const std::string> State::field_names() { return names_of_fields; }
 
@@ -243,7 +271,8 @@ std::shared_ptr<const Field> State::field(std::string_view name) const {
                 "there is no plastic change without it");
   const auto which = static_cast<std::size_t>(found - names_of_fields.begin());
   return shared_->fields[which].get([&] {
-    const Solution& solution = *shared_->solution;
+    const std::shared_ptr<const Solution> now = shared_->now();
+    const Solution& solution = *now;
     if (name == "pressure") return std::make_shared<const Field>(solution.pressure_field());
     if (name == "gap") return std::make_shared<const Field>(solution.gap_field());
     if (name == "displacement") return std::make_shared<const Field>(solution.displacement_field());
@@ -265,7 +294,7 @@ Surface State::deformed(std::string_view body) const {
   if (body == "lower") {
     traits.material = bodies.lower().material();
     traits.periodic = bodies.lower().traits().periodic;
-    return Surface(bodies.grid(), shared_->solution->lower_under_load(), std::move(traits));
+    return Surface(bodies.grid(), shared_->now()->lower_under_load(), std::move(traits));
   }
   if (body != "upper")
     throw Error(ErrorCode::unknown_name, "a contact has no body " + quoted(body),
@@ -273,7 +302,7 @@ Surface State::deformed(std::string_view body) const {
   if (const Material* material = upper_material(bodies.upper())) traits.material = *material;
   const auto* rough = std::get_if<Surface>(&bodies.upper());
   traits.periodic = rough ? rough->traits().periodic : true;
-  return Surface(bodies.grid(), shared_->solution->upper_under_load(), std::move(traits));
+  return Surface(bodies.grid(), shared_->now()->upper_under_load(), std::move(traits));
 }
 
 Histogram State::distribution(std::string_view name, const HistogramOptions& options) const {
@@ -301,17 +330,24 @@ Histogram State::distribution(std::string_view name, const HistogramOptions& opt
 
 double State::plastic_volume() const {
   shared_->need_plasticity("plastic_volume");
-  return shared_->plastic_volume.get([&] { return shared_->solution->plastic_volume(); });
+  return shared_->plastic_volume.get([&] { return shared_->now()->plastic_volume(); });
 }
 
 double State::plastic_fraction() const {
   shared_->need_plasticity("plastic_fraction");
-  return static_cast<double>(shared_->solution->yielded()) / static_cast<double>(shared_->grid().nodes());
+  return static_cast<double>(shared_->now()->yielded()) / static_cast<double>(shared_->grid().nodes());
 }
 
-std::optional<PlasticChange> State::plastic_change() const { return shared_->solution->plastic_change(); }
+std::optional<PlasticChange> State::plastic_change() const { return shared_->now()->plastic_change(); }
 
 std::string State::text() const {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->closed)
+      return "contact under " + format_quantity(shared_->solution->pressure(), dimension::pressure) +
+             ": approach " + format_quantity(shared_->solution->approach(), dimension::length) +
+             ", since closed";
+  }
   const AlgebraicError& error = algebraic_error();
   // In the unit of the value, so that the two are compared at a glance.
   const auto within = [](double value, double by, Dimension dimension) {

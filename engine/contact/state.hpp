@@ -53,6 +53,7 @@ class State {
   double area_fraction() const;            // contacts over nodes
   double corrected_area_fraction() const;  // less (π−1+ln 2)/24 of a cell for every edge of the outline
   std::int64_t contacts() const;           // nodes with p > 0
+  const Grid& grid() const;
   std::int64_t spots() const;              // regions of contact joined by an edge
   std::int64_t spots8() const;             // … or by a corner
   std::vector<double> spot_areas() const;  // m² of each region joined by edges, largest first
@@ -70,7 +71,7 @@ class State {
   // so, counted in their own cost and not in that of the press.
   const AlgebraicError& algebraic_error() const;
   bool converged() const;
-  std::string_view solver() const;
+  std::string solver() const;
   const std::vector<std::string>& effects_run() const;
   const std::vector<std::string>& effects_off() const;
   // What the scene names of a contact that is pulled sideways; read by friction.
@@ -112,8 +113,15 @@ class State {
 
   static std::span<const std::string> field_names();
 
- private:
   struct Shared;
+  // For whoever closes a contact: the states made of it, as long as they live.
+  using Watch = std::weak_ptr<Shared>;
+  Watch watch() const;
+  // Frees the memory of a solution. What was read of the state stays, and its load, approach, contacts, peak
+  // pressure and digest; reading anything else throws Error{bad_state}.
+  static void close(const Watch& watch);
+
+ private:
   std::shared_ptr<Shared> shared_;
   std::shared_ptr<const StateCost> cost_;
   std::shared_ptr<const OtherGrids> other_grids_;

@@ -181,6 +181,10 @@ void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
 }
 
 void SpecimenPair::carry(const State& state) {
+  // Now and then those that are gone are left out.
+  if (states_.size() == states_.capacity())
+    std::erase_if(states_, [](const State::Watch& watch) { return watch.expired(); });
+  states_.push_back(state.watch());
   under_load_ = state.load() > 0 || state.contacts() > 0;
   pressed_.reset();
   if (under_load_ && scene_.sliding.tangential) pressed_ = state;
@@ -255,6 +259,17 @@ Surface SpecimenPair::upper() const {
   traits.material = std::get<Material>(scene_.upper);
   traits.periodic = true;
   return Surface(grid, Field(grid.nx, grid.ny), std::move(traits));
+}
+
+void SpecimenPair::close() {
+  for (const State::Watch& state : states_) State::close(state);
+  states_.clear();
+}
+
+SpecimenPair SpecimenPair::copy() const {
+  SpecimenPair result = *this;
+  result.states_.clear();
+  return result;
 }
 
 }  // namespace asperity

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/contact/chosen_accuracy.hpp"
 #include "engine/contact/plan.hpp"
@@ -36,6 +37,12 @@ class SpecimenPair {
   // puts the bodies on these cells, where they stay (accuracy_choice.hpp); presses after it are held to the
   // error there.
   State press(const PressRequest& request, Monitor& monitor = Monitor::silent());
+  // Frees the memory of every state pressed here that is still held; what was read of one stays
+  // (State::close).
+  void close();
+  // The same bodies, lying and loaded alike, that are pressed and closed by themselves.
+  SpecimenPair copy() const;
+
   // Takes the load off.
   void release();
   bool under_load() const { return under_load_; }
@@ -88,6 +95,7 @@ class SpecimenPair {
   std::shared_ptr<const ChosenAccuracy> chosen_;  // none until the first press under load, or none asked for
   bool under_load_ = false;
   std::optional<State> pressed_;
+  std::vector<State::Watch> states_;  // those pressed here
   bool warned_of_rim_ = false;
   bool warned_of_mapping_ = false;
   bool warned_of_dwell_ = false;

@@ -91,8 +91,7 @@ const std::vector<Powerless> powerless = {
            s.adhesion = AdhesionOptions{0, 0.01};
          },
      .term = "capillarity",
-     .line = "capillarity",
-     .of_boxes = false},
+     .line = "capillarity"},
     {.name = "tangential that nobody pulls",
      .without = [](Scene&) {},
      .with = [](Scene& s) { s.sliding.tangential = TangentialOptions{1.2}; },

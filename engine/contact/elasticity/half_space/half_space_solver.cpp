@@ -125,12 +125,8 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
   Field displacement_field() const override {
     return field([&](std::size_t k) { return displacement(k); });
   }
-  Field lower_under_load() const override {
-    return lower_heights(geometry(), ready_->yield, deformation());
-  }
-  Field upper_under_load() const override {
-    return upper_heights(geometry(), ready_->yield, deformation());
-  }
+  Field lower_under_load() const override { return lower_heights(geometry(), ready_->yield, deformation()); }
+  Field upper_under_load() const override { return upper_heights(geometry(), ready_->yield, deformation()); }
 
  private:
   double nodes() const { return static_cast<double>(at_.pressure.size()); }
