@@ -348,7 +348,7 @@ function Contact:lower() end
 ---@return asperity.Surface
 function Contact:upper() end
 
----Frees the contact's memory now instead of when Lua collects it.
+---Frees the memory of the contact and of its states now instead of when Lua collects them. What was read of a state stays, and its load, approach, area, peak pressure, certificate and digest; reading anything else of it is an error.
 function Contact:close() end
 
 ---@class asperity.options.state.distribution

@@ -317,7 +317,8 @@ const Class& contact_class() {
          .body = close,
          .sentence =
              "Frees the memory of the contact and of its states now instead of when Lua collects them. "
-             "What was read of a state stays, and its load, approach, area, peak pressure and digest; "
+             "What was read of a state stays, and its load, approach, area, peak pressure, certificate and "
+             "digest; "
              "reading anything else of it is an error."},
     };
     return c;

@@ -92,6 +92,9 @@ struct State::Shared {
   Array<std::int64_t> find_regions(Neighbours neighbours) const {
     return region_sizes(now()->contact_mask(), grid().nx, grid().ny, neighbours, wraps());
   }
+  const Certificate& find_certificate() {
+    return certificate.get([&] { return now()->certificate(); });
+  }
   const std::string& find_digest() {
     return digest.get([&] {
       const std::shared_ptr<const Solution> known = now();
@@ -147,6 +150,7 @@ void State::close(const Watch& watch) {
   const std::shared_ptr<Shared> shared = watch.lock();
   if (!shared) return;
   shared->find_digest();
+  shared->find_certificate();
   const std::lock_guard lock(shared->mutex);
   if (std::exchange(shared->closed, true)) return;
   shared->solution = std::make_shared<const ClosedSolution>(*shared->solution);
@@ -217,9 +221,7 @@ double State::energy() const {
   return shared_->energy.get([&] { return shared_->now()->energy(); });
 }
 
-const Certificate& State::certificate() const {
-  return shared_->certificate.get([&] { return shared_->now()->certificate(); });
-}
+const Certificate& State::certificate() const { return shared_->find_certificate(); }
 
 const AlgebraicError& State::algebraic_error() const {
   return shared_->algebraic_error.get(

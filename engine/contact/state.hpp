@@ -118,7 +118,7 @@ class State {
   using Watch = std::weak_ptr<Shared>;
   Watch watch() const;
   // Frees the memory of a solution. What was read of the state stays, and its load, approach, contacts, peak
-  // pressure and digest; reading anything else throws Error{bad_state}.
+  // pressure, certificate and digest; reading anything else throws Error{bad_state}.
   static void close(const Watch& watch);
 
  private:

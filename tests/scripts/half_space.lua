@@ -76,7 +76,6 @@ refused(function() bench{ elasticity="half_space", creep={} } end, "creep", "pla
 refused(function() bench{ elasticity="half_space", plasticity=true } end, "plasticity")
 refused(function() bench{ elasticity={ model="half_space", stiffness=1 } } end, "stiffness", "box")
 refused(function() bench{ elasticity="half_spac" } end, "half_space")
-refused(function() bench{ elasticity="box", plasticity={} } end, "plasticity", "half_space")
 refused(function()
   lab.contact{ lower=body(1), upper=lab.rigid, boundary="periodic", effects={ elasticity="box" },
     accuracy={ precision="single" } }

@@ -45,7 +45,7 @@ local readers = {
   stiffness=function(s) return s.stiffness end, spots=function(s) return s.spots end,
   spots8=function(s) return s.spots8 end, area=function(s) return s.corrected_area_fraction end,
   largest=function(s) return s:spot_areas()[1] end, volume=function(s) return s.plastic_volume end,
-  bound=function(s) return s.error.algebraic.approach end, residual=function(s) return s.residual end,
+  bound=function(s) return s.error.algebraic.approach end,
   pressure=function(s) return s:field "pressure":value(5, 7) end, gap=function(s) return s:field "gap".max end,
   contact=function(s) return s:field "contact".mean end, plastic=function(s) return s:field "plastic".max end,
   displacement=function(s) return s:field "displacement".min end,
@@ -58,7 +58,8 @@ local computed = {
 local known = {
   load=function(s) return s.load end, approach=function(s) return s.approach end,
   fraction=function(s) return s.area_fraction end, peak=function(s) return s.peak_pressure end,
-  digest=function(s) return s.digest end, solver=function(s) return s.solver end,
+  digest=function(s) return s.digest end, residual=function(s) return s.residual end,
+  solver=function(s) return s.solver end,
   yielded=function(s) return s.plastic_fraction end,
 }
 local function unread(read, s, name)
