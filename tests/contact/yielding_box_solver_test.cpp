@@ -111,7 +111,8 @@ class YieldingBoxes : public ::testing::TestWithParam<Law> {};
 
 // Sums and bisection in long double, which share no code with the solver.
 TEST_P(YieldingBoxes, AgreeWithBisectionToTheSum) {
-  const auto [name, k, hardening] = GetParam();
+  const char* const name = GetParam().name;
+  const double k = GetParam().stiffness, hardening = GetParam().hardening;
   const Surface rough = random_surface(40, 31, 7);
   const double peak = rough.height_range().max, hardness = 0.8;
   Scene scene = yielding(rough, std::isinf(k) ? Elasticity(RigidOptions{}) : Elasticity(BoxOptions{k}),
