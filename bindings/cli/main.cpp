@@ -123,9 +123,8 @@ int main(int argc, char** argv) {
   add_run_options(replay_command, replay.run, replay_memory);
   replay_command.add_option("--limit-time", replay_time, "end it after this long, e.g. 60s or \"2 min\"");
   replay_command.footer(
-      "Every call, row, expectation and file is compared by its digest; times and dates are not. Exit status "
-      "1 "
-      "where anything differs. What the script prints is dropped.");
+      "Every call, row, expectation and file is compared by its digest; times and dates are not. "
+      "Exit status 1 where anything differs. What the script prints is dropped.");
 
   CLI::App& accuracy_command = *app.add_subcommand(
       "accuracy",

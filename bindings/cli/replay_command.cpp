@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "bindings/cli/muted.hpp"
-#include "bindings/cli/watchdog.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/recorded_run.hpp"
