@@ -16,7 +16,8 @@
 
 namespace asperity {
 class Ledger;
-}
+class ResultStore;
+}  // namespace asperity
 
 namespace asperity::lua {
 
@@ -36,7 +37,8 @@ struct CaseSetup {
   int depth = 1;  // ensembles the case stands inside
   std::shared_ptr<Refinement> refinement;
   std::shared_ptr<Ledger> ledger;
-  bool watched = false;  // look at the stop flag every few thousand instructions
+  ResultStore* results = nullptr;  // of the run; may be null
+  bool watched = false;            // look at the stop flag every few thousand instructions
 };
 
 struct CaseResult {

@@ -9,6 +9,7 @@
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/journal.hpp"
 #include "engine/experiment/run_facts.hpp"
 
 namespace asperity {
@@ -29,35 +30,10 @@ std::string whole_file(const fs::path& path) {
   return text.str();
 }
 
-Json hashed(const Json& record) {
-  Json::Members kept;
-  for (const Json::Member& member : record.members())
-    if (member.first != unhashed) kept.push_back(member);
-  return Json::object(std::move(kept));
-}
-
 const Json& member(const Json& record, std::string_view name, const fs::path& file) {
   if (const Json* found = record.is_object() ? record.find(name) : nullptr) return *found;
   throw Error(ErrorCode::bad_file, quoted(file.string()) + " has no `" + std::string(name) + "`",
               "it is not the record of a run, or it was altered");
-}
-
-// A line that is cut short is the last one of a run that was.
-std::vector<Json> read_journal(const fs::path& file, bool may_be_torn) {
-  const std::string text = whole_file(file);
-  std::vector<Json> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    const std::string name = "line " + std::to_string(lines.size() + 1) + " of " + quoted(file.string());
-    if (stream.eof() && may_be_torn) break;  // no newline after it
-    Json record = Json::parse(line, name);
-    const Json* number = record.is_object() ? record.find("n") : nullptr;
-    if (number == nullptr || number->number() != static_cast<double>(lines.size() + 1))
-      throw Error(ErrorCode::bad_file, name + " does not carry its number",
-                  "lines were taken out or put in: the journal was altered");
-    lines.push_back(hashed(record));
-  }
-  return lines;
 }
 
 std::string described(const Json& line) {
@@ -142,11 +118,16 @@ void compare_files(const RecordedRun& recorded, const RecordedRun& again, std::s
 
 }  // namespace
 
+Json read_manifest(const fs::path& root) {
+  const fs::path file = root / "manifest.json";
+  return Json::parse(whole_file(file), quoted(file.string()));
+}
+
 RecordedRun read_run(const fs::path& root) {
   RecordedRun run;
   run.root = root;
   const fs::path file = root / "manifest.json";
-  const Json manifest = Json::parse(whole_file(file), quoted(file.string()));
+  const Json manifest = read_manifest(root);
   run.status = member(manifest, "status", file).string();
   const Json& script = member(manifest, "script", file);
   const Json& rest = member(manifest, unhashed, file);
@@ -161,8 +142,8 @@ RecordedRun read_run(const fs::path& root) {
   run.seed = static_cast<std::int64_t>(member(manifest, "seed", file).number());
   run.trusted = member(manifest, "trusted", file).boolean();
   run.versions = member(manifest, "versions", file);
-  run.manifest = hashed(manifest);
-  run.journal = read_journal(root / "journal.jsonl", !run.ended());
+  run.manifest = without_unhashed(manifest);
+  run.journal = read_journal(root / "journal.jsonl", !run.ended()).lines;
   return run;
 }
 
