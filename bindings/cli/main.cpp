@@ -135,6 +135,14 @@ int main(int argc, char** argv) {
       "replay",
       "run the script of a recorded run again, with its arguments and seed, and compare every result");
   replay_command.add_option("run", replay.recorded, "the directory of the run")->required();
+  replay_command.add_option(
+      "--from", replay.from,
+      "take the results of heavy calls before this line of its journal from its store, and "
+      "compute from there on");
+  replay_command.add_option(
+      "--set", replay.settings,
+      "key=value or call.key=value: another value where calls give this key (from --from "
+      "on), e.g. --set press.pressure=\"200 MPa\"; may be given again");
   add_run_options(replay_command, replay.run, replay_memory);
   replay_command.add_option("--limit-time", replay_time, "end it after this long, e.g. 60s or \"2 min\"");
   replay_command.footer(

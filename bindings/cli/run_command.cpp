@@ -253,6 +253,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
 std::string run_script(RunContext& context, const std::function<int(int)>& at_exit) {
   lua::Session session(context.monitor);
   session.run = context.run;
+  session.variation = context.command.variation;
   session.exit_hook = [&](int code) {
     if (code == 0 && context.run->expectations().failed() > 0) code = failed;
     context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed,

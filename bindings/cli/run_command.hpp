@@ -38,6 +38,7 @@ struct RunCommand {
   std::optional<std::int64_t> store_limit;  // bytes of results to keep; 0: none
   // Of a replay: from this line of the journal on nothing is taken from `reuse`.
   std::optional<std::int64_t> afresh_from;
+  std::shared_ptr<lua::Variation> variation;  // of a replay; may be null
 };
 
 // Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage, 130 interrupted.

@@ -250,6 +250,7 @@ Values ensemble(Call& call) {
     common.trusted = session.trusted;
     common.depth = session.depth + 1;
     common.refinement = session.refinement;
+    common.variation = session.variation;
     common.ledger = session.ledger;
     common.results = session.monitor().results();
     common.watched = lua_gethook(call.L) != nullptr;

@@ -223,6 +223,7 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
     session.is_case = true;
     session.depth = setup.depth;
     session.refinement = setup.refinement;
+    session.variation = setup.variation;
     session.ledger = setup.ledger;
     session.output = output.file();
     session.left_behind = &setup.run->left_behind();

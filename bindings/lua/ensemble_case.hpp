@@ -22,6 +22,7 @@ class ResultStore;
 namespace asperity::lua {
 
 struct Refinement;
+class Variation;
 
 struct CaseValue {
   std::string key;
@@ -36,6 +37,7 @@ struct CaseSetup {
   bool trusted = false;
   int depth = 1;  // ensembles the case stands inside
   std::shared_ptr<Refinement> refinement;
+  std::shared_ptr<Variation> variation;
   std::shared_ptr<Ledger> ledger;
   ResultStore* results = nullptr;  // of the run; may be null
   bool watched = false;            // look at the stop flag every few thousand instructions
