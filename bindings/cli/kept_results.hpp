@@ -26,13 +26,13 @@ class UntilLine final : public ResultStore {
  public:
   UntilLine(ResultStore& store, const Journal& journal, std::int64_t line)
       : store_(store), journal_(journal), line_(line) {}
-  std::optional<FoundResult> find(const std::string& key, Monitor& monitor) override {
+  std::optional<FoundResult> find(const std::string& key) override {
     if (journal_.count() + 1 >= line_) return {};
-    return store_.find(key, monitor);
+    return store_.find(key);
   }
-  void keep(const std::string& key, std::string_view call, const ResultFacts& facts, const KeptFields& fields,
-            Monitor& monitor) override {
-    store_.keep(key, call, facts, fields, monitor);
+  void keep(const std::string& key, std::string_view call, const ResultFacts& facts,
+            const KeptFields& fields) override {
+    store_.keep(key, call, facts, fields);
   }
 
  private:

@@ -186,6 +186,9 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
       std::fprintf(stderr, "%lld %s taken from the store, which had cost %s\n",
                    static_cast<long long>(counts.found), counts.found == 1 ? "result was" : "results were",
                    format_quantity(counts.seconds_saved, dimension::time, 3).c_str());
+    for (const std::string& notice : results.notices()) std::fprintf(stderr, "%s\n", notice.c_str());
+    if (const std::string departure = run->journal().departure(); !departure.empty())
+      std::fprintf(stderr, "%s\n", departure.c_str());
     std::fprintf(stderr, "results in %s\n", run->path().c_str());
   };
   Watchdog watchdog(command.limit_time, [&](StopReason reason) {
@@ -205,6 +208,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   }
 
   std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away must not take the record with it
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is met like a full disk: by an error
 
   int status = done;
   std::string why;

@@ -39,12 +39,11 @@ using KeptFields = std::vector<std::pair<std::string, const Field*>>;
 class ResultStore {
  public:
   virtual ~ResultStore() = default;
-  // None where the key is unknown or what was kept under it is damaged, which `monitor` is informed of: a
-  // warning would stand in the journal, and equal runs write equal journals.
-  virtual std::optional<FoundResult> find(const std::string& key, Monitor& monitor) = 0;
-  // `call` tells a reader what made it. Never fails: what cannot be kept is lost, and `monitor` informed.
+  // None where the key is unknown or what was kept under it is damaged.
+  virtual std::optional<FoundResult> find(const std::string& key) = 0;
+  // `call` tells a reader what made it. Never fails: what cannot be kept is lost, and the store says so.
   virtual void keep(const std::string& key, std::string_view call, const ResultFacts& facts,
-                    const KeptFields& fields, Monitor& monitor) = 0;
+                    const KeptFields& fields) = 0;
 };
 
 template <class Result>
@@ -69,7 +68,7 @@ Costed<Result> recall_or(Monitor& monitor, const ResultForm<Result>& form, Key k
   std::string name;
   if (store != nullptr) {
     name = key();
-    if (std::optional<FoundResult> found = store->find(name, monitor)) {
+    if (std::optional<FoundResult> found = store->find(name)) {
       cost::count_transforms(found->cost.transforms);
       const Cost spent = found->cost;
       return {form.read(*found), spent};
@@ -83,7 +82,7 @@ Costed<Result> recall_or(Monitor& monitor, const ResultForm<Result>& form, Key k
     facts.cost = fresh.cost;
     KeptFields fields;
     form.write(fresh.result, facts, fields);
-    store->keep(name, form.call, facts, fields, monitor);
+    store->keep(name, form.call, facts, fields);
   }
   return fresh;
 }

@@ -38,6 +38,7 @@ std::unique_ptr<Journal> Journal::again(std::filesystem::path path) {
     throw_file_error("take up", path, errno);
   journal->path_ = std::move(path);
   journal->recorded_ = std::move(recorded.lines);
+  journal->ends_ = std::move(recorded.ends);
   return journal;
 }
 
@@ -58,27 +59,38 @@ std::int64_t Journal::append(std::string_view event, const Json& fields) {
     line.set("event", event);
     if (!fields.is_null())
       for (const auto& [name, value] : fields.members()) line.set(name, value);
-    if (static_cast<std::size_t>(count_) < recorded_.size())
-      compare(line);
-    else
-      append_whole(descriptor_, line.text() + "\n", path_);
+    if (!repeats(line)) append_whole(descriptor_, line.text() + "\n", path_);
   }
   return ++count_;
 }
 
-void Journal::compare(const Json& line) const {
-  const Json& recorded = recorded_[static_cast<std::size_t>(count_)];
+// Whether the line stands there already. What is the same step with another value ends the repetition.
+bool Journal::repeats(const Json& line) {
+  const auto at = static_cast<std::size_t>(count_);
+  if (at >= recorded_.size()) return false;
+  const Json& recorded = recorded_[at];
   const Json now = without_unhashed(Json::parse(line.text(), "a line of the journal"));
-  if (now == recorded) return;
-  const auto shown = [](const Json& record) {
-    const std::string text = record.text();
-    constexpr std::size_t longest = 200;
-    return text.size() > longest ? text.substr(0, longest) + " …" : text;
-  };
-  throw Error(ErrorCode::bad_state,
-              "the run goes another way than the one it takes up: line " + std::to_string(count_ + 1) +
-                  " of its journal is " + shown(recorded) + ", and now " + shown(now),
-              "something it reads has changed; run the script anew, with --reuse for what is still the same");
+  if (now == recorded) return true;
+  const DifferingMember differs = first_difference(&recorded, &now);
+  const std::string where = "line " + std::to_string(count_ + 1) + " of the journal";
+  const std::string what =
+      quoted(differs.path) + " was " + brief(differs.one) + " and is now " + brief(differs.other);
+  for (const char* part : {"event", "function", "self", "inputs", "notebook", "script", "digest", "seed"}) {
+    const Json *one = recorded.find(part), *other = now.find(part);
+    if ((one == nullptr) == (other == nullptr) && (one == nullptr || *one == *other)) continue;
+    throw Error(
+        ErrorCode::bad_state, "the run goes another way than the one it takes up: in " + where + " " + what,
+        "something it reads has changed; run the script anew, with --reuse for what is still the same");
+  }
+  departure_ = "from " + where + " on it was written anew: " + what;
+  if (::ftruncate(descriptor_, at == 0 ? 0 : ends_[at - 1]) != 0) throw_file_error("take up", path_, errno);
+  recorded_.clear();
+  return false;
+}
+
+std::string Journal::departure() const {
+  const std::lock_guard lock(mutex_);
+  return departure_;
 }
 
 bool Journal::repeating() const {
@@ -127,6 +139,27 @@ JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn) {
     read.ends.push_back(bytes);
   }
   return read;
+}
+
+std::string brief(const Json* value) {
+  if (value == nullptr) return "nothing";
+  std::string text = value->text();
+  constexpr std::size_t longest = 120;
+  if (text.size() > longest) text = text.substr(0, longest) + " …";
+  return text;
+}
+
+DifferingMember first_difference(const Json* one, const Json* other, const std::string& path) {
+  if (one != nullptr && other != nullptr && one->is_object() && other->is_object()) {
+    const auto under = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
+    for (const auto& [name, value] : one->members()) {
+      const Json* same = other->find(name);
+      if (same == nullptr || !(*same == value)) return first_difference(&value, same, under(name));
+    }
+    for (const auto& [name, value] : other->members())
+      if (one->find(name) == nullptr) return {under(name), nullptr, &value};
+  }
+  return {path, one, other};
 }
 
 }  // namespace asperity

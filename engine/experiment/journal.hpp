@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -36,13 +37,15 @@ class Journal {
 
   // Returns the number of the line. `fields` is an object or null. Throws Error{bad_file} when the
   // disk refuses (the file then ends with the line before), Error{bad_state} after close() and where the line
-  // recorded in its place is another one.
+  // recorded in its place is another step.
   std::int64_t write(std::string_view event, const Json& fields = {});
 
   // Lines written.
   std::int64_t count() const;
   // Whether recorded lines are still ahead.
   bool repeating() const;
+  // Where and how it left what was recorded, as a sentence; "" where it did not.
+  std::string departure() const;
   const std::filesystem::path& path() const { return path_; }
 
   // Writes a last line and refuses all later ones. Waits at most `patience` for a writer that is
@@ -51,13 +54,15 @@ class Journal {
 
  private:
   std::int64_t append(std::string_view event, const Json& fields);
-  void compare(const Json& line) const;
+  bool repeats(const Json& line);
 
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::int64_t count_ = 0;
   bool closed_ = false;
-  std::vector<Json> recorded_;  // of a journal taken up again, without what is unhashed
+  std::vector<Json> recorded_;      // of a journal taken up again, without what is unhashed
+  std::vector<std::int64_t> ends_;  // byte after each
+  std::string departure_;
   mutable std::mutex mutex_;
 };
 
@@ -72,5 +77,14 @@ JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn);
 
 // A record without its member "unhashed".
 Json without_unhashed(const Json& record);
+
+// The first member, however deep, in which two records differ; null where one has none.
+struct DifferingMember {
+  std::string path;  // "row.area"
+  const Json *one, *other;
+};
+DifferingMember first_difference(const Json* one, const Json* other, const std::string& path = {});
+// As JSON, cut after 120 bytes; "nothing" for null.
+std::string brief(const Json* value);
 
 }  // namespace asperity

@@ -42,32 +42,6 @@ std::string described(const Json& line) {
   return "";
 }
 
-std::string shown(const Json* value) {
-  if (value == nullptr) return "nothing";
-  std::string text = value->text();
-  constexpr std::size_t longest = 120;
-  if (text.size() > longest) text = text.substr(0, longest) + " …";
-  return text;
-}
-
-// The first member, however deep, in which two records differ.
-struct Place {
-  std::string path;
-  const Json *one, *other;
-};
-Place first_difference(const Json* one, const Json* other, const std::string& path = {}) {
-  if (one != nullptr && other != nullptr && one->is_object() && other->is_object()) {
-    const auto under = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
-    for (const auto& [name, value] : one->members()) {
-      const Json* same = other->find(name);
-      if (same == nullptr || !(*same == value)) return first_difference(&value, same, under(name));
-    }
-    for (const auto& [name, value] : other->members())
-      if (one->find(name) == nullptr) return {under(name), nullptr, &value};
-  }
-  return {path, one, other};
-}
-
 void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::vector<Difference>& found) {
   std::size_t compared = std::max(recorded.journal.size(), again.journal.size());
   if (!recorded.ended()) {
@@ -79,10 +53,10 @@ void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::v
     const Json* one = k < recorded.journal.size() ? &recorded.journal[k] : nullptr;
     const Json* other = k < again.journal.size() ? &again.journal[k] : nullptr;
     if (one != nullptr && other != nullptr && *one == *other) continue;
-    const Place place = first_difference(one, other);
+    const DifferingMember place = first_difference(one, other);
     std::string where = "line " + std::to_string(k + 1) + ", " + described(one != nullptr ? *one : *other);
     if (!place.path.empty()) where += ", " + place.path;
-    found.push_back({where, shown(place.one), shown(place.other)});
+    found.push_back({where, brief(place.one), brief(place.other)});
   }
 }
 
@@ -112,7 +86,7 @@ void compare_files(const RecordedRun& recorded, const RecordedRun& again, std::s
   for (const std::string& file : files) {
     const Json *one = digest_in(recorded, file), *other = digest_in(again, file);
     if (one != nullptr && other != nullptr && *one == *other) continue;
-    found.push_back({kind + " " + quoted(file), shown(one), shown(other)});
+    found.push_back({kind + " " + quoted(file), brief(one), brief(other)});
   }
 }
 
@@ -173,7 +147,7 @@ std::vector<Difference> differences(const RecordedRun& recorded, const RecordedR
   compare_files(recorded, again, "outputs", found);
   const Json *one = recorded.manifest.find("expectations"), *other = again.manifest.find("expectations");
   if ((one == nullptr) != (other == nullptr) || (one != nullptr && !(*one == *other)))
-    found.push_back({"expectations", shown(one), shown(other)});
+    found.push_back({"expectations", brief(one), brief(other)});
   return found;
 }
 

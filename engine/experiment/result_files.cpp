@@ -42,7 +42,7 @@ Hdf5Array number_array(std::string_view group, std::string_view name, double val
 }
 
 [[noreturn]] void damaged(const fs::path& file, const std::string& what) {
-  throw Error(ErrorCode::bad_file, quoted(file.string()) + " " + what, "it is computed again");
+  throw Error(ErrorCode::bad_file, quoted(file.string()) + " " + what);
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ std::string ResultFiles::name_of(const std::string& key) const {
   return Digester().add(form).add(setup_.build).add(key).hex() + ".h5";
 }
 
-std::optional<FoundResult> ResultFiles::find(const std::string& key, Monitor& monitor) {
+std::optional<FoundResult> ResultFiles::find(const std::string& key) {
   const std::string name = name_of(key);
   std::vector<fs::path> folders = {setup_.folder};
   folders.insert(folders.end(), setup_.also.begin(), setup_.also.end());
@@ -61,7 +61,7 @@ std::optional<FoundResult> ResultFiles::find(const std::string& key, Monitor& mo
     const fs::path file = folder / name;
     std::error_code problem;
     if (!fs::is_regular_file(file, problem)) continue;
-    std::optional<FoundResult> found = read(file, key, monitor);
+    std::optional<FoundResult> found = read(file, key);
     if (!found) continue;
     const std::lock_guard lock(mutex_);
     if (folder == setup_.folder)
@@ -76,8 +76,7 @@ std::optional<FoundResult> ResultFiles::find(const std::string& key, Monitor& mo
   return {};
 }
 
-std::optional<FoundResult> ResultFiles::read(const fs::path& file, const std::string& key,
-                                             Monitor& monitor) const {
+std::optional<FoundResult> ResultFiles::read(const fs::path& file, const std::string& key) {
   try {
     Hdf5Content content = read_hdf5(file);
     sort_by_name(content);
@@ -108,7 +107,8 @@ std::optional<FoundResult> ResultFiles::read(const fs::path& file, const std::st
     return found;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_file) throw;
-    monitor.inform(error.what());
+    const std::lock_guard lock(mutex_);
+    note(file.string(), error.sentence() + "; it was computed again");
     return {};
   }
 }
@@ -128,7 +128,7 @@ void ResultFiles::bring_over(const fs::path& from, const std::string& name) {
 }
 
 void ResultFiles::keep(const std::string& key, std::string_view call, const ResultFacts& facts,
-                       const KeptFields& kept, Monitor& monitor) {
+                       const KeptFields& kept) {
   if (facts.cost.seconds < setup_.least_seconds) return;
   Hdf5Content content;
   content.texts = {{"form", std::string(form)}, {"call", std::string(call)}, {"key", key}};
@@ -157,21 +157,17 @@ void ResultFiles::keep(const std::string& key, std::string_view call, const Resu
       throw Error(ErrorCode::bad_file,
                   "cannot make the folder " + quoted(setup_.folder.string()) + ": " + problem.message());
     if (!make_room(bytes)) {
-      say_once("room",
-               "results of this run no longer fit the " +
-                   format_short(static_cast<double>(setup_.most_bytes) / 0x1p30, 3) +
-                   " GiB of its store: some would be computed again if it were resumed (--store-limit)",
-               monitor);
+      note("room", "results of this run no longer fit the " +
+                       format_short(static_cast<double>(setup_.most_bytes) / 0x1p30, 3) +
+                       " GiB of its store: some would be computed again if it were resumed (--store-limit)");
       return;
     }
     write_hdf5(setup_.folder / name, content);
     used_.insert(name);
     ++counts_.kept;
   } catch (const Error& error) {
-    say_once("write",
-             "a result could not be kept and would be computed again if the run were resumed: " +
-                 std::string(error.what()),
-             monitor);
+    note("write", "a result could not be kept and would be computed again if the run were resumed: " +
+                      std::string(error.what()));
   }
 }
 
@@ -202,8 +198,16 @@ bool ResultFiles::make_room(std::int64_t bytes) {
   return held + bytes <= setup_.most_bytes;
 }
 
-void ResultFiles::say_once(std::string_view about, const std::string& sentence, Monitor& monitor) {
-  if (said_.emplace(about).second) monitor.inform(sentence);
+void ResultFiles::note(std::string_view about, std::string sentence) {
+  if (std::ranges::none_of(notices_, [&](const auto& notice) { return notice.first == about; }))
+    notices_.emplace_back(about, std::move(sentence));
+}
+
+std::vector<std::string> ResultFiles::notices() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> sentences;
+  for (const auto& notice : notices_) sentences.push_back(notice.second);
+  return sentences;
 }
 
 ResultFiles::Counts ResultFiles::counts() const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The results of heavy calls in a folder, one HDF5 file a result, named by its key: what a run that was cut
 // off has finished, and what an edited script shares with the last one. A file is written aside and renamed
-// and carries a digest of what it holds; a torn or altered one is told of, computed anew and replaced. Keys
+// and carries a digest of what it holds; a torn or altered one is noticed, computed anew and replaced. Keys
 // hold the identity of this build, for another build may round otherwise. Folders may be shared by runs and
 // machines at the same time.
 #pragma once
@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result_store.hpp"
@@ -30,30 +31,31 @@ class ResultFiles final : public ResultStore {
  public:
   explicit ResultFiles(ResultFilesSetup setup);
 
-  std::optional<FoundResult> find(const std::string& key, Monitor& monitor) override;
-  void keep(const std::string& key, std::string_view call, const ResultFacts& facts, const KeptFields& fields,
-            Monitor& monitor) override;
+  std::optional<FoundResult> find(const std::string& key) override;
+  void keep(const std::string& key, std::string_view call, const ResultFacts& facts,
+            const KeptFields& fields) override;
 
   struct Counts {
     std::int64_t found = 0, kept = 0;
     double seconds_saved = 0;  // what the found ones had cost
   };
   Counts counts() const;
+  // What went wrong, a sentence each: results that were damaged, or could not be kept.
+  std::vector<std::string> notices() const;
   const std::filesystem::path& folder() const { return setup_.folder; }
 
  private:
   std::string name_of(const std::string& key) const;
-  std::optional<FoundResult> read(const std::filesystem::path& file, const std::string& key,
-                                  Monitor& monitor) const;
+  std::optional<FoundResult> read(const std::filesystem::path& file, const std::string& key);
   void bring_over(const std::filesystem::path& from, const std::string& name);
   // Removes files until `bytes` more fit; false where they never would.
   bool make_room(std::int64_t bytes);
-  void say_once(std::string_view about, const std::string& sentence, Monitor& monitor);
+  void note(std::string_view about, std::string sentence);
 
   const ResultFilesSetup setup_;
   mutable std::mutex mutex_;    // of what follows, and of the folder as far as this process goes
   std::set<std::string> used_;  // by this run: never removed to make room
-  std::set<std::string, std::less<>> said_;
+  std::vector<std::pair<std::string, std::string>> notices_;
   Counts counts_;
 };
 
