@@ -295,12 +295,14 @@ Values from_table_body(Call& call) {
 
 const Block<ReadOptions>& read_block() {
   using O = ReadOptions;
-  static const Block<O> block{"lab.surface.read",
-                              {pair_option("size", &O::size_x, &O::size_y, dimension::length, above(0),
-                                           "size of the map, where the file has none"),
-                               unit_key(&O::unit), fill_key(&O::fill),
-                               text("format", &O::format, "read as this format whatever the file looks like"),
-                               material_key(&O::material)}};
+  static const Block<O> block{
+      "lab.surface.read",
+      {pair_option("size", &O::size_x, &O::size_y, dimension::length, above(0),
+                   "size of the map, where the file has none"),
+       unit_key(&O::unit), fill_key(&O::fill),
+       text("format", &O::format, "read as this format whatever the file looks like"),
+       text("channel", &O::channel, "which of several maps in the file, e.g. of HDF5"),
+       material_key(&O::material)}};
   return block;
 }
 Values read_body(Call& call) {

@@ -28,6 +28,7 @@ Hdf5Content example() {
       {std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}));
   content.arrays.push_back(owning_array<std::uint8_t>("bodies/upper/contact", {1, 2, 2}, {0, 1, 255, 7}));
   content.arrays.push_back(owning_array<double>("load", {}, {3.5}, "N"));
+  content.numbers = {{"load", 2.5}, {"area", -0.0}};
   content.arrays.push_back(owning_array<double>("nothing", {0, 4}, {}));
   return content;
 }
@@ -45,6 +46,7 @@ void expect_same(const Hdf5Content& found, const Hdf5Content& wanted) {
     ASSERT_NE(found.text(name), nullptr) << name;
     EXPECT_EQ(*found.text(name), text);
   }
+  EXPECT_EQ(found.numbers, wanted.numbers);
   EXPECT_EQ(found.arrays.size(), wanted.arrays.size());
   for (const Hdf5Array& array : wanted.arrays) {
     const Hdf5Array* const there = found.array(array.name);

@@ -13,8 +13,8 @@
 namespace asperity {
 
 std::span<const Format* const> formats() {
-  static const std::array<const Format*, 5> all{&npy_format(), &x3p_format(), &stylus_csv_format(),
-                                                &xyz_format(), &text_format()};
+  static const std::array all{&npy_format(),        &x3p_format(), &hdf5_format(),
+                              &stylus_csv_format(), &xyz_format(), &text_format()};
   return all;
 }
 

@@ -92,6 +92,8 @@ void check_names(const Hdf5Content& content) {
   };
   for (const auto& [name, text] : content.texts)
     if (!texts.insert(name).second) twice(name);
+  for (const auto& [name, number] : content.numbers)
+    if (!texts.insert(name).second) twice(name);
   for (const Hdf5Array& array : content.arrays) {
     if (!arrays.insert(array.name).second) twice(array.name);
     for (std::size_t at = array.name.find('/'); at != std::string::npos; at = array.name.find('/', at + 1))
@@ -134,7 +136,7 @@ class Reader {
       read_array(name, header);
       return;
     }
-    if (depth == 0) read_texts(header);
+    if (depth == 0) read_attributes(header);
     for (const Hdf5Link& link : read_members(root_.file, header, content_.unread)) {
       if (!is_name(link.name)) root_.file.refuse("is damaged: a member has a name that is none");
       visit(name.empty() ? link.name : name + "/" + link.name, link.address, depth + 1);
@@ -146,14 +148,16 @@ class Reader {
            name.find('\0') == std::string::npos;
   }
 
-  void read_texts(const Hdf5Header& header) {
+  void read_attributes(const Hdf5Header& header) {
     for (const Hdf5Message& message : header.messages) {
       if (message.kind != Hdf5MessageKind::attribute) continue;
       const Hdf5Attribute attribute = read_attribute(root_.file, message.body);
       if (const auto text = text_of(root_.file, attribute)) {
         content_.texts.emplace_back(attribute.name, *text);
+      } else if (const auto number = number_of(root_.file, attribute)) {
+        content_.numbers.emplace_back(attribute.name, *number);
       } else {
-        content_.unread.push_back(quoted(attribute.name) + ": an attribute that is no text");
+        content_.unread.push_back(quoted(attribute.name) + ": an attribute that is neither text nor number");
       }
     }
   }
@@ -214,11 +218,22 @@ const std::string* Hdf5Content::text(std::string_view name) const {
   return found == texts.end() ? nullptr : &found->second;
 }
 
+const double* Hdf5Content::number(std::string_view name) const {
+  const auto found =
+      std::find_if(numbers.begin(), numbers.end(), [&](const auto& n) { return n.first == name; });
+  return found == numbers.end() ? nullptr : &found->second;
+}
+
 void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content) {
   std::vector<AsperityHdf5Text> texts;
   for (const auto& [name, text] : content.texts) {
     check_text(name, text);
     texts.push_back({name.c_str(), text.c_str()});
+  }
+  std::vector<AsperityHdf5Number> numbers;
+  for (const auto& [name, number] : content.numbers) {
+    check_name(name, false);
+    numbers.push_back({name.c_str(), number});
   }
   check_names(content);
   // What the arrays point to stands still in a deque.
@@ -237,7 +252,8 @@ void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content) {
     arrays.push_back({array.name.c_str(), kinds[array.values.index()], static_cast<int>(shape.size()),
                       shape.data(), bytes_of(array.values).data(), own.data(), own.size()});
   }
-  const AsperityHdf5File file{texts.data(), texts.size(), arrays.data(), arrays.size()};
+  const AsperityHdf5File file{texts.data(),   texts.size(),  numbers.data(),
+                              numbers.size(), arrays.data(), arrays.size()};
   auto* const write = part_function<AsperityHdf5Write>(part, "asperity_hdf5_write_1");
 
   StagedFile staged(path.string());

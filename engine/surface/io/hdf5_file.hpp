@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Named arrays with units, and texts, in an HDF5 file (version 1.8 of the format, which every reader of today
 // knows): arrays lie in one piece, uncompressed, in C order, groups are made from the `/` of their names,
-// texts are attributes of the root. What is written carries checksums of its structure (HDF5's own) and of
-// each array (attribute "digest"), so that a damaged file is told from a whole one. Files are written by the
-// HDF5 library, which is loaded at the first of them; they are read by code of this project, because a
-// damaged file may crash that library. Other programs' files are read as far as that code knows them.
+// texts and single numbers are attributes of the root. What is written carries checksums of its structure
+// (HDF5's own) and of each array (attribute "digest"), so that a damaged file is told from a whole one. Files
+// are written by the HDF5 library, which is loaded at the first of them; they are read by code of this
+// project, because a damaged file may crash that library. Other programs' files are read as far as that code
+// knows them.
 #pragma once
 
 #include <cstdint>
@@ -40,12 +41,14 @@ struct Hdf5Array {
 struct Hdf5Content {
   std::vector<std::pair<std::string, std::string>> texts;  // attributes of the root, each below 60 000 bytes
   std::vector<Hdf5Array> arrays;
+  std::vector<std::pair<std::string, double>> numbers{};  // attributes of the root as well
   std::vector<std::string>
       unread{};  // filled by reading: what stands in the file and is not among these, and why
 
   // Null where there is none.
   const Hdf5Array* array(std::string_view name) const;
   const std::string* text(std::string_view name) const;
+  const double* number(std::string_view name) const;
 };
 
 // An array that owns its values.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/io/hdf5_messages.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 
 namespace asperity {
 
@@ -249,6 +251,22 @@ std::optional<std::string> text_of(const Hdf5Bytes& file, const Hdf5Attribute& a
     if (length > 0) text = heap_object(file, heap, index).substr(0, length);
   }
   return std::string(text.substr(0, text.find('\0')));
+}
+
+std::optional<double> number_of(const Hdf5Bytes& file, const Hdf5Attribute& attribute) {
+  const Hdf5Type& type = attribute.type;
+  const bool floating = type.kind == Hdf5Type::Kind::floating;
+  if ((!floating && type.kind != Hdf5Type::Kind::integer) || attribute.shape.count(file) != 1) return {};
+  Hdf5Cursor cursor(file, attribute.data, "the number of an attribute");
+  std::string raw(cursor.take(type.width));
+  if (type.big_endian) std::reverse(raw.begin(), raw.end());
+  const std::uint64_t bits = Hdf5Cursor(file, raw, "").number(static_cast<int>(type.width));
+  if (floating)
+    return type.width == 8 ? std::bit_cast<double>(bits)
+                           : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+  if (!type.is_signed) return static_cast<double>(bits);
+  const auto unused = static_cast<int>(64 - 8 * type.width);
+  return static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);
 }
 
 }  // namespace asperity

@@ -62,4 +62,7 @@ Hdf5Attribute read_attribute(const Hdf5Bytes& file, std::string_view body);
 // file.
 std::optional<std::string> text_of(const Hdf5Bytes& file, const Hdf5Attribute& attribute);
 
+// The number of an attribute of one number; none for another kind.
+std::optional<double> number_of(const Hdf5Bytes& file, const Hdf5Attribute& attribute);
+
 }  // namespace asperity

@@ -68,6 +68,14 @@ void write_text(hid_t object, const AsperityHdf5Text& text) {
   attribute.close();
 }
 
+void write_number(hid_t object, const AsperityHdf5Number& number) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  Handle attribute(H5Acreate2(object, number.name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT),
+                   H5Aclose);
+  must(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &number.value));
+  attribute.close();
+}
+
 // Groups on the way are made by the library; it must not make them with its defaults.
 void make_groups(hid_t file, const std::string& name) {
   for (std::size_t at = name.find('/'); at != std::string::npos; at = name.find('/', at + 1)) {
@@ -116,6 +124,7 @@ void write_file(const char* path, const AsperityHdf5File& content) {
   must(H5Pset_attr_phase_change(creation, most_in_header, 0));
   Handle file(H5Fcreate(path, H5F_ACC_TRUNC, creation, access), H5Fclose);
   for (std::size_t k = 0; k < content.text_count; ++k) write_text(file, content.texts[k]);
+  for (std::size_t k = 0; k < content.number_count; ++k) write_number(file, content.numbers[k]);
   for (std::size_t k = 0; k < content.array_count; ++k) write_array(file, content.arrays[k]);
   must(H5Fflush(file, H5F_SCOPE_GLOBAL));
   file.close();

@@ -16,6 +16,11 @@ struct AsperityHdf5Text {
   const char* value;  // UTF-8
 };
 
+struct AsperityHdf5Number {
+  const char* name;
+  double value;
+};
+
 struct AsperityHdf5Array {
   const char* name;  // with `/` between the groups
   AsperityHdf5Kind kind;
@@ -29,6 +34,8 @@ struct AsperityHdf5Array {
 struct AsperityHdf5File {
   const AsperityHdf5Text* texts;
   std::size_t text_count;
+  const AsperityHdf5Number* numbers;
+  std::size_t number_count;
   const AsperityHdf5Array* arrays;
   std::size_t array_count;
 };
