@@ -28,9 +28,8 @@ std::filesystem::path results_of(const std::string& named) {
 
 }  // namespace
 
-ResultFilesSetup result_files(const RunCommand& command, const RunDirectory& run) {
+ResultFilesSetup result_files(const RunCommand& command) {
   ResultFilesSetup setup;
-  setup.folder = run.store();
   for (const std::string& named : command.reuse) setup.also.push_back(results_of(named));
   if (command.store_limit) setup.most_bytes = *command.store_limit;
   setup.build = build_identity();

@@ -17,9 +17,9 @@ namespace asperity::cli {
 // arguments or a seed that are not its own, unless `reuse` is given, and for a directory that is no run.
 std::optional<RunCommand> taken_up(RunCommand command);
 
-// Where the results of a run are kept and looked for. Throws Error{bad_value} for a `reuse` that is no
-// folder.
-ResultFilesSetup result_files(const RunCommand& command, const RunDirectory& run);
+// How results of a run are kept, and where else they are looked for; the folder is left open. Throws
+// Error{bad_value} for a `reuse` that is no folder.
+ResultFilesSetup result_files(const RunCommand& command);
 
 // A store from which nothing is taken from a line of the journal on.
 class UntilLine final : public ResultStore {

@@ -149,6 +149,7 @@ std::int64_t parse_bytes(const std::string& text) {
 int in_run_directory(const RunCommand& command, const std::function<std::string(RunContext&)>& work) {
   std::string text;
   std::shared_ptr<RunDirectory> run;
+  ResultFilesSetup kept;
   set_thread_count(command.threads);
   try {
     text = command.text ? *command.text : read_script(command.script);
@@ -163,7 +164,9 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     setup.seed = static_cast<std::int64_t>(command.seed);
     setup.threads = thread_count();
     setup.versions = version_json();
+    kept = result_files(command);
     run = std::make_shared<RunDirectory>(setup);
+    kept.folder = run->store();
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;
@@ -171,7 +174,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
 
   TerminalMonitor monitor;
   monitor.keep_warnings_in(run.get());
-  ResultFiles results(result_files(command, *run));
+  ResultFiles results(std::move(kept));
   UntilLine until(results, run->journal(), command.afresh_from.value_or(0));
   if (command.store_limit != 0)
     monitor.keep_results_in(command.afresh_from ? static_cast<ResultStore*>(&until) : &results);

@@ -3,8 +3,10 @@
 // structure carries checksums), each in one piece, without times. Keeps nothing between calls.
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -13,13 +15,21 @@
 namespace {
 
 // What the library says at the moment of a failure; closing what is open clears it. The innermost entry of
-// its stack says what happened, e.g. "file write failed: ... No space left on device".
+// its stack says what happened, and with it what the system said, where it was asked: "No space left on
+// device".
 struct Failure {
   std::string reason = "the HDF5 library gives no reason";
   Failure() { H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &reason); }
 
   static herr_t keep_first(unsigned n, const H5E_error2_t* entry, void* text) {
-    if (n == 0 && entry->desc != nullptr) *static_cast<std::string*>(text) = entry->desc;
+    if (n != 0 || entry->desc == nullptr) return 0;
+    std::string reason = entry->desc;
+    constexpr std::string_view mark = "error message = '";
+    if (const std::size_t at = reason.find(mark); at != std::string::npos) {
+      reason.erase(0, at + mark.size());
+      reason.erase(std::min(reason.find('\''), reason.size()));
+    }
+    *static_cast<std::string*>(text) = reason;
     return 0;
   }
 };
@@ -136,6 +146,10 @@ extern "C" __attribute__((visibility("default"))) int asperity_hdf5_write_1(cons
                                                                             const AsperityHdf5File* file,
                                                                             char* reason, std::size_t room) {
   static_assert(std::is_same_v<decltype(asperity_hdf5_write_1), AsperityHdf5Write>);
+  // A file that could not be written stays open in the library, which would write it once more, and crash, as
+  // the program ends.
+  static const herr_t left_alone = H5dont_atexit();
+  (void)left_alone;
   H5E_auto2_t print = nullptr;
   void* with = nullptr;
   H5Eget_auto2(H5E_DEFAULT, &print, &with);
