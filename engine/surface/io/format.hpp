@@ -41,6 +41,10 @@ struct Format {
 const Format& npy_format();
 const Format& x3p_format();
 const Format& hdf5_format();
+const Format& gwy_format();
+const Format& sur_format();
+const Format& opd_format();
+const Format& sdf_format();
 const Format& stylus_csv_format();
 const Format& xyz_format();
 const Format& text_format();

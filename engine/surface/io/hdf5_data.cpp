@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/core/text.hpp"
+#include "engine/surface/io/hdf5_chunks.hpp"
 
 namespace asperity {
 
@@ -40,42 +41,44 @@ Array<To> converted(std::string_view raw, bool swap, Monitor& monitor) {
   return values;
 }
 
-// Integers that fit; those past int64 are refused, for a wrong sign would be worse.
-Array<std::int64_t> wide_integers(const Hdf5Bytes& file, const Hdf5Dataset& dataset, std::string_view raw,
-                                  bool swap, Monitor& monitor) {
-  const bool with_sign = dataset.type.is_signed;
-  switch (dataset.type.width) {
+Array<std::int64_t> wide_integers(const Hdf5Type& type, std::string_view raw, bool swap, Monitor& monitor) {
+  switch (type.width) {
     case 1:
       return converted<std::int8_t, std::int64_t>(raw, swap, monitor);
     case 2:
-      return with_sign ? converted<std::int16_t, std::int64_t>(raw, swap, monitor)
-                       : converted<std::uint16_t, std::int64_t>(raw, swap, monitor);
+      return type.is_signed ? converted<std::int16_t, std::int64_t>(raw, swap, monitor)
+                            : converted<std::uint16_t, std::int64_t>(raw, swap, monitor);
     case 4:
-      return with_sign ? converted<std::int32_t, std::int64_t>(raw, swap, monitor)
-                       : converted<std::uint32_t, std::int64_t>(raw, swap, monitor);
+      return type.is_signed ? converted<std::int32_t, std::int64_t>(raw, swap, monitor)
+                            : converted<std::uint32_t, std::int64_t>(raw, swap, monitor);
     default:
-      break;
+      return converted<std::int64_t, std::int64_t>(raw, swap, monitor);
   }
-  Array<std::int64_t> values = converted<std::int64_t, std::int64_t>(raw, swap, monitor);
-  if (!with_sign && std::any_of(values.begin(), values.end(), [](std::int64_t v) { return v < 0; }))
-    file.refuse("holds integers past 2^63 in " + quoted(dataset.name),
-                "write them as floating-point numbers");
-  return values;
 }
 
-Hdf5Array from_raw(const Hdf5Bytes& file, const Hdf5Dataset& dataset, std::string_view raw,
-                   Monitor& monitor) {
+Hdf5Array from_raw(const Hdf5Dataset& dataset, std::string_view raw, Monitor& monitor) {
   std::vector<std::size_t> shape(dataset.shape.sizes.begin(), dataset.shape.sizes.end());
   if (dataset.shape.none) shape = {0};
-  const bool swap = dataset.type.big_endian == (std::endian::native == std::endian::little);
-  if (dataset.type.kind == Hdf5Type::Kind::floating)
-    return owning_array(dataset.name, std::move(shape),
-                        dataset.type.width == 8 ? converted<double, double>(raw, swap, monitor)
-                                                : converted<float, double>(raw, swap, monitor));
-  if (dataset.type.width == 1 && !dataset.type.is_signed)
-    return owning_array(dataset.name, std::move(shape),
-                        converted<std::uint8_t, std::uint8_t>(raw, swap, monitor));
-  return owning_array(dataset.name, std::move(shape), wide_integers(file, dataset, raw, swap, monitor));
+  const Hdf5Type& type = dataset.type;
+  const bool swap = type.big_endian == (std::endian::native == std::endian::little);
+  const auto owning = [&](auto values) {
+    return owning_array(dataset.name, std::move(shape), std::move(values));
+  };
+  if (type.kind == Hdf5Type::Kind::floating)
+    return owning(type.width == 8 ? converted<double, double>(raw, swap, monitor)
+                                  : converted<float, double>(raw, swap, monitor));
+  if (type.width == 1 && !type.is_signed)
+    return owning(converted<std::uint8_t, std::uint8_t>(raw, swap, monitor));
+  Array<std::int64_t> values = wide_integers(type, raw, swap, monitor);
+  // Those past int64 would have a wrong sign.
+  if (type.width == 8 && !type.is_signed &&
+      std::any_of(values.begin(), values.end(), [](std::int64_t value) { return value < 0; }))
+    return owning(converted<std::uint64_t, double>(raw, swap, monitor));
+  return owning(std::move(values));
+}
+
+bool is_empty(const Hdf5Shape& shape) {
+  return shape.none || std::find(shape.sizes.begin(), shape.sizes.end(), 0) != shape.sizes.end();
 }
 
 }  // namespace
@@ -83,15 +86,20 @@ Hdf5Array from_raw(const Hdf5Bytes& file, const Hdf5Dataset& dataset, std::strin
 std::string why_unread(const Hdf5Dataset& dataset) {
   if (dataset.type.kind != Hdf5Type::Kind::floating && dataset.type.kind != Hdf5Type::Kind::integer)
     return dataset.type.word;
-  if (dataset.layout.kind == Hdf5Layout::Kind::chunked || !dataset.filters.empty())
-    return "numbers in chunks or compressed";
-  if (dataset.layout.kind == Hdf5Layout::Kind::other) return "numbers in a layout that is not known";
+  if (dataset.layout.kind == Hdf5Layout::Kind::other)
+    return "numbers in a layout that is not known (h5repack --layout=CONTI writes one that is)";
+  if (dataset.layout.nowhere && !is_empty(dataset.shape)) return "numbers that were never written";
+  if (dataset.layout.kind == Hdf5Layout::Kind::chunked) return why_chunks_unread(dataset);
   return {};
 }
 
 Hdf5Array read_numbers(const Hdf5Bytes& file, const Hdf5Dataset& dataset, std::uint64_t& room,
                        Monitor& monitor) {
   const std::uint64_t bytes = dataset.shape.count(file) * dataset.type.width;
+  if (dataset.layout.kind == Hdf5Layout::Kind::chunked && bytes > 0) {
+    const Array<char> raw = read_chunks(file, dataset, room, monitor);
+    return from_raw(dataset, {raw.data(), raw.size()}, monitor);
+  }
   if (bytes > room)
     file.refuse("is damaged: it claims " + std::to_string(bytes) + " bytes of numbers in " +
                     quoted(dataset.name) + ", more than are left of the file",
@@ -100,14 +108,12 @@ Hdf5Array read_numbers(const Hdf5Bytes& file, const Hdf5Dataset& dataset, std::u
   if (dataset.layout.kind == Hdf5Layout::Kind::compact) {
     if (dataset.layout.compact.size() < bytes)
       file.refuse("is damaged: " + quoted(dataset.name) + " has fewer numbers than its shape");
-    return from_raw(file, dataset, dataset.layout.compact.substr(0, bytes), monitor);
+    return from_raw(dataset, dataset.layout.compact.substr(0, bytes), monitor);
   }
-  if (bytes == 0) return from_raw(file, dataset, {}, monitor);
-  if (dataset.layout.nowhere)
-    file.refuse("holds " + quoted(dataset.name) + " whose numbers were never written", "write them");
+  if (bytes == 0) return from_raw(dataset, {}, monitor);
   if (dataset.layout.length < bytes)
     file.refuse("is damaged: " + quoted(dataset.name) + " has fewer numbers than its shape");
-  return from_raw(file, dataset, file.piece(dataset.layout.address, bytes, "an array"), monitor);
+  return from_raw(dataset, file.piece(dataset.layout.address, bytes, "an array"), monitor);
 }
 
 }  // namespace asperity

@@ -64,10 +64,11 @@ Hdf5Array owning_array(std::string name, std::vector<std::size_t> shape, Array<T
 // library or the disk refuses, Error{bad_value} for a name, text or shape that cannot be written.
 void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content);
 
-// Everything in the file that is an array of numbers or a text of the root, in the order of names that the
+// Everything in the file that is an array of numbers, or a text or number of the root, in the order that the
 // file keeps. Floating-point numbers come as doubles, bytes and truth values as bytes, all other integers as
-// int64. Throws Error{bad_file} for whatever is damaged. Memory: at most some hundred times the file's size,
-// once where nothing is compressed or narrow. Thread-safe.
+// int64, or as doubles where they are past it. Throws Error{bad_file} for whatever is damaged. Memory: once
+// the file's size where nothing is compressed or narrow, at most some ten thousand times where deflate was at
+// its best. Thread-safe.
 Hdf5Content read_hdf5(const std::filesystem::path& path, Monitor& monitor = Monitor::silent());
 Hdf5Content read_hdf5(const SourceFile& file, Monitor& monitor = Monitor::silent());
 

@@ -13,7 +13,7 @@ constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
 
 // Where the file begins: at 0, or after a block of the user's of 512 bytes or a power of two times that.
 std::size_t start_of(std::string_view bytes) {
-  for (std::size_t at = 0; at < bytes.size() && bytes.size() - at > signature.size();
+  for (std::size_t at = 0; at < bytes.size() && bytes.size() - at >= signature.size();
        at = at == 0 ? 512 : 2 * at)
     if (bytes.substr(at, signature.size()) == signature) return at;
   return std::string_view::npos;
@@ -26,7 +26,13 @@ std::string_view checked(const Hdf5Bytes& file, std::string_view piece, const ch
   constexpr std::size_t width = 4;
   if (piece.size() < width) file.refuse("is damaged: " + std::string(what) + " is too short");
   const std::string_view content = piece.substr(0, piece.size() - width);
-  if (Hdf5Cursor(file, piece.substr(content.size()), what).number(width) != lookup3(content))
+  // A fuzzer would get no further than the first of these.
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+  constexpr bool compared = false;
+#else
+  constexpr bool compared = true;
+#endif
+  if (compared && Hdf5Cursor(file, piece.substr(content.size()), what).number(width) != lookup3(content))
     file.refuse("is damaged: the checksum of " + std::string(what) + " is not that of its bytes",
                 "the file was altered after it was written");
   return content;
