@@ -33,24 +33,25 @@ std::string refusal(const std::string& bytes) {
 }
 
 TEST(Bcr, IntegersAreHeightsOfTheirStep) {
-  const Surface s = read(example(integers, six));
+  const Surface s = read(example(integers + "voidpixels = 0\n", six));
   EXPECT_EQ(s.grid(), (Grid{3, 2, 3000 * 1e-9, 4000 * 1e-9}));
   EXPECT_EQ(s.height(0, 1), -4 * (0.5 * 1e-9));
   EXPECT_EQ(s.height(1, 1), 32767 * (0.5 * 1e-9));
   EXPECT_EQ(read(example(integers + "voidpixels = 1\n", six), HoleFill::with(7)).height(1, 1), 7);
+  EXPECT_EQ(read(example(integers, six), HoleFill::with(7)).height(1, 1), 7);
 }
 
 TEST(Bcr, BigEndianNumbersAreTurned) {
   std::string bytes =
       example("fileformat = bcrstm\nintelmode = 0\n" + integers.substr(20, integers.size() - 34), six);
   for (std::size_t k = 2048; k < bytes.size(); k += 2) std::swap(bytes[k], bytes[k + 1]);
-  EXPECT_EQ(read(bytes).height(0, 1), -4 * (0.5 * 1e-9));
+  EXPECT_EQ(read(bytes, HoleFill::with(0)).height(0, 1), -4 * (0.5 * 1e-9));
 }
 
 TEST(Bcr, FloatsAreNanometres) {
   const std::string header =
       "fileformat = bcrf\n# a comment\nxpixels = 2\nypixels = 1\nxlength = 2\nxunit = um\nylength = "
-      "1000\nvoidpixels = 5\n";
+      "1000\n";
   const Surface s = read(example<float>(header, {2.5F, 3e38F}), HoleFill::with(0));
   EXPECT_EQ(s.grid(), (Grid{2, 1, 2e-6, 1000 * 1e-9}));
   EXPECT_EQ(s.height(0, 0), 2.5 * 1e-9);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // BCR and BCRF of Image Metrology (SPIP) and of microscopes that write them: a header in text of 2048 bytes,
 // lines of `key = value`, then integers of 16 bits (`fileformat = bcrstm`, heights `bit2nm` nanometres each)
-// or floating-point numbers of 32 (`bcrf`, heights in nanometres), line by line. Where `voidpixels` says so,
-// 32767 and numbers past 1.7e38 are missing points. Layout as restated by Gwyddion's reader. `zmin` is passed
-// over.
+// or floating-point numbers of 32 (`bcrf`, heights in nanometres), line by line. Numbers past 1.7e38 and,
+// unless `voidpixels` is 0, 32767 are missing points. Layout as restated by Gwyddion's reader. `zmin` is
+// passed over.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -94,7 +94,7 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
   const std::string_view data = file.bytes().substr(header_bytes);
   require_numbers(file, columns, rows, integers ? 2 : 4, data.size());
   const bool big_endian = lines.count("intelmode") != 0 && count_of(file, lines, "intelmode") == 0;
-  const bool voids = lines.count("voidpixels") != 0 && count_of(file, lines, "voidpixels") != 0;
+  const bool voids = lines.count("voidpixels") == 0 || count_of(file, lines, "voidpixels") != 0;
   const int nx = static_cast<int>(columns), ny = static_cast<int>(rows);
   HeightMap map;
   if (integers) {
@@ -104,9 +104,8 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
     map.unit = length_of(file, lines, "bit2nm", "zunit");
   } else {
     constexpr float least_missing = 1.7e38F;
-    map.heights = heights_of<float>(data, nx, ny, big_endian, monitor, [&](float value) {
-      return std::isnan(value) || (voids && std::abs(value) > least_missing);
-    });
+    map.heights = heights_of<float>(data, nx, ny, big_endian, monitor,
+                                    [](float value) { return !(std::abs(value) <= least_missing); });
     map.unit = nanometre;
   }
   map.size_x = length_of(file, lines, "xlength", "xunit");
