@@ -93,7 +93,7 @@ const Block<ReadProfileOptions>& read_block() {
                 "distance between samples, where the file has none"),
        unit_key(&O::unit), fill_key(&O::fill),
        text("format", &O::format, "read as this format whatever the file looks like"),
-       text("channel", &O::channel, "which of several maps in the file, e.g. of HDF5")}};
+       text("channel", &O::channel, "which of several arrays in an HDF5, GWY or OPD file, by its name")}};
   return block;
 }
 

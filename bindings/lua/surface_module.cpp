@@ -300,8 +300,11 @@ const Block<ReadOptions>& read_block() {
       {pair_option("size", &O::size_x, &O::size_y, dimension::length, above(0),
                    "size of the map, where the file has none"),
        unit_key(&O::unit), fill_key(&O::fill),
-       text("format", &O::format, "read as this format whatever the file looks like"),
-       text("channel", &O::channel, "which of several maps in the file, e.g. of HDF5"),
+       text("format", &O::format,
+            "read as this format whatever the file looks like: \"x3p\", \"sdf\", \"sur\", \"opd\", \"bcr\", "
+            "\"gwy\", "
+            "\"hdf5\", \"npy\", \"text\", \"xyz\" or \"stylus-csv\""),
+       text("channel", &O::channel, "which of several maps in an HDF5, GWY or OPD file, by its name"),
        material_key(&O::material)}};
   return block;
 }
@@ -370,8 +373,9 @@ const Module& surface_module() {
     m.functions.push_back(
         {.name = "read",
          .body = read_body,
-         .sentence =
-             "A measured surface from a file: text matrix, x y z triples, NPY, X3P or a profiler's CSV.",
+         .sentence = "A measured surface from a file: X3P, SDF, SUR, OPD, BCR, GWY, HDF5, NPY, text matrix, "
+                     "x y z triples or a "
+                     "profiler's CSV, known by its content, then by its extension.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_block(),
          .options_optional = true,

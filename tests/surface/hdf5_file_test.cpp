@@ -146,6 +146,80 @@ TEST_F(Hdf5File, ChangedNumbersAreTold) {
   }
 }
 
+// Small files written by h5py, which stand among the seeds of the fuzzing target.
+Hdf5Content sample_content(const std::string& name) {
+  return read_hdf5(std::string(ASPERITY_TEST_DATA) + "/../fuzz/corpus/hdf5/" + name + ".h5");
+}
+
+TEST_F(Hdf5File, FilesOfOtherProgramsAreRead) {
+  const std::vector<double> wanted{0, 1, 2, 3, 4, 5, -6, 7.5, 8, 9, 10, 11};
+  for (const char* const name : {"contiguous", "compact", "deflated", "shuffled", "checked", "every_filter",
+                                 "big_endian", "new_headers", "user_block", "attributes"}) {
+    SCOPED_TRACE(name);
+    const Hdf5Content content = sample_content(name);
+    const Hdf5Array* const height = content.array("height");
+    ASSERT_NE(height, nullptr);
+    EXPECT_EQ(height->shape, (std::vector<std::size_t>{3, 4}));
+    const auto values = std::get<std::span<const double>>(height->values);
+    for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_EQ(values[k], wanted[k] * 1e-6);
+    EXPECT_EQ(height->unit, std::string(name) == "compact" ? "" : "m");
+  }
+  const Hdf5Content attributes = sample_content("attributes");
+  EXPECT_EQ(*attributes.text("title"), "a text");
+  EXPECT_EQ(*attributes.number("n"), -3);
+  EXPECT_EQ(*attributes.number("b"), 1.5);
+}
+
+TEST_F(Hdf5File, NumbersOfOtherTypesKeepTheirValues) {
+  const auto as_float = sample_content("floats");
+  const auto floats = std::get<std::span<const double>>(as_float.array("height")->values);
+  EXPECT_EQ(floats[7], static_cast<double>(7.5e-6F));
+  const auto as_integer = sample_content("integers_big_endian");
+  EXPECT_EQ(std::get<std::span<const std::int64_t>>(as_integer.array("height")->values)[6], -6);
+  const auto as_byte = sample_content("bytes");
+  EXPECT_EQ(std::get<std::span<const std::uint8_t>>(as_byte.array("height")->values)[11], 11);
+  const auto past = sample_content("past_int64");
+  EXPECT_EQ(std::get<std::span<const double>>(past.array("height")->values)[1], std::ldexp(1.0, 63));
+  const auto cube = sample_content("cube");
+  const auto all = std::get<std::span<const std::int64_t>>(cube.array("t")->values);
+  for (std::size_t k = 0; k < 24; ++k) EXPECT_EQ(all[k], static_cast<std::int64_t>(k));
+}
+
+TEST_F(Hdf5File, WhatIsNotReadIsNamed) {
+  const Hdf5Content groups = sample_content("groups");
+  EXPECT_NE(groups.array("a/b/height"), nullptr);
+  const auto truth = std::get<std::span<const std::uint8_t>>(groups.array("truth")->values);
+  EXPECT_EQ(truth[0], 1);
+  EXPECT_EQ(truth[1], 0);
+  EXPECT_EQ(groups.unread, (std::vector<std::string>{"`a/c`: another name of something read already",
+                                                     "`pair`: compound values",
+                                                     "`unwritten`: numbers that were never written"}));
+  EXPECT_EQ(sample_content("lzf").unread,
+            (std::vector<std::string>{
+                "`height`: numbers compressed by the filter 32000 (deflate and shuffle are read)"}));
+  EXPECT_EQ(
+      sample_content("new_chunks").unread,
+      (std::vector<std::string>{
+          "`height`: numbers in a layout that is not known (h5repack --layout=CONTI writes one that is)"}));
+}
+
+TEST_F(Hdf5File, LiesOfOtherFilesAreErrors) {
+  for (const char* const name : {"claims_1e6_by_1e6", "claims_2_to_80", "cut", "magic_only",
+                                 "too_many_members", "tree_in_itself", "wrong_tree"}) {
+    SCOPED_TRACE(name);
+    const auto error = testing::error_of([&] { sample_content(name); });
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->code(), ErrorCode::bad_file);
+  }
+}
+
+TEST_F(Hdf5File, DamagedFilesOfOtherProgramsCrashNothing) {
+  for (const char* const name : {"attributes", "every_filter", "groups", "cube", "compact", "new_headers"})
+    testing::damage(
+        testing::bytes_of(std::string(ASPERITY_TEST_DATA) + "/../fuzz/corpus/hdf5/" + name + ".h5"), 61, 2000,
+        [](const std::string& bytes) { read_hdf5(SourceFile("a.h5", bytes)); });
+}
+
 std::string refusal(const Hdf5Content& content, const std::string& path = "never.h5") {
   try {
     write_hdf5(path, content);

@@ -45,6 +45,7 @@ const Format& gwy_format();
 const Format& sur_format();
 const Format& opd_format();
 const Format& sdf_format();
+const Format& bcr_format();
 const Format& stylus_csv_format();
 const Format& xyz_format();
 const Format& text_format();

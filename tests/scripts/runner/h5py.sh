@@ -59,5 +59,27 @@ found, spacing = described("state")
 assert set(found) == {"pressure [Pa]", "gap [m]", "contact", "displacement [m]", "plastic [m]"}
 assert set(h5py.File("few.h5")) == {"pressure", "gap", "size"}
 assert set(h5py.File("elastic.h5")) == {"pressure", "gap", "contact", "displacement", "size"}
-print("h5py reads what was written")
+
+# And the other way: as h5py writes by default, compressed, and with numbers of other types.
+heights = numpy.linspace(-1, 1, 12).reshape(3, 4) * 1e-6
+for name, options in {"plain": {}, "packed": {"compression": "gzip", "shuffle": True, "fletcher32": True, "chunks": (2, 3)},
+                      "single": {"dtype": ">f4"}}.items():
+    with h5py.File("theirs_" + name + ".h5", "w") as f:
+        made = f.create_dataset("scan/topography", data=heights * 1e6, **options)
+        made.attrs["unit"] = "um"
+        f["size"] = [4e-6, 3e-6]
+        f["size"].attrs["unit"] = "m"
+        f["note"] = "not a map"
 PYTHON
+cat >theirs.lua <<'LUA'
+local lab = require "asperity"
+for _, name in ipairs{ "plain", "packed", "single" } do
+  local s = lab.surface.read("theirs_" .. name .. ".h5")
+  assert(s.cells[1] == 4 and s.cells[2] == 3 and s.size[1] == 4e-6 and s.size[2] == 3e-6, name)
+  for j = 0, 2 do
+    for i = 0, 3 do assert(math.abs(s:height(i, j) - (-1 + 2 * (4 * j + i) / 11) * 1e-6) < 1e-13, name) end
+  end
+end
+print "h5py and asperity read each other's files"
+LUA
+"$1" run theirs.lua --out theirs
