@@ -6,10 +6,13 @@
 
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact_scene.hpp"
+#include "bindings/lua/files.hpp"
 #include "bindings/lua/ledger.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/shear.hpp"
 #include "bindings/lua/surface.hpp"
+#include "engine/experiment/aside_file.hpp"
+#include "engine/experiment/bench_log.hpp"
 
 namespace asperity::lua {
 
@@ -208,6 +211,12 @@ Values shift(Call& call) {
   return {};
 }
 
+Values log(Call& call) {
+  const std::string text = bench_log_text(call.self<SpecimenPair>());
+  const std::string path = writable_path(call, call.text(1, "path"));
+  write_aside(path, text);
+  return {path};
+}
 Values copy(Call& call) { return {object(call.self<SpecimenPair>().copy())}; }
 Values explain(Call& call) { return {object(Plan(call.self<SpecimenPair>().plan()))}; }
 Values lower(Call& call) { return {object(Surface(call.self<SpecimenPair>().lower()))}; }
@@ -296,6 +305,19 @@ const Class& contact_class() {
          .sentence = "Shifts the upper body by whole cells on a periodic tile.",
          .options = &shift_block(),
          .example = "c:shift{ x=\"10 um\" }"},
+        {.name = "log",
+         .body = log,
+         .sentence =
+             "Writes all that was done to the contact since it was made as a press log, which "
+             "lab.protocol.read reads back as the same events: turns, loads, dwells, the times of a "
+             "protocol that has them; and beside each press what it measured, in columns that the reader "
+             "leaves out: result load or pressure, approach, area_fraction, peak_pressure. Where presses "
+             "were asked for in several ways, all stand by the pressure that they brought. Returns the "
+             "file.",
+         .parameters = {{"path", "string", "under the run directory"}},
+         .returns = "string",
+         .example = "c:log \"done.csv\"",
+         .heavy = true},
         {.name = "copy",
          .body = copy,
          .sentence = "A second contact in the same state.",

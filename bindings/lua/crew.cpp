@@ -26,7 +26,7 @@ constexpr auto look_every = std::chrono::milliseconds(20);
 class Crew {
  public:
   Crew(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup, Session& session)
-      : setup_(setup), session_(session), results_(cases), finished_(cases, false), end_(cases) {}
+      : setup_(setup), session_(session), results_(cases), finished_(cases, false) {}
 
   std::vector<CaseResult> run() {
     const int threads = thread_count();
@@ -39,7 +39,6 @@ class Crew {
       start(workers, wanted, single);
       while (!look()) {
       }
-      if (end_ < results_.size()) results_.resize(end_ + 1);
     }
     stop_flag().check();
     double transforms = 0;
@@ -88,10 +87,7 @@ class Crew {
         result.failure = error.what();
       }
       const std::lock_guard lock(mutex_);
-      if (!result.failure.empty()) {
-        next_.store(results_.size());
-        end_ = std::min(end_, k);
-      }
+      if (!result.failure.empty()) ++failed_;
       results_[k] = std::move(result);
       finished_[k] = true;
       ++done_;
@@ -103,27 +99,37 @@ class Crew {
   // Waits a little, then shows what is new. True when all is done.
   bool look() {
     std::string output;
-    std::vector<std::string> warnings;
-    std::size_t done = 0;
+    std::vector<std::string> warnings, failures;
+    std::size_t done = 0, failed = 0;
     bool over = false;
     {
       std::unique_lock lock(mutex_);
       over = changed_.wait_for(lock, look_every, [this] { return working_ == 0; });
       done = done_;
-      for (; shown_ < finished_.size() && shown_ <= end_ && finished_[shown_]; ++shown_) {
+      failed = failed_;
+      for (; shown_ < finished_.size() && finished_[shown_]; ++shown_) {
         CaseResult& result = results_[shown_];
         output += result.output;
         result.output.clear();
         warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+        // A stop makes the states that run fail: that is no failure of their cases.
+        if (!result.failure.empty() && stop_flag().reason() == StopReason::none)
+          failures.push_back(case_name(setup_(shown_).values) +
+                             " failed: " + without_traceback(result.failure));
       }
     }
     if (stop_flag().reason() != StopReason::none) states_.interrupt();
     std::fwrite(output.data(), 1, output.size(), session_.output);
     for (const std::string& warning : warnings)
       if (warned_.insert(warning).second) session_.monitor().warn(warning);
-    if (!over)
-      session_.monitor().progress("ensemble",
-                                  static_cast<double>(done) / static_cast<double>(results_.size()));
+    for (const std::string& failure : failures) session_.monitor().warn(failure);
+    if (!over) {
+      const std::string part = std::to_string(done) + " of " + std::to_string(results_.size()) +
+                               " cases done" + (failed > 0 ? ", " + std::to_string(failed) + " failed" : "");
+      const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begun_;
+      session_.monitor().progress_of_parts(
+          "ensemble", static_cast<double>(done) / static_cast<double>(results_.size()), part, since.count());
+    }
     return over;
   }
 
@@ -136,10 +142,10 @@ class Crew {
   std::condition_variable changed_;
   std::vector<CaseResult> results_;
   std::vector<bool> finished_;
-  std::size_t end_;  // the first case that failed
-  std::size_t done_ = 0;
+  std::size_t done_ = 0, failed_ = 0;
   std::size_t working_ = 0;
 
+  const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   std::size_t shown_ = 0;
   std::set<std::string> warned_;
 };

@@ -16,6 +16,7 @@
 #include "engine/core/digest.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/random.hpp"
+#include "engine/experiment/notebook.hpp"
 #include "engine/experiment/run_directory.hpp"
 
 namespace asperity::lua {
@@ -26,6 +27,8 @@ constexpr std::size_t most_cases = 1'000'000;
 // Ensembles in cases of ensembles: each level holds a thread and a Lua state.
 constexpr int deepest = 8;
 
+enum class OnFailure { error, report };
+
 struct EnsembleKeys {
   using Values = std::vector<CaseValue>;
   struct Varied {
@@ -34,6 +37,7 @@ struct EnsembleKeys {
   };
   std::optional<std::vector<Varied>> over;  // sorted by key
   std::optional<std::vector<Values>> cases;
+  OnFailure on_failure = OnFailure::error;
 
   std::size_t count() const {
     if (cases) return cases->size();
@@ -169,7 +173,12 @@ const Block<EnsembleKeys>& ensemble_block() {
            [](const Argument& value, const OptionInfo& info, EnsembleKeys&, Problems& problems) {
              if (!value.is_function()) detail::wrong_type(value, info, "a function(case)", problems);
            })
-           .required()},
+           .required(),
+       choice("on_failure", &EnsembleKeys::on_failure,
+              {{"error", OnFailure::error}, {"report", OnFailure::report}},
+              "what becomes of cases that fail, once all others have run: an error that names them, with the "
+              "other rows kept in ensemble_kept.csv; or the list rows.failed of {index, case, message}, and "
+              "rows of the others")},
       check_keys};
   return block;
 }
@@ -219,22 +228,106 @@ Values dry_rows(const Call& call, const EnsembleKeys& keys, const Argument& run)
     for (const CaseValue& value : keys.values(k)) row.items.emplace_back(value.key, value.value);
     rows.items.push_back(known ? Value(std::move(row)) : Value(Unknown{}));
   }
+  if (keys.on_failure == OnFailure::report) rows.named.emplace_back("failed", List{});
   return {std::move(rows)};
 }
 
-// One line: how many cases there were, and what came out.
+std::vector<std::size_t> failed_cases(const std::vector<CaseResult>& results) {
+  std::vector<std::size_t> failed;
+  for (std::size_t k = 0; k < results.size(); ++k)
+    if (!results[k].failure.empty()) failed.push_back(k);
+  return failed;
+}
+
+// One line: how many cases there were, which failed, and what came out.
 void record(const Session& session, const EnsembleKeys& keys, const std::vector<CaseResult>& results) {
   if (session.run == nullptr || session.is_case) return;
   Digester digester;
-  for (const CaseResult& result : results) digester.add(result.digest);
+  for (const CaseResult& result : results) digester.add(result.failure.empty() ? result.digest : "failed");
   Json line = Json::object({{"cases", results.size()}});
   if (keys.over) {
     std::vector<std::string> names;
     for (const auto& varied : *keys.over) names.push_back(varied.key);
     line.set("over", Json::strings(names));
   }
+  if (const std::vector<std::size_t> failed = failed_cases(results); !failed.empty()) {
+    Json::List list;
+    for (const std::size_t k : failed)
+      list.push_back(Json::object({{"index", k + 1},
+                                   {"case", case_name(keys.values(k))},
+                                   {"message", without_traceback(results[k].failure)}}));
+    line.set("failed", Json(std::move(list)));
+  }
   line.set("result", digester.hex());
   session.run->journal().write("ensemble", line);
+}
+
+// The plain cells of the rows there are, in a notebook of the run, so that an error loses nothing.
+// Returns its file; "" where nothing is recorded.
+std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) {
+  const Session& session = call.session();
+  if (session.run == nullptr || session.is_case) return {};
+  const std::shared_ptr<Notebook> book = session.run->notebook("ensemble_kept");
+  bool any = false;
+  for (const CaseResult& result : results) {
+    if (result.row == nullptr) continue;
+    const Argument::StackGuard guard(call.L);
+    auto push_row = [&result](lua_State* s) {
+      result.row->push(s);
+      return 1;
+    };
+    if (protect(call.L, 0, 1, push_row) != LUA_OK)
+      throw Error(ErrorCode::out_of_memory, error_text(call.L, -1));
+    std::vector<Entry> row;
+    Argument(call.L, -1).each([&row](const Argument& key, const Argument& value) {
+      if (!key.is_text() || key.text().empty()) return;
+      if (value.is_number())
+        row.push_back({std::string(key.text()), value.number()});
+      else if (value.is_boolean())
+        row.push_back({std::string(key.text()), value.boolean()});
+      else if (value.is_text())
+        row.push_back({std::string(key.text()), std::string(value.text())});
+    });
+    std::sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
+    if (row.empty()) continue;
+    book->write(row);
+    any = true;
+  }
+  return any ? book->csv().filename().string() : std::string();
+}
+
+// One error for all that failed, once the others are safe.
+[[noreturn]] void refuse_failures(const Call& call, const EnsembleKeys& keys,
+                                  const std::vector<CaseResult>& results,
+                                  const std::vector<std::size_t>& failed) {
+  const auto named = [&](std::size_t k) { return case_name(keys.values(k)) + ": "; };
+  const std::string& first = results[failed.front()].failure;
+  if (results.size() == 1) throw Error(ErrorCode::bad_value, named(0) + first);
+  const std::size_t others = results.size() - failed.size();
+  std::string sentence =
+      std::to_string(failed.size()) + " of " + std::to_string(results.size()) + " cases failed";
+  const std::string file = keep_rows(call, results);
+  if (others > 0)
+    sentence +=
+        others == 1 ? ", and the other one ran" : ", and the other " + std::to_string(others) + " ran";
+  if (!file.empty()) sentence += " (what they returned is in " + file + ")";
+  constexpr std::size_t most = 50;
+  for (std::size_t n = 0; n < std::min(most, failed.size()); ++n) {
+    sentence += "\n  ";
+    for (const char c : named(failed[n]) + without_traceback(results[failed[n]].failure))
+      sentence += c == '\n' ? std::string("\n    ") : std::string(1, c);
+  }
+  if (failed.size() > most) sentence += "\n  and " + std::to_string(failed.size() - most) + " more";
+  if (const std::size_t at = first.find("\nstack traceback:"); at != std::string::npos)
+    sentence += "\nwhere the first of them failed:" + first.substr(at);
+  throw Error(ErrorCode::bad_value, sentence);
+}
+
+// A plain table of the values of a case, shared with its rows.
+Map case_values(const std::vector<CaseValue>& values) {
+  Map map;
+  for (const CaseValue& value : values) map.items.emplace_back(value.key, value.value);
+  return map;
 }
 
 Values ensemble(Call& call) {
@@ -266,12 +359,20 @@ Values ensemble(Call& call) {
       return one;
     };
     std::vector<CaseResult> results = run_cases(keys.count(), setup, session);
-    if (!results.empty() && !results.back().failure.empty())
-      throw Error(ErrorCode::bad_value,
-                  case_name(keys.values(results.size() - 1)) + ": " + results.back().failure);
     record(session, keys, results);
-    List rows;
-    for (CaseResult& result : results) rows.items.emplace_back(std::move(result.row));
+    const std::vector<std::size_t> failed = failed_cases(results);
+    if (!failed.empty() && keys.on_failure == OnFailure::error) refuse_failures(call, keys, results, failed);
+    List rows, failures;
+    for (const std::size_t k : failed) {
+      Map failure;
+      failure.items.emplace_back("index", static_cast<std::int64_t>(k) + 1);
+      failure.items.emplace_back("case", case_values(keys.values(k)));
+      failure.items.emplace_back("message", without_traceback(results[k].failure));
+      failures.items.emplace_back(std::move(failure));
+    }
+    for (CaseResult& result : results)
+      if (result.row != nullptr) rows.items.emplace_back(std::move(result.row));
+    if (keys.on_failure == OnFailure::report) rows.named.emplace_back("failed", std::move(failures));
     return {std::move(rows)};
   });
 }
@@ -284,7 +385,10 @@ Function ensemble_function() {
   f.body = ensemble;
   f.sentence =
       "Runs a function for every case of a study, on all threads, and returns one row a case: the case's own "
-      "values and what the function returned. Order and values do not depend on the number of threads.";
+      "values and what the function returned. Order and values do not depend on the number of threads. A "
+      "case "
+      "that fails is told on standard error and the others run on; then `on_failure` says what becomes of "
+      "it.";
   f.options = &ensemble_block();
   f.returns = "table[]";
   f.example =

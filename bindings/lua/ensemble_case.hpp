@@ -82,6 +82,9 @@ std::string case_name(const std::vector<CaseValue>& values);
 // Never throws: what goes wrong is the failure of the result.
 CaseResult run_case(const CaseSetup& setup, RunningStates& states);
 
+// A failure without the traceback at its end.
+std::string without_traceback(const std::string& failure);
+
 // What `run` may return besides a table, as a sentence for errors.
 std::string wrong_return(const std::string& found);
 

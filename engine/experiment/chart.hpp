@@ -30,11 +30,19 @@ struct ChartSeries {
   PointShape shape = PointShape::of_line;       // any other is drawn in grey, with a thin line
 };
 
+// Words at a place of the plot, centred above it, or below.
+struct ChartLabel {
+  double x = 0, y = 0;
+  std::string text;
+  bool below = false;
+};
+
 struct LineChart {
   std::string title;
   ChartAxis x, y;
   std::string key_title;
   std::vector<ChartSeries> series;
+  std::vector<ChartLabel> labels = {};
   bool equal_axes = false;  // one unit of x is as long as one of y
   int width = 960, height = 640;
 };

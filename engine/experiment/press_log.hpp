@@ -10,11 +10,14 @@
 // lifts the body and puts it down afresh before the turn. A body under load is released before it is placed
 // or turned. The time is kept and nothing waits for it.
 //
-// Every row is an event: this reader looks for none in a recording sampled all the time, whose rows would
-// each be a press; it warns of a table that looks like one.
+// Every row is an event: a recording sampled all the time is for press_recording.hpp, and this reader warns
+// of a table that looks like one. Titles that begin with "result " are what was measured, and are left out.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "engine/core/monitor.hpp"
 #include "engine/experiment/protocol.hpp"
@@ -23,10 +26,8 @@ namespace asperity {
 
 class SourceFile;
 
-// The first line that is neither blank nor a comment (#) names the columns in any order and case, with the
-// unit of each quantity in [] or (). Cells are parted by commas, semicolons or tabs, whichever the first
-// line uses, and may be quoted; with any but commas a decimal comma is read. Columns of another name are
-// left out with a warning. Throws Error{bad_file} with every problem of the file, each by line and column:
+// Titles, units and separators are those of log_table.hpp. Columns of another name are left out with a
+// warning. Throws Error{bad_file} with every problem of the file, each by line and column:
 // a column without its unit or given twice, both pressure and load or neither, a row of another length, a
 // cell that is no number, a negative pressure, load or dwell, a time that is missing or runs backwards.
 Protocol read_press_log(const std::string& path, Monitor& monitor = Monitor::silent());
@@ -36,7 +37,12 @@ Protocol read_press_log(const SourceFile& file, Monitor& monitor = Monitor::sile
 // they can say them, else in SI units. Times are kept if every event has one. A release that was not
 // written where a body under load is placed or turned is there when it is read. Throws
 // Error{bad_value} naming the first event that a log has no way to say: a shift, a press to anything but a
-// pressure or load above zero, both of these in one protocol.
-std::string press_log_text(const Protocol& protocol);
+// pressure or load above zero, both of these in one protocol. Columns of results, with a value or none for
+// every event of the protocol, are titled "result " and so left out by the reader; presses alone show theirs.
+struct ResultColumn {
+  std::string title;  // "approach [m]"
+  std::vector<std::optional<double>> values;
+};
+std::string press_log_text(const Protocol& protocol, std::span<const ResultColumn> results = {});
 
 }  // namespace asperity

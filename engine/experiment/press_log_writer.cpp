@@ -16,6 +16,7 @@ namespace {
 
 struct Row {
   std::optional<double> time, place, rotation, load, dwell;
+  std::optional<std::size_t> press{};  // the event whose results stand here
   bool empty() const { return !place && !rotation && !load; }
 };
 
@@ -69,6 +70,7 @@ class Gatherer {
       by = press->by;
       begin(event);
       row_.dwell = press->dwell;
+      row_.press = k;
       finish(press->value);
     } else if (const auto* place = std::get_if<Protocol::Place>(&event.step)) {
       if (place->seed > (std::uint64_t{1} << 53)) refuse(k, event.step, "its seed is above 2^53");
@@ -137,6 +139,9 @@ TextColumn column_of(const std::vector<Row>& rows, Member member, const std::str
   throw Error(ErrorCode::internal, "a number of the column " + quoted(name) + " has no exact text");
 }
 
+// So many rows with times and without dwells look like a recording, which a column of no dwells cures.
+constexpr std::size_t rows_of_a_recording = 100;
+
 bool any(const std::vector<Row>& rows, Member member) {
   for (const Row& row : rows)
     if (row.*member) return true;
@@ -145,7 +150,7 @@ bool any(const std::vector<Row>& rows, Member member) {
 
 }  // namespace
 
-std::string press_log_text(const Protocol& protocol) {
+std::string press_log_text(const Protocol& protocol, std::span<const ResultColumn> results) {
   const Gatherer gathered(protocol);
   const std::vector<Row>& rows = gathered.rows;
   std::vector<TextColumn> columns;
@@ -160,8 +165,15 @@ std::string press_log_text(const Protocol& protocol) {
     columns.push_back(column_of(rows, &Row::load, "load", dimension::force, {"N"}));
   else
     columns.push_back(column_of(rows, &Row::load, "pressure", dimension::pressure, {"MPa", "Pa"}));
-  if (any(rows, &Row::dwell))
+  if (any(rows, &Row::dwell) || (gathered.timed && rows.size() >= rows_of_a_recording))
     columns.push_back(column_of(rows, &Row::dwell, "dwell", dimension::time, {"min", "s"}));
+  for (const ResultColumn& result : results) {
+    columns.push_back({"result " + result.title, {}});
+    for (const Row& row : rows) {
+      const std::optional<double> value = row.press ? result.values[*row.press] : std::nullopt;
+      columns.back().cells.push_back(value ? format_exact(*value) : "");
+    }
+  }
 
   std::string text;
   const auto line = [&](const auto& cell) {

@@ -125,6 +125,12 @@ std::size_t Protocol::presses() const {
   }));
 }
 
+Protocol Protocol::detected_in(std::shared_ptr<const Detection> recording) const {
+  Protocol result = *this;
+  result.recording_ = std::move(recording);
+  return result;
+}
+
 Protocol Protocol::plus(const Protocol& next) const {
   std::vector<Event> all = *events_;
   all.insert(all.end(), next.events_->begin(), next.events_->end());
@@ -159,7 +165,9 @@ std::string Protocol::text() const {
     const Event& event = (*events_)[k];
     const std::string number = number_of(k + 1);
     all += "\n  " + std::string(width - number.size(), ' ') + number + "  " + asperity::text(event.step);
-    if (event.time) all += " (at " + format_short(*event.time) + " s)";
+    if (event.time || !event.origin.empty())
+      all += " (" + (event.time ? "at " + format_short(*event.time) + " s" : "") +
+             (event.time && !event.origin.empty() ? ", " : "") + event.origin + ")";
   }
   return all;
 }

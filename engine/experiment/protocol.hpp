@@ -18,6 +18,8 @@
 
 namespace asperity {
 
+struct Detection;
+
 class Protocol {
  public:
   struct Release {};
@@ -51,13 +53,20 @@ class Protocol {
   Protocol plus(const Protocol& next) const;
   Protocol repeated(std::int64_t times) const;
 
-  // A line with the count and one an event; the middle of a long one is left out.
+  // The same events, with what was found in the recording that they come from; no part of the value.
+  Protocol detected_in(std::shared_ptr<const Detection> recording) const;
+  // Null for a protocol that does not come from a recording as it is.
+  const std::shared_ptr<const Detection>& recording() const { return recording_; }
+
+  // A line with the count and one an event, with the time and the lines that it was read from; the middle
+  // of a long one is left out.
   std::string text() const;
   // Of steps and times.
   std::string digest() const;
 
  private:
   std::shared_ptr<const std::vector<Event>> events_;
+  std::shared_ptr<const Detection> recording_;
 };
 
 // The script key: "press", "release", "place", "rotate", "shift".

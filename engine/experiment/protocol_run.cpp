@@ -45,7 +45,9 @@ std::optional<State> ProtocolRun::step(Monitor& monitor) {
     const double after = static_cast<double>(pressed_ + (press ? 1 : 0)) / all;
     PartMonitor part(monitor, "protocol", title, before, after, begun_);
     part.begin();
+    const std::size_t done = pair_->history().size();
     std::optional<State> state = std::visit(Doer{*pair_, part}, event.step);
+    pair_->date(done, event.time);
     if (press) ++pressed_;
     ++next_;
     return state;

@@ -116,7 +116,7 @@ State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
   if (first) state = state.costing_also(ready->preparation());
   if (plan_.yield) state = state.costing_also(flatten_for_good(state, monitor));
   state = showing_what_costs_nothing(plan_, std::move(state));
-  carry(state);
+  carry(state, request);
   return state;
 }
 
@@ -131,7 +131,7 @@ State SpecimenPair::choose_and_press(const PressRequest& request, Monitor& monit
   State state = std::move(choice.state);
   if (after.plan_.yield) state = state.costing_also(after.flatten_for_good(state, monitor));
   state = showing_what_costs_nothing(plan_, std::move(state));
-  after.carry(state);
+  after.carry(state, request);
   *this = std::move(after);
   return state;
 }
@@ -180,7 +180,11 @@ void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
                "presses too; boundary=\"free\" has none");
 }
 
-void SpecimenPair::carry(const State& state) {
+void SpecimenPair::carry(const State& state, const PressRequest& request) {
+  history_.push_back({request,
+                      {},
+                      Done::Measured{state.load(), state.pressure(), state.approach(), state.area_fraction(),
+                                     state.peak_pressure()}});
   // Now and then those that are gone are left out.
   if (states_.size() == states_.capacity())
     std::erase_if(states_, [](const State::Watch& watch) { return watch.expired(); });
@@ -199,13 +203,22 @@ PartialSlip SpecimenPair::shear(const ShearRequest& request, Monitor& monitor) {
 }
 
 void SpecimenPair::release() {
+  history_.push_back({Protocol::Release{}});
+  unload();
+}
+
+void SpecimenPair::date(std::size_t first, std::optional<double> time) {
+  for (std::size_t k = first; k < history_.size(); ++k) history_[k].time = time;
+}
+
+void SpecimenPair::unload() {
   under_load_ = false;
   pressed_.reset();
 }
 
 void SpecimenPair::lay(const Pose& pose) {
   if (pose == geometry_->pose()) {
-    release();
+    unload();
     return;
   }
   auto geometry = std::make_shared<const ContactGeometry>(scene_, pose, hardness_);
@@ -216,11 +229,12 @@ void SpecimenPair::lay(const Pose& pose) {
   hardness_ = geometry->hardness();
   geometry_ = std::move(geometry);
   plan_ = std::move(plan);
-  release();
+  unload();
 }
 
 void SpecimenPair::place(std::uint64_t seed) {
   lay(draw_placement(scene_.lower.grid(), scene_.boundary, seed));
+  history_.push_back({Protocol::Place{seed}});
 }
 
 void SpecimenPair::rotate(double angle) {
@@ -241,6 +255,7 @@ void SpecimenPair::rotate(double angle) {
                 "resampled in place");
   }
   lay(turned);
+  history_.push_back({Protocol::Rotate{angle}});
 }
 
 void SpecimenPair::shift(double x, double y) {
@@ -250,6 +265,7 @@ void SpecimenPair::shift(double x, double y) {
                 "use `boundary` = \"periodic\"");
   const Grid& grid = scene_.lower.grid();
   lay(placement().shifted(whole_cells(x, grid.hx(), "x"), whole_cells(y, grid.hy(), "y")));
+  history_.push_back({Protocol::Shift{x, y}});
 }
 
 Surface SpecimenPair::upper() const {

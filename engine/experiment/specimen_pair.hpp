@@ -19,12 +19,23 @@
 #include "engine/contact/scene.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/contact/state.hpp"
+#include "engine/experiment/protocol.hpp"
 #include "engine/friction/partial_slip.hpp"
 
 namespace asperity {
 
 class SpecimenPair {
  public:
+  // What was done to the pair, and what a press of it measured.
+  struct Done {
+    struct Measured {
+      double load, pressure, approach, area_fraction, peak_pressure;
+    };
+    Protocol::Step step;
+    std::optional<double> time{};  // s, as a protocol recorded it
+    std::optional<Measured> measured{};
+  };
+
   // Turned over and laid down without turn or shift. Throws what check(Scene) and make_plan throw; O(n)
   // for two rough bodies, no solve.
   explicit SpecimenPair(const Scene& scene);
@@ -62,6 +73,11 @@ class SpecimenPair {
   // Shifts the upper specimen by (x, y) m, whole cells (to 1e-9 of a cell), on a periodic boundary only.
   void shift(double x, double y);
 
+  // All that was done since the pair was made, in order; a copy goes on from that of its original.
+  const std::vector<Done>& history() const { return history_; }
+  // Gives a time to all that was done from number `first` on.
+  void date(std::size_t first, std::optional<double> time);
+
   // Each body as it is now, in its own frame. A flat counter-body is a surface of zeros.
   const Surface& lower() const { return scene_.lower; }
   Surface upper() const;
@@ -80,7 +96,8 @@ class SpecimenPair {
 
  private:
   void lay(const Pose& pose);
-  void carry(const State& state);
+  void carry(const State& state, const PressRequest& request);
+  void unload();
   void warn(const PressRequest& request, Monitor& monitor);
   State choose_and_press(const PressRequest& request, Monitor& monitor);
   // Takes from the bodies what yielded in `state`; what it cost.
@@ -96,6 +113,7 @@ class SpecimenPair {
   bool under_load_ = false;
   std::optional<State> pressed_;
   std::vector<State::Watch> states_;  // those pressed here
+  std::vector<Done> history_;
   bool warned_of_rim_ = false;
   bool warned_of_mapping_ = false;
   bool warned_of_dwell_ = false;

@@ -30,8 +30,12 @@ class RecordingMonitor final : public Monitor {
     progressed = std::string(what);
     last_done = done;
   }
+  void progress_of_parts(std::string_view what, double done, std::string_view of, double) override {
+    progress(what, done);
+    part = std::string(of);
+  }
   void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
-  std::string progressed;
+  std::string progressed, part;
   double last_done = -1;
   std::vector<std::string> warnings;
 };
@@ -118,7 +122,8 @@ const char* const study = R"(
   return table.concat(lines, "\n")
 )";
 
-std::string journal_of(int threads, std::string& rows, std::string& printed) {
+std::string journal_of(int threads, std::string& rows, std::string& printed,
+                       const std::string& script = study, std::string* kept = nullptr) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() /
       ("asperity-ensemble-" + std::to_string(getpid()) + "-" + std::to_string(threads));
@@ -130,9 +135,13 @@ std::string journal_of(int threads, std::string& rows, std::string& printed) {
     setup.script_name = "study.lua";
     setup.out = folder;
     bench.session.run = std::make_shared<RunDirectory>(setup);
-    rows = bench.run(study);
+    rows = bench.run(script);
     printed = bench.printed();
     bench.session.run->finish(RunStatus::done);
+    if (kept != nullptr) {
+      std::ifstream table(folder / "ensemble_kept.csv");
+      *kept = std::string(std::istreambuf_iterator<char>(table), {});
+    }
     std::ifstream file(folder / "journal.jsonl");
     std::ostringstream all;
     all << file.rdbuf();
@@ -380,22 +389,87 @@ TEST(Ensemble, ContactStatesComeBackAsValues) {
             "true");
 }
 
-TEST(Ensemble, FirstFailingCaseIsNamedWithItsLineAndTraceback) {
-  for (const int threads : {1, 2, 4}) {
-    Bench bench(threads);
-    const std::string message = bench.run(R"(
+// Two of six cases fail.
+const char* const failing = R"(
       local function deep(case) error("boom " .. case.seed) end
-      lab.ensemble{ over = { D = {2, 2.5}, seed = {1, 2, 3}, kind = {"cold"} }, run = function(case)
+      local function run(case)
         print(case.D, case.seed)
         if case.D > 2 and case.seed > 1 then deep(case) end
-        return {}
-      end })");
+        return { twice = 2 * case.D, list = { 1 } }
+      end
+      local over = { D = {2, 2.5}, seed = {1, 2, 3}, kind = {"cold"} }
+)";
+
+TEST(Ensemble, AllOtherCasesRunAndOneErrorNamesThoseThatFailed) {
+  for (const int threads : {1, 2, 4}) {
+    Bench bench(threads);
+    const std::string message =
+        bench.run(std::string(failing) + "      lab.ensemble{ over = over, run = run }");
     EXPECT_TRUE(contains(message,
-                         "error: script:3: lab.ensemble: case D = 2.5, kind = \"cold\", seed = 2: "
-                         "script:2: boom 2\nstack traceback:\n"));
+                         "error: script:9: lab.ensemble: 2 of 6 cases failed, and the other 4 ran\n"
+                         "  case D = 2.5, kind = \"cold\", seed = 2: script:2: boom 2\n"
+                         "  case D = 2.5, kind = \"cold\", seed = 3: script:2: boom 3\n"
+                         "where the first of them failed:\nstack traceback:\n"));
     EXPECT_TRUE(contains(message, "script:5: in function"));
-    EXPECT_EQ(bench.printed(), "2\t1\n2\t2\n2\t3\n2.5\t1\n2.5\t2\n");
+    EXPECT_EQ(bench.printed(), "2\t1\n2\t2\n2\t3\n2.5\t1\n2.5\t2\n2.5\t3\n");
+    EXPECT_EQ(bench.monitor.warnings,
+              (std::vector<std::string>{"case D = 2.5, kind = \"cold\", seed = 2 failed: script:2: boom 2",
+                                        "case D = 2.5, kind = \"cold\", seed = 3 failed: script:2: boom 3"}));
   }
+}
+
+TEST(Ensemble, WhatSucceededBesideFailuresIsKept) {
+  const std::string script = std::string(failing) + "      lab.ensemble{ over = over, run = run }";
+  std::string rows, printed, kept;
+  const std::string journal = journal_of(1, rows, printed, script, &kept);
+  EXPECT_EQ(kept, "D,kind,seed,twice\n2,cold,1,4\n2,cold,2,4\n2,cold,3,4\n2.5,cold,1,5\n");
+  EXPECT_TRUE(contains(rows, "the other 4 ran (what they returned is in ensemble_kept.csv)\n"));
+  EXPECT_TRUE(contains(journal,
+                       "\"failed\":[{\"index\":5,\"case\":\"case D = 2.5, kind = \\\"cold\\\", seed = 2\","
+                       "\"message\":\"script:2: boom 2\"},{\"index\":6"));
+  for (const int threads : {2, 4}) {
+    std::string other_rows, other_printed, other_kept;
+    EXPECT_EQ(journal_of(threads, other_rows, other_printed, script, &other_kept), journal) << threads;
+    EXPECT_EQ(other_kept, kept) << threads;
+    EXPECT_EQ(other_rows, rows) << threads;
+  }
+}
+
+TEST(Ensemble, FailuresReportedAreAListBesideTheRows) {
+  for (const int threads : {1, 3}) {
+    Bench bench(threads);
+    EXPECT_EQ(bench.run(std::string(failing) + R"(
+      local rows = lab.ensemble{ over = over, run = run, on_failure = "report" }
+      local text = #rows .. " " .. rows[4].D .. " " .. rows[4].twice
+      for _, failure in ipairs(rows.failed) do
+        text = text .. "; " .. failure.index .. " " .. failure.case.seed .. " " .. failure.message
+      end
+      return text)"),
+              "4 2.5 5.0; 5 2 script:2: boom 2; 6 3 script:2: boom 3");
+    EXPECT_EQ(bench.monitor.warnings.size(), 2U);
+    EXPECT_EQ(bench.run("return #lab.ensemble{ over = { x = {1} }, run = function() end, "
+                        "on_failure = 'report' }.failed"),
+              "0");
+  }
+}
+
+TEST(Ensemble, ACaseAloneFailsInItsOwnWords) {
+  Bench bench;
+  const std::string message =
+      bench.run("lab.ensemble{ over = { x = {1} }, run = function() error('boom') end }");
+  EXPECT_TRUE(
+      contains(message, "error: script:1: lab.ensemble: case x = 1: script:1: boom\nstack traceback:"));
+  EXPECT_TRUE(contains(bench.run("lab.ensemble{ over = { x = {1} }, run = print, on_failure = 'ignore' }"),
+                       "`on_failure` is \"ignore\"; give \"error\" or \"report\""));
+}
+
+TEST(Ensemble, ManyFailuresAreCounted) {
+  Bench bench;
+  const std::string message = bench.run(
+      "local l = {} for i = 1, 60 do l[i] = i end "
+      "lab.ensemble{ over = { x = l }, run = function() error('no', 0) end }");
+  EXPECT_TRUE(contains(message, "60 of 60 cases failed\n  case x = 1: no\n"));
+  EXPECT_TRUE(contains(message, "  case x = 50: no\n  and 10 more\n"));
 }
 
 TEST(Ensemble, ErrorValuesThatAreNoTextAreShown) {
@@ -534,6 +608,7 @@ TEST(Ensemble, ProgressIsThatOfTheWhole) {
       while os.clock() - t < 0.03 do end
     end })");
   EXPECT_EQ(bench.monitor.progressed, "ensemble");
+  EXPECT_TRUE(contains(bench.monitor.part, " of 4 cases done"));
   EXPECT_GE(bench.monitor.last_done, 0);
   EXPECT_LE(bench.monitor.last_done, 1);
 }

@@ -1,0 +1,532 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Turns, events and sentences out of what recording_marks.hpp marked.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+#include "engine/experiment/event_detection.hpp"
+#include "engine/experiment/recording_marks.hpp"
+
+namespace asperity {
+
+namespace {
+
+using Mark = RecordingMarks::Mark;
+using Span = RecordedSpan;
+
+// A value without the digits that its error makes meaningless.
+double rounded(double value, double error) {
+  if (!(error > 0) || !std::isfinite(value)) return value;
+  const int power = static_cast<int>(std::floor(std::log10(error)));
+  if (power < -300 || power > 300) return value;
+  return power < 0 ? std::round(value * std::pow(10.0, -power)) / std::pow(10.0, -power)
+                   : std::round(value / std::pow(10.0, power)) * std::pow(10.0, power);
+}
+
+std::string lines(std::size_t first, std::size_t last) {
+  return first == last ? "line " + std::to_string(first)
+                       : "lines " + std::to_string(first) + " to " + std::to_string(last);
+}
+
+std::string seconds(double value) { return format_quantity(value, dimension::time, 4); }
+std::string degrees(double value) { return format_quantity(value, dimension::angle, 4); }
+
+class EventMaker {
+ public:
+  EventMaker(const PressRecording& recording, const DetectionOptions& options, Monitor& monitor)
+      : recording_(recording), options_(options), monitor_(monitor), marks_(recording, options, monitor) {}
+
+  Protocol make() {
+    look_at_missing();
+    describe();
+    find_turns();
+    make_spans();
+    warn();
+    std::vector<Protocol::Event> events = make_events();
+    if (events.empty())
+      marks_.refuse("holds no press: no load stays or peaks above " +
+                        marks_.quantity(std::max(2 * marks_.drift(), 6 * marks_.effective_noise())) +
+                        " over the reading without load",
+                    "a smaller `zero_drift` finds lighter ones");
+    thin();
+    auto found = std::make_shared<const Detection>(std::move(found_));
+    return Protocol(std::move(events)).detected_in(std::move(found));
+  }
+
+ private:
+  struct Turn {
+    double time, angle;
+    std::size_t line;
+  };
+
+  std::string at(std::size_t first, std::size_t last) const {
+    return recording_.name + " " + lines(first, last);
+  }
+  void warn(const std::string& sentence) { monitor_.warn("\"" + recording_.name + "\": " + sentence); }
+  static bool loaded(const Mark& mark) { return mark.kind != Mark::Kind::rest; }
+  static double load_of(const Mark& mark) { return mark.line.y; }
+
+  void describe() {
+    found_.name = recording_.name;
+    found_.by = recording_.by;
+    found_.samples = marks_.time().size();
+    found_.missing = recording_.time.size() - found_.samples;
+    found_.interval = marks_.interval();
+    found_.noise = marks_.noise();
+    found_.zero_drift = marks_.drift();
+    found_.shortest_hold = marks_.shortest_hold();
+    found_.evidence = marks_.evidence();
+    // What a cut must save, spread over the samples of the shortest hold and as many beside it.
+    const double fewest = std::max(4.0, found_.shortest_hold / found_.interval);
+    found_.least_load = std::max(found_.zero_drift, found_.noise * std::sqrt(2 * found_.evidence / fewest));
+    double lowest = INFINITY;
+    for (const Mark& mark : marks_.marks())
+      if (loaded(mark)) lowest = std::min(lowest, load_of(mark));
+    found_.least_step = std::max(std::isinf(lowest) ? 0 : options_.same_load * lowest,
+                                 found_.noise * std::sqrt(2 * found_.evidence / fewest));
+    for (const Mark& mark : marks_.marks()) {
+      if (loaded(mark)) {
+        found_.highest = std::max(found_.highest, load_of(mark));
+      } else {
+        found_.rested = true;
+      }
+    }
+    found_.zero_low = found_.zero_high = marks_.zeros().front().level;
+    for (const RecordingMarks::Zero& zero : marks_.zeros()) {
+      found_.zero_low = std::min(found_.zero_low, zero.level);
+      found_.zero_high = std::max(found_.zero_high, zero.level);
+    }
+  }
+
+  // A hole in the load may hide whatever does not go on at both its sides.
+  void look_at_missing() {
+    const auto row = marks_.row();
+    const auto time = marks_.time();
+    std::vector<std::string> lost;
+    std::string short_ones;
+    for (std::size_t k = 0; k + 1 < row.size(); ++k) {
+      const std::size_t missing = row[k + 1] - row[k] - 1;
+      if (missing == 0) continue;
+      const std::size_t first = recording_.line[row[k] + 1], last = recording_.line[row[k + 1] - 1];
+      const Mark* within = nullptr;
+      for (const Mark& mark : marks_.marks())
+        if (mark.kind != Mark::Kind::peak && mark.first <= k && k + 1 <= mark.last) within = &mark;
+      const double span = time[k + 1] - time[k];
+      constexpr std::size_t few = 2;
+      if (within != nullptr) {
+        if (span > 20 * marks_.interval() && span > 0.2 * (time[within->last] - time[within->first]))
+          warn("no load was recorded for " + seconds(span) + " in " + lines(first, last) +
+               ", and it is taken to have stayed at " + marks_.quantity(within->line.y));
+      } else if (missing <= few) {
+        short_ones += (short_ones.empty() ? "" : ", ") + lines(first, last);
+      } else {
+        lost.push_back(lines(first, last));
+      }
+    }
+    if (!lost.empty()) {
+      constexpr std::size_t enough = 12;
+      const std::size_t more = lost.size() > enough ? lost.size() - enough : 0;
+      lost.resize(lost.size() - more);
+      marks_.refuse("lacks the load in " + joined(lost, " and ") +
+                        (more > 0 ? " and in " + std::to_string(more) + " more places" : "") +
+                        ", where it neither was held nor rested: what was done there is not recorded",
+                    "fill the cells in by hand, or cut the recording there");
+    }
+    if (!short_ones.empty())
+      warn("the load is missing while it changes, in " + short_ones +
+           "; it is taken to have changed steadily");
+  }
+
+  // --- turns
+
+  struct Heading {
+    std::size_t first, last;  // rows
+    std::optional<double> angle;
+  };
+
+  double angle_noise() const {
+    std::vector<double> steps;
+    double last = NAN;
+    for (const double angle : recording_.angle) {
+      if (std::isnan(angle)) continue;
+      if (!std::isnan(last)) steps.push_back(std::abs(angle - last));
+      last = angle;
+    }
+    if (steps.empty()) return 0;
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle / (0.6745 * std::sqrt(2.0));
+  }
+
+  // The mean angle of these rows, which must not change.
+  Heading heading(std::size_t first, std::size_t last) const {
+    double sum = 0, start = NAN;
+    std::size_t count = 0;
+    for (std::size_t k = first; k <= last; ++k) {
+      const double angle = recording_.angle[k];
+      if (std::isnan(angle)) continue;
+      if (std::isnan(start)) start = angle;
+      if (std::abs(angle - start) > tolerance_)
+        marks_.refuse("turns under load: the angle leaves " + degrees(start) + " in line " +
+                          std::to_string(recording_.line[k]) + ", where it is " + degrees(angle) +
+                          ", while a load is on from line " + std::to_string(recording_.line[first]) +
+                          " to line " + std::to_string(recording_.line[last]),
+                      "a body is turned after it is released; `least_turn` says what counts as a turn, and "
+                      "`zero_drift` what as no load");
+      sum += angle;
+      ++count;
+    }
+    return {first, last, count > 0 ? std::optional<double>(sum / static_cast<double>(count)) : std::nullopt};
+  }
+  // Of some rows at the start or end of the recording.
+  std::optional<Heading> heading_at_rim(std::size_t from, std::size_t to) const {
+    constexpr int enough = 5;
+    double sum = 0;
+    int count = 0;
+    std::size_t last = from;
+    for (std::size_t k = from; count < enough; from < to ? ++k : --k) {
+      if (const double angle = recording_.angle[k]; !std::isnan(angle)) {
+        if (count > 0 && std::abs(angle - sum / count) > tolerance_) break;
+        sum += angle;
+        ++count;
+        last = k;
+      }
+      if (k == to) break;
+    }
+    if (count == 0) return {};
+    return Heading{std::min(from, last), std::max(from, last), sum / count};
+  }
+
+  void find_turns() {
+    if (recording_.angle.empty()) return;
+    tolerance_ = std::max(options_.least_turn, 8 * angle_noise());
+    const auto row = marks_.row();
+    std::vector<Heading> headings;
+    const std::vector<Mark>& marks = marks_.marks();
+    for (std::size_t k = 0; k < marks.size();) {
+      if (!loaded(marks[k])) {
+        ++k;
+        continue;
+      }
+      std::size_t end = k;
+      while (end + 1 < marks.size() && loaded(marks[end + 1])) ++end;
+      headings.push_back(heading(row[marks[k].first], row[marks[end].last]));
+      k = end + 1;
+    }
+    const std::size_t rows = recording_.time.size();
+    const std::size_t first = headings.empty() ? rows - 1 : headings.front().first;
+    if (first > 0)
+      if (auto start = heading_at_rim(0, first - 1)) headings.insert(headings.begin(), *start);
+    if (const std::size_t last = headings.empty() ? 0 : headings.back().last; last + 1 < rows)
+      if (auto end = heading_at_rim(rows - 1, last + 1)) headings.push_back(*end);
+    const Heading* before = nullptr;
+    bool unknown = false;
+    for (const Heading& now : headings) {
+      if (!now.angle) {
+        unknown = true;
+        continue;
+      }
+      if (before != nullptr) take_turn(*before, now, unknown);
+      before = &now;
+      unknown = false;
+    }
+  }
+
+  void take_turn(const Heading& before, const Heading& now, bool unknown) {
+    double angle = *now.angle - *before.angle;
+    if (std::abs(angle) <= tolerance_) return;
+    std::size_t k = before.last;
+    while (k < now.first && !(std::abs(recording_.angle[k] - *before.angle) > 0.5 * std::abs(angle))) ++k;
+    const std::string where =
+        "turns by " + degrees(angle) + " about line " + std::to_string(recording_.line[k]);
+    if (unknown)
+      marks_.refuse(where + ", but lacks the angle while a load was on between line " +
+                        std::to_string(recording_.line[before.last]) + " and line " +
+                        std::to_string(recording_.line[now.first]) + ": before or after it is not recorded",
+                    "fill the angle in by hand");
+    // Without load, as far as samples near it tell.
+    const auto row = marks_.row();
+    auto sample = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), k) - row.begin());
+    sample = std::min(sample, row.size() - 1);
+    const double load = marks_.load()[sample];
+    if (load > std::max({2 * marks_.drift(), 6 * marks_.effective_noise(), 0.1 * found_.highest}))
+      marks_.refuse(where + " under a load of " + marks_.quantity(load),
+                    "a body is turned after it is released");
+    if (options_.turn_step) {
+      const double steps = std::round(angle / *options_.turn_step);
+      const double off = angle - steps * *options_.turn_step;
+      if (std::abs(off) > 0.2 * *options_.turn_step)
+        marks_.refuse(where + ", which is no multiple of " + degrees(*options_.turn_step),
+                      "give another `turn_step`, or none to take turns as they were read");
+      angle = steps * *options_.turn_step;
+      if (angle == 0) return;
+    } else {
+      constexpr double degree = std::numbers::pi / 180;
+      angle = rounded(angle / degree, std::max(0.05 * tolerance_ / degree, 1e-9)) * degree;
+    }
+    turns_.push_back({recording_.time[k], angle, recording_.line[k]});
+  }
+
+  // --- spans
+
+  void add(Span span) { found_.spans.push_back(span); }
+
+  void make_spans() {
+    const std::vector<Mark>& marks = marks_.marks();
+    std::size_t turn = 0;
+    for (std::size_t k = 0; k < marks.size(); ++k) {
+      const Mark& mark = marks[k];
+      const Mark* before = k > 0 ? &marks[k - 1] : nullptr;
+      const std::size_t first = marks_.line(mark.first), last = marks_.line(mark.last);
+      const bool on = loaded(mark), was_on = before != nullptr && loaded(*before);
+      if (before != nullptr && (on || was_on)) {
+        Span way{Span::Kind::rise, before->end, mark.begin};
+        way.load = on ? load_of(mark) : 0;
+        way.kind = !on                                     ? Span::Kind::release
+                   : was_on && way.load < load_of(*before) ? Span::Kind::fall
+                                                           : Span::Kind::rise;
+        way.first_line = marks_.line(before->last);
+        way.last_line = first;
+        add(way);
+      }
+      Span span{on ? mark.kind == Mark::Kind::peak ? Span::Kind::peak : Span::Kind::hold : Span::Kind::rest,
+                mark.begin, mark.end};
+      span.load = on ? load_of(mark) : 0;
+      span.load_error = marks_.noise() / std::sqrt(std::max(1.0, mark.line.n));
+      if (const Mark* rest = nearest_rest(k); rest != nullptr && !options_.zero)
+        span.load_error = std::hypot(span.load_error, marks_.noise() / std::sqrt(rest->line.n));
+      span.dwell_error = mark.dwell_error;
+      span.first_line = first;
+      span.last_line = last;
+      add(span);
+      const double until = k + 1 < marks.size() ? marks[k + 1].begin : INFINITY;
+      for (; turn < turns_.size() && !on && turns_[turn].time <= until; ++turn) {
+        Span turned{Span::Kind::turn, std::clamp(turns_[turn].time, mark.begin, mark.end)};
+        turned.end = turned.begin;
+        turned.angle = turns_[turn].angle;
+        turned.first_line = turned.last_line = turns_[turn].line;
+        add(turned);
+      }
+    }
+  }
+
+  const Mark* nearest_rest(std::size_t k) const {
+    const std::vector<Mark>& marks = marks_.marks();
+    for (std::size_t i = k + 1; i-- > 0;)
+      if (!loaded(marks[i])) return &marks[i];
+    for (std::size_t i = k; i < marks.size(); ++i)
+      if (!loaded(marks[i])) return &marks[i];
+    return nullptr;
+  }
+
+  std::vector<Protocol::Event> make_events() const {
+    std::vector<Protocol::Event> events;
+    bool under_load = false;
+    double last = -INFINITY;
+    const double instant = marks_.interval() / 100;
+    const auto push = [&](Protocol::Step step, double time, const Span& span) {
+      last = std::max(last, rounded(time, instant));
+      events.push_back({std::move(step), last, at(span.first_line, span.last_line)});
+    };
+    for (const Span& span : found_.spans) {
+      switch (span.kind) {
+        case Span::Kind::hold:
+        case Span::Kind::peak: {
+          if (span.kind == Span::Kind::peak && options_.overshoot == DetectionOptions::Overshoot::ignore &&
+              !is_pulse(span))
+            break;
+          const double error = std::max(0.1 * span.load_error, 1e-9 * found_.highest);
+          push(
+              PressRequest{recording_.by, rounded(span.load, error), rounded(span.end - span.begin, instant)},
+              span.begin, span);
+          under_load = true;
+          break;
+        }
+        case Span::Kind::release:
+          if (under_load) push(Protocol::Release{}, span.begin, span);
+          under_load = false;
+          break;
+        case Span::Kind::turn:
+          push(Protocol::Rotate{span.angle}, span.begin, span);
+          break;
+        case Span::Kind::rest:
+        case Span::Kind::rise:
+        case Span::Kind::fall:
+          break;
+      }
+    }
+    return events;
+  }
+
+  bool is_pulse(const Span& span) const {
+    return std::any_of(marks_.marks().begin(), marks_.marks().end(), [&](const Mark& mark) {
+      return mark.kind == Mark::Kind::peak && mark.pulse && mark.begin == span.begin;
+    });
+  }
+
+  // --- what an experimenter should know
+
+  void warn() {
+    const std::vector<Mark>& marks = marks_.marks();
+    if (found_.highest > 0 && found_.least_load > 0.1 * found_.highest)
+      warn("a reading scatters by " + marks_.quantity(found_.noise) + ", " +
+           marks_.share(found_.noise / found_.highest) + " of the highest load: a hold of " +
+           seconds(found_.shortest_hold) + " below " + marks_.quantity(found_.least_load) +
+           " would not be told from it");
+    if (!marks.empty() && loaded(marks.back()))
+      warn("it ends under load, in line " + std::to_string(marks_.line(marks.back().last)) +
+           ": the last dwell goes to the last sample, and no release follows");
+    if (!marks.empty() && loaded(marks.front()))
+      warn("it begins under load: the first dwell is counted from the first sample");
+    if (!found_.rested && !options_.zero)
+      warn("it never comes to rest without load, so the sensor is taken to read zero there");
+    std::size_t told = 0, n = 0;
+    for (const Span& span : found_.spans) {
+      if (span.kind == Span::Kind::peak && is_pulse(span)) {
+        if (++n <= 5)
+          warn("the load in " + lines(span.first_line, span.last_line) + " is not held: its peak of " +
+               marks_.quantity(span.load) + " is taken for a press, with the " +
+               seconds(span.end - span.begin) + " above half of it for dwell");
+      } else if (span.kind == Span::Kind::peak && options_.overshoot == DetectionOptions::Overshoot::ignore) {
+        warn("an overshoot to " + marks_.quantity(span.load) + " in " +
+             lines(span.first_line, span.last_line) + " is left out, as `overshoot` asks");
+      } else if (span.kind == Span::Kind::hold) {
+        const double dwell = span.end - span.begin;
+        if (3 * span.dwell_error > std::max(2 * found_.interval, 0.05 * dwell) && ++told <= 5)
+          warn("the dwell of " + seconds(dwell) + " at " + marks_.quantity(span.load) + " in " +
+               lines(span.first_line, span.last_line) + " is known to +-" + seconds(2 * span.dwell_error) +
+               " only");
+        if (span.load < 0.05 * found_.highest && found_.rested && !options_.zero)
+          warn("the reading in " + lines(span.first_line, span.last_line) + " lies " +
+               marks_.quantity(span.load) + " above the zero before it, " +
+               marks_.share(span.load / found_.highest) +
+               " of the highest load, and is taken for a hold; if it is the zero that drifts, give a greater "
+               "`zero_drift`");
+      }
+    }
+    if (n > 5) warn("and " + std::to_string(n - 5) + " more loads are not held");
+    if (told > 5) warn("and the dwells of " + std::to_string(told - 5) + " more holds are as uncertain");
+    for (const Mark& mark : marks_.doubtful())
+      warn("the load in " + lines(marks_.line(mark.first), marks_.line(mark.last)) + " may have stayed at " +
+           marks_.quantity(load_of(mark)) + " for a moment; the noise does not tell, and it is left out");
+    warn_of_scatter();
+    if (!marks_.disturbances().empty()) {
+      std::string list;
+      constexpr std::size_t enough = 5;
+      const std::size_t count = marks_.disturbances().size();
+      for (std::size_t k = 0; k < std::min(count, enough); ++k)
+        list += (k > 0 ? ", " : "") + marks_.quantity(marks_.disturbances()[k].reading) + " in line " +
+                std::to_string(marks_.disturbances()[k].line);
+      warn("readings for a moment out of line are left out as disturbances: " + list +
+           (count > enough ? " and " + std::to_string(count - enough) + " more" : ""));
+    }
+  }
+
+  // Noise that is not white, or a load that wanders, scatters more than its steps say.
+  void warn_of_scatter() {
+    for (const Mark& mark : marks_.marks()) {
+      if (mark.kind != Mark::Kind::hold) continue;
+      const double scatter = std::sqrt(mark.line.misfit() / mark.line.n);
+      if (scatter < 3 * marks_.effective_noise() || scatter < 0.01 * load_of(mark)) continue;
+      warn("the load in " + lines(marks_.line(mark.first), marks_.line(mark.last)) + " scatters by " +
+           marks_.quantity(scatter) + ", from sample to sample by " + marks_.quantity(marks_.noise()) +
+           " only: it wanders, and its mean is known the worse; give the former as `noise` if it is noise");
+      return;
+    }
+  }
+
+  // The least and the greatest reading of each of many stretches.
+  void thin() {
+    constexpr std::size_t stretches = 1500;
+    const auto t = marks_.time();
+    const auto y = marks_.load();
+    const std::size_t n = t.size(), each = n <= 2 * stretches ? 1 : (n + stretches - 1) / stretches;
+    const auto add_sample = [&](std::size_t k) {
+      found_.time.push_back(t[k]);
+      found_.load.push_back(y[k]);
+    };
+    for (std::size_t first = 0; first < n; first += each) {
+      std::size_t low = first, high = first;
+      for (std::size_t k = first; k < std::min(n, first + each); ++k) {
+        if (y[k] < y[low]) low = k;
+        if (y[k] > y[high]) high = k;
+      }
+      add_sample(std::min(low, high));
+      if (low != high) add_sample(std::max(low, high));
+    }
+  }
+
+  const PressRecording& recording_;
+  const DetectionOptions& options_;
+  Monitor& monitor_;
+  RecordingMarks marks_;
+  Detection found_;
+  double tolerance_ = 0;  // of angles
+  std::vector<Turn> turns_;
+};
+
+}  // namespace
+
+std::string_view name(Span::Kind kind) {
+  switch (kind) {
+    case Span::Kind::rest:
+      return "rest";
+    case Span::Kind::rise:
+      return "rise";
+    case Span::Kind::hold:
+      return "hold";
+    case Span::Kind::peak:
+      return "peak";
+    case Span::Kind::fall:
+      return "fall";
+    case Span::Kind::release:
+      return "release";
+    case Span::Kind::turn:
+      break;
+  }
+  return "turn";
+}
+
+std::string RecordingMarks::quantity(double value) const {
+  return format_quantity(value, recording_.by == PressBy::load ? dimension::force : dimension::pressure, 4);
+}
+std::string RecordingMarks::share(double value) { return format_short(100 * value, 2) + " %"; }
+
+std::string Detection::text() const {
+  const Dimension unit = by == PressBy::load ? dimension::force : dimension::pressure;
+  const auto quantity = [unit](double value) { return format_quantity(value, unit, 4); };
+  std::string all = "recording " + name + ": " + std::to_string(samples) + " samples, every " +
+                    seconds(interval) + " or so";
+  if (missing > 0) all += ", " + std::to_string(missing) + " more without a load";
+  all += "\n  noise          " + quantity(noise) + " a sample";
+  if (highest > 0) all += ", " + format_short(100 * noise / highest, 2) + " % of the highest load";
+  all += "\n  without load   " +
+         (!rested ? std::string("never")
+                  : quantity(zero_low) + (zero_low < zero_high ? " to " + quantity(zero_high) : "") +
+                        " is read, and taken off");
+  all += "\n  seen           holds of " + seconds(shortest_hold) + " and more above " + quantity(least_load);
+  all += "\n  one hold       are loads next to each other within " + quantity(least_step) + " or so";
+  all += "\n  cut            where it saves " + format_short(evidence, 3) + " squares of the noise";
+  std::size_t holds = 0, peaks = 0, releases = 0, turns = 0;
+  for (const Span& span : spans) {
+    holds += span.kind == Span::Kind::hold ? 1 : 0;
+    peaks += span.kind == Span::Kind::peak ? 1 : 0;
+    releases += span.kind == Span::Kind::release ? 1 : 0;
+    turns += span.kind == Span::Kind::turn ? 1 : 0;
+  }
+  const auto count = [](std::size_t n, const char* what) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+  };
+  return all + "\n  found          " + count(holds, "hold") + ", " + count(peaks, "peak") + ", " +
+         count(releases, "release") + ", " + count(turns, "turn");
+}
+
+Protocol detect_events(const PressRecording& recording, const DetectionOptions& options, Monitor& monitor) {
+  return EventMaker(recording, options, monitor).make();
+}
+
+}  // namespace asperity

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/experiment/press_recording.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <vector>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/experiment/log_table.hpp"
+
+namespace asperity {
+
+namespace {
+
+// The last three are of a log of events alone.
+enum Meaning { at_time, of_load, of_pressure, of_angle, of_dwell, of_place, of_turn };
+constexpr std::array<LogColumn, 9> known{{{"time", at_time, dimension::time, "time [s]"},
+                                          {"load", of_load, dimension::force, "load [N]"},
+                                          {"pressure", of_pressure, dimension::pressure, "pressure [MPa]"},
+                                          {"angle", of_angle, dimension::angle, "angle [deg]"},
+                                          {"rotation", of_angle, dimension::angle, "rotation [deg]"},
+                                          {"dwell", of_dwell, dimension::time, "dwell [min]"},
+                                          {"place", of_place, dimension::number, "place"},
+                                          {"seed", of_place, dimension::number, "seed"},
+                                          {"turn", of_turn, dimension::angle, "turn [deg]"}}};
+
+bool tells_of_events(const LogTable& table) {
+  return table.has(of_dwell) || table.has(of_place) || table.has(of_turn);
+}
+
+class RecordingReader {
+ public:
+  RecordingReader(const SourceFile& file, Monitor& monitor)
+      : file_(file), monitor_(monitor), table_(file, known) {
+    recording_.name = std::filesystem::path(file.path()).filename().string();
+  }
+
+  PressRecording read() {
+    table_.read_titles();
+    check_columns();
+    table_.fail_if_any();
+    const auto rows = static_cast<std::size_t>(std::count_if(file_.bytes().begin(), file_.bytes().end(),
+                                                             [](char c) { return c == '\n' || c == '\r'; }));
+    recording_.time.reserve(rows);
+    recording_.load.reserve(rows);
+    recording_.line.reserve(rows);
+    if (angle_) recording_.angle.reserve(rows);
+    Task task(monitor_, "reading", static_cast<std::int64_t>(file_.bytes().size()));
+    std::size_t before = 0;
+    for (std::vector<LogCell> cells; table_.next_row(cells);) {
+      task.advance(static_cast<std::int64_t>(table_.position() - before));
+      before = table_.position();
+      read_row(cells);
+    }
+    table_.fail_if_any();
+    if (recording_.time.empty()) refuse_file(file_, "names columns but holds no row", "a row is a sample");
+    return std::move(recording_);
+  }
+
+ private:
+  void check_columns() {
+    const std::string others = table_.others();
+    if (!table_.has(at_time))
+      table_.problem(table_.here(), "no column `time`, without which no event is found; write \"time [s]\"");
+    if (table_.has(of_load) && table_.has(of_pressure))
+      table_.problem(table_.here(),
+                     "both `pressure` and `load` are given; leave one of them out, or name it otherwise");
+    else if (!table_.has(of_load) && !table_.has(of_pressure))
+      table_.problem(table_.here(), "no column `pressure` or `load`" +
+                                        (others.empty() ? std::string() : " among others: " + others) +
+                                        "; write \"pressure [MPa]\" or \"load [N]\"");
+    for (const Meaning meaning : {of_dwell, of_place, of_turn})
+      if (const auto k = table_.find(meaning))
+        table_.problem(table_.here(*k),
+                       "a recording has none: dwells and turns are found in it; read the table "
+                       "with events=\"rows\", or leave the column out");
+    if (table_.problems() > 0) return;
+    if (!others.empty())
+      monitor_.warn(file_name(file_.path()) + " has columns of which a protocol makes nothing: " + others);
+    time_ = *table_.find(at_time);
+    recording_.by = table_.has(of_load) ? PressBy::load : PressBy::pressure;
+    load_ = *table_.find(table_.has(of_load) ? of_load : of_pressure);
+    angle_ = table_.find(of_angle);
+  }
+
+  // NaN for a cell that is missing, or after a problem.
+  double value(std::size_t k, const LogCell& cell) {
+    constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+    const Cell number = table_.number(cell);
+    if (number.kind == CellKind::hole) return missing;
+    const double value = number.value * table_.factor(k);
+    if (number.kind == CellKind::number && std::isfinite(value)) return value;
+    table_.problem(table_.here(k), shown(cell.text) + " is no finite number");
+    return missing;
+  }
+
+  void read_row(const std::vector<LogCell>& cells) {
+    const double now = value(time_, cells[time_]);
+    const double load = value(load_, cells[load_]);
+    const double angle = angle_ ? value(*angle_, cells[*angle_]) : 0;
+    if (std::isnan(now)) {
+      if (table_.number(cells[time_]).kind == CellKind::hole)
+        table_.problem(table_.here(time_), "the time is missing");
+      return;
+    }
+    if (!recording_.time.empty() && !(now > recording_.time.back())) {
+      const double last = recording_.time.back();
+      table_.problem(table_.here(time_),
+                     "the time " + format_short(now, 10) + " s " +
+                         (now == last ? "stands in line " + std::to_string(recording_.line.back()) + " too"
+                                      : "runs backwards: " + format_short(last, 10) + " s stands before it"));
+      return;
+    }
+    recording_.time.push_back(now);
+    recording_.load.push_back(load);
+    if (angle_) recording_.angle.push_back(angle);
+    recording_.line.push_back(static_cast<std::uint32_t>(table_.line()));
+  }
+
+  const SourceFile& file_;
+  Monitor& monitor_;
+  LogTable table_;
+  PressRecording recording_;
+  std::size_t time_ = 0, load_ = 0;
+  std::optional<std::size_t> angle_;
+};
+
+}  // namespace
+
+PressRecording read_press_recording(const SourceFile& file, Monitor& monitor) {
+  return RecordingReader(file, monitor).read();
+}
+
+bool looks_like_recording(const SourceFile& file) {
+  constexpr std::size_t many = 100;
+  try {
+    // A rotation other than zero may be a turn of an event or a reading of the stage: it is taken for the
+    // former.
+    LogTable table(file, known);
+    table.read_titles();
+    if (!table.has(at_time) || tells_of_events(table) || table.problems() > 0) return false;
+    if (table.has(of_load) == table.has(of_pressure)) return false;
+    const std::optional<std::size_t> angle = table.find(of_angle);
+    const bool rotation = angle && table.column(*angle)->name == "rotation";
+    std::size_t rows = 0;
+    for (std::vector<LogCell> cells; table.next_row(cells); ++rows) {
+      if (!rotation && rows >= many) return true;
+      if (rotation && table.number(cells[*angle]).kind == CellKind::number &&
+          table.number(cells[*angle]).value != 0)
+        return false;
+    }
+    return rows >= many;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace asperity

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/experiment/protocol_chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+#include "engine/experiment/event_detection.hpp"
+
+namespace asperity {
+
+namespace {
+
+using Kind = RecordedSpan::Kind;
+
+struct Played {
+  PressBy by = PressBy::pressure;
+  std::string time_label = "time";
+  bool in_seconds = true;
+  std::vector<RecordedSpan> spans;
+};
+
+std::string minutes(double seconds) {
+  return seconds >= 60 && seconds == 60 * std::round(seconds / 60)
+             ? format_short(seconds / 60, 4) + " min"
+             : format_quantity(seconds, dimension::time, 3);
+}
+
+// What a protocol without a recording looks like on a clock.
+class Clock {
+ public:
+  explicit Clock(const Protocol& protocol) : events_(protocol.events()) {
+    std::optional<PressBy> by;
+    timed_ = dwelt_ = true;
+    double dwells = 0;
+    for (const Protocol::Event& event : events_) {
+      timed_ = timed_ && event.time.has_value();
+      const auto* press = std::get_if<PressRequest>(&event.step);
+      if (press == nullptr) continue;
+      const bool plain = press->by == PressBy::load || press->by == PressBy::pressure;
+      if (!plain || (by && *by != press->by))
+        throw Error(ErrorCode::bad_value,
+                    "a chart has one axis of loads, and this protocol presses by " +
+                        std::string(name(press->by)) +
+                        (by && *by != press->by ? " and by " + std::string(name(*by)) : ""),
+                    "give all presses by `pressure`, or all by `load`");
+      by = press->by;
+      dwelt_ = dwelt_ && press->dwell.has_value();
+      dwells += press->dwell.value_or(0);
+    }
+    played_.by = by.value_or(PressBy::pressure);
+    dwelt_ = dwelt_ && dwells > 0;
+    if (!timed_) played_.time_label = dwelt_ ? "time under load, as the dwells add up" : "event";
+    played_.in_seconds = timed_ || dwelt_;
+    pause_ = timed_ ? 0 : dwelt_ ? 0.04 * dwells : 0.2;
+    now_ = timed_ ? *events_.front().time : played_.in_seconds ? 0 : 1;
+  }
+
+  Played play() {
+    for (std::size_t k = 0; k < events_.size(); ++k) {
+      const Protocol::Event& event = events_[k];
+      if (timed_) now_ = std::max(now_, *event.time);
+      if (!played_.in_seconds) now_ = static_cast<double>(k) + 1;
+      if (const auto* press = std::get_if<PressRequest>(&event.step)) {
+        span(press->value >= load_ ? Kind::rise : Kind::fall, last_, now_, press->value);
+        double stays = press->dwell.value_or(0);
+        if (!played_.in_seconds) stays = 0.8;
+        if (timed_ && k + 1 < events_.size())
+          stays = std::min(stays, std::max(0.0, *events_[k + 1].time - now_));
+        span(Kind::hold, now_, now_ + stays, press->value);
+        if (press->dwell) played_.spans.back().dwell_error = *press->dwell;
+        load_ = press->value;
+        now_ += stays;
+        last_ = now_;
+      } else if (std::holds_alternative<Protocol::Release>(event.step)) {
+        if (load_ > 0) span(Kind::release, now_, now_, 0);
+        load_ = 0;
+        last_ = now_;
+      } else {
+        if (load_ > 0) span(Kind::release, last_, now_, 0);
+        load_ = 0;
+        span(Kind::turn, now_, now_, 0);
+        if (const auto* turn = std::get_if<Protocol::Rotate>(&event.step))
+          played_.spans.back().angle = turn->angle;
+        last_ = now_;
+      }
+      if (!timed_ && played_.in_seconds) now_ += pause_;
+    }
+    return std::move(played_);
+  }
+
+ private:
+  void span(Kind kind, double begin, double end, double load) {
+    RecordedSpan span{kind, std::min(begin, end), end};
+    span.load = load;
+    played_.spans.push_back(span);
+  }
+
+  std::span<const Protocol::Event> events_;
+  bool timed_ = true, dwelt_ = true;
+  double now_ = 0, last_ = 0, load_ = 0, pause_ = 0;
+  Played played_;
+};
+
+ChartSeries marks(std::string name, PointShape shape) {
+  ChartSeries series;
+  series.name = std::move(name);
+  series.line = false;
+  series.shape = shape;
+  return series;
+}
+
+}  // namespace
+
+LineChart protocol_chart(const Protocol& protocol, const std::string& title) {
+  const Detection* found = protocol.recording().get();
+  const Played played =
+      found != nullptr ? Played{found->by, "time", true, found->spans} : Clock(protocol).play();
+  double end = 0;
+  for (const RecordedSpan& span : played.spans) end = std::max(end, span.end);
+  if (found != nullptr && !found->time.empty()) end = std::max(end, found->time.back());
+  // Readings of a clock, not "ks".
+  const double clock = !played.in_seconds ? 1 : end > 4 * 3600 ? 3600 : end > 600 ? 60 : 1;
+  LineChart chart;
+  chart.title = title;
+  chart.x.label = played.time_label;
+  if (played.in_seconds) chart.x.label += clock == 3600 ? " (h)" : clock == 60 ? " (min)" : " (s)";
+  chart.y.label = played.by == PressBy::load ? "load" : "pressure";
+  chart.y.unit = played.by == PressBy::load ? "N" : "Pa";
+  chart.width = 1100;
+
+  ChartSeries recorded, events;
+  recorded.name = "recorded";
+  recorded.points = false;
+  events.name = found != nullptr ? "detected" : "protocol";
+  events.points = false;
+  ChartSeries rise = marks("rise", PointShape::triangle), peak = marks("peak", PointShape::ring),
+              release = marks("release", PointShape::cross), turn = marks("turn", PointShape::diamond);
+  const auto add = [clock](ChartSeries& series, double time, double load) {
+    series.x.push_back(time / clock);
+    series.y.push_back(load);
+  };
+  if (found != nullptr)
+    for (std::size_t k = 0; k < found->time.size(); ++k) add(recorded, found->time[k], found->load[k]);
+
+  const Dimension unit = played.by == PressBy::load ? dimension::force : dimension::pressure;
+  double load = 0, highest = 0;
+  for (const RecordedSpan& span : played.spans) highest = std::max(highest, span.load);
+  for (const RecordedSpan& span : played.spans) {
+    switch (span.kind) {
+      case Kind::rise:
+      case Kind::fall:
+        add(events, span.begin, load);
+        if (span.kind == Kind::rise) add(rise, span.begin, load);
+        break;
+      case Kind::hold:
+      case Kind::peak: {
+        const bool held = span.kind == Kind::hold;
+        const double middle = 0.5 * (span.begin + span.end);
+        add(events, held ? span.begin : middle, span.load);
+        if (held) add(events, span.end, span.load);
+        if (!held) add(peak, middle, span.load);
+        const double dwell = found != nullptr ? span.end - span.begin : span.dwell_error;
+        std::string text = format_quantity(span.load, unit, 4);
+        if (held && dwell > 0)
+          text += ", " + minutes(found != nullptr ? std::stod(format_short(dwell, 3)) : dwell);
+        if (held) chart.labels.push_back({middle / clock, span.load, text});
+        break;
+      }
+      case Kind::release:
+        add(events, span.begin, load);
+        add(release, span.begin, load);
+        break;
+      case Kind::turn:
+        add(turn, span.begin, 0);
+        chart.labels.push_back({span.begin / clock, 0,
+                                span.angle != 0 ? format_quantity(span.angle, dimension::angle, 4) : "placed",
+                                true});
+        break;
+      case Kind::rest:
+        break;
+    }
+    if (span.kind != Kind::turn) load = span.kind == Kind::release || span.kind == Kind::rest ? 0 : span.load;
+    if (span.kind == Kind::rise || span.kind == Kind::fall || span.kind == Kind::release ||
+        span.kind == Kind::rest)
+      add(events, span.end, load);
+  }
+  constexpr std::size_t most = 24;
+  if (chart.labels.size() > most) chart.labels.clear();
+  const double room = highest > 0 ? highest : 1;
+  double low = 0, high = highest;
+  if (found != nullptr)
+    for (const double value : found->load) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  chart.y.range = Range{low - 0.1 * room, high + 0.12 * room};
+  for (ChartSeries* series : {&recorded, &events, &rise, &peak, &release, &turn})
+    if (!series->x.empty()) chart.series.push_back(std::move(*series));
+  return chart;
+}
+
+}  // namespace asperity

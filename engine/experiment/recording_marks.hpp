@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The inner working of event_detection.hpp: rests, holds and peaks marked on the samples of a recording, in
+// the order of time, with the levels and times that were made out. O(n log n) in the samples.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/experiment/event_detection.hpp"
+#include "engine/experiment/straight_pieces.hpp"
+
+namespace asperity {
+
+class RecordingMarks {
+ public:
+  struct Mark {
+    enum class Kind { rest, hold, peak };
+    Kind kind = Kind::rest;
+    std::size_t first = 0, last = 0;  // samples
+    LineMoments line{};               // its mean is the level, the zero taken off
+    double begin = 0, end = 0, dwell_error = 0;
+    double begin_error = 0, end_error = 0;
+    bool pulse = false;  // a peak between rests
+  };
+  // A sample or two out of line that were left out.
+  struct Disturbance {
+    std::size_t line;
+    double reading;
+  };
+
+  // Throws what detect_events does for the loads; warns of doubtful zeros.
+  RecordingMarks(const PressRecording& recording, const DetectionOptions& options, Monitor& monitor);
+
+  const std::vector<Mark>& marks() const { return marks_; }
+  // Perhaps holds, but too short for the noise.
+  const std::vector<Mark>& doubtful() const { return doubtful_; }
+  const std::vector<Disturbance>& disturbances() const { return disturbances_; }
+  // What is read without load, in the order of time; one value if it was given, or none was found.
+  struct Zero {
+    double time, level;
+  };
+  const std::vector<Zero>& zeros() const { return zeros_; }
+
+  // Samples with a load: their times, loads with the zero taken off, and rows of the recording.
+  std::span<const double> time() const { return t_; }
+  std::span<const double> load() const { return y_; }
+  std::span<const std::uint32_t> row() const { return row_; }
+  std::size_t line(std::size_t sample) const { return recording_.line[row_[sample]]; }
+
+  double noise() const { return noise_; }
+  double effective_noise() const { return effective_noise_; }
+  double interval() const { return interval_; }
+  double shortest_hold() const { return shortest_hold_; }
+  double evidence() const { return evidence_; }
+  double drift() const { return drift_; }
+
+  std::string quantity(double value) const;
+  static std::string share(double value);
+  [[noreturn]] void refuse(const std::string& finding, const std::string& hint = {}) const;
+
+ private:
+  double zero_at(double time) const;
+  struct Corner {
+    double time, error;
+    std::size_t sample;
+  };
+  void take_samples();
+  void measure_noise();
+  void find_zero();
+  std::vector<bool> find_rests();
+  void find_levels();
+  void join_levels();
+  void trim(Mark& mark) const;
+  void look_between();
+  void look_for_peak(std::vector<Mark>& all, std::size_t first, std::size_t end, const Mark* next);
+  std::pair<std::size_t, std::size_t> window(const Mark& a, const Mark& b) const;
+  void drop_stairs();
+  void time_marks();
+  void time_each();
+  bool drop_doubtful();
+  double change_of(const StraightPiece& piece) const;
+  bool is_level(const StraightPiece& piece, double tolerance) const;
+  bool one_level(const Mark& a, const Mark& b);
+  const StraightPiece& piece_at(std::size_t sample) const;
+  Corner corner(const Mark& mark, int step) const;
+
+  const PressRecording& recording_;
+  const DetectionOptions& options_;
+  Monitor& monitor_;
+  Array<double> t_, y_;
+  Array<std::uint32_t> row_;
+  double interval_ = 0, shortest_hold_ = 0, evidence_ = 0, noise_ = 0, effective_noise_ = 0;
+  double top_ = 0, bottom_ = 0, range_ = 0;
+  double drift_ = 0;                  // how far a rest may lie from the one before
+  std::optional<double> first_zero_;  // none: there is no rest, or it was given
+  std::vector<Zero> zeros_;
+  Array<StraightPiece> pieces_;
+  std::vector<Mark> levels_, marks_, doubtful_;
+  std::vector<Disturbance> disturbances_;
+};
+
+}  // namespace asperity
