@@ -21,6 +21,8 @@ target_compile_options(asperity_options INTERFACE
 # Contraction of a*b+c would make debug, release and clang builds disagree in the last bit.
 target_compile_options(asperity_options INTERFACE -ffp-contract=off)
 target_compile_definitions(asperity_options INTERFACE EIGEN_DONT_PARALLELIZE)
+# Results that are kept for later name the build they come from.
+target_link_options(asperity_options INTERFACE -Wl,--build-id)
 if(ASPERITY_WARNINGS_AS_ERRORS)
   target_compile_options(asperity_options INTERFACE -Werror)
 endif()

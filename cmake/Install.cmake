@@ -3,6 +3,8 @@
 include(GNUInstallDirs)
 install(TARGETS asperity RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS asperity_module LIBRARY DESTINATION lib/lua/5.4)
+# Parts loaded when first needed: core/loaded_part.cpp looks here.
+install(TARGETS asperity_part_hdf5 LIBRARY DESTINATION lib/asperity)
 install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})

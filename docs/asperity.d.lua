@@ -114,7 +114,7 @@ function Surface:fractal_dimension(options) end
 ---@return asperity.Surface
 function Surface:filtered(options) end
 
----Writes the heights: .npy, .x3p, .txt, .asc or .csv by the extension of the path.
+---Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy (Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit.
 ---@param path string under the run directory
 ---@return string
 function Surface:write(path) end
@@ -351,6 +351,9 @@ function Contact:upper() end
 ---Frees the memory of the contact and of its states now instead of when Lua collects them. What was read of a state stays, and its load, approach, area, peak pressure, certificate and digest; reading anything else of it is an error.
 function Contact:close() end
 
+---@class asperity.options.state.write
+---@field fields? string[] which fields to write; without it all the state has (string[])
+
 ---@class asperity.options.state.distribution
 ---@field bins? integer number of bins (integer from 1 to 100000, default 50)
 ---@field log? boolean bins of equal ratio instead of equal width (boolean, default false)
@@ -404,6 +407,12 @@ function State:field(name) end
 ---@param body "lower"|"upper" which
 ---@return asperity.Surface
 function State:deformed(body) end
+
+---Writes the fields as maps of shape (ny, nx) into one HDF5 file, with load, approach, area, certificate and digest as its attributes, and an .xdmf beside it for ParaView.
+---@param path string an .h5 under the run directory
+---@param options? asperity.options.state.write
+---@return string
+function State:write(path, options) end
 
 ---Probability density of the pressures in contact, of the open gaps or of the spot areas.
 ---@param name "pressure"|"gap"|"spot_area" of what
@@ -960,7 +969,8 @@ lab.units = {}
 ---@field size? number|string|table size of the map, where the file has none (a length|{a length, a length} above 0)
 ---@field unit? number|string length of one number of the file, where it has no unit, e.g. "um" (a length above 0)
 ---@field fill? "interpolate"|a length what missing points become; without it they are an error ("interpolate"|a length)
----@field format? string read as this format whatever the file looks like (string)
+---@field format? string read as this format whatever the file looks like: "x3p", "sdf", "sur", "opd", "bcr", "gwy", "hdf5", "npy", "text", "xyz" or "stylus-csv" (string)
+---@field channel? string which of several maps in an HDF5, GWY or OPD file, by its name (string)
 ---@field material? asperity.Material what the body is made of (Material)
 
 ---Rough surfaces: generated, from functions and tables, or read from files.
@@ -1012,7 +1022,7 @@ function lab.surface.from_function(options) end
 ---@return asperity.Surface
 function lab.surface.from_table(options) end
 
----A measured surface from a file: text matrix, x y z triples, NPY, X3P or a profiler's CSV.
+---A measured surface from a file: X3P, SDF, SUR, OPD, BCR, GWY, HDF5, NPY, text matrix, x y z triples or a profiler's CSV, known by its content, then by its extension.
 ---@param path string the file
 ---@param options? asperity.options.lab.surface.read
 ---@return asperity.Surface
@@ -1023,6 +1033,7 @@ function lab.surface.read(path, options) end
 ---@field unit? number|string length of one number of the file, where it has no unit, e.g. "um" (a length above 0)
 ---@field fill? "interpolate"|a length what missing points become; without it they are an error ("interpolate"|a length)
 ---@field format? string read as this format whatever the file looks like (string)
+---@field channel? string which of several arrays in an HDF5, GWY or OPD file, by its name (string)
 
 ---Profiles: stylus traces from files. Surfaces give others with s:profile and s:profiles.
 ---@class asperity.lab.profile

@@ -39,6 +39,7 @@ void print_materials() {
 
 constexpr const char* usage =
     "asperity run SCRIPT [options] [-- arguments]   run a script and keep what it finds\n"
+    "asperity run --resume RUN                      go on with a run that was cut off\n"
     "asperity replay RUN                            run a recorded run again and compare\n"
     "asperity check SCRIPT                          look for mistakes without running it\n"
     "asperity explain SCRIPT                        what it will compute, and at what cost\n"
@@ -70,8 +71,8 @@ double exact_value(const std::string& text) {
   }
 }
 
-void add_script_options(CLI::App& command, cli::RunCommand& run, std::string& limit_time) {
-  command.add_option("script", run.script, "the Lua script")->required();
+CLI::Option* add_script_options(CLI::App& command, cli::RunCommand& run, std::string& limit_time) {
+  CLI::Option* script = command.add_option("script", run.script, "the Lua script")->required();
   command.add_option("--seed", run.seed, "of math.random (default 1)")
       ->check(CLI::Validator(
           [](const std::string& text) {
@@ -81,6 +82,7 @@ void add_script_options(CLI::App& command, cli::RunCommand& run, std::string& li
           "WHOLE NUMBER"));
   command.add_option("--limit-time", limit_time, "end the run after this long, e.g. 60s or \"2 min\"");
   command.add_option("arguments", run.arguments, "reach the script as ... and arg; put them after --");
+  return script;
 }
 
 void add_run_options(CLI::App& command, cli::RunCommand& run, std::string& memory) {
@@ -88,6 +90,18 @@ void add_run_options(CLI::App& command, cli::RunCommand& run, std::string& memor
   command.add_option("--threads", run.threads, "threads to use (default: one a processor)")
       ->check(CLI::Range(1, 4096));
   command.add_option("--limit-memory", memory, "most memory, e.g. 4G");
+}
+
+void add_store_options(CLI::App& command, cli::RunCommand& run, std::string& limit) {
+  CLI::Option* resume = command.add_option(
+      "--resume", run.resume,
+      "go on with the run in this directory where it was cut off; its script, arguments and seed are its own "
+      "(a directory that is not there yet is begun)");
+  resume->excludes(command.get_option("--out"));
+  command.add_option("--reuse", run.reuse,
+                     "take the results of heavy calls that are the same from this run; may be given again");
+  command.add_option("--store-limit", limit,
+                     "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
 }
 
 void add_trust(CLI::App& command, cli::RunCommand& run) {
@@ -107,19 +121,28 @@ int main(int argc, char** argv) {
   cli::AccuracyCommand accuracy;
   cli::ReplayCommand replay;
   std::string replay_time, replay_memory;
-  std::string run_time, check_time, explain_time, accuracy_time, memory, accuracy_memory, at_most, truth,
-      topic;
+  std::string run_time, check_time, explain_time, accuracy_time, memory, accuracy_memory, store_limit,
+      at_most, truth, topic;
   bool reference = false, types = false, explain_json = false;
 
   CLI::App& run_command = *app.add_subcommand("run", "run a script and keep what it finds");
-  add_script_options(run_command, run, run_time);
+  add_script_options(run_command, run, run_time)->required(false);
   add_run_options(run_command, run, memory);
   add_trust(run_command, run);
+  add_store_options(run_command, run, store_limit);
 
   CLI::App& replay_command = *app.add_subcommand(
       "replay",
       "run the script of a recorded run again, with its arguments and seed, and compare every result");
   replay_command.add_option("run", replay.recorded, "the directory of the run")->required();
+  replay_command.add_option(
+      "--from", replay.from,
+      "take the results of heavy calls before this line of its journal from its store, and "
+      "compute from there on");
+  replay_command.add_option(
+      "--set", replay.settings,
+      "key=value or call.key=value: another value where calls give this key (from --from "
+      "on), e.g. --set press.pressure=\"200 MPa\"; may be given again");
   add_run_options(replay_command, replay.run, replay_memory);
   replay_command.add_option("--limit-time", replay_time, "end it after this long, e.g. 60s or \"2 min\"");
   replay_command.footer(
@@ -196,6 +219,13 @@ int main(int argc, char** argv) {
     accuracy.at_most = seconds(at_most).value_or(accuracy.at_most);
     if (!truth.empty()) accuracy.truth = exact_value(truth);
     if (!memory.empty()) run.limit_memory = cli::parse_bytes(memory);
+    if (store_limit == "0")
+      run.store_limit = 0;
+    else if (!store_limit.empty())
+      run.store_limit = cli::parse_bytes(store_limit);
+    if (run_command.parsed() && run.script.empty() && !run.resume)
+      throw Error(ErrorCode::bad_value, "no script was named",
+                  "give one, as in asperity run examples/quick_start.lua, or --resume RUN");
     if (!replay_memory.empty()) replay.run.limit_memory = cli::parse_bytes(replay_memory);
     if (!accuracy_memory.empty()) accuracy.run.limit_memory = cli::parse_bytes(accuracy_memory);
   } catch (const CLI::Success& success) {

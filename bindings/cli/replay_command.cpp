@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "bindings/cli/muted.hpp"
+#include "bindings/lua/variation.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/recorded_run.hpp"
@@ -29,6 +30,25 @@ void print_versions(const RecordedRun& recorded, const RecordedRun& again) {
   }
 }
 
+void print_differences(const std::vector<Difference>& found, const char* first, const char* second) {
+  constexpr std::size_t most = 10;
+  for (std::size_t k = 0; k < std::min(found.size(), most); ++k)
+    std::printf("  %s\n    %-8s  %s\n    %-8s  %s\n", found[k].where.c_str(), first,
+                found[k].recorded.c_str(), second, found[k].again.c_str());
+  if (found.size() > most) std::printf("  and %zu more\n", found.size() - most);
+}
+
+// Prints what came out otherwise.
+void show_variation(const RecordedRun& recorded, const std::filesystem::path& place,
+                    const std::string& what) {
+  const std::vector<Difference> found = differences(recorded, read_run(place));
+  std::printf("%s with %s: %s\n", recorded.root.c_str(), what.c_str(),
+              found.empty()       ? "nothing came out otherwise"
+              : found.size() == 1 ? "one difference"
+                                  : (std::to_string(found.size()) + " differences").c_str());
+  print_differences(found, "recorded", "varied");
+}
+
 // Prints how the two compare; the exit status.
 int compare(const RecordedRun& recorded, const std::filesystem::path& place) {
   const RecordedRun again = read_run(place);
@@ -41,11 +61,7 @@ int compare(const RecordedRun& recorded, const std::filesystem::path& place) {
   }
   std::printf("%s: %s\n", recorded.root.c_str(),
               (found.size() == 1 ? "one difference" : std::to_string(found.size()) + " differences").c_str());
-  constexpr std::size_t most = 10;
-  for (std::size_t k = 0; k < std::min(found.size(), most); ++k)
-    std::printf("  %s\n    recorded  %s\n    now       %s\n", found[k].where.c_str(),
-                found[k].recorded.c_str(), found[k].again.c_str());
-  if (found.size() > most) std::printf("  and %zu more\n", found.size() - most);
+  print_differences(found, "recorded", "now");
   print_versions(recorded, again);
   return different;
 }
@@ -69,9 +85,34 @@ int replay(const ReplayCommand& command) {
   run.arguments = recorded->arguments;
   run.seed = static_cast<std::uint64_t>(recorded->seed);
   run.trust = recorded->trusted;
+  const auto lines = static_cast<std::int64_t>(recorded->journal.size());
+  if (command.from && (*command.from < 1 || *command.from > lines)) {
+    std::fprintf(stderr, "asperity: `--from` is %lld; the journal of %s has lines 1 to %lld\n",
+                 static_cast<long long>(*command.from), command.recorded.c_str(),
+                 static_cast<long long>(lines));
+    return bad_usage;
+  }
+  if (command.from) {
+    run.afresh_from = command.from;
+    run.reuse.push_back(command.recorded);
+  }
+  std::shared_ptr<lua::Variation> variation;
+  try {
+    if (!command.settings.empty()) variation = std::make_shared<lua::Variation>();
+    for (const std::string& setting : command.settings) variation->set(setting);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return bad_usage;
+  }
+  run.variation = variation;
   std::filesystem::path place;
-  const auto verdict = [&](int) {
+  const auto verdict = [&](int ended) {
     try {
+      if (variation) {
+        show_variation(*recorded, place, variation->text());
+        variation->check_all_met();
+        return ended;
+      }
       const int status = compare(*recorded, place);
       return altered.empty() ? status : different;
     } catch (const Error& error) {
@@ -82,6 +123,11 @@ int replay(const ReplayCommand& command) {
   std::optional<Muted> muted(std::in_place);
   const int status = in_run_directory(run, [&](RunContext& context) {
     place = context.run->path();
+    if (variation && command.from)
+      variation->in_force = [journal = &context.run->journal(), from = *command.from] {
+        return journal->count() + 1 >= from;
+      };
+    if (variation) context.run->note("variation", Json::strings(command.settings));
     return run_script(context, [&](int code) {
       muted.reset();
       return verdict(code);

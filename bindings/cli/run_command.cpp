@@ -11,6 +11,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "bindings/cli/kept_results.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/argument.hpp"
@@ -23,6 +24,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/result_files.hpp"
 #include "engine/experiment/run_directory.hpp"
 
 namespace asperity::cli {
@@ -30,17 +32,6 @@ namespace asperity::cli {
 namespace {
 
 constexpr int done = 0, failed = 1, bad_usage = 2;
-
-std::string read_script(const std::string& path) {
-  std::error_code problem;
-  if (std::filesystem::is_directory(path, problem))
-    throw Error(ErrorCode::bad_file, quoted(path) + " is a folder", "give the path of a Lua script");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(ErrorCode::bad_file, "there is no script " + quoted(path) + " that can be read");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 // A limit that the counters cannot see (a library's own heap) still ends in bad_alloc.
 void limit_address_space(std::int64_t bytes) {
@@ -79,6 +70,17 @@ std::string reason_text(StopReason reason, const RunCommand& command) {
 }
 
 }  // namespace
+
+std::string read_script(const std::string& path) {
+  std::error_code problem;
+  if (std::filesystem::is_directory(path, problem))
+    throw Error(ErrorCode::bad_file, quoted(path) + " is a folder", "give the path of a Lua script");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorCode::bad_file, "there is no script " + quoted(path) + " that can be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
 
 int execute(lua_State* L, const RunCommand& command, const std::string& text, int results) {
   bool failed_inside = false;
@@ -147,6 +149,7 @@ std::int64_t parse_bytes(const std::string& text) {
 int in_run_directory(const RunCommand& command, const std::function<std::string(RunContext&)>& work) {
   std::string text;
   std::shared_ptr<RunDirectory> run;
+  ResultFilesSetup kept;
   set_thread_count(command.threads);
   try {
     text = command.text ? *command.text : read_script(command.script);
@@ -154,12 +157,16 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     setup.script_name = command.script;
     setup.script_text = text;
     if (command.out) setup.out = *command.out;
+    if (command.resume) setup.resume = *command.resume;
+    setup.anew = command.anew;
     setup.trusted = command.trust;
     setup.arguments = command.arguments;
     setup.seed = static_cast<std::int64_t>(command.seed);
     setup.threads = thread_count();
     setup.versions = version_json();
+    kept = result_files(command);
     run = std::make_shared<RunDirectory>(setup);
+    kept.folder = run->store();
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;
@@ -167,12 +174,24 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
 
   TerminalMonitor monitor;
   monitor.keep_warnings_in(run.get());
+  ResultFiles results(std::move(kept));
+  UntilLine until(results, run->journal(), command.afresh_from.value_or(0));
+  if (command.store_limit != 0)
+    monitor.keep_results_in(command.afresh_from ? static_cast<ResultStore*>(&until) : &results);
   const auto summary = [&] {
+    const ResultFiles::Counts counts = results.counts();
     const std::string verdicts = run->expectations().summary();
     monitor.clear();
     if (!verdicts.empty()) std::fprintf(stderr, "%s\n", verdicts.c_str());
     for (const Verdict& verdict : run->expectations().verdicts())
       if (!verdict.passed) std::fprintf(stderr, "  failed: %s\n", verdict.sentence.c_str());
+    if (counts.found > 0)
+      std::fprintf(stderr, "%lld %s taken from the store, which had cost %s\n",
+                   static_cast<long long>(counts.found), counts.found == 1 ? "result was" : "results were",
+                   format_quantity(counts.seconds_saved, dimension::time, 3).c_str());
+    for (const std::string& notice : results.notices()) std::fprintf(stderr, "%s\n", notice.c_str());
+    if (const std::string departure = run->journal().departure(); !departure.empty())
+      std::fprintf(stderr, "%s\n", departure.c_str());
     std::fprintf(stderr, "results in %s\n", run->path().c_str());
   };
   Watchdog watchdog(command.limit_time, [&](StopReason reason) {
@@ -192,6 +211,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   }
 
   std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away must not take the record with it
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is met like a full disk: by an error
 
   int status = done;
   std::string why;
@@ -240,6 +260,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
 std::string run_script(RunContext& context, const std::function<int(int)>& at_exit) {
   lua::Session session(context.monitor);
   session.run = context.run;
+  session.variation = context.command.variation;
   session.exit_hook = [&](int code) {
     if (code == 0 && context.run->expectations().failed() > 0) code = failed;
     context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed,
@@ -255,7 +276,22 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   return lua::error_text(state.get(), -1);
 }
 
-int run(const RunCommand& command) {
+int run(const RunCommand& asked) {
+  RunCommand command = asked;
+  if (asked.resume) {
+    try {
+      std::optional<RunCommand> again = taken_up(asked);
+      if (!again) {
+        std::fprintf(stderr, "asperity: %s came to its end; there is nothing to resume\n",
+                     asked.resume->c_str());
+        return done;
+      }
+      command = *std::move(again);
+    } catch (const Error& error) {
+      std::fprintf(stderr, "asperity: %s\n", error.what());
+      return bad_usage;
+    }
+  }
   return in_run_directory(
       command, [](RunContext& context) { return run_script(context, [](int code) { return code; }); });
 }

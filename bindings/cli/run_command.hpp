@@ -31,7 +31,14 @@ struct RunCommand {
   std::optional<double> limit_time;          // seconds
   bool trust = false;
   std::vector<std::string> arguments;
-  std::optional<std::string> text;  // of the script, where it is not read from its file
+  std::optional<std::string> text;          // of the script, where it is not read from its file
+  std::optional<std::string> resume;        // directory of a run that was cut off
+  bool anew = false;                        // of another script: its files are moved aside, its results stay
+  std::vector<std::string> reuse;           // runs, or folders of results, to take results from
+  std::optional<std::int64_t> store_limit;  // bytes of results to keep; 0: none
+  // Of a replay: from this line of the journal on nothing is taken from `reuse`.
+  std::optional<std::int64_t> afresh_from;
+  std::shared_ptr<lua::Variation> variation;  // of a replay; may be null
 };
 
 // Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage, 130 interrupted.
@@ -64,6 +71,9 @@ lua::State make_state(lua::Session& session, const RunCommand& command);
 // Loads and runs the script. Leaves `results` values and returns LUA_OK, or leaves an error message with
 // its traceback.
 int execute(lua_State* L, const RunCommand& command, const std::string& text, int results);
+
+// The text of a script. Throws Error{bad_file}.
+std::string read_script(const std::string& path);
 
 // "4G", "512M", "64KiB", "1000000". Throws Error{bad_value}.
 std::int64_t parse_bytes(const std::string& text);

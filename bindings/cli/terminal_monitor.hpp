@@ -23,11 +23,14 @@ class TerminalMonitor final : public Monitor {
   ~TerminalMonitor() override;
   // Warnings also go to this run's journal.
   void keep_warnings_in(RunDirectory* run) { run_ = run; }
+  // Heavy calls take their results from here and keep them here.
+  void keep_results_in(ResultStore* results) { results_ = results; }
 
   void progress(std::string_view what, double done) override;
   void progress_of_parts(std::string_view what, double done, std::string_view part, double seconds) override;
   void warn(std::string_view sentence) override;
   void inform(std::string_view sentence) override;
+  ResultStore* results() override { return results_; }
   // Takes the progress line away.
   void clear();
 
@@ -39,6 +42,7 @@ class TerminalMonitor final : public Monitor {
 
   std::mutex mutex_;
   RunDirectory* run_ = nullptr;
+  ResultStore* results_ = nullptr;
   bool terminal_;
   bool line_shown_ = false;
   std::string current_;

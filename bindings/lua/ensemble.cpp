@@ -343,7 +343,9 @@ Values ensemble(Call& call) {
     common.trusted = session.trusted;
     common.depth = session.depth + 1;
     common.refinement = session.refinement;
+    common.variation = session.variation;
     common.ledger = session.ledger;
+    common.results = session.monitor().results();
     common.watched = lua_gethook(call.L) != nullptr;
     if (session.dry_run) {
       const Explanation::Repeating cases(session.explanation.get(), static_cast<std::int64_t>(keys.count()));

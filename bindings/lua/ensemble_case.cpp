@@ -23,12 +23,15 @@ namespace {
 // Warnings are kept; progress is that of the whole ensemble.
 class CaseMonitor final : public Monitor {
  public:
-  explicit CaseMonitor(std::vector<std::string>& warnings) : warnings_(warnings) {}
+  CaseMonitor(std::vector<std::string>& warnings, ResultStore* results)
+      : warnings_(warnings), results_(results) {}
   void progress(std::string_view, double) override {}
   void warn(std::string_view sentence) override { warnings_.emplace_back(sentence); }
+  ResultStore* results() override { return results_; }
 
  private:
   std::vector<std::string>& warnings_;
+  ResultStore* results_;
 };
 
 // A file in memory.
@@ -216,7 +219,7 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
   CaseResult result;
   const double transforms = cost::transforms();
   try {
-    CaseMonitor monitor(result.warnings);
+    CaseMonitor monitor(result.warnings, setup.results);
     OutputBuffer output;
     Session session(monitor);
     session.seed = setup.seed;
@@ -224,6 +227,7 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
     session.is_case = true;
     session.depth = setup.depth;
     session.refinement = setup.refinement;
+    session.variation = setup.variation;
     session.ledger = setup.ledger;
     session.output = output.file();
     session.left_behind = &setup.run->left_behind();

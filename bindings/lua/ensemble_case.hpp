@@ -16,11 +16,13 @@
 
 namespace asperity {
 class Ledger;
-}
+class ResultStore;
+}  // namespace asperity
 
 namespace asperity::lua {
 
 struct Refinement;
+class Variation;
 
 struct CaseValue {
   std::string key;
@@ -35,8 +37,10 @@ struct CaseSetup {
   bool trusted = false;
   int depth = 1;  // ensembles the case stands inside
   std::shared_ptr<Refinement> refinement;
+  std::shared_ptr<Variation> variation;
   std::shared_ptr<Ledger> ledger;
-  bool watched = false;  // look at the stop flag every few thousand instructions
+  ResultStore* results = nullptr;  // of the run; may be null
+  bool watched = false;            // look at the stop flag every few thousand instructions
 };
 
 struct CaseResult {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bindings/lua/refinement.hpp"
+#include "bindings/lua/variation.hpp"
 
 namespace asperity::lua {
 
@@ -153,9 +154,15 @@ void read_table(const Argument& table, const std::string& caller,
     }
   }
   if (!unknown.empty()) unknown.push_back("the keys are " + joined(names, " and "));
+  Variation* variation = variation_of(table.state());
   for (std::size_t k = 0; k < options.size(); ++k) {
-    if (!seen[k]) continue;
     const Argument::StackGuard guard(table.state());
+    if (variation != nullptr && variation->replaces(table.state(), caller, names[k], seen[k])) {
+      seen[k] = true;
+      read(k, Argument(table.state(), lua_gettop(table.state())), problems);
+      continue;
+    }
+    if (!seen[k]) continue;
     // A raw look-up of a known key without allocating: walk the table again.
     table.each([&](const Argument& key, const Argument& value) {
       if (key.is_text() && key.text() == names[k]) read(k, value, problems);

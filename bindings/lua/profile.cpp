@@ -92,7 +92,8 @@ const Block<ReadProfileOptions>& read_block() {
       {quantity("spacing", &O::spacing, dimension::length, above(0),
                 "distance between samples, where the file has none"),
        unit_key(&O::unit), fill_key(&O::fill),
-       text("format", &O::format, "read as this format whatever the file looks like")}};
+       text("format", &O::format, "read as this format whatever the file looks like"),
+       text("channel", &O::channel, "which of several arrays in an HDF5, GWY or OPD file, by its name")}};
   return block;
 }
 

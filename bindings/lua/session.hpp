@@ -25,6 +25,7 @@ namespace asperity::lua {
 
 class Explanation;
 struct Refinement;
+class Variation;
 
 class Session {
  public:
@@ -62,6 +63,7 @@ class Session {
   std::FILE* output = stdout;              // where print goes; a buffer in a case
   std::map<std::string, int> studies;      // names given to studies of work and precision, and how often
   std::shared_ptr<Refinement> refinement;  // of a script that a study of accuracy runs again; may be null
+  std::shared_ptr<Variation> variation;  // of a recorded run that is run again with other values; may be null
   // Of a case: the script's globals that could not come along, and why.
   const std::map<std::string, std::string>* left_behind = nullptr;
 

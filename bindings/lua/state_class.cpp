@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fields and methods of a state (a contact under load) and of its fields over the tile. A field
 // is worked out when the script reads it, and not before.
+#include <algorithm>
+
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/discretisation_error.hpp"
@@ -10,6 +12,7 @@
 #include "bindings/lua/state_error.hpp"
 #include "bindings/lua/surface.hpp"
 #include "engine/contact/geometry.hpp"
+#include "engine/contact/state_file.hpp"
 #include "engine/core/node_value.hpp"
 
 namespace asperity::lua {
@@ -93,6 +96,36 @@ Values distribution(Call& call) {
       .add("values", h.values)
       .add("mean", h.mean);
   return {std::move(record)};
+}
+
+struct StateFileKeys {
+  std::vector<std::string> fields;
+};
+const Block<StateFileKeys>& state_file_block() {
+  using O = StateFileKeys;
+  static const Block<O> block{
+      "write",
+      {custom<O>("fields", "string[]", "which fields to write; without it all the state has",
+                 [](const Argument& value, const OptionInfo& info, O& o, Problems& problems) {
+                   if (!value.is_table() || value.length() == 0)
+                     return detail::wrong_type(value, info, "a list of names such as {\"pressure\", \"gap\"}",
+                                               problems);
+                   for (int k = 1; k <= value.length(); ++k)
+                     value.element(k, [&](const Argument& part) {
+                       if (!part.is_text())
+                         return detail::wrong_type(part, info, "the name of a field", problems);
+                       const std::string name(part.text());
+                       if (std::find(o.fields.begin(), o.fields.end(), name) == o.fields.end())
+                         o.fields.push_back(name);
+                     });
+                 })}};
+  return block;
+}
+Values write(Call& call) {
+  const StateFileKeys keys = call.options(state_file_block(), 2);
+  const std::string path = writable_path(call, call.text(1, "path"));
+  write_state(call.self<Contacting>(), path, keys.fields);
+  return {path};
 }
 
 std::string describe(const void* self) { return static_cast<const Contacting*>(self)->text(); }
@@ -256,6 +289,17 @@ const Class& state_class() {
          .parameters = {{"body", "\"lower\"|\"upper\"", "which"}},
          .returns = "Surface",
          .example = "local flattened = st:deformed \"lower\""},
+        {.name = "write",
+         .body = write,
+         .sentence =
+             "Writes the fields as maps of shape (ny, nx) into one HDF5 file, with load, approach, area, "
+             "certificate and digest as its attributes, and an .xdmf beside it for ParaView.",
+         .parameters = {{"path", "string", "an .h5 under the run directory"}},
+         .options = &state_file_block(),
+         .options_optional = true,
+         .returns = "string",
+         .example = "st:write(\"state.h5\", { fields={\"pressure\", \"gap\"} })",
+         .heavy = true},
         {.name = "distribution",
          .body = distribution,
          .sentence =

@@ -168,7 +168,9 @@ const Class& surface_class() {
          .example = "s:filtered{ short_wave=\"2.5 um\", long_wave=\"0.8 mm\" }"},
         {.name = "write",
          .body = write,
-         .sentence = "Writes the heights: .npy, .x3p, .txt, .asc or .csv by the extension of the path.",
+         .sentence = "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
+                     "(Gwyddion), .txt, "
+                     ".asc or .csv by the extension of the path. All read back bit for bit.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",
          .example = "s:write \"specimen.x3p\"",

@@ -295,12 +295,17 @@ Values from_table_body(Call& call) {
 
 const Block<ReadOptions>& read_block() {
   using O = ReadOptions;
-  static const Block<O> block{"lab.surface.read",
-                              {pair_option("size", &O::size_x, &O::size_y, dimension::length, above(0),
-                                           "size of the map, where the file has none"),
-                               unit_key(&O::unit), fill_key(&O::fill),
-                               text("format", &O::format, "read as this format whatever the file looks like"),
-                               material_key(&O::material)}};
+  static const Block<O> block{
+      "lab.surface.read",
+      {pair_option("size", &O::size_x, &O::size_y, dimension::length, above(0),
+                   "size of the map, where the file has none"),
+       unit_key(&O::unit), fill_key(&O::fill),
+       text("format", &O::format,
+            "read as this format whatever the file looks like: \"x3p\", \"sdf\", \"sur\", \"opd\", \"bcr\", "
+            "\"gwy\", "
+            "\"hdf5\", \"npy\", \"text\", \"xyz\" or \"stylus-csv\""),
+       text("channel", &O::channel, "which of several maps in an HDF5, GWY or OPD file, by its name"),
+       material_key(&O::material)}};
   return block;
 }
 Values read_body(Call& call) {
@@ -368,8 +373,9 @@ const Module& surface_module() {
     m.functions.push_back(
         {.name = "read",
          .body = read_body,
-         .sentence =
-             "A measured surface from a file: text matrix, x y z triples, NPY, X3P or a profiler's CSV.",
+         .sentence = "A measured surface from a file: X3P, SDF, SUR, OPD, BCR, GWY, HDF5, NPY, text matrix, "
+                     "x y z triples or a "
+                     "profiler's CSV, known by its content, then by its extension.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_block(),
          .options_optional = true,

@@ -12,6 +12,8 @@
 
 namespace asperity {
 
+class ResultStore;
+
 // Why a run should stop, raised from signal handlers and watchdogs.
 enum class StopReason : int { none = 0, interrupt, time_limit, memory_limit };
 
@@ -50,6 +52,8 @@ class Monitor {
   virtual void warn(std::string_view sentence) = 0;
   // A sentence that is neither, such as what work about to begin will take. Dropped unless overridden.
   virtual void inform(std::string_view /*sentence*/) {}
+  // Where heavy calls keep what they find (result_store.hpp); null unless overridden. From any thread.
+  virtual ResultStore* results() { return nullptr; }
 
   // Neither shows nor keeps anything.
   static Monitor& silent();

@@ -5,10 +5,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
+#include <string>
 #include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/patient_lock.hpp"
+#include "engine/core/text.hpp"
 #include "engine/experiment/aside_file.hpp"
 
 namespace asperity {
@@ -16,6 +19,27 @@ namespace asperity {
 Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw_file_error("begin", path_, errno);
+}
+
+std::unique_ptr<Journal> Journal::again(std::filesystem::path path) {
+  JournalLines recorded = read_journal(path, true);
+  const auto ended = [&] {
+    const Json* event = recorded.lines.empty() ? nullptr : recorded.lines.back().find("event");
+    return event != nullptr && *event == Json("end");
+  };
+  if (ended()) {
+    recorded.lines.pop_back();
+    recorded.ends.pop_back();
+  }
+  auto journal = std::make_unique<Journal>();
+  journal->descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (journal->descriptor_ < 0) throw_file_error("take up", path, errno);
+  if (::ftruncate(journal->descriptor_, recorded.ends.empty() ? 0 : recorded.ends.back()) != 0)
+    throw_file_error("take up", path, errno);
+  journal->path_ = std::move(path);
+  journal->recorded_ = std::move(recorded.lines);
+  journal->ends_ = std::move(recorded.ends);
+  return journal;
 }
 
 Journal::~Journal() {
@@ -35,9 +59,43 @@ std::int64_t Journal::append(std::string_view event, const Json& fields) {
     line.set("event", event);
     if (!fields.is_null())
       for (const auto& [name, value] : fields.members()) line.set(name, value);
-    append_whole(descriptor_, line.text() + "\n", path_);
+    if (!repeats(line)) append_whole(descriptor_, line.text() + "\n", path_);
   }
   return ++count_;
+}
+
+// Whether the line stands there already. What is the same step with another value ends the repetition.
+bool Journal::repeats(const Json& line) {
+  const auto at = static_cast<std::size_t>(count_);
+  if (at >= recorded_.size()) return false;
+  const Json& recorded = recorded_[at];
+  const Json now = without_unhashed(Json::parse(line.text(), "a line of the journal"));
+  if (now == recorded) return true;
+  const DifferingMember differs = first_difference(&recorded, &now);
+  const std::string where = "line " + std::to_string(count_ + 1) + " of the journal";
+  const std::string what =
+      quoted(differs.path) + " was " + brief(differs.one) + " and is now " + brief(differs.other);
+  for (const char* part : {"event", "function", "self", "inputs", "notebook", "script", "digest", "seed"}) {
+    const Json *one = recorded.find(part), *other = now.find(part);
+    if ((one == nullptr) == (other == nullptr) && (one == nullptr || *one == *other)) continue;
+    throw Error(
+        ErrorCode::bad_state, "the run goes another way than the one it takes up: in " + where + " " + what,
+        "something it reads has changed; run the script anew, with --reuse for what is still the same");
+  }
+  departure_ = "from " + where + " on it was written anew: " + what;
+  if (::ftruncate(descriptor_, at == 0 ? 0 : ends_[at - 1]) != 0) throw_file_error("take up", path_, errno);
+  recorded_.clear();
+  return false;
+}
+
+std::string Journal::departure() const {
+  const std::lock_guard lock(mutex_);
+  return departure_;
+}
+
+bool Journal::repeating() const {
+  const std::lock_guard lock(mutex_);
+  return static_cast<std::size_t>(count_) < recorded_.size();
 }
 
 std::int64_t Journal::count() const {
@@ -52,6 +110,56 @@ bool Journal::close(std::string_view event, const Json& fields, std::chrono::mil
   closed_ = true;
   append(event, fields);
   return true;
+}
+
+Json without_unhashed(const Json& record) {
+  Json::Members kept;
+  for (const Json::Member& member : record.members())
+    if (member.first != "unhashed") kept.push_back(member);
+  return Json::object(std::move(kept));
+}
+
+JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw Error(ErrorCode::bad_file, "there is no " + quoted(path.string()) + " that can be read",
+                "give the directory of a run, such as runs/quick_start-1");
+  JournalLines read;
+  std::int64_t bytes = 0;
+  for (std::string line; std::getline(file, line);) {
+    const std::string name = "line " + std::to_string(read.lines.size() + 1) + " of " + quoted(path.string());
+    if (file.eof() && may_be_torn) break;  // no newline after it
+    bytes += static_cast<std::int64_t>(line.size()) + 1;
+    Json record = Json::parse(line, name);
+    const Json* number = record.is_object() ? record.find("n") : nullptr;
+    if (number == nullptr || number->number() != static_cast<double>(read.lines.size() + 1))
+      throw Error(ErrorCode::bad_file, name + " does not carry its number",
+                  "lines were taken out or put in: the journal was altered");
+    read.lines.push_back(without_unhashed(record));
+    read.ends.push_back(bytes);
+  }
+  return read;
+}
+
+std::string brief(const Json* value) {
+  if (value == nullptr) return "nothing";
+  std::string text = value->text();
+  constexpr std::size_t longest = 120;
+  if (text.size() > longest) text = text.substr(0, longest) + " …";
+  return text;
+}
+
+DifferingMember first_difference(const Json* one, const Json* other, const std::string& path) {
+  if (one != nullptr && other != nullptr && one->is_object() && other->is_object()) {
+    const auto under = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
+    for (const auto& [name, value] : one->members()) {
+      const Json* same = other->find(name);
+      if (same == nullptr || !(*same == value)) return first_difference(&value, same, under(name));
+    }
+    for (const auto& [name, value] : other->members())
+      if (one->find(name) == nullptr) return {under(name), nullptr, &value};
+  }
+  return {path, one, other};
 }
 
 }  // namespace asperity

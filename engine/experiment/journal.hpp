@@ -2,14 +2,19 @@
 // The journal of a run: one line of JSON an event, each handed to the system in one piece as it
 // happens, so that a run that is killed loses nothing it had recorded. A line is
 // {"n":<number from 1>,"event":<name>, <fields>}. It carries no dates: equal runs write equal lines;
-// what differs from run to run (seconds) belongs in a field named "unhashed".
+// what differs from run to run (seconds) belongs in a field named "unhashed". A journal that is taken up
+// again is repeated up to where it ended, each line compared with the one that stands there, and then goes
+// on.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <mutex>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/experiment/json.hpp"
 
@@ -22,16 +27,25 @@ class Journal {
   Journal() = default;
   // Makes the file. Throws Error{bad_file} if it cannot or the file exists already.
   explicit Journal(std::filesystem::path path);
+  // Takes up the journal of a run that was cut off: a torn last line and an event "end" are cut off it, and
+  // every write is compared with the line recorded in its place until these are used up. Throws
+  // Error{bad_file} if it cannot be read or written, or is damaged before its end.
+  static std::unique_ptr<Journal> again(std::filesystem::path path);
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
   // Returns the number of the line. `fields` is an object or null. Throws Error{bad_file} when the
-  // disk refuses (the file then ends with the line before), Error{bad_state} after close().
+  // disk refuses (the file then ends with the line before), Error{bad_state} after close() and where the line
+  // recorded in its place is another step.
   std::int64_t write(std::string_view event, const Json& fields = {});
 
   // Lines written.
   std::int64_t count() const;
+  // Whether recorded lines are still ahead.
+  bool repeating() const;
+  // Where and how it left what was recorded, as a sentence; "" where it did not.
+  std::string departure() const;
   const std::filesystem::path& path() const { return path_; }
 
   // Writes a last line and refuses all later ones. Waits at most `patience` for a writer that is
@@ -40,12 +54,37 @@ class Journal {
 
  private:
   std::int64_t append(std::string_view event, const Json& fields);
+  bool repeats(const Json& line);
 
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::int64_t count_ = 0;
   bool closed_ = false;
+  std::vector<Json> recorded_;      // of a journal taken up again, without what is unhashed
+  std::vector<std::int64_t> ends_;  // byte after each
+  std::string departure_;
   mutable std::mutex mutex_;
 };
+
+// The lines of a journal, without what is unhashed, and how many bytes they take. `may_be_torn`: what follows
+// the last newline is left out. Throws Error{bad_file} for a line that is no JSON or does not carry its
+// number.
+struct JournalLines {
+  std::vector<Json> lines;
+  std::vector<std::int64_t> ends;  // byte after each
+};
+JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn);
+
+// A record without its member "unhashed".
+Json without_unhashed(const Json& record);
+
+// The first member, however deep, in which two records differ; null where one has none.
+struct DifferingMember {
+  std::string path;  // "row.area"
+  const Json *one, *other;
+};
+DifferingMember first_difference(const Json* one, const Json* other, const std::string& path = {});
+// As JSON, cut after 120 bytes; "nothing" for null.
+std::string brief(const Json* value);
 
 }  // namespace asperity

@@ -36,6 +36,11 @@ void Notebook::write(std::span<const Entry> row) {
   journal_.write("row", fields);
   const bool new_header = table_.append(row);
   if (csv_.empty()) return;
+  // The file of a run that is taken up again has these rows, and more.
+  if (journal_.repeating()) {
+    stale_ = true;
+    return;
+  }
   if (new_header || stale_) {
     rewrite();
   } else {
@@ -46,7 +51,7 @@ void Notebook::write(std::span<const Entry> row) {
 void Notebook::declare_unit(std::string_view column, std::string_view unit) {
   const std::lock_guard lock(mutex_);
   const bool new_header = table_.declare_unit(column, unit);
-  if (new_header && !csv_.empty() && table_.rows() > 0) rewrite();
+  if (new_header && !csv_.empty() && table_.rows() > 0 && !journal_.repeating()) rewrite();
 }
 
 void Notebook::rewrite() {

@@ -13,7 +13,8 @@ PartMonitor::PartMonitor(Monitor& outer, std::string whole, std::string part, do
       part_(std::move(part)),
       before_(before),
       after_(after),
-      begun_(begun) {}
+      begun_(begun),
+      results_(outer.results()) {}
 
 void PartMonitor::progress(std::string_view, double done) { report(done); }
 

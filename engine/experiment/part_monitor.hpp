@@ -25,6 +25,9 @@ class PartMonitor final : public Monitor {
   void progress(std::string_view what, double done) override;
   void warn(std::string_view sentence) override { outer_.warn(sentence); }
   void inform(std::string_view sentence) override { outer_.inform(sentence); }
+  ResultStore* results() override { return results_; }
+  // For parts that are timed: nothing is taken up that was computed before.
+  void compute_afresh() { results_ = nullptr; }
 
  private:
   void report(double done);
@@ -33,6 +36,7 @@ class PartMonitor final : public Monitor {
   std::string whole_, part_;
   double before_, after_;
   Clock::time_point begun_;
+  ResultStore* results_;
   double furthest_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/journal.hpp"
 #include "engine/experiment/run_facts.hpp"
 
 namespace asperity {
@@ -29,67 +30,16 @@ std::string whole_file(const fs::path& path) {
   return text.str();
 }
 
-Json hashed(const Json& record) {
-  Json::Members kept;
-  for (const Json::Member& member : record.members())
-    if (member.first != unhashed) kept.push_back(member);
-  return Json::object(std::move(kept));
-}
-
 const Json& member(const Json& record, std::string_view name, const fs::path& file) {
   if (const Json* found = record.is_object() ? record.find(name) : nullptr) return *found;
   throw Error(ErrorCode::bad_file, quoted(file.string()) + " has no `" + std::string(name) + "`",
               "it is not the record of a run, or it was altered");
 }
 
-// A line that is cut short is the last one of a run that was.
-std::vector<Json> read_journal(const fs::path& file, bool may_be_torn) {
-  const std::string text = whole_file(file);
-  std::vector<Json> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    const std::string name = "line " + std::to_string(lines.size() + 1) + " of " + quoted(file.string());
-    if (stream.eof() && may_be_torn) break;  // no newline after it
-    Json record = Json::parse(line, name);
-    const Json* number = record.is_object() ? record.find("n") : nullptr;
-    if (number == nullptr || number->number() != static_cast<double>(lines.size() + 1))
-      throw Error(ErrorCode::bad_file, name + " does not carry its number",
-                  "lines were taken out or put in: the journal was altered");
-    lines.push_back(hashed(record));
-  }
-  return lines;
-}
-
 std::string described(const Json& line) {
   for (const char* name : {"function", "notebook", "event"})
     if (const Json* value = line.find(name)) return value->string();
   return "";
-}
-
-std::string shown(const Json* value) {
-  if (value == nullptr) return "nothing";
-  std::string text = value->text();
-  constexpr std::size_t longest = 120;
-  if (text.size() > longest) text = text.substr(0, longest) + " …";
-  return text;
-}
-
-// The first member, however deep, in which two records differ.
-struct Place {
-  std::string path;
-  const Json *one, *other;
-};
-Place first_difference(const Json* one, const Json* other, const std::string& path = {}) {
-  if (one != nullptr && other != nullptr && one->is_object() && other->is_object()) {
-    const auto under = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
-    for (const auto& [name, value] : one->members()) {
-      const Json* same = other->find(name);
-      if (same == nullptr || !(*same == value)) return first_difference(&value, same, under(name));
-    }
-    for (const auto& [name, value] : other->members())
-      if (one->find(name) == nullptr) return {under(name), nullptr, &value};
-  }
-  return {path, one, other};
 }
 
 void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::vector<Difference>& found) {
@@ -103,10 +53,10 @@ void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::v
     const Json* one = k < recorded.journal.size() ? &recorded.journal[k] : nullptr;
     const Json* other = k < again.journal.size() ? &again.journal[k] : nullptr;
     if (one != nullptr && other != nullptr && *one == *other) continue;
-    const Place place = first_difference(one, other);
+    const DifferingMember place = first_difference(one, other);
     std::string where = "line " + std::to_string(k + 1) + ", " + described(one != nullptr ? *one : *other);
     if (!place.path.empty()) where += ", " + place.path;
-    found.push_back({where, shown(place.one), shown(place.other)});
+    found.push_back({where, brief(place.one), brief(place.other)});
   }
 }
 
@@ -136,17 +86,22 @@ void compare_files(const RecordedRun& recorded, const RecordedRun& again, std::s
   for (const std::string& file : files) {
     const Json *one = digest_in(recorded, file), *other = digest_in(again, file);
     if (one != nullptr && other != nullptr && *one == *other) continue;
-    found.push_back({kind + " " + quoted(file), shown(one), shown(other)});
+    found.push_back({kind + " " + quoted(file), brief(one), brief(other)});
   }
 }
 
 }  // namespace
 
+Json read_manifest(const fs::path& root) {
+  const fs::path file = root / "manifest.json";
+  return Json::parse(whole_file(file), quoted(file.string()));
+}
+
 RecordedRun read_run(const fs::path& root) {
   RecordedRun run;
   run.root = root;
   const fs::path file = root / "manifest.json";
-  const Json manifest = Json::parse(whole_file(file), quoted(file.string()));
+  const Json manifest = read_manifest(root);
   run.status = member(manifest, "status", file).string();
   const Json& script = member(manifest, "script", file);
   const Json& rest = member(manifest, unhashed, file);
@@ -161,8 +116,8 @@ RecordedRun read_run(const fs::path& root) {
   run.seed = static_cast<std::int64_t>(member(manifest, "seed", file).number());
   run.trusted = member(manifest, "trusted", file).boolean();
   run.versions = member(manifest, "versions", file);
-  run.manifest = hashed(manifest);
-  run.journal = read_journal(root / "journal.jsonl", !run.ended());
+  run.manifest = without_unhashed(manifest);
+  run.journal = read_journal(root / "journal.jsonl", !run.ended()).lines;
   return run;
 }
 
@@ -192,7 +147,7 @@ std::vector<Difference> differences(const RecordedRun& recorded, const RecordedR
   compare_files(recorded, again, "outputs", found);
   const Json *one = recorded.manifest.find("expectations"), *other = again.manifest.find("expectations");
   if ((one == nullptr) != (other == nullptr) || (one != nullptr && !(*one == *other)))
-    found.push_back({"expectations", shown(one), shown(other)});
+    found.push_back({"expectations", brief(one), brief(other)});
   return found;
 }
 

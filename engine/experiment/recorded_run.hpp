@@ -29,6 +29,9 @@ struct RecordedRun {
   bool ended() const { return status == "done" || status == "failed"; }
 };
 
+// The manifest alone. Throws Error{bad_file} where there is none or it is no JSON.
+Json read_manifest(const std::filesystem::path& root);
+
 // Throws Error{bad_file} where there is no run, where its script is no longer the one that ran, or where a
 // line of the journal is no JSON or is missing. The last line of a run that was cut off may be torn; it is
 // left out.

@@ -15,6 +15,7 @@
 #include "engine/core/patient_lock.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/aside_file.hpp"
+#include "engine/experiment/recorded_run.hpp"
 #include "engine/experiment/run_facts.hpp"
 
 namespace asperity {
@@ -26,6 +27,8 @@ namespace {
 constexpr std::string_view script_file = "script.lua";
 constexpr std::string_view manifest_file = "manifest.json";
 constexpr std::string_view journal_file = "journal.jsonl";
+constexpr std::string_view store_folder = "store";
+constexpr std::string_view earlier_folder = "before-";
 
 void make_folders(const fs::path& folder) {
   if (folder.empty()) return;
@@ -59,6 +62,23 @@ fs::path given_directory(const fs::path& out) {
   return out;
 }
 
+// Moves what an earlier run left, all but its store, into the first free before-<n>.
+void move_aside(const fs::path& root) {
+  fs::path earlier;
+  std::error_code reason;
+  for (int n = 1; earlier.empty() || fs::exists(earlier, reason); ++n)
+    earlier = root / (std::string(earlier_folder) + std::to_string(n));
+  make_folders(earlier);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(root)) files.push_back(entry.path());
+  for (const fs::path& file : files) {
+    const std::string name = file.filename().string();
+    if (name == store_folder || name.starts_with(earlier_folder)) continue;
+    fs::rename(file, earlier / name, reason);
+    if (reason) throw_file_error("move aside", file, reason.value());
+  }
+}
+
 }  // namespace
 
 std::string_view name(RunStatus status) {
@@ -79,9 +99,11 @@ std::string_view name(RunStatus status) {
 
 RunDirectory::RunDirectory(const RunSetup& setup) : trusted_(setup.trusted) {
   // Absolute, so that a script which changes the working directory moves nothing.
-  root_ = fs::absolute(setup.out ? given_directory(*setup.out)
-                                 : numbered_directory(setup.runs, setup.script_name))
+  root_ = fs::absolute(setup.resume ? *setup.resume
+                       : setup.out  ? given_directory(*setup.out)
+                                    : numbered_directory(setup.runs, setup.script_name))
               .lexically_normal();
+  if (setup.resume && setup.anew) move_aside(root_);
   begin(setup);
 }
 
@@ -93,8 +115,9 @@ RunDirectory::RunDirectory(Without kind, bool trusted)
 RunDirectory::~RunDirectory() = default;
 
 void RunDirectory::begin(const RunSetup& setup) {
-  journal_ = std::make_unique<Journal>(root_ / journal_file);
-  write_aside(root_ / script_file, setup.script_text);
+  const bool again = setup.resume && !setup.anew;
+  journal_ = again ? Journal::again(root_ / journal_file) : std::make_unique<Journal>(root_ / journal_file);
+  if (!again) write_aside(root_ / script_file, setup.script_text);
   const std::string digest = Digester().add(setup.script_text).hex();
   const std::string script = fs::path(setup.script_name).filename().string();
   manifest_.set("status", name(RunStatus::running))
@@ -108,8 +131,22 @@ void RunDirectory::begin(const RunSetup& setup) {
       .set("script_path", setup.script_name)
       .set("threads", setup.threads)
       .set("machine", machine_facts());
+  if (again) take_up();
   journal_->write("begin", Json::object({{"script", script}, {"digest", digest}, {"seed", setup.seed}}));
   write_manifest();
+}
+
+// Dates of the run so far come along.
+void RunDirectory::take_up() {
+  const Json earlier = read_manifest(root_);
+  const Json* kept = earlier.find("unhashed");
+  Json::List dates;
+  if (kept != nullptr) {
+    if (const Json* known = kept->find("resumed")) dates = known->list();
+    if (const Json* started = kept->find("started")) unhashed_.set("started", *started);
+  }
+  dates.push_back(utc_now());
+  unhashed_.set("resumed", std::move(dates));
 }
 
 void RunDirectory::write_manifest() {
@@ -157,6 +194,12 @@ fs::path RunDirectory::path_for(std::string_view file) {
     if (!root_.empty() && place.lexically_normal() == root_ / own)
       throw Error(ErrorCode::not_permitted, "the file " + quoted(own) + " belongs to the run itself",
                   "choose another name");
+  const fs::path own = root_ / store_folder;
+  if (!root_.empty() && std::ranges::mismatch(own, place.lexically_normal()).in1 == own.end())
+    throw Error(
+        ErrorCode::not_permitted,
+        "the folder " + quoted(store_folder) + " belongs to the run itself, and the file is " + quoted(file),
+        "choose another name");
   if (kind_ == Kind::dry) return place;
   std::error_code ignored;
   if (fs::is_directory(place, ignored))

@@ -3,6 +3,8 @@
 // what, and how it ended), journal.jsonl, one CSV a notebook, and whatever the script writes itself.
 // The manifest is the same bytes for equal runs apart from its member "unhashed" (dates, machine,
 // threads, place). Files are kept inside: a name that leads out is refused unless the run is trusted.
+// The folder `store` keeps the results of its heavy calls (result_files.hpp): a run that is taken up again
+// repeats its script, finds them there, and checks itself against the journal as far as that goes.
 // A loose run has no directory: names are relative to the working directory and neither manifest nor
 // journal is kept. A dry one (`asperity check`) resolves names and keeps notebooks, and writes nothing.
 #pragma once
@@ -29,7 +31,11 @@ struct RunSetup {
   std::string script_name;  // as given: "examples/fig9.lua"
   std::string script_text;
   std::optional<std::filesystem::path> out;  // must be missing or empty; default runs/<script>-<n>
-  std::filesystem::path runs = "runs";       // where the default goes
+  // Instead of `out`: the directory of a run that was cut off, of the same script, arguments and seed, which
+  // goes on there; or, with `anew`, of another script, whose files are moved into before-<n>.
+  std::optional<std::filesystem::path> resume;
+  bool anew = false;
+  std::filesystem::path runs = "runs";  // where the default goes
   bool trusted = false;
   std::vector<std::string> arguments;
   std::int64_t seed = 1;
@@ -52,6 +58,11 @@ class RunDirectory {
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
+  // Of a run that is taken up again: whether it is still where it had been before.
+  bool repeating() const { return journal_->repeating(); }
+  // Where results of heavy calls are kept.
+  std::filesystem::path store() const { return root_ / "store"; }
+
   // Empty for loose and dry runs.
   const std::filesystem::path& path() const { return root_; }
   bool trusted() const { return trusted_; }
@@ -59,7 +70,7 @@ class RunDirectory {
 
   // The place of a file that the script is about to write; the folders above it are made. Relative
   // names go under the directory. Throws Error{not_permitted} for a way out (an absolute path, `..`,
-  // a link) unless trusted, and always for script.lua, manifest.json and journal.jsonl;
+  // a link) unless trusted, and always for script.lua, manifest.json, journal.jsonl and what is under store;
   // Error{bad_value} for an empty name or a folder; Error{bad_file} if a folder cannot be made.
   // The file is listed among the outputs if it is there when the run ends.
   std::filesystem::path path_for(std::string_view file);
@@ -90,6 +101,7 @@ class RunDirectory {
  private:
   enum class Kind { directory, loose, dry };
   void begin(const RunSetup& setup);
+  void take_up();
   void write_manifest();
   Json outputs(bool with_digests) const;
   void keep_inside(const std::filesystem::path& relative, std::string_view file) const;

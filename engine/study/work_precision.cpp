@@ -123,6 +123,7 @@ StudyAnswer WorkPrecision::call(const Knobs& knobs, const std::string* way, int 
     share_after_ = share_;
   }
   PartMonitor part_monitor(monitor_, title, std::move(part), share_, share_after_, wall_begun_);
+  part_monitor.compute_afresh();
   const double begins = clock_();
   StudyAnswer answer = work_.ask(knobs, part_monitor);
   now_ = clock_();

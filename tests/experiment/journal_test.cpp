@@ -74,5 +74,73 @@ TEST(Journal, WithoutAFileOnlyCounts) {
   EXPECT_EQ(journal.count(), 1);
 }
 
+// A run that is taken up again writes the same lines; those that stand there are not written twice.
+TEST_F(JournalTest, IsRepeatedUpToWhereItEndedAndThenGoesOn) {
+  const auto first_lines = [](Journal& journal) {
+    journal.write("begin", Json::object({{"seed", 1}}));
+    journal.write("call",
+                  Json::object({{"function", "press"}, {"inputs", Json::object({{"pressure", 0.1}})}}));
+    journal.write("row", Json::object({{"row", Json::object({{"n", 1.0}})}, {"unhashed", 12}}));
+  };
+  {
+    Journal journal(folder / "j.jsonl");
+    first_lines(journal);
+    journal.close("end", Json::object({{"status", "interrupted"}}), 1s);
+  }
+  std::string torn = content_of(folder / "j.jsonl");
+  std::ofstream(folder / "torn.jsonl", std::ios::binary) << torn.substr(0, torn.size() - 5);
+  for (const char* name : {"j.jsonl", "torn.jsonl"}) {
+    const std::unique_ptr<Journal> journal = Journal::again(folder / name);
+    EXPECT_TRUE(journal->repeating());
+    first_lines(*journal);
+    EXPECT_FALSE(journal->repeating());
+    EXPECT_EQ(journal->count(), 3);
+    EXPECT_EQ(journal->write("row", Json::object({{"row", Json::object({{"n", 2.0}})}})), 4);
+    EXPECT_EQ(journal->departure(), "");
+    journal->close("end", Json::object({{"status", "done"}}), 1s);
+  }
+  EXPECT_EQ(content_of(folder / "torn.jsonl"), content_of(folder / "j.jsonl"));
+  EXPECT_TRUE(content_of(folder / "j.jsonl")
+                  .ends_with("\"n\":1.0},\"unhashed\":12}\n"
+                             "{\"n\":4,\"event\":\"row\",\"row\":{\"n\":2.0}}\n"
+                             "{\"n\":5,\"event\":\"end\",\"status\":\"done\"}\n"));
+}
+
+TEST_F(JournalTest, AnotherValueIsWrittenAnewAndAnotherStepIsAnError) {
+  const auto write = [](Journal& journal, double seconds, const char* function) {
+    journal.write("row", Json::object({{"notebook", "times"}, {"row", Json::object({{"s", seconds}})}}));
+    journal.write("call", Json::object({{"function", function}}));
+  };
+  {
+    Journal journal(folder / "j.jsonl");
+    write(journal, 1, "press");
+  }
+  {
+    const auto journal = Journal::again(folder / "j.jsonl");
+    write(*journal, 2, "press");
+    EXPECT_EQ(journal->departure(),
+              "from line 1 of the journal on it was written anew: `row.s` was 1.0 and is now 2.0");
+    EXPECT_EQ(journal->count(), 2);
+  }
+  EXPECT_EQ(content_of(folder / "j.jsonl"),
+            "{\"n\":1,\"event\":\"row\",\"notebook\":\"times\",\"row\":{\"s\":2.0}}\n"
+            "{\"n\":2,\"event\":\"call\",\"function\":\"press\"}\n");
+  const std::string before = content_of(folder / "j.jsonl");
+  const auto journal = Journal::again(folder / "j.jsonl");
+  EXPECT_EQ(
+      error_of([&] { write(*journal, 2, "scan"); }),
+      "bad_state: the run goes another way than the one it takes up: in line 2 of the journal `function` "
+      "was \"press\" and is now \"scan\"; something it reads has changed; run the script anew, with "
+      "--reuse for what is still the same");
+  EXPECT_EQ(content_of(folder / "j.jsonl"), before);
+}
+
+TEST_F(JournalTest, WhatIsNoJournalIsNotTakenUp) {
+  EXPECT_NE(error_of([&] { Journal::again(folder / "none.jsonl"); }), "");
+  std::ofstream(folder / "j.jsonl") << "{\"n\":2,\"event\":\"x\"}\n";
+  EXPECT_NE(error_of([&] { Journal::again(folder / "j.jsonl"); }).find("does not carry its number"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace asperity

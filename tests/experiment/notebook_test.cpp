@@ -103,5 +103,20 @@ TEST_F(NotebookTest, WithoutAFileKeepsRowsInMemory) {
   EXPECT_EQ(files_in(folder), 1U);
 }
 
+// Cut off again while it repeats its rows, a run still has all it had.
+TEST_F(NotebookTest, TheFileOfARunThatIsTakenUpNeverLosesARow) {
+  write({{"N", 1.0}});
+  write({{"N", 2.0}});
+  const std::string two = content_of(folder / "book.csv");
+  journal = Journal::again(folder / "j.jsonl");
+  book = std::make_unique<Notebook>("book", folder / "book.csv", *journal, log);
+  write({{"N", 1.0}});
+  EXPECT_EQ(content_of(folder / "book.csv"), two);
+  write({{"N", 2.0}});
+  EXPECT_EQ(content_of(folder / "book.csv"), two);
+  write({{"N", 3.0}, {"late", true}});
+  EXPECT_EQ(content_of(folder / "book.csv"), "N,late\n1,\n2,\n3,true\n");
+}
+
 }  // namespace
 }  // namespace asperity

@@ -34,10 +34,18 @@ struct Format {
   // Throws Error{bad_file} for whatever is not as the format wants it. Allocates no more than a
   // fixed multiple of the file's size.
   HeightMap (*read)(const SourceFile& file, Monitor& monitor);
+  // The same of the map called `channel`, of a format whose files hold several; null for the others.
+  HeightMap (*read_channel)(const SourceFile& file, const std::string& channel, Monitor& monitor) = nullptr;
 };
 
 const Format& npy_format();
 const Format& x3p_format();
+const Format& hdf5_format();
+const Format& gwy_format();
+const Format& sur_format();
+const Format& opd_format();
+const Format& sdf_format();
+const Format& bcr_format();
 const Format& stylus_csv_format();
 const Format& xyz_format();
 const Format& text_format();

@@ -56,6 +56,21 @@ std::optional<double> settled(const std::optional<double>& asked, const std::opt
                        : ""));
 }
 
+HeightMap read_map(const SourceFile& file, const std::string& forced, const std::string& channel,
+                   Monitor& monitor, const Format** chosen = nullptr) {
+  const Format& format = choose_format(file, forced);
+  if (chosen != nullptr) *chosen = &format;
+  if (channel.empty()) return format.read(file, monitor);
+  if (format.read_channel != nullptr) return format.read_channel(file, channel, monitor);
+  std::vector<std::string> several;
+  for (const Format* other : formats())
+    if (other->read_channel != nullptr) several.emplace_back(other->name);
+  throw Error(ErrorCode::bad_value,
+              "`channel` is \"" + channel + "\", and " + file_name(file.path()) + " is of the format " +
+                  quoted(format.name) + ", which holds one map",
+              "leave `channel` out; files of " + joined(several, " and ") + " may hold several maps");
+}
+
 // Turns the numbers into metres and closes the holes.
 void into_metres(HeightMap& map, const SourceFile& file, double unit, double hx, double hy,
                  const HoleFill& fill, Monitor& monitor) {
@@ -124,7 +139,7 @@ Surface read_surface(const std::string& path, const ReadOptions& options, Monito
 
 Surface read_surface(const SourceFile& file, const ReadOptions& options, Monitor& monitor) {
   check_call(options);
-  HeightMap map = choose_format(file, options.format).read(file, monitor);
+  HeightMap map = read_map(file, options.format, options.channel, monitor);
 
   const std::optional<double> unit = settled(options.unit, map.unit, file, "unit", monitor);
   if (map.size_in_units) {
@@ -153,9 +168,9 @@ Profile read_profile(const std::string& path, const ReadProfileOptions& options,
 
 Profile read_profile(const SourceFile& file, const ReadProfileOptions& options, Monitor& monitor) {
   check_call(options);
-  const Format& format = choose_format(file, options.format);
-  HeightMap map = format.read(file, monitor);
-  if (!map.trace && map.heights.nx() == 2 && map.heights.ny() > 2 && &format == &text_format())
+  const Format* format = nullptr;
+  HeightMap map = read_map(file, options.format, options.channel, monitor, &format);
+  if (!map.trace && map.heights.nx() == 2 && map.heights.ny() > 2 && format == &text_format())
     fold_positions(map, file);
   const int nx = map.heights.nx(), ny = map.heights.ny();
   if (nx > 1 && ny > 1)

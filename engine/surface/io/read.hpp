@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Measured topographies from files: text matrices, x y z triples, NPY, X3P (ISO 25178-72) and the
+// Measured topographies from files: text matrices, x y z triples, NPY, X3P (ISO 25178-72), HDF5 and the
 // CSV of stylus profilers. A file is known by its content, then by its extension, unless `format`
 // names it. A file that does not say its size or unit needs them in the call; the call wins over the
 // file, with a warning. A file that is damaged, or not what it claims to be, is an Error{bad_file},
@@ -32,7 +32,8 @@ struct ReadOptions {
   std::optional<double> size_x, size_y;  // m, nodes times spacing
   std::optional<double> unit;            // m per number of the file; of x, y and z alike in triples
   HoleFill fill;
-  std::string format;  // "text", "xyz", "npy", "x3p", "stylus-csv"; empty: found out
+  std::string format;   // a name of formats() in format.hpp; empty: found out
+  std::string channel;  // which of several maps in the file; empty: the first of heights
   std::optional<Material> material;
 };
 
@@ -40,7 +41,7 @@ struct ReadProfileOptions {
   std::optional<double> spacing;  // m between samples
   std::optional<double> unit;     // m per number of the file; of positions too, where there are some
   HoleFill fill;
-  std::string format;
+  std::string format, channel;
 };
 
 // First line of a text matrix, row 0 of an array: j = 0. A trace (stylus CSV, one-dimensional array)

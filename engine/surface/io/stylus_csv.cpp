@@ -14,33 +14,12 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
+#include "engine/surface/io/length_unit.hpp"
 #include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 
 namespace {
-
-// Metres in the unit that ends a column title: "Lateral um", "Raw Micrometer", "Height (nm)".
-std::optional<double> unit_of(std::string_view title) {
-  std::string text = lower_case(trimmed(title));
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == '[' || c == ']'; }, ' ');
-  const std::vector<std::string_view> words = cells_of(text, Separator::blank);
-  if (words.empty()) return {};
-  std::string_view last = words.back();
-  if (last.size() > 2 && last.ends_with('s')) last.remove_suffix(1);
-  if (last == "micrometer" || last == "micrometre" || last == "micron" || last == "\xB5m") return 1e-6;
-  if (last == "nanometer" || last == "nanometre") return 1e-9;
-  if (last == "millimeter" || last == "millimetre") return 1e-3;
-  if (last == "meter" || last == "metre") return 1.0;
-  if (last == "angstrom" || last == "\xC5" || last == "a") return 1e-10;
-  try {
-    const Quantity unit = parse_unit(last);
-    if (unit.dimension == dimension::length) return unit.value;
-  } catch (const Error&) {  // no unit that is known
-  }
-  return {};
-}
 
 bool is_scan_mark(std::string_view line) {
   std::string text = lower_case(trimmed(line));
@@ -123,7 +102,7 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
   } while (trimmed(line).empty());
   const std::vector<std::string_view> titles = cells_of(line, separator_of(line));
   if (titles.size() < 2) refuse_file(file, "names no columns after \"Scan Data\": " + shown(line));
-  const std::optional<double> lateral_unit = unit_of(titles[0]);
+  const std::optional<double> lateral_unit = length_unit(titles[0]);
   if (!lateral_unit)
     refuse_file(file, "gives no known unit of length for its positions: " + shown(titles[0]));
 
@@ -167,7 +146,7 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
   const auto n = static_cast<int>(heights.size());
   map.heights = Field(n, 1);
   std::copy(heights.begin(), heights.end(), map.heights.values().begin());
-  map.unit = unit_of(titles[1]);
+  map.unit = length_unit(titles[1]);
   map.size_x = fit.spacing * *lateral_unit * n;
   map.trace = true;
   if (length) check_length(file, *map.size_x, fit.spacing * *lateral_unit, *length, monitor);

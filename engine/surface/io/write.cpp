@@ -9,6 +9,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/io/gwy.hpp"
+#include "engine/surface/io/hdf5_surface.hpp"
 #include "engine/surface/io/source_file.hpp"
 #include "engine/surface/io/staged_file.hpp"
 #include "engine/surface/io/x3p_writer.hpp"
@@ -104,12 +106,16 @@ void write_surface(const Surface& surface, const std::string& path, Monitor& mon
               grid.ny, monitor);
   } else if (extension == "x3p") {
     write_x3p(surface, path);
+  } else if (extension == "h5" || extension == "hdf5") {
+    write_hdf5_surface(surface, path);
+  } else if (extension == "gwy") {
+    write_gwy(surface, path);
   } else if (extension == "txt" || extension == "asc") {
     write_matrix(surface, path, ' ', monitor);
   } else if (extension == "csv") {
     write_matrix(surface, path, ',', monitor);
   } else {
-    refuse_extension(path, ".npy, .x3p, .txt, .asc or .csv");
+    refuse_extension(path, ".h5, .npy, .x3p, .gwy, .txt, .asc or .csv");
   }
 }
 

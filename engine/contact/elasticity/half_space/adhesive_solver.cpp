@@ -11,6 +11,7 @@
 
 #include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/recalled_solve.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -185,7 +186,6 @@ const StateCost& AdhesiveSolver::preparation() const { return ready_->cost; }
 
 State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const {
   check(request, true);
-  const CostScope scope;
   const AdhesiveProblem& problem = ready_->problem;
   const double height = geometry().peak_to_valley();
   if (request.by == PressBy::indentation && !(height > 0))
@@ -197,9 +197,16 @@ State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const
   const double unit = request.by == PressBy::load          ? 1 / problem.contact.grid.area()
                       : request.by == PressBy::indentation ? height
                                                            : 1;
+  Cost whole;
   const auto solve = [&](double value, const AdhesiveAnswer* start) {
-    return by_load ? adhere_at_pressure(problem, value * unit, start, monitor)
-                   : adhere_at_approach(problem, value * unit, start, monitor);
+    const double target = value * unit;
+    Costed<AdhesiveAnswer> solved =
+        recall_or_adhere(problem, by_load ? "pressure" : "approach", target, start, monitor, [&] {
+          return by_load ? adhere_at_pressure(problem, target, start, monitor)
+                         : adhere_at_approach(problem, target, start, monitor);
+        });
+    whole += solved.cost;
+    return std::move(solved.result);
   };
   std::vector<double> turns = request.drawn_from;
   if (by_load && (turns.empty() ? request.value : turns.front()) < 0) turns.insert(turns.begin(), 0.0);
@@ -234,7 +241,7 @@ State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const
     const std::lock_guard lock(ready_->mutex);
     ready_->turn = std::move(from);
   }
-  const StateCost cost = parted(scope.so_far(), contacts, answer);
+  const StateCost cost = parted(whole, contacts, answer);
   return State(std::make_shared<const UnderLoad>(ready_, std::move(answer), by_load, std::move(turns)), plan_,
                cost);
 }

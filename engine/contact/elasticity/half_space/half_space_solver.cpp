@@ -13,6 +13,7 @@
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/half_space_error.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"
+#include "engine/contact/elasticity/half_space/recalled_solve.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -28,10 +29,7 @@ double rms_of(const Field& heights) {
   return std::sqrt(block_sum(squares) / static_cast<double>(heights.size()));
 }
 
-StateCost elastic(const CostScope& scope) {
-  const Cost cost = scope.so_far();
-  return {cost, {{"elasticity", cost}}};
-}
+StateCost elastic(const Cost& cost) { return {cost, {{"elasticity", cost}}}; }
 
 }  // namespace
 
@@ -61,7 +59,7 @@ struct HalfSpaceSolver::Ready {
     problem.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
     if (ready->yield && ready->yield->hardens())
       ready->hardness = local_hardness(*ready->geometry, *ready->yield);
-    ready->cost = elastic(scope);
+    ready->cost = elastic(scope.so_far());
     return ready;
   }
 };
@@ -220,7 +218,6 @@ const StateCost& HalfSpaceSolver::preparation() const { return ready_->cost; }
 
 State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) const {
   check(request);
-  const CostScope scope;
   const double height = geometry().peak_to_valley();
   if ((request.by == PressBy::indentation || request.by == PressBy::flatten) && !(height > 0))
     throw Error(ErrorCode::bad_value,
@@ -233,25 +230,35 @@ State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) cons
   HalfSpaceProblem problem = ready_->problem;
   if (ready_->yield) problem.yield = yield_law(*ready_->yield, ready_->hardness, factor);
   Reported asked;
-  HalfSpaceAnswer answer = [&] {
-    switch (request.by) {
-      case PressBy::load:
-        return solve_at_pressure(problem, request.value / problem.grid.area(), nullptr, monitor);
-      case PressBy::approach:
-      case PressBy::indentation:
-        asked.prescribed = Prescribed::approach;
-        asked.asked_approach = request.by == PressBy::approach ? request.value : request.value * height;
-        return solve_at_approach(problem, asked.asked_approach, monitor);
-      case PressBy::flatten:
-        asked.prescribed = Prescribed::flattening;
-        return solve_at_flattening(problem, request.value, monitor);
-      default:
-        return solve_at_pressure(problem, request.value, nullptr, monitor);
-    }
-  }();
-  auto solution =
-      std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(answer), factor, asked);
-  return State(std::move(solution), plan_, elastic(scope));
+  std::string_view by = "pressure";
+  double value = request.value;
+  switch (request.by) {
+    case PressBy::pressure:
+      break;
+    case PressBy::load:
+      value /= problem.grid.area();
+      break;
+    case PressBy::indentation:
+      value *= height;
+      [[fallthrough]];
+    case PressBy::approach:
+      by = "approach";
+      asked.prescribed = Prescribed::approach;
+      asked.asked_approach = value;
+      break;
+    case PressBy::flatten:
+      by = "flatten";
+      asked.prescribed = Prescribed::flattening;
+      break;
+  }
+  Costed<HalfSpaceAnswer> solved = recall_or_solve(problem, by, value, monitor, [&] {
+    return by == "approach"  ? solve_at_approach(problem, value, monitor)
+           : by == "flatten" ? solve_at_flattening(problem, value, monitor)
+                             : solve_at_pressure(problem, value, nullptr, monitor);
+  });
+  auto solution = std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(solved.result),
+                                                    factor, asked);
+  return State(std::move(solution), plan_, elastic(solved.cost));
 }
 
 }  // namespace asperity

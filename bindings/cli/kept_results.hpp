@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run keeps of its heavy calls, and what it takes from runs before it: `--resume`, `--reuse` and
+// `--store-limit` of `asperity run`, `--from` of `asperity replay`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "bindings/cli/run_command.hpp"
+#include "engine/experiment/journal.hpp"
+#include "engine/experiment/result_files.hpp"
+
+namespace asperity::cli {
+
+// The command that goes on with the run in `command.resume`: its script, arguments and seed, unless there is
+// nothing there yet, when it is begun there. None where that run came to its end. Throws Error for a script,
+// arguments or a seed that are not its own, unless `reuse` is given, and for a directory that is no run.
+std::optional<RunCommand> taken_up(RunCommand command);
+
+// How results of a run are kept, and where else they are looked for; the folder is left open. Throws
+// Error{bad_value} for a `reuse` that is no folder.
+ResultFilesSetup result_files(const RunCommand& command);
+
+// A store from which nothing is taken from a line of the journal on.
+class UntilLine final : public ResultStore {
+ public:
+  UntilLine(ResultStore& store, const Journal& journal, std::int64_t line)
+      : store_(store), journal_(journal), line_(line) {}
+  std::optional<FoundResult> find(const std::string& key) override {
+    if (journal_.count() + 1 >= line_) return {};
+    return store_.find(key);
+  }
+  void keep(const std::string& key, std::string_view call, const ResultFacts& facts,
+            const KeptFields& fields) override {
+    store_.keep(key, call, facts, fields);
+  }
+
+ private:
+  ResultStore& store_;
+  const Journal& journal_;
+  std::int64_t line_;
+};
+
+}  // namespace asperity::cli

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/variation.hpp"
+
+#include <algorithm>
+
+#include "bindings/lua/session.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+// "press" of "contact:press", "lab.surface.sine" of itself.
+bool is_of(std::string_view caller, std::string_view wanted) {
+  if (wanted.empty() || caller == wanted) return true;
+  if (!caller.ends_with(wanted)) return false;
+  const char before = caller[caller.size() - wanted.size() - 1];
+  return before == '.' || before == ':';
+}
+
+// As a script would write it: a number, true, false, or else a string without its quotes.
+void push_value(lua_State* L, const std::string& text) {
+  if (text == "true" || text == "false") return lua_pushboolean(L, text == "true");
+  if (lua_stringtonumber(L, text.c_str()) != 0) return;
+  auto action = [&](lua_State* state) -> int {
+    lua_pushlstring(state, text.data(), text.size());
+    return 1;
+  };
+  if (protect(L, 0, 1, action) != LUA_OK)
+    throw Error(ErrorCode::out_of_memory, "there is no memory for the value of `--set`");
+}
+
+}  // namespace
+
+void Variation::set(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  const std::size_t dot = name.find_last_of('.');
+  Setting setting;
+  if (dot != std::string::npos) setting.caller = name.substr(0, dot);
+  setting.key = dot == std::string::npos ? name : name.substr(dot + 1);
+  if (equals == std::string::npos || setting.key.empty())
+    throw Error(ErrorCode::bad_value, "`--set` is " + quoted(text),
+                "give a key and its value, as in --set pressure=\"200 MPa\" or --set press.dwell=\"1 min\"");
+  setting.value = text.substr(equals + 1);
+  if (setting.value.size() >= 2 && setting.value.front() == '"' && setting.value.back() == '"')
+    setting.value = setting.value.substr(1, setting.value.size() - 2);
+  settings_.push_back(std::move(setting));
+}
+
+bool Variation::replaces(lua_State* L, std::string_view caller, std::string_view key, bool given) {
+  if (!in_force()) return false;
+  const std::lock_guard lock(mutex_);
+  if (given) keys_.emplace(key);
+  for (Setting& setting : settings_) {
+    if (setting.key != key || !is_of(caller, setting.caller)) continue;
+    if (!given && setting.caller.empty()) continue;
+    setting.met = true;
+    push_value(L, setting.value);
+    return true;
+  }
+  return false;
+}
+
+void Variation::check_all_met() const {
+  const std::lock_guard lock(mutex_);
+  const std::vector<std::string> names(keys_.begin(), keys_.end());
+  for (const Setting& setting : settings_)
+    if (!setting.met)
+      throw Error(
+          ErrorCode::unknown_name,
+          "no call " + (setting.caller.empty() ? "" : "of " + quoted(setting.caller) + " ") +
+              "gives the key " + quoted(setting.key) + did_you_mean(setting.key, names),
+          names.empty() ? "no call was made with keys" : "keys that were given: " + joined(names, " and "));
+}
+
+std::string Variation::text() const {
+  std::vector<std::string> parts;
+  for (const Setting& setting : settings_)
+    parts.push_back((setting.caller.empty() ? "" : setting.caller + ".") + setting.key + " = " +
+                    setting.value);
+  return joined(parts, " and ");
+}
+
+Variation* variation_of(lua_State* L) {
+  const Session* session = Session::find(L);
+  return session == nullptr ? nullptr : session->variation.get();
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/build_identity.hpp"
+
+#include <elf.h>
+#include <link.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+namespace asperity {
+
+namespace {
+
+constexpr const char anchor = 0;
+
+// The object that holds this code, and the build id among its notes.
+int look_for_build_id(dl_phdr_info* object, std::size_t, void* found) {
+  const auto here = std::bit_cast<std::uintptr_t>(&anchor);
+  const auto covers = [&](const ElfW(Phdr) & part) {
+    const std::uintptr_t begin = object->dlpi_addr + part.p_vaddr;
+    return part.p_type == PT_LOAD && here >= begin && here < begin + part.p_memsz;
+  };
+  const std::span parts(object->dlpi_phdr, object->dlpi_phnum);
+  if (std::ranges::none_of(parts, covers)) return 0;
+  for (const ElfW(Phdr) & part : parts) {
+    if (part.p_type != PT_NOTE) continue;
+    const auto* at = std::bit_cast<const unsigned char*>(object->dlpi_addr + part.p_vaddr);
+    const unsigned char* end = at + part.p_memsz;
+    const auto padded = [](std::size_t bytes) { return (bytes + 3) / 4 * 4; };
+    while (at + sizeof(ElfW(Nhdr)) <= end) {
+      ElfW(Nhdr) note;
+      std::memcpy(&note, at, sizeof note);
+      const unsigned char* content = at + sizeof note + padded(note.n_namesz);
+      if (note.n_type == NT_GNU_BUILD_ID) {
+        constexpr std::string_view digits = "0123456789abcdef";
+        for (const unsigned char byte : std::span(content, note.n_descsz)) {
+          *static_cast<std::string*>(found) += digits[byte >> 4];
+          *static_cast<std::string*>(found) += digits[byte & 15];
+        }
+        return 1;
+      }
+      at = content + padded(note.n_descsz);
+    }
+  }
+  return 1;
+}
+
+}  // namespace
+
+std::string build_identity() {
+  std::string identity;
+  dl_iterate_phdr(look_for_build_id, &identity);
+  return identity;
+}
+
+}  // namespace asperity

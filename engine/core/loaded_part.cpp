@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/loaded_part.hpp"
+
+#include <dlfcn.h>
+#include <link.h>
+
+#include <system_error>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folder of the program or module that this function was linked into; empty if it cannot be told.
+fs::path own_folder() {
+  Dl_info object{};
+  void* found = nullptr;
+  std::error_code failure;
+  if (::dladdr1(reinterpret_cast<void*>(&own_folder), &object, &found, RTLD_DL_LINKMAP) == 0) return {};
+  const auto* const loaded = static_cast<const link_map*>(found);
+  // The loader knows a program only by the name it was called by, which may be a word looked up on PATH.
+  const bool program = loaded == nullptr || loaded->l_name == nullptr || loaded->l_name[0] == '\0';
+  const fs::path file = program ? fs::path("/proc/self/exe") : fs::path(object.dli_fname);
+  const fs::path real = fs::canonical(file, failure);
+  return failure ? fs::path() : real.parent_path();
+}
+
+bool is_below(const fs::path& folder, const fs::path& top) {
+  const fs::path relative = folder.lexically_relative(top);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+std::string load_failure() {
+  const char* const text = ::dlerror();
+  return text == nullptr ? "the loader gives no reason" : text;
+}
+
+}  // namespace
+
+std::vector<fs::path> part_places(const LoadedPart& part) {
+  const std::string file = "asperity-" + std::string(part.name) + ".so";
+  std::vector<fs::path> places;
+  const fs::path own = own_folder();
+  if (own.empty()) return places;
+  for (const char* const way : {"", "../lib/asperity", "../../asperity"})
+    places.push_back((own / way / file).lexically_normal());
+  std::error_code failure;
+  const fs::path build = fs::canonical(ASPERITY_BUILD_FOLDER, failure);
+  if (!failure && is_below(own, build)) places.push_back(build / file);
+  return places;
+}
+
+void* part_symbol(const LoadedPart& part, const char* symbol) {
+  return part_symbol(part, symbol, part_places(part));
+}
+
+void* part_symbol(const LoadedPart& part, const char* symbol, const std::vector<fs::path>& places) {
+  std::vector<std::string> searched;
+  for (const fs::path& place : places) {
+    std::error_code failure;
+    if (!fs::exists(place, failure)) {
+      searched.push_back(quoted(place.string()));
+      continue;
+    }
+    // The loader counts and keeps what it has loaded; the handle is never given back.
+    void* const handle = ::dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr)
+      throw Error(ErrorCode::bad_file,
+                  "the part by which " + std::string(part.purpose) + " cannot be loaded: " + load_failure(),
+                  "install Debian's package " + std::string(part.package));
+    if (void* const address = ::dlsym(handle, symbol); address != nullptr) return address;
+    throw Error(ErrorCode::bad_file,
+                quoted(place.string()) + ", by which " + std::string(part.purpose) +
+                    ", belongs to another version: it has no " + quoted(symbol),
+                "build or install the program and its parts together");
+  }
+  throw Error(
+      ErrorCode::bad_file,
+      "the part by which " + std::string(part.purpose) + ", asperity-" + std::string(part.name) +
+          ".so, is missing; looked for " +
+          (searched.empty() ? "no place, as the program's own is unknown" : joined(searched, " and ")),
+      "build or install the program as a whole; that part needs Debian's package " +
+          std::string(part.package));
+}
+
+}  // namespace asperity

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/result_store.hpp"
+
+#include <algorithm>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+template <class List>
+auto& of_name(List& list, std::string_view name) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; });
+  if (found == list.end())
+    throw Error(ErrorCode::internal, "a kept result has no " + quoted(name), "please report this");
+  return found->second;
+}
+
+}  // namespace
+
+double FoundResult::number(std::string_view name) const { return of_name(numbers, name); }
+const std::string& FoundResult::text(std::string_view name) const { return of_name(texts, name); }
+Field FoundResult::take(std::string_view name) { return std::move(of_name(fields, name)); }
+
+}  // namespace asperity

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The results of heavy calls in a folder, one HDF5 file a result, named by its key: what a run that was cut
+// off has finished, and what an edited script shares with the last one. A file is written aside and renamed
+// and carries a digest of what it holds; a torn or altered one is noticed, computed anew and replaced. Keys
+// hold the identity of this build, for another build may round otherwise. Folders may be shared by runs and
+// machines at the same time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/core/result_store.hpp"
+
+namespace asperity {
+
+struct ResultFilesSetup {
+  std::filesystem::path folder;                     // made when the first result is kept
+  std::vector<std::filesystem::path> also;          // looked in as well; what is found there is brought over
+  std::int64_t most_bytes = std::int64_t{8} << 30;  // of the folder; what was used longest ago goes first
+  double least_seconds = 0.01;                      // results that cost less are not worth a file
+  std::string build;                                // identity of the program
+};
+
+class ResultFiles final : public ResultStore {
+ public:
+  explicit ResultFiles(ResultFilesSetup setup);
+
+  std::optional<FoundResult> find(const std::string& key) override;
+  void keep(const std::string& key, std::string_view call, const ResultFacts& facts,
+            const KeptFields& fields) override;
+
+  struct Counts {
+    std::int64_t found = 0, kept = 0;
+    double seconds_saved = 0;  // what the found ones had cost
+  };
+  Counts counts() const;
+  // What went wrong, a sentence each: results that were damaged, or could not be kept.
+  std::vector<std::string> notices() const;
+  const std::filesystem::path& folder() const { return setup_.folder; }
+
+ private:
+  std::string name_of(const std::string& key) const;
+  std::optional<FoundResult> read(const std::filesystem::path& file, const std::string& key);
+  void bring_over(const std::filesystem::path& from, const std::string& name);
+  // Removes files until `bytes` more fit; false where they never would.
+  bool make_room(std::int64_t bytes);
+  void note(std::string_view about, std::string sentence);
+
+  const ResultFilesSetup setup_;
+  mutable std::mutex mutex_;    // of what follows, and of the folder as far as this process goes
+  std::set<std::string> used_;  // by this run: never removed to make room
+  std::vector<std::pair<std::string, std::string>> notices_;
+  Counts counts_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers and texts out of the little-endian bytes of an instrument's file, one after another and never past
+// their end.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "engine/core/grid.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/surface/io/source_file.hpp"
+
+namespace asperity {
+
+template <class T>
+T little_endian(const char* at) {
+  static_assert(std::endian::native == std::endian::little, "bytes are taken as they lie");
+  std::array<char, sizeof(T)> raw;
+  std::memcpy(raw.data(), at, sizeof(T));
+  return std::bit_cast<T>(raw);
+}
+
+class BinaryCursor {
+ public:
+  // `what` names the piece in the error at its end: "its header".
+  BinaryCursor(const SourceFile& file, std::string_view bytes, std::string what)
+      : file_(file), bytes_(bytes), what_(std::move(what)) {}
+
+  template <class T>
+  T number() {
+    return little_endian<T>(take(sizeof(T)).data());
+  }
+  // Throws Error{bad_file} past the end.
+  std::string_view take(std::size_t count);
+  void skip(std::size_t count) { take(count); }
+  // A field of fixed width without what follows its first zero byte, and without blanks at its end.
+  std::string_view text(std::size_t width);
+  // A text that ends with a zero byte, which is taken too.
+  std::string_view ended_text();
+  std::size_t left() const { return bytes_.size() - at_; }
+  std::size_t position() const { return at_; }
+
+ private:
+  const SourceFile& file_;
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+  std::string what_;
+};
+
+// Throws Error{bad_file} unless nx by ny numbers of `width` bytes are there and each side has one at least.
+void require_numbers(const SourceFile& file, std::uint64_t nx, std::uint64_t ny, std::uint64_t width,
+                     std::uint64_t present);
+
+// A field of ny rows out of bytes that require_numbers found enough; `is_hole` says which numbers stand for a
+// missing point.
+template <class T, class IsHole>
+Field field_of_numbers(std::string_view bytes, int nx, int ny, Monitor& monitor, IsHole&& is_hole) {
+  Field heights(nx, ny);
+  Task task(monitor, "reading", ny);
+  for (int j = 0; j < ny; ++j) {
+    const char* at = bytes.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) * sizeof(T);
+    for (double& height : heights.row(j)) {
+      const T value = little_endian<T>(at);
+      height = is_hole(value) ? std::numeric_limits<double>::quiet_NaN() : static_cast<double>(value);
+      at += sizeof(T);
+    }
+    task.advance();
+  }
+  return heights;
+}
+
+}  // namespace asperity

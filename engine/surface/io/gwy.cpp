@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// GWY, Gwyddion's own files: objects within objects, each a name, a length and named components with a letter
+// for their type. A map is the GwyDataField "/N/data" of the outermost container, with its sizes, units and
+// heights as doubles;
+// "/N/data/title" is what people call it. Source: "Format of Gwyddion Files" in Gwyddion's user guide. Masks
+// are not applied, offsets and everything else are passed over.
+#include "engine/surface/io/gwy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/binary_cursor.hpp"
+#include "engine/surface/io/format.hpp"
+#include "engine/surface/io/staged_file.hpp"
+#include "engine/surface/io/text_table.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::string_view mark = "GWYP";
+
+struct Component {
+  std::string_view name;
+  char type;
+  std::string_view
+      data;  // of a text without its zero byte, of an array without its count, of an object all of it
+  std::size_t count = 1;  // of an array
+};
+
+std::size_t width_of(char type) {
+  switch (type) {
+    case 'b':
+    case 'c':
+    case 'C':
+      return 1;
+    case 'i':
+    case 'I':
+      return 4;
+    case 'q':
+    case 'Q':
+    case 'd':
+    case 'D':
+      return 8;
+    default:
+      return 0;
+  }
+}
+
+// An object at the start of what is left: its name, and the bytes of its components.
+struct Object {
+  std::string_view name, content;
+};
+
+Object take_object(BinaryCursor& cursor) {
+  Object object;
+  object.name = cursor.ended_text();
+  const std::size_t length = cursor.number<std::uint32_t>();
+  object.content = cursor.take(length);
+  return object;
+}
+
+Component take_component(const SourceFile& file, BinaryCursor& cursor, std::string_view content) {
+  Component component;
+  component.name = cursor.ended_text();
+  component.type = cursor.take(1)[0];
+  const char type = component.type;
+  const bool many = type >= 'A' && type <= 'Z';
+  if (many) component.count = cursor.number<std::uint32_t>();
+  const std::size_t before = cursor.position();
+  if (const std::size_t width = width_of(type); width != 0) {
+    // The count has 32 bits, so that the product cannot overflow.
+    component.data = cursor.take(component.count * width);
+  } else if (type == 's') {
+    component.data = cursor.ended_text();
+  } else if (type == 'S') {
+    for (std::size_t k = 0; k < component.count; ++k) cursor.ended_text();
+  } else if (type == 'o' || type == 'O') {
+    for (std::size_t k = 0; k < component.count; ++k) take_object(cursor);
+    component.data = content.substr(before, cursor.position() - before);
+  } else {
+    refuse_file(file, "has a component " + shown(component.name) + " of the unknown type " +
+                          shown(std::string_view(&component.type, 1)));
+  }
+  return component;
+}
+
+// Goes over the components of an object.
+template <class Visit>
+void for_each(const SourceFile& file, std::string_view content, Visit&& visit) {
+  BinaryCursor cursor(file, content, "an object");
+  while (cursor.left() > 0) visit(take_component(file, cursor, content));
+}
+
+Object object_of(const SourceFile& file, const Component& component) {
+  BinaryCursor cursor(file, component.data, "an object");
+  return take_object(cursor);
+}
+
+struct DataField {
+  std::int32_t nx = 0, ny = 0;
+  double size_x = 0, size_y = 0;
+  std::string_view unit_xy, unit_z;
+  std::string_view data;
+};
+
+// The text of a GwySIUnit: "m", or nothing for a plain number.
+std::string_view unit_text(const SourceFile& file, const Component& component) {
+  std::string_view text;
+  for_each(file, object_of(file, component).content, [&](const Component& part) {
+    if (part.type == 's' && part.name == "unitstr") text = part.data;
+  });
+  return text;
+}
+
+DataField read_field(const SourceFile& file, std::string_view content) {
+  DataField field;
+  for_each(file, content, [&](const Component& part) {
+    const char* const at = part.data.data();
+    if (part.type == 'i' && part.name == "xres") field.nx = little_endian<std::int32_t>(at);
+    if (part.type == 'i' && part.name == "yres") field.ny = little_endian<std::int32_t>(at);
+    if (part.type == 'd' && part.name == "xreal") field.size_x = little_endian<double>(at);
+    if (part.type == 'd' && part.name == "yreal") field.size_y = little_endian<double>(at);
+    if (part.type == 'D' && part.name == "data") field.data = part.data;
+    if (part.type == 'o' && part.name == "si_unit_xy") field.unit_xy = unit_text(file, part);
+    if (part.type == 'o' && part.name == "si_unit_z") field.unit_z = unit_text(file, part);
+  });
+  return field;
+}
+
+// Metres in a unit of length; none for another dimension and for texts of no known unit.
+std::optional<double> metres(std::string_view unit) {
+  try {
+    const Quantity parsed = parse_unit(unit);
+    if (parsed.dimension == dimension::length) return parsed.value;
+  } catch (const Error&) {  // no unit that is known
+  }
+  return {};
+}
+
+struct Channel {
+  std::string_view field;  // content of its GwyDataField; null where there is none
+  std::string title;
+  bool masked = false;
+};
+
+// The maps of the container by their numbers: of "/0/data", "/0/data/title" and "/0/mask".
+std::map<std::uint32_t, Channel> read_channels(const SourceFile& file) {
+  if (!file.bytes().starts_with(mark))
+    refuse_file(file, "is not a GWY file: it does not start with GWYP",
+                "if it is another format, name it with `format`");
+  BinaryCursor cursor(file, file.bytes().substr(mark.size()), "its outermost object");
+  const Object container = take_object(cursor);
+  if (container.name != "GwyContainer")
+    refuse_file(file, "holds an object " + shown(container.name) + " instead of a GwyContainer");
+  std::map<std::uint32_t, Channel> channels;
+  for_each(file, container.content, [&](const Component& part) {
+    if (!part.name.starts_with('/')) return;
+    std::uint32_t number = 0;
+    const char* const end = part.name.data() + part.name.size();
+    const auto [at, failure] = std::from_chars(part.name.data() + 1, end, number);
+    if (failure != std::errc()) return;
+    const std::string_view rest(at, static_cast<std::size_t>(end - at));
+    if (rest == "/data" && part.type == 'o') {
+      const Object object = object_of(file, part);
+      if (object.name == "GwyDataField") channels[number].field = object.content;
+    }
+    if (rest == "/data/title" && part.type == 's')
+      channels[number].title = plain_text(std::string(part.data));
+    if (rest == "/mask" && part.type == 'o') channels[number].masked = true;
+  });
+  std::erase_if(channels, [](const auto& entry) { return entry.second.field.data() == nullptr; });
+  return channels;
+}
+
+// `channel` is a title or a number; without it the first map whose numbers are lengths, else the first.
+std::map<std::uint32_t, Channel>::const_iterator chosen(const SourceFile& file,
+                                                        const std::map<std::uint32_t, Channel>& channels,
+                                                        const std::string& channel) {
+  if (channels.empty()) refuse_file(file, "holds no map", "maps are the GwyDataFields of a Gwyddion file");
+  if (channel.empty()) {
+    for (auto found = channels.begin(); found != channels.end(); ++found)
+      if (metres(read_field(file, found->second.field).unit_z)) return found;
+    return channels.begin();
+  }
+  std::vector<std::string> titles, listed;
+  for (auto found = channels.begin(); found != channels.end(); ++found) {
+    const auto& [number, entry] = *found;
+    if (entry.title == channel || std::to_string(number) == channel) return found;
+    titles.push_back(entry.title);
+    listed.push_back(std::to_string(number) + (entry.title.empty() ? "" : " \"" + entry.title + "\""));
+  }
+  refuse_file(
+      file,
+      "holds no map " + quoted(channel) + did_you_mean(channel, titles) + " but " + joined(listed, " and "),
+      "name one by its number or its title with `channel`");
+}
+
+HeightMap read_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
+  const auto channels = read_channels(file);
+  const auto& [number, entry] = *chosen(file, channels, channel);
+  const DataField field = read_field(file, entry.field);
+  const auto side = [](std::int32_t count) { return count < 0 ? 0 : static_cast<std::uint64_t>(count); };
+  require_numbers(file, side(field.nx), side(field.ny), sizeof(double), field.data.size());
+  const std::string name =
+      "the map " + std::to_string(number) + (entry.title.empty() ? "" : " \"" + entry.title + "\"");
+  HeightMap map;
+  map.heights =
+      field_of_numbers<double>(field.data, field.nx, field.ny, monitor, [](double) { return false; });
+  map.unit = metres(field.unit_z);
+  if (!map.unit && !field.unit_z.empty())
+    refuse_file(file, "holds " + name + " in " + shown(field.unit_z) + ", which is no unit of length",
+                "name a map of heights by its number or its title with `channel`");
+  map.trace = field.ny == 1;
+  if (const auto unit = metres(field.unit_xy)) {
+    for (const double size : {field.size_x, field.size_y})
+      if (!(size > 0) || !std::isfinite(size))
+        refuse_file(file, "gives " + name + " a size of " + format_short(size));
+    map.size_x = field.size_x * *unit;
+    map.size_y = field.size_y * *unit;
+  }
+  if (entry.masked)
+    monitor.warn(file_name(file.path()) + ": " + name +
+                 " has a mask, which is not applied: its points are taken as "
+                 "they stand");
+  return map;
+}
+
+HeightMap read(const SourceFile& file, Monitor& monitor) { return read_channel(file, {}, monitor); }
+
+bool recognises(const SourceFile& file) { return file.bytes().starts_with(mark); }
+
+// --- writing
+
+template <class T>
+std::string raw(T value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+std::string ended(std::string_view text) { return std::string(text) + '\0'; }
+std::string object(std::string_view name, std::string_view content) {
+  return ended(name) + raw(static_cast<std::uint32_t>(content.size())) + std::string(content);
+}
+std::string metre() { return object("GwySIUnit", ended("unitstr") + "s" + ended("m")); }
+
+}  // namespace
+
+const Format& gwy_format() {
+  static constexpr std::array<std::string_view, 1> endings{"gwy"};
+  static const Format format{"gwy", "GWYP at the start", endings, recognises, read, read_channel};
+  return format;
+}
+
+void write_gwy(const Surface& surface, const std::string& path) {
+  static_assert(std::endian::native == std::endian::little, "GWY data are written as they lie in memory");
+  const Grid& grid = surface.grid();
+  const auto heights = surface.heights().values();
+  // Lengths in the file have 32 bits and count what stands before and after the heights.
+  constexpr std::uint64_t most = std::uint64_t{0xFFFFFFFF} - 65536;
+  if (heights.size_bytes() > most)
+    throw Error(ErrorCode::bad_value,
+                "a surface of " + std::to_string(heights.size()) + " heights does not fit into a GWY file",
+                "write .h5 or .npy");
+  const std::string before = ended("xres") + "i" + raw(grid.nx) + ended("yres") + "i" + raw(grid.ny) +
+                             ended("xreal") + "d" + raw(grid.size_x) + ended("yreal") + "d" +
+                             raw(grid.size_y) + ended("si_unit_xy") + "o" + metre() + ended("si_unit_z") +
+                             "o" + metre() + ended("data") + "D" +
+                             raw(static_cast<std::uint32_t>(heights.size()));
+  const auto field_bytes = static_cast<std::uint32_t>(before.size() + heights.size_bytes());
+  const std::string title = ended("/0/data/title") + "s" + ended("height") + ended("/0/data") + "o" +
+                            ended("GwyDataField") + raw(field_bytes);
+  StagedFile file(path);
+  file.write(std::string(mark) + ended("GwyContainer") +
+             raw(static_cast<std::uint32_t>(title.size() + field_bytes)) + title + before);
+  file.write({reinterpret_cast<const char*>(heights.data()), heights.size_bytes()});
+  file.commit();
+}
+
+}  // namespace asperity

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The digest of an array is over its shape and the bytes of its values, so that neither can change unseen.
+#include "engine/surface/io/hdf5_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <mutex>
+#include <set>
+
+#include "engine/core/digest.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/loaded_part.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/hdf5/write_call.hpp"
+#include "engine/surface/io/hdf5_data.hpp"
+#include "engine/surface/io/hdf5_objects.hpp"
+#include "engine/surface/io/source_file.hpp"
+#include "engine/surface/io/staged_file.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr LoadedPart part{"hdf5", "HDF5 files are written", "libhdf5-103-1"};
+constexpr std::size_t longest_text = 60000;
+
+std::size_t count_of(const Hdf5Values& values) {
+  return std::visit([](const auto& span) { return span.size(); }, values);
+}
+
+std::string_view bytes_of(const Hdf5Values& values) {
+  return std::visit(
+      [](const auto& span) {
+        return std::string_view(reinterpret_cast<const char*>(span.data()), span.size_bytes());
+      },
+      values);
+}
+
+std::string digest_of(const Hdf5Array& array) {
+  Digester digester;
+  digester.add(static_cast<std::int64_t>(array.values.index()));
+  for (const std::size_t side : array.shape) digester.add(static_cast<std::int64_t>(side));
+  return digester.add(bytes_of(array.values)).hex();
+}
+
+// Groups and arrays have parted names; an attribute has one.
+void check_name(const std::string& name, bool parted) {
+  bool good = !name.empty() && name.find('\0') == std::string::npos;
+  for (std::size_t start = 0; parted && good && start <= name.size();) {
+    const std::size_t end = std::min(name.find('/', start), name.size());
+    const std::string piece = name.substr(start, end - start);
+    good = !piece.empty() && piece != "." && piece != "..";
+    start = end + 1;
+  }
+  if (!good)
+    throw Error(ErrorCode::bad_value, quoted(name) + " cannot be a name in an HDF5 file",
+                "parts between `/` are neither empty nor `.` nor `..`");
+}
+
+void check_text(const std::string& name, const std::string& text) {
+  check_name(name, false);
+  if (name.size() + text.size() > longest_text)
+    throw Error(ErrorCode::bad_value,
+                "the text " + quoted(name) + " has " + std::to_string(text.size()) +
+                    " bytes, more than an attribute of an HDF5 file holds",
+                "keep it as an array of bytes");
+  if (text.find('\0') != std::string::npos)
+    throw Error(ErrorCode::bad_value, "the text " + quoted(name) + " has a zero byte within");
+}
+
+void check_array(const Hdf5Array& array) {
+  check_name(array.name, true);
+  check_text("unit", array.unit);
+  std::size_t product = 1;
+  for (const std::size_t side : array.shape) product *= side;
+  if (array.shape.size() > 32 || product != count_of(array.values))
+    throw Error(ErrorCode::bad_value, "the shape of " + quoted(array.name) + " holds " +
+                                          std::to_string(product) + " numbers and there are " +
+                                          std::to_string(count_of(array.values)));
+}
+
+// A name is given once, and what is a group is no array.
+void check_names(const Hdf5Content& content) {
+  std::set<std::string> arrays, groups, texts;
+  const auto twice = [](const std::string& name) {
+    throw Error(ErrorCode::bad_value, quoted(name) + " stands twice among what an HDF5 file shall hold",
+                "each array, group and text has its own name");
+  };
+  for (const auto& [name, text] : content.texts)
+    if (!texts.insert(name).second) twice(name);
+  for (const auto& [name, number] : content.numbers)
+    if (!texts.insert(name).second) twice(name);
+  for (const Hdf5Array& array : content.arrays) {
+    if (!arrays.insert(array.name).second) twice(array.name);
+    for (std::size_t at = array.name.find('/'); at != std::string::npos; at = array.name.find('/', at + 1))
+      groups.insert(array.name.substr(0, at));
+  }
+  for (const std::string& name : arrays)
+    if (groups.count(name) != 0) twice(name);
+}
+
+// Until the disk has it, so that a renamed file is whole even after a power cut.
+void wait_for_disk(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done = descriptor >= 0 && ::fsync(descriptor) == 0;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!done)
+    throw Error(ErrorCode::bad_file, file_name(path) + " cannot be written to the disk", "check the disk");
+}
+
+// The walk over a file's groups.
+class Reader {
+ public:
+  Reader(const SourceFile& file, Monitor& monitor)
+      : root_(open_hdf5(file)), room_(root_.file.bytes.size()), monitor_(monitor) {}
+
+  Hdf5Content read() {
+    visit("", root_.address, 0);
+    return std::move(content_);
+  }
+
+ private:
+  void visit(const std::string& name, std::uint64_t address, int depth) {
+    constexpr int deepest = 64;
+    if (depth > deepest) root_.file.refuse("is damaged, or has groups in groups more than 64 deep");
+    if (!seen_.insert(address).second) {
+      content_.unread.push_back(quoted(name) + ": another name of something read already");
+      return;
+    }
+    const Hdf5Header header = read_header(root_.file, address);
+    if (header.find(Hdf5MessageKind::layout) != nullptr) {
+      read_array(name, header);
+      return;
+    }
+    if (depth == 0) read_attributes(header);
+    for (const Hdf5Link& link : read_members(root_.file, header, content_.unread)) {
+      if (!is_name(link.name)) root_.file.refuse("is damaged: a member has a name that is none");
+      visit(name.empty() ? link.name : name + "/" + link.name, link.address, depth + 1);
+    }
+  }
+
+  static bool is_name(const std::string& name) {
+    return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos &&
+           name.find('\0') == std::string::npos;
+  }
+
+  void read_attributes(const Hdf5Header& header) {
+    for (const Hdf5Message& message : header.messages) {
+      if (message.kind != Hdf5MessageKind::attribute) continue;
+      const Hdf5Attribute attribute = read_attribute(root_.file, message.body);
+      if (const auto text = text_of(root_.file, attribute)) {
+        content_.texts.emplace_back(attribute.name, *text);
+      } else if (const auto number = number_of(root_.file, attribute)) {
+        content_.numbers.emplace_back(attribute.name, *number);
+      } else {
+        content_.unread.push_back(quoted(attribute.name) + ": an attribute that is neither text nor number");
+      }
+    }
+  }
+
+  void read_array(const std::string& name, const Hdf5Header& header) {
+    const Hdf5Message* const space = header.find(Hdf5MessageKind::dataspace);
+    const Hdf5Message* const type = header.find(Hdf5MessageKind::datatype);
+    const Hdf5Message* const layout = header.find(Hdf5MessageKind::layout);
+    const Hdf5Message* const filters = header.find(Hdf5MessageKind::filters);
+    if (space == nullptr || type == nullptr)
+      root_.file.refuse("is damaged: " + quoted(name) + " has no shape or no type");
+    if (space->shared || type->shared || (filters != nullptr && filters->shared)) {
+      content_.unread.push_back(quoted(name) + ": values of a type kept elsewhere in the file");
+      return;
+    }
+    Hdf5Dataset dataset{name, read_shape(root_.file, space->body), read_type(root_.file, type->body), {}, {}};
+    dataset.layout = read_layout(root_.file, layout->body, dataset.shape.sizes.size());
+    if (filters != nullptr) dataset.filters = read_filters(root_.file, filters->body);
+    if (const std::string reason = why_unread(dataset); !reason.empty()) {
+      content_.unread.push_back(quoted(name) + ": " + reason);
+      return;
+    }
+    Hdf5Array array = read_numbers(root_.file, dataset, room_, monitor_);
+    std::optional<std::string> digest;
+    for (const Hdf5Message& message : header.messages) {
+      if (message.kind != Hdf5MessageKind::attribute) continue;
+      const Hdf5Attribute attribute = read_attribute(root_.file, message.body);
+      if (attribute.name == "unit" || (attribute.name == "units" && array.unit.empty()))
+        array.unit = text_of(root_.file, attribute).value_or("");
+      if (attribute.name == "digest") digest = text_of(root_.file, attribute);
+    }
+    // Only the digests of this program can be checked, and are known by their length.
+    constexpr std::size_t digits = 32;
+    if (digest && digest->size() == digits && *digest != digest_of(array))
+      root_.file.refuse("is damaged: the numbers of " + quoted(name) +
+                            " do not have the digest that they were written with",
+                        "the file was altered after it was written");
+    content_.arrays.push_back(std::move(array));
+  }
+
+  Hdf5Root root_;
+  std::uint64_t room_;
+  Monitor& monitor_;
+  std::set<std::uint64_t> seen_;
+  Hdf5Content content_;
+};
+
+}  // namespace
+
+const Hdf5Array* Hdf5Content::array(std::string_view name) const {
+  const auto found =
+      std::find_if(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == name; });
+  return found == arrays.end() ? nullptr : &*found;
+}
+
+const std::string* Hdf5Content::text(std::string_view name) const {
+  const auto found = std::find_if(texts.begin(), texts.end(), [&](const auto& t) { return t.first == name; });
+  return found == texts.end() ? nullptr : &found->second;
+}
+
+const double* Hdf5Content::number(std::string_view name) const {
+  const auto found =
+      std::find_if(numbers.begin(), numbers.end(), [&](const auto& n) { return n.first == name; });
+  return found == numbers.end() ? nullptr : &found->second;
+}
+
+void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content) {
+  std::vector<AsperityHdf5Text> texts;
+  for (const auto& [name, text] : content.texts) {
+    check_text(name, text);
+    texts.push_back({name.c_str(), text.c_str()});
+  }
+  std::vector<AsperityHdf5Number> numbers;
+  for (const auto& [name, number] : content.numbers) {
+    check_name(name, false);
+    numbers.push_back({name.c_str(), number});
+  }
+  check_names(content);
+  // What the arrays point to stands still in a deque.
+  std::deque<std::string> digests;
+  std::deque<std::vector<AsperityHdf5Text>> attributes;
+  std::deque<std::vector<std::uint64_t>> shapes;
+  std::vector<AsperityHdf5Array> arrays;
+  for (const Hdf5Array& array : content.arrays) {
+    check_array(array);
+    const std::string& digest = digests.emplace_back(digest_of(array));
+    std::vector<AsperityHdf5Text>& own = attributes.emplace_back();
+    if (!array.unit.empty()) own.push_back({"unit", array.unit.c_str()});
+    own.push_back({"digest", digest.c_str()});
+    const auto& shape = shapes.emplace_back(array.shape.begin(), array.shape.end());
+    constexpr std::array kinds{asperity_hdf5_double, asperity_hdf5_int64, asperity_hdf5_uint8};
+    arrays.push_back({array.name.c_str(), kinds[array.values.index()], static_cast<int>(shape.size()),
+                      shape.data(), bytes_of(array.values).data(), own.data(), own.size()});
+  }
+  const AsperityHdf5File file{texts.data(),   texts.size(),  numbers.data(),
+                              numbers.size(), arrays.data(), arrays.size()};
+  auto* const write = part_function<AsperityHdf5Write>(part, "asperity_hdf5_write_1");
+
+  StagedFile staged(path.string());
+  static std::mutex one_at_a_time;
+  std::array<char, 512> reason{};
+  {
+    const std::lock_guard lock(one_at_a_time);
+    if (write(staged.aside().c_str(), &file, reason.data(), reason.size()) != 0)
+      throw Error(ErrorCode::bad_file, file_name(path.string()) + " cannot be written: " + reason.data(),
+                  "check permission and space on the disk");
+  }
+  wait_for_disk(staged.aside());
+  staged.commit();
+}
+
+Hdf5Content read_hdf5(const std::filesystem::path& path, Monitor& monitor) {
+  return read_hdf5(SourceFile(path.string(), monitor), monitor);
+}
+
+Hdf5Content read_hdf5(const SourceFile& file, Monitor& monitor) { return Reader(file, monitor).read(); }
+
+}  // namespace asperity

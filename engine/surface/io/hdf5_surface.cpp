@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/surface/io/hdf5_surface.hpp"
+
+#include <array>
+#include <limits>
+
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/format.hpp"
+#include "engine/surface/io/hdf5_objects.hpp"
+#include "engine/surface/io/xdmf.hpp"
+
+namespace asperity {
+
+namespace {
+
+std::string shape_text(const Hdf5Array& array) {
+  std::string sides;
+  for (const std::size_t side : array.shape) sides += (sides.empty() ? "" : " x ") + std::to_string(side);
+  return quoted(array.name) + " (" + (sides.empty() ? "one number" : sides) + ")";
+}
+
+bool is_map(const Hdf5Array& array) {
+  return array.shape.size() == 2 && array.shape[0] > 0 && array.shape[1] > 0;
+}
+
+std::string listed(const Hdf5Content& content) {
+  std::vector<std::string> names;
+  for (const Hdf5Array& array : content.arrays) names.push_back(shape_text(array));
+  for (const std::string& other : content.unread) names.push_back(other);
+  // A file may hold thousands.
+  constexpr std::size_t most = 12;
+  if (names.size() > most) {
+    const std::size_t more = names.size() - most;
+    names.resize(most);
+    names.push_back(std::to_string(more) + " more");
+  }
+  return names.empty() ? "nothing" : joined(names, " and ");
+}
+
+// The array that holds the heights: the one asked for; `height`; the only map; the only row of numbers.
+const Hdf5Array& heights_of(const SourceFile& file, const Hdf5Content& content, const std::string& channel) {
+  if (!channel.empty()) {
+    const Hdf5Array* const asked = content.array(channel);
+    if (asked == nullptr || (!is_map(*asked) && asked->shape.size() != 1)) {
+      std::vector<std::string> names;
+      for (const Hdf5Array& array : content.arrays) names.push_back(array.name);
+      refuse_file(
+          file, "holds no map " + quoted(channel) + did_you_mean(channel, names) + " but " + listed(content),
+          "name an array of two dimensions with `channel`");
+    }
+    return *asked;
+  }
+  for (const char* const name : {"height", "heights"})
+    if (const Hdf5Array* const found = content.array(name); found != nullptr && is_map(*found)) return *found;
+  const Hdf5Array* only = nullptr;
+  for (const std::size_t dimensions : {2, 1}) {
+    std::size_t count = 0;
+    for (const Hdf5Array& array : content.arrays)
+      if (array.name != "size" && array.shape.size() == dimensions && array.shape[0] > 0 &&
+          (dimensions == 1 || array.shape[1] > 0)) {
+        only = &array;
+        ++count;
+      }
+    if (count == 1) return *only;
+    if (count > 1)
+      refuse_file(file, "holds several arrays, none of which is called `height`: " + listed(content),
+                  "name the one to read with `channel`");
+  }
+  refuse_file(file, "holds no map of heights but " + listed(content),
+              "a surface is an array of numbers of shape (ny, nx)");
+}
+
+HeightMap read_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
+  const Hdf5Content content = read_hdf5(file, monitor);
+  const Hdf5Array& array = heights_of(file, content, channel);
+  const std::size_t ny = array.shape.size() == 2 ? array.shape[0] : 1, nx = array.shape.back();
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  if (nx == 0 || nx > most || ny > most)
+    refuse_file(file, "holds " + shape_text(array) + ", which is no map");
+  HeightMap map;
+  map.trace = array.shape.size() == 1;
+  map.heights = Field(static_cast<int>(nx), static_cast<int>(ny));
+  std::visit(
+      [&](const auto& values) {
+        for (std::size_t k = 0; k < values.size(); ++k) map.heights[k] = static_cast<double>(values[k]);
+      },
+      array.values);
+  if (!array.unit.empty()) {
+    Quantity unit;
+    try {
+      unit = parse_unit(array.unit);
+    } catch (const Error&) {
+      // A unit of another program's making; the call may say what it means.
+      return map;
+    }
+    if (unit.dimension != dimension::length)
+      refuse_file(
+          file,
+          "holds " + quoted(array.name) + " in " + array.unit + ", which is " + describe(unit.dimension),
+          "name an array of heights with `channel`");
+    map.unit = unit.value;
+  }
+  const Hdf5Array* const size = content.array("size");
+  const auto* const sides = size == nullptr ? nullptr : std::get_if<std::span<const double>>(&size->values);
+  if (sides != nullptr && sides->size() == 2 && size->unit == "m") {
+    for (const double side : *sides)
+      if (!(side > 0 && side <= std::numeric_limits<double>::max()))
+        refuse_file(
+            file, "gives a size of " + format_short((*sides)[0]) + " x " + format_short((*sides)[1]) + " m");
+    map.size_x = (*sides)[0];
+    map.size_y = (*sides)[1];
+  }
+  return map;
+}
+
+HeightMap read(const SourceFile& file, Monitor& monitor) { return read_channel(file, {}, monitor); }
+
+}  // namespace
+
+Hdf5Array tile_size(const Grid& grid) {
+  return owning_array<double>("size", {2}, {grid.size_x, grid.size_y}, "m");
+}
+
+void write_hdf5_surface(const Surface& surface, const std::filesystem::path& path) {
+  const Grid& grid = surface.grid();
+  Hdf5Content content;
+  content.texts = {{"content", "asperity surface"}, {"digest", surface.digest()}};
+  content.arrays.push_back({"height",
+                            {static_cast<std::size_t>(grid.ny), static_cast<std::size_t>(grid.nx)},
+                            surface.heights().values(),
+                            "m"});
+  content.arrays.push_back(tile_size(grid));
+  write_hdf5_and_xdmf(path, grid, "surface", content);
+}
+
+const Format& hdf5_format() {
+  static constexpr std::array<std::string_view, 3> endings{"h5", "hdf5", "he5"};
+  static const Format format{"hdf5", "\\x89HDF at the start", endings, looks_like_hdf5, read, read_channel};
+  return format;
+}
+
+}  // namespace asperity

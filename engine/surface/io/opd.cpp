@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// OPD of Wyko, Veeco and Bruker interferometers: a directory of named blocks, then the blocks in its order.
+// The map is a block of type 3 (columns, lines, bytes a number, then column by column), its heights in
+// wavelengths
+// (`Wavelength`, nm) or, as integers, in parts of one (`Mult`); `Pixel_size` is in mm along x, `Aspect` times
+// that along y. Missing points are 1e38 or more, or 32766 and 32767 of 16 bits. Layout as restated by
+// Gwyddion's and SurfaceTopography's readers.
+#include <array>
+#include <cmath>
+
+#include "engine/core/text.hpp"
+#include "engine/surface/io/binary_cursor.hpp"
+#include "engine/surface/io/format.hpp"
+#include "engine/surface/io/text_table.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::string_view mark(
+    "\x01\x00"
+    "Directory",
+    11);
+constexpr std::size_t entry_bytes = 24, name_bytes = 16, start = 2;
+// In the order in which one is chosen.
+constexpr std::array<std::string_view, 5> map_names{"RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA", "Raw"};
+
+struct Block {
+  std::string name;
+  int type = 0;
+  std::string_view data;
+};
+
+std::vector<Block> read_directory(const SourceFile& file) {
+  const std::string_view bytes = file.bytes();
+  if (!bytes.starts_with(mark))
+    refuse_file(file, "is not an OPD file: it does not start with a directory",
+                "if it is another format, name it with `format`");
+  BinaryCursor head(file, bytes.substr(start), "its directory");
+  head.skip(name_bytes + 2);
+  const std::size_t length = head.number<std::uint32_t>();
+  if (length < entry_bytes || length % entry_bytes != 0)
+    refuse_file(file,
+                "has a directory of " + std::to_string(length) + " bytes, which is no number of entries");
+  BinaryCursor cursor(file, bytes.substr(start), "its directory");
+  cursor.skip(entry_bytes);
+  std::size_t at = start + length;
+  std::vector<Block> blocks;
+  for (std::size_t k = 1; k < length / entry_bytes; ++k) {
+    Block block;
+    block.name = std::string(cursor.text(name_bytes));
+    block.type = cursor.number<std::int16_t>();
+    const std::size_t size = cursor.number<std::uint32_t>();
+    cursor.skip(2);
+    if (size == 0) continue;
+    if (at > bytes.size() || size > bytes.size() - at)
+      refuse_file(file, "has the block " + shown(block.name) + " past its end", "the file is cut short");
+    block.data = bytes.substr(at, size);
+    at += size;
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+const Block* find(const std::vector<Block>& blocks, std::string_view name) {
+  for (const Block& block : blocks)
+    if (block.name == name) return &block;
+  return nullptr;
+}
+
+// A number of any of the types that blocks have; none where there is no such block.
+std::optional<double> number_of(const SourceFile& file, const std::vector<Block>& blocks,
+                                std::string_view name) {
+  const Block* const block = find(blocks, name);
+  if (block == nullptr) return {};
+  BinaryCursor cursor(file, block->data, "its block " + std::string(name));
+  double value = 0;
+  switch (block->type) {
+    case 6:
+      value = cursor.number<std::int16_t>();
+      break;
+    case 7:
+      value = static_cast<double>(cursor.number<float>());
+      break;
+    case 8:
+      value = cursor.number<double>();
+      break;
+    case 12:
+      value = cursor.number<std::int32_t>();
+      break;
+    default:
+      refuse_file(file, "has a block " + std::string(name) + " of type " + std::to_string(block->type) +
+                            ", which is no number");
+  }
+  if (!(value > 0) || !std::isfinite(value))
+    refuse_file(file, "gives " + format_short(value) + " as its " + std::string(name));
+  return value;
+}
+
+const Block& map_block(const SourceFile& file, const std::vector<Block>& blocks, const std::string& channel) {
+  constexpr int array_type = 3;
+  std::vector<std::string> maps;
+  for (const Block& block : blocks)
+    if (block.type == array_type) maps.push_back(plain_text(block.name));
+  const std::string held = maps.empty() ? "none" : joined(maps, " and ");
+  if (!channel.empty()) {
+    const Block* const asked = find(blocks, channel);
+    if (asked == nullptr || asked->type != array_type)
+      refuse_file(file, "has no map " + quoted(channel) + did_you_mean(channel, maps) + " but " + held,
+                  "name one of them with `channel`");
+    return *asked;
+  }
+  for (const std::string_view name : map_names)
+    if (const Block* const found = find(blocks, name); found != nullptr && found->type == array_type)
+      return *found;
+  refuse_file(file, "has no map of heights; of its blocks maps are " + held,
+              maps.empty() ? "" : "name one of them with `channel`");
+}
+
+// Column by column in the file, row by row here; y runs along a column.
+template <class T, class IsHole>
+Field turned(std::string_view data, int nx, int ny, Monitor& monitor, IsHole&& is_hole) {
+  const Field columns = field_of_numbers<T>(data, ny, nx, monitor, is_hole);
+  Field heights(nx, ny);
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j) heights(i, j) = columns(j, i);
+  return heights;
+}
+
+HeightMap read_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
+  const std::vector<Block> blocks = read_directory(file);
+  const Block& block = map_block(file, blocks, channel);
+  BinaryCursor cursor(file, block.data, "its block " + plain_text(block.name));
+  const int nx = cursor.number<std::uint16_t>(), ny = cursor.number<std::uint16_t>();
+  const int width = cursor.number<std::uint16_t>();
+  const std::string_view data = block.data.substr(cursor.position());
+  if (width != 2 && width != 4)
+    refuse_file(file, "holds heights of " + std::to_string(width) + (width == 1 ? " byte" : " bytes"),
+                "integers of 2 bytes and floating-point numbers of 4 are read");
+  require_numbers(file, static_cast<std::uint64_t>(nx), static_cast<std::uint64_t>(ny),
+                  static_cast<std::uint64_t>(width), data.size());
+  HeightMap map;
+  if (width == 2) {
+    constexpr std::int16_t least_bad = 32766;
+    map.heights = turned<std::int16_t>(data, nx, ny, monitor, [](std::int16_t v) {
+      return v >= least_bad || v == std::numeric_limits<std::int16_t>::min();
+    });
+  } else {
+    constexpr float least_bad = 1e38F;
+    map.heights = turned<float>(data, nx, ny, monitor, [](float v) { return !(std::abs(v) < least_bad); });
+  }
+  constexpr double nanometre = 1e-9, millimetre = 1e-3;
+  if (const auto wavelength = number_of(file, blocks, "Wavelength"))
+    map.unit = *wavelength * nanometre / number_of(file, blocks, "Mult").value_or(1);
+  if (const auto pixel = number_of(file, blocks, "Pixel_size")) {
+    map.size_x = *pixel * millimetre * nx;
+    map.size_y = *pixel * millimetre * number_of(file, blocks, "Aspect").value_or(1) * ny;
+  }
+  return map;
+}
+
+HeightMap read(const SourceFile& file, Monitor& monitor) { return read_channel(file, {}, monitor); }
+
+bool recognises(const SourceFile& file) { return file.bytes().starts_with(mark); }
+
+}  // namespace
+
+const Format& opd_format() {
+  static constexpr std::array<std::string_view, 1> endings{"opd"};
+  static const Format format{"opd", "a directory of blocks", endings, recognises, read, read_channel};
+  return format;
+}
+
+}  // namespace asperity

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Gwyddion's files: objects within objects, whose lengths and counts may lie.
+#include "tests/fuzz/height_map.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace asperity::fuzz;
+  read_every_way(view(data, size), {.format = "gwy"});
+  return 0;
+}

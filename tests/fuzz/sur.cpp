@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Digital Surf's files: a header of 512 bytes whose sizes, zones and units need not be those of what follows.
+#include "tests/fuzz/height_map.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace asperity::fuzz;
+  read_every_way(view(data, size), {.format = "sur"});
+  return 0;
+}

@@ -1,0 +1,173 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# asperity run --resume: a run is killed at moments spread over its length, taken up, killed again, and taken up
+# to its end; journal, notebooks, chart and manifest are then those of the run that nobody disturbed, to the
+# byte. And what else may befall it: Ctrl-C, torn or altered results, a full disk, an edited script.
+#
+#   tests/scripts/runner/resume.sh PROGRAM FOLDER [KILLS]
+set -eu
+program=$1
+folder=$2
+kills=${3:-5}
+rm -rf "$folder"
+mkdir -p "$folder"
+cd "$folder"
+
+fail() { echo "resume: $*" >&2; exit 1; }
+# status text command...: the command ends so, and prints that.
+ends() {
+  wanted=$1 text=$2
+  shift 2
+  status=0
+  "$@" > output 2>&1 || status=$?
+  [ "$status" = "$wanted" ] || { cat output; fail "$* ended with $status instead of $wanted"; }
+  grep -qF -- "$text" output || { cat output; fail "$* did not print: $text"; }
+}
+
+# Plastic memory, random streams, two notebooks (one that gets a column late), an ensemble and a chart.
+cat > events.lua <<'LUA'
+local lab = require "asperity"
+local n, label = 192, ...
+local al = lab.material "Al-2011"
+local function body(seed)
+  return lab.surface.self_affine{ cells = n, size = "1 mm", hurst = 0.8, rms_slope = 0.1, short_wave = "40 um",
+    seed = seed, material = al }
+end
+local c = lab.contact{ lower = body(1), upper = body(2), boundary = "periodic",
+  effects = { elasticity = "half_space", plasticity = {} } }
+local book = lab.notebook "events"
+for event = 1, 8 do
+  local st = c:press{ pressure = "50 MPa" }
+  local row = { event = event, label = label, area = st.area_fraction, approach = st.approach,
+    transforms = st.cost.transforms, chance = math.random() }
+  if event > 5 then row.stiffness = st.stiffness end
+  book:write(row)
+  c:release()
+  c:place{ seed = event }
+end
+local rows = lab.ensemble{ over = { pressure = { 1e6, 2e6, 4e6 }, seed = { 1, 2, 3 } }, run = function(case)
+  local rough = lab.surface.self_affine{ cells = 192, size = "1 mm", hurst = 0.8, rms_slope = 0.1,
+    short_wave = "40 um", seed = case.seed, material = lab.material "Al-2011" }
+  local st = lab.contact{ lower = rough, upper = lab.rigid, boundary = "periodic",
+    effects = { elasticity = "half_space" } }:press{ pressure = case.pressure }
+  return { area = st.area_fraction, chance = math.random() }
+end }
+local cases = lab.notebook "cases"
+for _, row in ipairs(rows) do
+  cases:write{ pressure = row.pressure, seed = row.seed, area = row.area, chance = row.chance }
+end
+cases:chart{ x = "pressure", y = "area", one_line_per = "seed", file = "areas.svg" }
+LUA
+
+moment() { date +%s%N; }
+begun=$(moment)
+"$program" run events.lua --out whole --seed 3 -- first 2> /dev/null
+length=$((($(moment) - begun) / 1000000)) # ms
+sed '/"unhashed"/,$d' whole/manifest.json > whole.manifest
+sed 's/,"unhashed":{.*}//' whole/journal.jsonl > whole.journal
+
+# Whether a run is the one that nobody disturbed.
+same() {
+  for file in script.lua events.csv cases.csv areas.svg; do
+    cmp "whole/$file" "$1/$file" || fail "$file of $1"
+  done
+  sed '/"unhashed"/,$d' "$1/manifest.json" | diff whole.manifest - || fail "manifest of $1"
+  sed 's/,"unhashed":{.*}//' "$1/journal.jsonl" | diff whole.journal - || fail "journal of $1"
+}
+# folder, ms, signal: takes a run up, or begins it, and sends the signal after that long.
+disturbed() {
+  status=0
+  timeout --foreground -s "$3" "$(printf '%d.%03d' $(($2 / 1000)) $(($2 % 1000)))" \
+    "$program" run events.lua --resume "$1" --seed 3 -- first > /dev/null 2>&1 || status=$?
+}
+
+kill=1
+while [ "$kill" -le "$kills" ]; do
+  rm -rf cut
+  disturbed cut $((length * kill / (kills + 1))) KILL
+  disturbed cut $((length * (kills + 1 - kill) / (2 * kills + 2))) KILL
+  "$program" run events.lua --resume cut --seed 3 -- first > output 2>&1 || { cat output; fail "kill $kill"; }
+  same cut
+  kill=$((kill + 1))
+done
+
+# Ctrl-C; then nothing is named but the run.
+rm -rf cut
+disturbed cut $((length / 2)) INT
+if ! grep -q '"status": "done"' cut/manifest.json; then
+  ends 0 "results in" "$program" run --resume cut
+fi
+same cut
+ends 0 "nothing to resume" "$program" run --resume cut
+ends 2 "no run" "$program" run --resume nowhere
+ends 2 "no script was named" "$program" run
+
+# As it stands after a power cut: the last line torn, the last result torn, another one altered.
+cp -r whole torn
+sed -i 's/"status": "done"/"status": "running"/' torn/manifest.json
+head -c -40 whole/journal.jsonl > torn/journal.jsonl
+head -n 1 whole/events.csv > torn/events.csv
+first=$(ls torn/store/*.h5 | head -n 1)
+last=$(ls torn/store/*.h5 | tail -n 1)
+head -c 1000 "whole/store/${first##*/}" > "$first.new" && mv "$first.new" "$first"
+cp "$last" "$last.new" && printf 'x' | dd of="$last.new" bs=1 seek=150000 conv=notrunc 2> /dev/null
+mv "$last.new" "$last"
+ends 0 "taken from the store" "$program" run --resume torn
+[ "$(grep -c "computed again" output)" = 2 ] || { cat output; fail "damaged results were not told of"; }
+same torn
+
+# A disk that is full: the run fails, says so, and goes on once there is room.
+rm -rf full
+status=0
+(ulimit -f 4; "$program" run events.lua --out full --seed 3 -- first) > output 2>&1 || status=$?
+[ "$status" = 1 ] || { cat output; fail "a full disk ended with $status"; }
+grep -q "cannot" output || { cat output; fail "a full disk was not told of"; }
+ends 0 "results in" "$program" run --resume full
+same full
+
+# Times that a script writes down are other ones the next time: the record is written anew from there.
+cat > timed.lua <<'LUA'
+local lab = require "asperity"
+local book = lab.notebook "times"
+local flat = lab.surface.sine{ cells = 32, size = 1, amplitude = 0.01, material = lab.material "steel" }
+for n = 1, 3 do
+  local c = lab.contact{ lower = flat, upper = lab.rigid, boundary = "free", effects = { elasticity = "box" } }
+  book:write{ n = n, seconds = c:press{ pressure = n * 1e3 }.cost.seconds + os.clock() }
+end
+if (...) then error "here it is cut off" end
+LUA
+"$program" run timed.lua --out timed -- cut > /dev/null 2>&1 && fail "the error was passed over"
+ends 1 "was written anew" "$program" run --resume timed
+[ "$(wc -l < timed/times.csv)" = 4 ] || fail "rows of a journal written anew"
+[ "$(grep -c '"event":"row"' timed/journal.jsonl)" = 3 ] || fail "journal written anew"
+
+# Another script, arguments or seed.
+sed 's/event = 1, 8/event = 1, 9/' events.lua > edited.lua
+ends 2 "the script of" "$program" run edited.lua --resume whole
+ends 2 "its arguments of" "$program" run events.lua --resume whole -- second
+ends 2 "the seed of" "$program" run events.lua --resume whole --seed 4
+ends 0 "results were taken from the store" "$program" run edited.lua --reuse whole --out edited --seed 3 -- first
+[ "$(wc -l < edited/events.csv)" = 10 ] || fail "the edited script did not run to its end"
+head -n 9 edited/events.csv | cmp - whole/events.csv || fail "results that were reused are others"
+ends 2 "no folder" "$program" run edited.lua --reuse nowhere
+cp -r whole begun
+ends 0 "taken from the store" "$program" run edited.lua --resume begun --reuse begun --seed 3 -- first
+cmp begun/events.csv edited/events.csv || fail "begun anew"
+cmp begun/before-1/events.csv whole/events.csv || fail "what was there is lost"
+
+# No more results than asked for.
+ends 0 "results in" "$program" run events.lua --out small --store-limit 700K --seed 3 -- first
+[ "$(du -sk small/store | cut -f 1)" -le 720 ] || fail "the store is larger than its limit"
+grep -q "no longer fit" output || { cat output; fail "a full store was not told of"; }
+ends 0 "results in" "$program" run events.lua --out none --store-limit 0 --seed 3 -- first
+[ ! -e none/store ] || fail "results were kept though none were asked for"
+
+# A replay from an event on, and variations.
+ends 0 "the same again" "$program" replay whole --from 14 --out from
+grep -q "taken from the store" output || { cat output; fail "--from took nothing from the store"; }
+ends 2 "lines 1 to" "$program" replay whole --from 1000
+ends 0 "press.pressure = 60 MPa" "$program" replay whole --from 14 --set "press.pressure=60 MPa" --out varied
+head -n 4 whole/events.csv > early && head -n 4 varied/events.csv | cmp - early || fail "events before --from changed"
+cmp varied/events.csv whole/events.csv > /dev/null && fail "--set changed nothing"
+ends 1 'did you mean `pressure`' "$program" replay whole --set presure=1
+ends 2 "give a key and its value" "$program" replay whole --set presure

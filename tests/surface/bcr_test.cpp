@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/surface/io/read.hpp"
+#include "engine/surface/io/source_file.hpp"
+#include "tests/surface/files.hpp"
+#include "tests/surface/little_endian.hpp"
+
+namespace asperity {
+namespace {
+
+using testing::Bytes;
+using testing::message_of;
+
+const std::string integers =
+    "fileformat = bcrstm\nxpixels = 3\nypixels = 2\nxlength = 3000\nylength = 4000\nbit2nm = 0.5\nintelmode "
+    "= 1\n";
+const std::vector<std::int16_t> six{1, 2, 3, -4, 32767, 6};
+
+template <class T>
+std::string example(const std::string& header, const std::vector<T>& heights) {
+  return Bytes().field(header, 2048).put_all(heights).bytes();
+}
+Surface read(const std::string& bytes, HoleFill fill = {}) {
+  ReadOptions options;
+  options.fill = fill;
+  return read_surface(SourceFile("a.bcr", bytes), options);
+}
+std::string refusal(const std::string& bytes) {
+  return message_of([&] { read(bytes); });
+}
+
+TEST(Bcr, IntegersAreHeightsOfTheirStep) {
+  const Surface s = read(example(integers + "voidpixels = 0\n", six));
+  EXPECT_EQ(s.grid(), (Grid{3, 2, 3000 * 1e-9, 4000 * 1e-9}));
+  EXPECT_EQ(s.height(0, 1), -4 * (0.5 * 1e-9));
+  EXPECT_EQ(s.height(1, 1), 32767 * (0.5 * 1e-9));
+  EXPECT_EQ(read(example(integers + "voidpixels = 1\n", six), HoleFill::with(7)).height(1, 1), 7);
+  EXPECT_EQ(read(example(integers, six), HoleFill::with(7)).height(1, 1), 7);
+}
+
+TEST(Bcr, BigEndianNumbersAreTurned) {
+  std::string bytes =
+      example("fileformat = bcrstm\nintelmode = 0\n" + integers.substr(20, integers.size() - 34), six);
+  for (std::size_t k = 2048; k < bytes.size(); k += 2) std::swap(bytes[k], bytes[k + 1]);
+  EXPECT_EQ(read(bytes, HoleFill::with(0)).height(0, 1), -4 * (0.5 * 1e-9));
+}
+
+TEST(Bcr, FloatsAreNanometres) {
+  const std::string header =
+      "fileformat = bcrf\n# a comment\nxpixels = 2\nypixels = 1\nxlength = 2\nxunit = um\nylength = "
+      "1000\n";
+  const Surface s = read(example<float>(header, {2.5F, 3e38F}), HoleFill::with(0));
+  EXPECT_EQ(s.grid(), (Grid{2, 1, 2e-6, 1000 * 1e-9}));
+  EXPECT_EQ(s.height(0, 0), 2.5 * 1e-9);
+  EXPECT_EQ(s.height(1, 0), 0);
+}
+
+TEST(Bcr, EachFaultIsSaid) {
+  EXPECT_EQ(refusal(integers), "\"a.bcr\" is cut short in its header of 2048 bytes");
+  EXPECT_EQ(refusal(example(integers, std::vector<std::int16_t>{1})),
+            "\"a.bcr\" says in its header that it holds 3 x 2 heights of 2 bytes but has 2 bytes of data; "
+            "the file is "
+            "cut short or its header is wrong");
+  EXPECT_EQ(refusal(example("fileformat = bcrstm\nxpixels = 3\n", six)),
+            "\"a.bcr\" has no ypixels in its header");
+  EXPECT_EQ(refusal(example("fileformat = bcrstm\nxpixels = -3\n", six)),
+            "\"a.bcr\" has no count for xpixels in its header: \"-3\"");
+  EXPECT_EQ(refusal(example(integers + "xunit = V\n", six)),
+            "\"a.bcr\" gives no known unit of length as xunit: \"V\"");
+  EXPECT_EQ(refusal(example("fileformat = bcrstm_unicode\n", six)),
+            "\"a.bcr\" is a BCR file of the kind \"bcrstm_unicode\"; bcrstm and bcrf are read");
+  EXPECT_EQ(refusal("nothing"),
+            "\"a.bcr\" is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = "
+            "bcrf`; if it is "
+            "another format, name it with `format`");
+}
+
+TEST(Bcr, DamageIsAnErrorOrAnotherSurface) {
+  testing::damage(example(integers, six), 71, 3000,
+                  [](const std::string& bytes) { read(bytes, HoleFill::interpolate()); });
+}
+
+}  // namespace
+}  // namespace asperity

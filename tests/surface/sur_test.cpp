@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include "engine/surface/io/read.hpp"
+#include "engine/surface/io/source_file.hpp"
+#include "tests/surface/files.hpp"
+#include "tests/surface/little_endian.hpp"
+
+namespace asperity {
+namespace {
+
+using testing::message_of;
+using testing::SurExample;
+
+const std::vector<std::int16_t> six{1, 2, 3, -4, 5, 6};
+
+Surface read(const std::string& bytes, HoleFill fill = {}) {
+  ReadOptions options;
+  options.fill = fill;
+  return read_surface(SourceFile("a.sur", bytes), options);
+}
+std::string refusal(const std::string& bytes) {
+  return message_of([&] { read(bytes); });
+}
+
+TEST(Sur, IntegersOf16And32BitsAreRead) {
+  const Surface s = read(SurExample()(six));
+  EXPECT_EQ(s.grid(), (Grid{3, 2, 3e-6, 4e-6}));
+  EXPECT_EQ(s.height(0, 1), -4 * 0.5 * 1e-9);
+  SurExample wide{.bits = 32};
+  EXPECT_EQ(read(wide(std::vector<std::int32_t>{1, 2, 3, 4, 2000000000, 6})).height(1, 1), 2e9 * 0.5 * 1e-9);
+}
+
+TEST(Sur, CommentAndPrivateZoneArePassedOver) {
+  SurExample example;
+  example.comment = std::string(300, 'c');
+  example.own = std::string(41, 'p');
+  EXPECT_EQ(read(example(six)).height(2, 1), 6 * 0.5 * 1e-9);
+}
+
+TEST(Sur, OffsetAndUnitsCount) {
+  SurExample example;
+  example.offset = 10;
+  example.unit_z = "\xB5m";
+  example.unit_xy = "mm";
+  const Surface s = read(example(six));
+  EXPECT_EQ(s.height(0, 0), 10.5 * 1e-6);
+  EXPECT_EQ(s.grid().size_x, 3e-3);
+}
+
+TEST(Sur, UnmeasuredPointsAreHolesWhereTheHeaderSaysSo) {
+  SurExample example;
+  example.special = 1;
+  example.least = -2;
+  EXPECT_EQ(read(example(six), HoleFill::with(7)).height(0, 1), 7);
+  example.special = 0;
+  EXPECT_EQ(read(example(six)).height(0, 1), -2e-9);
+}
+
+TEST(Sur, OneLineIsAProfile) {
+  SurExample example;
+  example.type = 1;
+  example.nx = 6;
+  example.ny = 1;
+  const Profile p = read_profile(SourceFile("a.pro", example(six)));
+  EXPECT_EQ(p.spacing(), 1e-6);
+  EXPECT_EQ(p.heights()[3], -2e-9);
+}
+
+TEST(Sur, UnknownUnitsAreAskedFor) {
+  SurExample example;
+  example.unit_z = "V";
+  EXPECT_EQ(refusal(example(six)),
+            "\"a.sur\" does not say its unit; give `unit` in the call: `unit` is the length of "
+            "one number, such as \"um\"");
+}
+
+TEST(Sur, EachFaultIsSaid) {
+  EXPECT_EQ(refusal(SurExample{.mark = "DSCOMPRESSED"}(six)),
+            "\"a.sur\" is a compressed SUR file; save it again without compression, or as X3P or SDF");
+  EXPECT_EQ(refusal(std::string("DIGITAL SURF\0\0 and no more", 27)),
+            "\"a.sur\" is cut short in its header of 512 bytes");
+  EXPECT_EQ(refusal("other"),
+            "\"a.sur\" is not a SUR file: it does not start with DIGITAL SURF; if it is another format, name "
+            "it with "
+            "`format`");
+  EXPECT_EQ(refusal(SurExample{.order = 257}(six)),
+            "\"a.sur\" is a SUR file of an Apple computer (format 257); save it again on another");
+  EXPECT_EQ(refusal(SurExample{.type = 3}(six)),
+            "\"a.sur\" holds an object of type 3, which is no surface; surfaces and profiles are read: types "
+            "1, 2, 4 "
+            "and 5");
+  EXPECT_EQ(refusal(SurExample{.bits = 8}(six)),
+            "\"a.sur\" holds points of 8 bits; points of 16 and 32 bits are read");
+  EXPECT_EQ(refusal(SurExample{.bits = 32}(six)),
+            "\"a.sur\" says in its header that it holds 3 x 2 heights of 4 bytes but has 12 bytes of data; "
+            "the file is "
+            "cut short or its header is wrong");
+  EXPECT_EQ(refusal(SurExample{.nx = -3}(six)), "\"a.sur\" says in its header that it holds 0 x 2 heights");
+  EXPECT_EQ(refusal(SurExample{.dz = 0}(six)), "\"a.sur\" gives 0 as the height of one step");
+}
+
+TEST(Sur, DamageIsAnErrorOrAnotherSurface) {
+  testing::damage(SurExample{.special = 1}(six), 31, 4000,
+                  [](const std::string& bytes) { read(bytes, HoleFill::interpolate()); });
+}
+
+}  // namespace
+}  // namespace asperity
