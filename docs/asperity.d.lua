@@ -332,6 +332,11 @@ function Contact:rotate(angle) end
 ---@param options asperity.options.contact.shift
 function Contact:shift(options) end
 
+---Writes all that was done to the contact since it was made as a press log, which lab.protocol.read reads back as the same events: turns, loads, dwells, the times of a protocol that has them; and beside each press what it measured, in columns that the reader leaves out: result load or pressure, approach, area_fraction, peak_pressure. Where presses were asked for in several ways, all stand by the pressure that they brought. Returns the file.
+---@param path string under the run directory
+---@return string
+function Contact:log(path) end
+
 ---A second contact in the same state.
 ---@return asperity.Contact
 function Contact:copy() end
@@ -572,10 +577,14 @@ function Stylus:closed(surface) end
 ---@class asperity.options.protocol.repeated
 ---@field times integer how often it is done (integer at least 1, required)
 
+---@class asperity.options.protocol.chart
+---@field title? string above the chart (string)
+
 ---What is done to a contact, event by event; an immutable value that any number of contacts may go through. #p is the number of its events.
 ---@class asperity.Protocol
 ---@field count integer number of events
 ---@field presses integer number of presses among them
+---@field recording table|nil what was found in the recording that it was detected in, and by which thresholds: name, samples, missing, interval, noise, highest, zero_low, zero_high, shortest_hold, least_load and least_step (smaller ones may go unseen), and spans, the stretches of the recording with kind (rest, rise, hold, peak, fall, release, turn), begin, end, load, load_error, dwell_error, angle, first_line, last_line; nil if there is none
 ---@field digest string equal protocols have equal digests
 local Protocol = {}
 
@@ -597,6 +606,12 @@ function Protocol:repeated(options) end
 ---@param next asperity.Protocol what is done after this one
 ---@return asperity.Protocol
 function Protocol:plus(next) end
+
+---Draws load over time with rises, holds, peaks, releases and turns marked and labelled, over what was recorded if it was detected in a recording; without recorded times over the time its dwells add up to, or event by event. Returns the file.
+---@param path string an .svg or .png under the run directory
+---@param options? asperity.options.protocol.chart
+---@return string
+function Protocol:chart(path, options) end
 
 ---Writes a press log, which lab.protocol.read reads back as this protocol: rows of turn, pressure or load, and dwell. Shifts, and presses to anything else, are an error.
 ---@param path string under the run directory
@@ -801,6 +816,7 @@ local StudyChoice = {}
 ---@field over? table name -> list of values; every combination is a case, in the order of the names with the last one varying fastest (table)
 ---@field cases? table the cases themselves, a list of tables, in place of over (table)
 ---@field run function function(case) returning a table of results, called once a case in a fresh copy of everything it uses: what it changes is seen by no other case (function, required)
+---@field on_failure? "error"|"report" what becomes of cases that fail, once all others have run: an error that names them, with the other rows kept in ensemble_kept.csv; or the list rows.failed of {index, case, message}, and rows of the others ("error"|"report", default "error")
 
 ---@class asperity.options.lab.work_precision
 ---@field ask function function(knobs) returning the quantity, one number; nil (and a message) or an error where a setting fails (function, required)
@@ -848,7 +864,7 @@ function lab.tilt_stage(options) end
 ---@return asperity.Notebook
 function lab.notebook(name) end
 
----Runs a function for every case of a study, on all threads, and returns one row a case: the case's own values and what the function returned. Order and values do not depend on the number of threads.
+---Runs a function for every case of a study, on all threads, and returns one row a case: the case's own values and what the function returned. Order and values do not depend on the number of threads. A case that fails is told on standard error and the others run on; then `on_failure` says what becomes of it.
 ---@param options asperity.options.lab.ensemble
 ---@return table[]
 function lab.ensemble(options) end
@@ -1045,6 +1061,20 @@ lab.profile = {}
 ---@return asperity.Profile
 function lab.profile.read(path, options) end
 
+---@class asperity.options.lab.protocol.read
+---@field events? "rows"|"detect" "rows": each row is an event; "detect": they are found in a recording sampled all the time ("rows"|"detect", default as the table looks: a hundred rows or more with times, and no dwell, place or turn, are a recording)
+---@field area? number|string nominal area of the specimen that was pressed: its loads become mean pressures, as a tile of it carries them (an area above 0)
+---@field noise? number|string|number|string standard deviation of a reading (a load|a pressure, default measured)
+---@field zero? number|string|number|string what the sensor reads without load, all along (a load|a pressure, default found in the rests, and followed)
+---@field zero_drift? number how far from the rest before a rest may lie, as a share of the highest load (number above 0 and below 0.5, default 0.01)
+---@field same_load? number how far a hold may drift, and lie from the one before to be part of it, as a share of its load (number above 0 and below 0.5, default 0.02)
+---@field shortest_hold? number|string what stays level for less is no hold (a time above 0, default four usual steps of time)
+---@field evidence? number squares of the noise that a bend must save to be seen; fewer see more, and ghosts (number above 0, default 10 + 4 ln samples)
+---@field overshoot? "press"|"ignore" what becomes of a load above the holds at both its sides: a press of its own, for flattening goes by the highest load, or nothing ("press"|"ignore", default "press")
+---@field least_overshoot? number an overshoot by less is none, as a share of the load beside it; nor one within six times the noise (number above 0 and below 1, default 0.01)
+---@field least_turn? number|string a turn by less is none (an angle above 0, default "0.5 deg")
+---@field turn_step? number|string turns are whole multiples of this, and are rounded to them (an angle above 0, default none: turns are as they were read)
+
 ---@class asperity.options.lab.protocol
 ---@field press? table puts a load on, as c:press does (table)
 ---@field release? boolean true: takes it off (boolean)
@@ -1057,10 +1087,11 @@ function lab.profile.read(path, options) end
 ---@overload fun(options: asperity.options.lab.protocol[]): asperity.Protocol
 lab.protocol = {}
 
----A protocol from a press log, a row an event: its columns are named with units, such as time [s], pressure [MPa] or load [N], rotation [deg], dwell [min], and place for a seed. A row turns the upper body by its rotation from where it lies, then presses for its dwell; no pressure takes the load off, and so does a turn under load. Cells are parted by commas, semicolons or tabs; other columns are left out with a warning. Nothing is looked for in a recording sampled all the time: each of its rows would be a press.
+---A protocol from a press log. Its columns are named with units, such as time [s], pressure [MPa] or load [N]; cells are parted by commas, semicolons or tabs; other columns are left out with a warning, those titled "result ..." without. With a row an event there may be rotation [deg], dwell [min], and place for a seed: a row turns the upper body by its rotation from where it lies, then presses for its dwell; no pressure takes the load off, and so does a turn under load. In a recording, load or pressure and the stage's angle [deg] sampled all the time, rises, holds, peaks, releases and turns are detected; print(p) lists them with the lines they came from and the thresholds, and what the noise leaves uncertain is a warning or an error. Press times are those of the beginning of the hold.
 ---@param path string the file
+---@param options? asperity.options.lab.protocol.read
 ---@return asperity.Protocol
-function lab.protocol.read(path) end
+function lab.protocol.read(path, options) end
 
 ---@class asperity.options.lab.exact.hertz
 ---@field radius number|string of the paraboloid (a length above 0, required)

@@ -14,9 +14,9 @@
 
 namespace asperity::lua {
 
-// setup(k) describes case k and is called from several threads at once. A case that fails is told as a warning
-// and the others run on, so that which ones fail does not depend on timing. Returns the results of all. Throws
-// Error when the run is to stop, after every state has closed.
+// setup(k) describes case k and is called from several threads at once. A case that fails is told as a
+// warning and the others run on, so that which ones fail does not depend on timing. Returns the results of
+// all. Throws Error when the run is to stop, after every state has closed.
 std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
                                   Session& session);
 

@@ -109,13 +109,18 @@ class EventMaker {
     const auto time = marks_.time();
     std::vector<std::string> lost;
     std::string short_ones;
+    std::size_t short_count = 0;
+    constexpr std::size_t enough = 12;
+    const std::vector<Mark>& marks = marks_.marks();
+    std::size_t next = 0;
     for (std::size_t k = 0; k + 1 < row.size(); ++k) {
       const std::size_t missing = row[k + 1] - row[k] - 1;
       if (missing == 0) continue;
       const std::size_t first = recording_.line[row[k] + 1], last = recording_.line[row[k + 1] - 1];
-      const Mark* within = nullptr;
-      for (const Mark& mark : marks_.marks())
-        if (mark.kind != Mark::Kind::peak && mark.first <= k && k + 1 <= mark.last) within = &mark;
+      while (next < marks.size() && marks[next].last < k + 1) ++next;
+      const bool goes_on =
+          next < marks.size() && marks[next].kind != Mark::Kind::peak && marks[next].first <= k;
+      const Mark* within = goes_on ? &marks[next] : nullptr;
       const double span = time[k + 1] - time[k];
       constexpr std::size_t few = 2;
       if (within != nullptr) {
@@ -123,13 +128,13 @@ class EventMaker {
           warn("no load was recorded for " + seconds(span) + " in " + lines(first, last) +
                ", and it is taken to have stayed at " + marks_.quantity(within->line.y));
       } else if (missing <= few) {
-        short_ones += (short_ones.empty() ? "" : ", ") + lines(first, last);
+        if (short_count < enough) short_ones += (short_ones.empty() ? "" : ", ") + lines(first, last);
+        ++short_count;
       } else {
         lost.push_back(lines(first, last));
       }
     }
     if (!lost.empty()) {
-      constexpr std::size_t enough = 12;
       const std::size_t more = lost.size() > enough ? lost.size() - enough : 0;
       lost.resize(lost.size() - more);
       marks_.refuse("lacks the load in " + joined(lost, " and ") +
@@ -139,6 +144,7 @@ class EventMaker {
     }
     if (!short_ones.empty())
       warn("the load is missing while it changes, in " + short_ones +
+           (short_count > enough ? " and in " + std::to_string(short_count - enough) + " more places" : "") +
            "; it is taken to have changed steadily");
   }
 
@@ -411,9 +417,13 @@ class EventMaker {
     }
     if (n > 5) warn("and " + std::to_string(n - 5) + " more loads are not held");
     if (told > 5) warn("and the dwells of " + std::to_string(told - 5) + " more holds are as uncertain");
+    std::size_t doubts = 0;
     for (const Mark& mark : marks_.doubtful())
-      warn("the load in " + lines(marks_.line(mark.first), marks_.line(mark.last)) + " may have stayed at " +
-           marks_.quantity(load_of(mark)) + " for a moment; the noise does not tell, and it is left out");
+      if (++doubts <= 5)
+        warn("the load in " + lines(marks_.line(mark.first), marks_.line(mark.last)) +
+             " may have stayed at " + marks_.quantity(load_of(mark)) +
+             " for a moment; the noise does not tell, and it is left out");
+    if (doubts > 5) warn("and " + std::to_string(doubts - 5) + " more such moments are left out");
     warn_of_scatter();
     if (!marks_.disturbances().empty()) {
       std::string list;

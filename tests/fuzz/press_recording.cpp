@@ -25,7 +25,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       fuzz::require(event.time.has_value() && *event.time >= last, "events come one after the other");
       last = *event.time;
       if (const auto* press = std::get_if<PressRequest>(&event.step))
-        fuzz::require(press->value > 0 && press->dwell && *press->dwell >= 0, "a press has a load and a dwell");
+        fuzz::require(press->value > 0 && press->dwell && *press->dwell >= 0,
+                      "a press has a load and a dwell");
     }
     const std::string written = press_log_text(protocol);
     const Protocol again = read_press_log(SourceFile("log.csv", written));
