@@ -28,7 +28,12 @@ void note_input(const Call& call, const std::string& path) {
   std::error_code problem;
   if (session.run == nullptr || session.is_case || !std::filesystem::is_regular_file(path, problem)) return;
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(path, problem));
-  session.run->note_input(path, bytes, file_digest(path));
+  // A file that the run wrote itself has the same name in every run.
+  const std::filesystem::path& root = session.run->path();
+  const std::filesystem::path inside =
+      root.empty() ? "" : std::filesystem::path(path).lexically_relative(root);
+  const bool own = !inside.empty() && *inside.begin() != "..";
+  session.run->note_input(own ? inside.string() : path, bytes, file_digest(path));
 }
 
 std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems) {
