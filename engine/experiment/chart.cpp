@@ -199,7 +199,7 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
     if (drawable(label.x, chart.x) && drawable(label.y, chart.y))
       script += "set label " + gnuplot_text(label.text) + " at " + gnuplot_number(label.x / x.factor) + "," +
                 gnuplot_number(label.y / y.factor) + " center front offset 0," +
-                (label.below ? "-0.9" : "0.8") + " font ',13' textcolor rgb '#202020'\n";
+                (label.below ? "-1.4" : "0.8") + " font ',13' textcolor rgb '#202020'\n";
 
   const int lines = static_cast<int>(chart.series.size());
   std::vector<std::string> layers, clouds_first;

@@ -1,486 +1,533 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Marks rests, holds and peaks on a recording, and times where they begin and end; detected_events.cpp makes
-// turns and events of them.
+// Turns, events and sentences out of what recording_marks.hpp marked.
 #include "engine/experiment/event_detection.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "engine/core/error.hpp"
-#include "engine/experiment/hidden_ramp.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
 #include "engine/experiment/recording_marks.hpp"
 
 namespace asperity {
 
 namespace {
 
-// A sample counts as noise within so many standard deviations: a million Gaussian ones stay within 4.9.
-constexpr double surely = 6;
+using Mark = RecordingMarks::Mark;
+using Span = RecordedSpan;
 
-double median_of(Array<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+// A value without the digits that its error makes meaningless.
+double rounded(double value, double error) {
+  if (!(error > 0) || !std::isfinite(value)) return value;
+  const int power = static_cast<int>(std::floor(std::log10(error)));
+  if (power < -300 || power > 300) return value;
+  return power < 0 ? std::round(value * std::pow(10.0, -power)) / std::pow(10.0, -power)
+                   : std::round(value / std::pow(10.0, power)) * std::pow(10.0, power);
 }
 
-// The most that three neighbours in a row reach: one sample out of line does not count.
-double highest_of_three(std::span<const double> y, double sign) {
-  double highest = -INFINITY;
-  for (std::size_t k = 0; k + 2 < y.size(); ++k) {
-    const double a = sign * y[k], b = sign * y[k + 1], c = sign * y[k + 2];
-    highest = std::max(highest, std::max(std::min(a, b), std::min(std::max(a, b), c)));
+std::string lines(std::size_t first, std::size_t last) {
+  return first == last ? "line " + std::to_string(first)
+                       : "lines " + std::to_string(first) + " to " + std::to_string(last);
+}
+
+std::string seconds(double value) { return format_quantity(value, dimension::time, 4); }
+std::string degrees(double value) { return format_quantity(value, dimension::angle, 4); }
+
+class EventMaker {
+ public:
+  EventMaker(const PressRecording& recording, const DetectionOptions& options, Monitor& monitor)
+      : recording_(recording), options_(options), monitor_(monitor), marks_(recording, options, monitor) {}
+
+  Protocol make() {
+    look_at_missing();
+    describe();
+    find_turns();
+    make_spans();
+    warn();
+    std::vector<Protocol::Event> events = make_events();
+    if (events.empty())
+      marks_.refuse("holds no press: no load stays or peaks above " +
+                        marks_.quantity(std::max(2 * marks_.drift(), 6 * marks_.effective_noise())) +
+                        " over the reading without load",
+                    "a smaller `zero_drift` finds lighter ones");
+    thin();
+    auto found = std::make_shared<const Detection>(std::move(found_));
+    return Protocol(std::move(events)).detected_in(std::move(found));
   }
-  return sign * highest;
-}
+
+ private:
+  struct Turn {
+    double time, angle;
+    std::size_t line;
+  };
+
+  std::string at(std::size_t first, std::size_t last) const {
+    return recording_.name + " " + lines(first, last);
+  }
+  void warn(const std::string& sentence) { monitor_.warn("\"" + recording_.name + "\": " + sentence); }
+  static bool loaded(const Mark& mark) { return mark.kind != Mark::Kind::rest; }
+  static double load_of(const Mark& mark) { return mark.line.y; }
+
+  void describe() {
+    found_.name = recording_.name;
+    found_.by = recording_.by;
+    found_.samples = marks_.time().size();
+    found_.missing = recording_.time.size() - found_.samples;
+    found_.interval = marks_.interval();
+    found_.noise = marks_.noise();
+    found_.zero_drift = marks_.drift();
+    found_.shortest_hold = marks_.shortest_hold();
+    found_.evidence = marks_.evidence();
+    // What a cut must save, spread over the samples of the shortest hold and as many beside it.
+    const double fewest = std::max(4.0, found_.shortest_hold / found_.interval);
+    found_.least_load = std::max(found_.zero_drift, found_.noise * std::sqrt(2 * found_.evidence / fewest));
+    double lowest = INFINITY;
+    for (const Mark& mark : marks_.marks())
+      if (loaded(mark)) lowest = std::min(lowest, load_of(mark));
+    found_.least_step = std::max(std::isinf(lowest) ? 0 : options_.same_load * lowest,
+                                 found_.noise * std::sqrt(2 * found_.evidence / fewest));
+    for (const Mark& mark : marks_.marks()) {
+      if (loaded(mark)) {
+        found_.highest = std::max(found_.highest, load_of(mark));
+      } else {
+        found_.rested = true;
+      }
+    }
+    found_.zero_low = found_.zero_high = marks_.zeros().front().level;
+    for (const RecordingMarks::Zero& zero : marks_.zeros()) {
+      found_.zero_low = std::min(found_.zero_low, zero.level);
+      found_.zero_high = std::max(found_.zero_high, zero.level);
+    }
+  }
+
+  // A hole in the load may hide whatever does not go on at both its sides.
+  void look_at_missing() {
+    const auto row = marks_.row();
+    const auto time = marks_.time();
+    std::vector<std::string> lost;
+    std::string short_ones;
+    for (std::size_t k = 0; k + 1 < row.size(); ++k) {
+      const std::size_t missing = row[k + 1] - row[k] - 1;
+      if (missing == 0) continue;
+      const std::size_t first = recording_.line[row[k] + 1], last = recording_.line[row[k + 1] - 1];
+      const Mark* within = nullptr;
+      for (const Mark& mark : marks_.marks())
+        if (mark.kind != Mark::Kind::peak && mark.first <= k && k + 1 <= mark.last) within = &mark;
+      const double span = time[k + 1] - time[k];
+      constexpr std::size_t few = 2;
+      if (within != nullptr) {
+        if (span > 20 * marks_.interval() && span > 0.2 * (time[within->last] - time[within->first]))
+          warn("no load was recorded for " + seconds(span) + " in " + lines(first, last) +
+               ", and it is taken to have stayed at " + marks_.quantity(within->line.y));
+      } else if (missing <= few) {
+        short_ones += (short_ones.empty() ? "" : ", ") + lines(first, last);
+      } else {
+        lost.push_back(lines(first, last));
+      }
+    }
+    if (!lost.empty()) {
+      constexpr std::size_t enough = 12;
+      const std::size_t more = lost.size() > enough ? lost.size() - enough : 0;
+      lost.resize(lost.size() - more);
+      marks_.refuse("lacks the load in " + joined(lost, " and ") +
+                        (more > 0 ? " and in " + std::to_string(more) + " more places" : "") +
+                        ", where it neither was held nor rested: what was done there is not recorded",
+                    "fill the cells in by hand, or cut the recording there");
+    }
+    if (!short_ones.empty())
+      warn("the load is missing while it changes, in " + short_ones +
+           "; it is taken to have changed steadily");
+  }
+
+  // --- turns
+
+  struct Heading {
+    std::size_t first, last;  // rows
+    std::optional<double> angle;
+  };
+
+  double angle_noise() const {
+    std::vector<double> steps;
+    double last = NAN;
+    for (const double angle : recording_.angle) {
+      if (std::isnan(angle)) continue;
+      if (!std::isnan(last)) steps.push_back(std::abs(angle - last));
+      last = angle;
+    }
+    if (steps.empty()) return 0;
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return *middle / (0.6745 * std::sqrt(2.0));
+  }
+
+  // The mean angle of these rows, which must not change.
+  Heading heading(std::size_t first, std::size_t last) const {
+    double sum = 0, start = NAN;
+    std::size_t count = 0;
+    for (std::size_t k = first; k <= last; ++k) {
+      const double angle = recording_.angle[k];
+      if (std::isnan(angle)) continue;
+      if (std::isnan(start)) start = angle;
+      if (std::abs(angle - start) > tolerance_)
+        marks_.refuse("turns under load: the angle leaves " + degrees(start) + " in line " +
+                          std::to_string(recording_.line[k]) + ", where it is " + degrees(angle) +
+                          ", while a load is on from line " + std::to_string(recording_.line[first]) +
+                          " to line " + std::to_string(recording_.line[last]),
+                      "a body is turned after it is released; `least_turn` says what counts as a turn, and "
+                      "`zero_drift` what as no load");
+      sum += angle;
+      ++count;
+    }
+    return {first, last, count > 0 ? std::optional<double>(sum / static_cast<double>(count)) : std::nullopt};
+  }
+  // Of some rows at the start or end of the recording.
+  std::optional<Heading> heading_at_rim(std::size_t from, std::size_t to) const {
+    constexpr int enough = 5;
+    double sum = 0;
+    int count = 0;
+    std::size_t last = from;
+    for (std::size_t k = from; count < enough; from < to ? ++k : --k) {
+      if (const double angle = recording_.angle[k]; !std::isnan(angle)) {
+        if (count > 0 && std::abs(angle - sum / count) > tolerance_) break;
+        sum += angle;
+        ++count;
+        last = k;
+      }
+      if (k == to) break;
+    }
+    if (count == 0) return {};
+    return Heading{std::min(from, last), std::max(from, last), sum / count};
+  }
+
+  void find_turns() {
+    if (recording_.angle.empty()) return;
+    tolerance_ = std::max(options_.least_turn, 8 * angle_noise());
+    const auto row = marks_.row();
+    std::vector<Heading> headings;
+    const std::vector<Mark>& marks = marks_.marks();
+    for (std::size_t k = 0; k < marks.size();) {
+      if (!loaded(marks[k])) {
+        ++k;
+        continue;
+      }
+      std::size_t end = k;
+      while (end + 1 < marks.size() && loaded(marks[end + 1])) ++end;
+      headings.push_back(heading(row[marks[k].first], row[marks[end].last]));
+      k = end + 1;
+    }
+    const std::size_t rows = recording_.time.size();
+    const std::size_t first = headings.empty() ? rows - 1 : headings.front().first;
+    if (first > 0)
+      if (auto start = heading_at_rim(0, first - 1)) headings.insert(headings.begin(), *start);
+    if (const std::size_t last = headings.empty() ? 0 : headings.back().last; last + 1 < rows)
+      if (auto end = heading_at_rim(rows - 1, last + 1)) headings.push_back(*end);
+    const Heading* before = nullptr;
+    bool unknown = false;
+    for (const Heading& now : headings) {
+      if (!now.angle) {
+        unknown = true;
+        continue;
+      }
+      if (before != nullptr) take_turn(*before, now, unknown);
+      before = &now;
+      unknown = false;
+    }
+  }
+
+  void take_turn(const Heading& before, const Heading& now, bool unknown) {
+    double angle = *now.angle - *before.angle;
+    if (std::abs(angle) <= tolerance_) return;
+    std::size_t k = before.last;
+    while (k < now.first && !(std::abs(recording_.angle[k] - *before.angle) > 0.5 * std::abs(angle))) ++k;
+    const std::string where =
+        "turns by " + degrees(angle) + " about line " + std::to_string(recording_.line[k]);
+    if (unknown)
+      marks_.refuse(where + ", but lacks the angle while a load was on between line " +
+                        std::to_string(recording_.line[before.last]) + " and line " +
+                        std::to_string(recording_.line[now.first]) + ": before or after it is not recorded",
+                    "fill the angle in by hand");
+    // Without load, as far as samples near it tell.
+    const auto row = marks_.row();
+    auto sample = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), k) - row.begin());
+    sample = std::min(sample, row.size() - 1);
+    const double load = marks_.load()[sample];
+    if (load > std::max({2 * marks_.drift(), 6 * marks_.effective_noise(), 0.1 * found_.highest}))
+      marks_.refuse(where + " under a load of " + marks_.quantity(load),
+                    "a body is turned after it is released");
+    if (options_.turn_step) {
+      const double steps = std::round(angle / *options_.turn_step);
+      const double off = angle - steps * *options_.turn_step;
+      if (std::abs(off) > 0.2 * *options_.turn_step)
+        marks_.refuse(where + ", which is no multiple of " + degrees(*options_.turn_step),
+                      "give another `turn_step`, or none to take turns as they were read");
+      angle = steps * *options_.turn_step;
+      if (angle == 0) return;
+    } else {
+      constexpr double degree = std::numbers::pi / 180;
+      angle = rounded(angle / degree, std::max(0.05 * tolerance_ / degree, 1e-9)) * degree;
+    }
+    turns_.push_back({recording_.time[k], angle, recording_.line[k]});
+  }
+
+  // --- spans
+
+  void add(Span span) { found_.spans.push_back(span); }
+
+  void make_spans() {
+    const std::vector<Mark>& marks = marks_.marks();
+    std::size_t turn = 0;
+    for (std::size_t k = 0; k < marks.size(); ++k) {
+      const Mark& mark = marks[k];
+      const Mark* before = k > 0 ? &marks[k - 1] : nullptr;
+      const std::size_t first = marks_.line(mark.first), last = marks_.line(mark.last);
+      const bool on = loaded(mark), was_on = before != nullptr && loaded(*before);
+      if (before != nullptr && (on || was_on)) {
+        Span way{Span::Kind::rise, before->end, mark.begin};
+        way.load = on ? load_of(mark) : 0;
+        way.kind = !on                                     ? Span::Kind::release
+                   : was_on && way.load < load_of(*before) ? Span::Kind::fall
+                                                           : Span::Kind::rise;
+        way.first_line = marks_.line(before->last);
+        way.last_line = first;
+        add(way);
+      }
+      Span span{on ? mark.kind == Mark::Kind::peak ? Span::Kind::peak : Span::Kind::hold : Span::Kind::rest,
+                mark.begin, mark.end};
+      span.load = on ? load_of(mark) : 0;
+      span.load_error = marks_.noise() / std::sqrt(std::max(1.0, mark.line.n));
+      if (const Mark* rest = nearest_rest(k); rest != nullptr && !options_.zero)
+        span.load_error = std::hypot(span.load_error, marks_.noise() / std::sqrt(rest->line.n));
+      span.dwell_error = mark.dwell_error;
+      span.first_line = first;
+      span.last_line = last;
+      add(span);
+      const double until = k + 1 < marks.size() ? marks[k + 1].begin : INFINITY;
+      for (; turn < turns_.size() && !on && turns_[turn].time <= until; ++turn) {
+        Span turned{Span::Kind::turn, std::clamp(turns_[turn].time, mark.begin, mark.end)};
+        turned.end = turned.begin;
+        turned.angle = turns_[turn].angle;
+        turned.first_line = turned.last_line = turns_[turn].line;
+        add(turned);
+      }
+    }
+  }
+
+  const Mark* nearest_rest(std::size_t k) const {
+    const std::vector<Mark>& marks = marks_.marks();
+    for (std::size_t i = k + 1; i-- > 0;)
+      if (!loaded(marks[i])) return &marks[i];
+    for (std::size_t i = k; i < marks.size(); ++i)
+      if (!loaded(marks[i])) return &marks[i];
+    return nullptr;
+  }
+
+  std::vector<Protocol::Event> make_events() const {
+    std::vector<Protocol::Event> events;
+    bool under_load = false;
+    double last = -INFINITY;
+    const double instant = marks_.interval() / 100;
+    const auto push = [&](Protocol::Step step, double time, const Span& span) {
+      last = std::max(last, rounded(time, instant));
+      events.push_back({std::move(step), last, at(span.first_line, span.last_line)});
+    };
+    for (const Span& span : found_.spans) {
+      switch (span.kind) {
+        case Span::Kind::hold:
+        case Span::Kind::peak: {
+          if (span.kind == Span::Kind::peak && options_.overshoot == DetectionOptions::Overshoot::ignore &&
+              !is_pulse(span))
+            break;
+          const double error = std::max(0.1 * span.load_error, 1e-9 * found_.highest);
+          push(
+              PressRequest{recording_.by, rounded(span.load, error), rounded(span.end - span.begin, instant)},
+              span.begin, span);
+          under_load = true;
+          break;
+        }
+        case Span::Kind::release:
+          if (under_load) push(Protocol::Release{}, span.begin, span);
+          under_load = false;
+          break;
+        case Span::Kind::turn:
+          push(Protocol::Rotate{span.angle}, span.begin, span);
+          break;
+        case Span::Kind::rest:
+        case Span::Kind::rise:
+        case Span::Kind::fall:
+          break;
+      }
+    }
+    return events;
+  }
+
+  bool is_pulse(const Span& span) const {
+    return std::any_of(marks_.marks().begin(), marks_.marks().end(), [&](const Mark& mark) {
+      return mark.kind == Mark::Kind::peak && mark.pulse && mark.begin == span.begin;
+    });
+  }
+
+  // --- what an experimenter should know
+
+  void warn() {
+    const std::vector<Mark>& marks = marks_.marks();
+    if (found_.highest > 0 && found_.least_load > 0.1 * found_.highest)
+      warn("a reading scatters by " + marks_.quantity(found_.noise) + ", " +
+           marks_.share(found_.noise / found_.highest) + " of the highest load: a hold of " +
+           seconds(found_.shortest_hold) + " below " + marks_.quantity(found_.least_load) +
+           " would not be told from it");
+    if (!marks.empty() && loaded(marks.back()))
+      warn("it ends under load, in line " + std::to_string(marks_.line(marks.back().last)) +
+           ": the last dwell goes to the last sample, and no release follows");
+    if (!marks.empty() && loaded(marks.front()))
+      warn("it begins under load: the first dwell is counted from the first sample");
+    if (!found_.rested && !options_.zero)
+      warn("it never comes to rest without load, so the sensor is taken to read zero there");
+    std::size_t told = 0, n = 0;
+    for (const Span& span : found_.spans) {
+      if (span.kind == Span::Kind::peak && is_pulse(span)) {
+        if (++n <= 5)
+          warn("the load in " + lines(span.first_line, span.last_line) + " is not held: its peak of " +
+               marks_.quantity(span.load) + " is taken for a press, with the " +
+               seconds(span.end - span.begin) + " above half of it for dwell");
+      } else if (span.kind == Span::Kind::peak && options_.overshoot == DetectionOptions::Overshoot::ignore) {
+        warn("an overshoot to " + marks_.quantity(span.load) + " in " +
+             lines(span.first_line, span.last_line) + " is left out, as `overshoot` asks");
+      } else if (span.kind == Span::Kind::hold) {
+        const double dwell = span.end - span.begin;
+        if (3 * span.dwell_error > std::max(2 * found_.interval, 0.05 * dwell) && ++told <= 5)
+          warn("the dwell of " + seconds(dwell) + " at " + marks_.quantity(span.load) + " in " +
+               lines(span.first_line, span.last_line) + " is known to +-" + seconds(2 * span.dwell_error) +
+               " only");
+        if (span.load < 0.05 * found_.highest && found_.rested && !options_.zero)
+          warn("the reading in " + lines(span.first_line, span.last_line) + " lies " +
+               marks_.quantity(span.load) + " above the zero before it, " +
+               marks_.share(span.load / found_.highest) +
+               " of the highest load, and is taken for a hold; if it is the zero that drifts, give a greater "
+               "`zero_drift`");
+      }
+    }
+    if (n > 5) warn("and " + std::to_string(n - 5) + " more loads are not held");
+    if (told > 5) warn("and the dwells of " + std::to_string(told - 5) + " more holds are as uncertain");
+    for (const Mark& mark : marks_.doubtful())
+      warn("the load in " + lines(marks_.line(mark.first), marks_.line(mark.last)) + " may have stayed at " +
+           marks_.quantity(load_of(mark)) + " for a moment; the noise does not tell, and it is left out");
+    warn_of_scatter();
+    if (!marks_.disturbances().empty()) {
+      std::string list;
+      constexpr std::size_t enough = 5;
+      const std::size_t count = marks_.disturbances().size();
+      for (std::size_t k = 0; k < std::min(count, enough); ++k)
+        list += (k > 0 ? ", " : "") + marks_.quantity(marks_.disturbances()[k].reading) + " in line " +
+                std::to_string(marks_.disturbances()[k].line);
+      warn("readings for a moment out of line are left out as disturbances: " + list +
+           (count > enough ? " and " + std::to_string(count - enough) + " more" : ""));
+    }
+  }
+
+  // Noise that is not white, or a load that wanders, scatters more than its steps say.
+  void warn_of_scatter() {
+    for (const Mark& mark : marks_.marks()) {
+      if (mark.kind != Mark::Kind::hold) continue;
+      const double scatter = std::sqrt(mark.line.misfit() / mark.line.n);
+      if (scatter < 3 * marks_.effective_noise() || scatter < 0.01 * load_of(mark)) continue;
+      warn("the load in " + lines(marks_.line(mark.first), marks_.line(mark.last)) + " scatters by " +
+           marks_.quantity(scatter) + ", from sample to sample by " + marks_.quantity(marks_.noise()) +
+           " only: it wanders, and its mean is known the worse; give the former as `noise` if it is noise");
+      return;
+    }
+  }
+
+  // The least and the greatest reading of each of many stretches.
+  void thin() {
+    constexpr std::size_t stretches = 1500;
+    const auto t = marks_.time();
+    const auto y = marks_.load();
+    const std::size_t n = t.size(), each = n <= 2 * stretches ? 1 : (n + stretches - 1) / stretches;
+    const auto add_sample = [&](std::size_t k) {
+      found_.time.push_back(t[k]);
+      found_.load.push_back(y[k]);
+    };
+    for (std::size_t first = 0; first < n; first += each) {
+      std::size_t low = first, high = first;
+      for (std::size_t k = first; k < std::min(n, first + each); ++k) {
+        if (y[k] < y[low]) low = k;
+        if (y[k] > y[high]) high = k;
+      }
+      add_sample(std::min(low, high));
+      if (low != high) add_sample(std::max(low, high));
+    }
+  }
+
+  const PressRecording& recording_;
+  const DetectionOptions& options_;
+  Monitor& monitor_;
+  RecordingMarks marks_;
+  Detection found_;
+  double tolerance_ = 0;  // of angles
+  std::vector<Turn> turns_;
+};
 
 }  // namespace
 
-RecordingMarks::RecordingMarks(const PressRecording& recording, const DetectionOptions& options,
-                               Monitor& monitor)
-    : recording_(recording), options_(options), monitor_(monitor) {
-  take_samples();
-  measure_noise();
-  pieces_ = straight_pieces(t_, y_, effective_noise_, evidence_, monitor_);
-  find_zero();
-  find_levels();
-  join_levels();
-  look_between();
-  time_marks();
-}
-
-void RecordingMarks::refuse(const std::string& finding, const std::string& hint) const {
-  throw Error(ErrorCode::bad_file, "\"" + recording_.name + "\" " + finding, hint);
-}
-
-void RecordingMarks::take_samples() {
-  for (std::size_t k = 0; k < recording_.time.size(); ++k) {
-    if (std::isnan(recording_.load[k])) continue;
-    t_.push_back(recording_.time[k]);
-    y_.push_back(recording_.load[k]);
-    row_.push_back(static_cast<std::uint32_t>(k));
+std::string_view name(Span::Kind kind) {
+  switch (kind) {
+    case Span::Kind::rest:
+      return "rest";
+    case Span::Kind::rise:
+      return "rise";
+    case Span::Kind::hold:
+      return "hold";
+    case Span::Kind::peak:
+      return "peak";
+    case Span::Kind::fall:
+      return "fall";
+    case Span::Kind::release:
+      return "release";
+    case Span::Kind::turn:
+      break;
   }
-  constexpr std::size_t fewest = 10;
-  if (t_.size() < fewest)
-    refuse("holds " + std::to_string(t_.size()) + " samples of the load, too few to find events in",
-           "read it with events=\"rows\" if each of its rows is an event");
-  Array<double> steps;
-  for (std::size_t k = 0; k + 1 < t_.size(); ++k) steps.push_back(t_[k + 1] - t_[k]);
-  interval_ = median_of(steps);
-  shortest_hold_ = options_.shortest_hold.value_or(4 * interval_);
-  evidence_ = options_.evidence.value_or(10 + 4 * std::log(static_cast<double>(t_.size())));
-  top_ = highest_of_three(y_, 1);
-  bottom_ = highest_of_three(y_, -1);
-  range_ = top_ - bottom_;
+  return "turn";
 }
 
-void RecordingMarks::measure_noise() {
-  Array<double> above, below;
-  double resolution = INFINITY;
-  for (std::size_t k = 1; k + 1 < t_.size(); ++k) {
-    if (const double step = std::abs(y_[k] - y_[k - 1]); step > 0) resolution = std::min(resolution, step);
-    const double w = (t_[k + 1] - t_[k]) / (t_[k + 1] - t_[k - 1]);
-    const double bend = y_[k] - w * y_[k - 1] - (1 - w) * y_[k + 1];
-    const double scaled = std::abs(bend) / std::sqrt(1 + w * w + (1 - w) * (1 - w));
-    (y_[k] > bottom_ + 0.5 * range_ ? above : below).push_back(scaled);
+std::string RecordingMarks::quantity(double value) const {
+  return format_quantity(value, recording_.by == PressBy::load ? dimension::force : dimension::pressure, 4);
+}
+std::string RecordingMarks::share(double value) { return format_short(100 * value, 2) + " %"; }
+
+std::string Detection::text() const {
+  const Dimension unit = by == PressBy::load ? dimension::force : dimension::pressure;
+  const auto quantity = [unit](double value) { return format_quantity(value, unit, 4); };
+  std::string all = "recording " + name + ": " + std::to_string(samples) + " samples, every " +
+                    seconds(interval) + " or so";
+  if (missing > 0) all += ", " + std::to_string(missing) + " more without a load";
+  all += "\n  noise          " + quantity(noise) + " a sample";
+  if (highest > 0) all += ", " + format_short(100 * noise / highest, 2) + " % of the highest load";
+  all += "\n  without load   " +
+         (!rested ? std::string("never")
+                  : quantity(zero_low) + (zero_low < zero_high ? " to " + quantity(zero_high) : "") +
+                        " is read, and taken off");
+  all += "\n  seen           holds of " + seconds(shortest_hold) + " and more above " + quantity(least_load);
+  all += "\n  one hold       are loads next to each other within " + quantity(least_step) + " or so";
+  all += "\n  cut            where it saves " + format_short(evidence, 3) + " squares of the noise";
+  std::size_t holds = 0, peaks = 0, releases = 0, turns = 0;
+  for (const Span& span : spans) {
+    holds += span.kind == Span::Kind::hold ? 1 : 0;
+    peaks += span.kind == Span::Kind::peak ? 1 : 0;
+    releases += span.kind == Span::Kind::release ? 1 : 0;
+    turns += span.kind == Span::Kind::turn ? 1 : 0;
   }
-  constexpr double per_deviation = 0.6745;  // median magnitude of a Gaussian
-  constexpr std::size_t enough = 30;
-  const double high = above.size() < enough && below.size() >= enough ? 0 : median_of(above);
-  const double low = below.size() < enough && above.size() >= enough ? 0 : median_of(below);
-  noise_ = options_.noise.value_or(std::max(high, low) / per_deviation);
-  // A reading in coarse steps is off by up to half of one, and no ramp is straight to the last digit.
-  constexpr double of_a_step = 0.3, of_the_range = 1e-4;
-  effective_noise_ =
-      std::max({noise_, std::isinf(resolution) ? 0 : of_a_step * std::min(resolution, 0.02 * range_),
-                of_the_range * range_});
-  if (!(range_ > 8 * noise_) || !(top_ > 0))
-    refuse("holds no load above its noise: the readings go from " + quantity(bottom_) + " to " +
-               quantity(top_) + ", and scatter by " + quantity(noise_),
-           "give the noise as `noise` if it is less");
-}
-
-double RecordingMarks::change_of(const StraightPiece& piece) const {
-  return std::abs(piece.line.slope()) * (t_[piece.last] - t_[piece.first]);
-}
-
-bool RecordingMarks::is_level(const StraightPiece& piece, double tolerance) const {
-  constexpr double fewest = 3;
-  const double by_chance = effective_noise_ * std::sqrt(12 * evidence_ / piece.line.n);
-  return piece.line.n >= fewest && change_of(piece) <= std::max(tolerance, by_chance);
-}
-
-void RecordingMarks::find_zero() {
-  const double scale = std::max(std::abs(top_), std::abs(bottom_));
-  drift_ = options_.zero_drift * scale;
-  if (options_.zero) {
-    zeros_.push_back({t_.front(), *options_.zero});
-    drift_ = options_.zero_drift * std::abs(top_ - *options_.zero);
-    return;
-  }
-  double least = INFINITY;
-  const StraightPiece* first = nullptr;
-  for (const StraightPiece& piece : pieces_)
-    if (is_level(piece, drift_)) {
-      if (first == nullptr) first = &piece;
-      least = std::min(least, piece.line.y);
-    }
-  if (std::isinf(least)) least = bottom_;
-  // A recording is begun before the press as a rule: then its first level is that without load, if it is the
-  // lowest.
-  constexpr double near_zero = 0.05, doubtful = 0.25;
-  const bool begins_low = first != nullptr && first->line.y <= least + near_zero * scale;
-  const std::string give = "give the sensor's reading without load as `zero` if that is wrong";
-  if (least <= near_zero * scale || (begins_low && first->line.y <= doubtful * scale)) {
-    for (const StraightPiece& piece : pieces_)
-      if (is_level(piece, drift_) && piece.line.y <= least + near_zero * scale) {
-        first_zero_ = piece.line.y;
-        break;
-      }
-    first_zero_ = first_zero_.value_or(least);
-    if (std::abs(*first_zero_) > near_zero * scale)
-      monitor_.warn("\"" + recording_.name + "\": the reading " + quantity(*first_zero_) + ", " +
-                    share(*first_zero_ / scale) + " of the highest, is taken for that without load; " + give);
-  } else if (least <= doubtful * scale) {
-    monitor_.warn("\"" + recording_.name + "\": the lowest load held, " + quantity(least) + " or " +
-                  share(least / scale) + " of the highest, is taken for a load, not for the sensor's zero; " +
-                  give);
-  }
-  if (!first_zero_) zeros_.push_back({t_.front(), 0});
-}
-
-// Rests, one after another: the zero follows them, and is taken off all readings.
-std::vector<bool> RecordingMarks::find_rests() {
-  constexpr double near_zero = 0.05;
-  double zero = first_zero_.value_or(zeros_.empty() ? 0 : zeros_.front().level);
-  std::vector<bool> is_rest;
-  std::vector<Mark> rests;
-  for (const StraightPiece& piece : pieces_) {
-    const double load = piece.line.y - zero, error = effective_noise_ / std::sqrt(piece.line.n);
-    const bool after_rest = !is_rest.empty() && is_rest.back();
-    is_rest.push_back(load <= std::max(drift_, 4 * error) && is_level(piece, drift_));
-    if (!is_rest.back() || std::abs(load) > near_zero * range_ || !first_zero_) continue;
-    zero = piece.line.y;
-    if (after_rest && !rests.empty())
-      rests.back().last = piece.last;
-    else
-      rests.push_back({Mark::Kind::rest, piece.first, piece.last});
-  }
-  if (first_zero_) {
-    for (Mark& rest : rests) {
-      trim(rest);
-      zeros_.push_back({rest.line.t, rest.line.y});
-    }
-    if (zeros_.empty()) zeros_.push_back({t_.front(), *first_zero_});
-  }
-  for (std::size_t k = 0; k < t_.size(); ++k) y_[k] -= zero_at(t_[k]);
-  for (StraightPiece& piece : pieces_) {
-    piece.line = {};
-    for (std::size_t k = piece.first; k <= piece.last; ++k) piece.line.add(t_[k], y_[k]);
-  }
-  return is_rest;
-}
-
-void RecordingMarks::find_levels() {
-  const std::vector<bool> is_rest = find_rests();
-  for (std::size_t k = 0; k < pieces_.size(); ++k) {
-    const StraightPiece& piece = pieces_[k];
-    const double load = piece.line.y;
-    if (is_rest[k] || (load > 0 && is_level(piece, options_.same_load * load)))
-      levels_.push_back(
-          {is_rest[k] ? Mark::Kind::rest : Mark::Kind::hold, piece.first, piece.last, piece.line});
-  }
-}
-
-bool RecordingMarks::one_level(const Mark& a, const Mark& b) {
-  if (a.kind != b.kind) return false;
-  const double level = a.line.y, error = effective_noise_ * std::sqrt(1 / a.line.n + 1 / b.line.n);
-  const double tolerance =
-      std::max(4 * error, a.kind == Mark::Kind::rest ? drift_ : options_.same_load * std::abs(level));
-  if (std::abs(b.line.y - level) > tolerance) return false;
-  const double band = std::max(tolerance, surely * effective_noise_);
-  std::size_t out = 0;
-  double furthest = 0;
-  std::size_t at = a.last;
-  for (std::size_t k = a.last + 1; k < b.first; ++k)
-    if (const double off = y_[k] - level; std::abs(off) > band) {
-      ++out;
-      if (std::abs(off) > std::abs(furthest)) {
-        furthest = off;
-        at = k;
-      }
-    }
-  constexpr std::size_t glitch = 2;
-  if (out == 0) return true;
-  if (b.first - a.last - 1 > glitch + 2 || out > glitch) return false;
-  disturbances_.push_back({line(at), level + furthest});
-  return true;
-}
-
-void RecordingMarks::join_levels() {
-  for (const Mark& level : levels_) {
-    if (!marks_.empty() && one_level(marks_.back(), level)) {
-      marks_.back().last = level.last;
-      marks_.back().line = marks_.back().line.joined(level.line);
-    } else {
-      marks_.push_back(level);
-    }
-  }
-  std::erase_if(marks_, [this](const Mark& mark) {
-    return mark.kind == Mark::Kind::hold &&
-           (t_[mark.last] - t_[mark.first] < (1 - 1e-9) * shortest_hold_ || mark.last - mark.first < 3);
-  });
-  for (Mark& mark : marks_) trim(mark);
-}
-
-// Leaves the samples at both ends out of the level: a corner may lie within the piece.
-void RecordingMarks::trim(Mark& mark) const {
-  const std::size_t count = mark.last - mark.first + 1, off = std::min<std::size_t>(2, count / 8);
-  const double level = mark.line.y, band = surely * effective_noise_ + options_.same_load * range_;
-  const bool known = mark.line.n > 0;
-  LineMoments line;
-  for (std::size_t k = mark.first + off; k + off <= mark.last; ++k)
-    if (!known || std::abs(y_[k] - level) <= band) line.add(t_[k], y_[k]);
-  if (line.n > 0) mark.line = line;
-}
-
-double RecordingMarks::zero_at(double time) const {
-  const auto after = std::lower_bound(zeros_.begin(), zeros_.end(), time,
-                                      [](const Zero& zero, double t) { return zero.time < t; });
-  if (after == zeros_.begin()) return zeros_.front().level;
-  if (after == zeros_.end()) return zeros_.back().level;
-  const Zero& before = *(after - 1);
-  const double w = (time - before.time) / (after->time - before.time);
-  return before.level + w * (after->level - before.level);
-}
-
-void RecordingMarks::look_between() {
-  std::vector<Mark> all;
-  const std::vector<Mark> levels = std::move(marks_);
-  const std::size_t n = t_.size();
-  const double unloaded = std::max(drift_, 4 * effective_noise_);
-  for (std::size_t k = 0; k <= levels.size(); ++k) {
-    const std::size_t first = k == 0 ? 0 : levels[k - 1].last + 1;
-    const std::size_t end = k == levels.size() ? n : levels[k].first;
-    // Runs without load, which a short rest leaves that has no level of its own.
-    std::size_t begun = first;
-    constexpr std::size_t shortest = 3;
-    for (std::size_t i = first; i < end;) {
-      std::size_t j = i;
-      while (j < end && y_[j] < unloaded) ++j;
-      const bool after_rest = !all.empty() && all.back().kind == Mark::Kind::rest && i == all.back().last + 1;
-      const bool before_rest = j == end && k < levels.size() && levels[k].kind == Mark::Kind::rest;
-      const bool at_rim = (i == 0 || j == n) && j > i;
-      if (after_rest && j > i) {
-        all.back().last = j - 1;
-        begun = j;
-      } else if (!before_rest && (j - i >= shortest || at_rim)) {
-        look_for_peak(all, begun, i, nullptr);
-        Mark rest{Mark::Kind::rest, i, j - 1, {}};
-        for (std::size_t s = i; s < j; ++s) rest.line.add(t_[s], y_[s]);
-        all.push_back(rest);
-        begun = j;
-      }
-      i = std::max(j, i + 1);
-    }
-    look_for_peak(all, begun, end, k < levels.size() ? &levels[k] : nullptr);
-    if (k < levels.size()) {
-      if (!all.empty() && all.back().kind == Mark::Kind::rest && levels[k].kind == Mark::Kind::rest) {
-        all.back().last = levels[k].last;
-        all.back().line = all.back().line.joined(levels[k].line);
-      } else {
-        all.push_back(levels[k]);
-      }
-    }
-  }
-  marks_ = std::move(all);
-}
-
-// The highest of the samples from `first` until `end`, if it stands out above what is at both sides.
-void RecordingMarks::look_for_peak(std::vector<Mark>& all, std::size_t first, std::size_t end,
-                                   const Mark* next) {
-  if (first >= end) return;
-  const auto top = std::max_element(y_.begin() + static_cast<std::ptrdiff_t>(first),
-                                    y_.begin() + static_cast<std::ptrdiff_t>(end));
-  const auto at = static_cast<std::size_t>(top - y_.begin());
-  const Mark* before = all.empty() ? nullptr : &all.back();
-  const auto level = [&](const Mark* mark) {
-    return mark != nullptr && mark->kind != Mark::Kind::rest ? mark->line.y : 0.0;
+  const auto count = [](std::size_t n, const char* what) {
+    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
   };
-  const double base = std::max(level(before), level(next));
-  const bool pulse = base <= 0;
-  const double least =
-      std::max(surely * effective_noise_, pulse ? 2 * drift_ : options_.least_overshoot * base);
-  if (!(*top - base > least)) return;
-  const double half = 0.5 * (*top + base);
-  std::size_t left = at, right = at;
-  const auto low = [&](std::size_t k) { return y_[k] < half; };
-  while (left > first && !(low(left - 1) && (left < first + 2 || low(left - 2)))) --left;
-  while (right + 1 < end && !(low(right + 1) && (right + 2 >= end || low(right + 2)))) ++right;
-  if (pulse && left == right) {
-    disturbances_.push_back({line(at), *top});
-    return;
-  }
-  const auto crossing = [&](std::size_t in, std::size_t out) {
-    const double w = y_[in] > y_[out] ? (y_[in] - half) / (y_[in] - y_[out]) : 0.5;
-    return t_[in] + std::clamp(w, 0.0, 1.0) * (t_[out] - t_[in]);
-  };
-  Mark peak{Mark::Kind::peak, left, right, {1, t_[at], *top, 0, 0, 0}};
-  peak.begin = left > 0 ? crossing(left, left - 1) : t_[left];
-  peak.end = right + 1 < t_.size() ? crossing(right, right + 1) : t_[right];
-  peak.dwell_error = interval_ / std::sqrt(6.0);
-  peak.pulse = pulse;
-  all.push_back(peak);
+  return all + "\n  found          " + count(holds, "hold") + ", " + count(peaks, "peak") + ", " +
+         count(releases, "release") + ", " + count(turns, "turn");
 }
 
-const StraightPiece& RecordingMarks::piece_at(std::size_t sample) const {
-  return *std::partition_point(pieces_.begin(), pieces_.end(),
-                               [sample](const StraightPiece& piece) { return piece.last < sample; });
-}
-
-// Where the level of a mark begins (step -1) or ends (step 1): where the straight piece beside it meets it.
-RecordingMarks::Corner RecordingMarks::corner(const Mark& mark, int step) const {
-  const std::size_t rim = step < 0 ? mark.first : mark.last;
-  if (step < 0 ? rim == 0 : rim + 1 == t_.size()) return {t_[rim], 0, rim};
-  const auto beside = [step](std::size_t k) { return step < 0 ? k - 1 : k + 1; };
-  // A hold that drifts for certain has another level here than in its middle.
-  const bool slopes = std::abs(mark.line.slope()) * std::sqrt(mark.line.tt) > 4 * effective_noise_;
-  const double level = mark.line.y + (slopes ? mark.line.slope() * (t_[rim] - mark.line.t) : 0);
-  const StraightPiece& piece = piece_at(beside(rim));
-  const LineMoments& line = piece.line;
-  constexpr double enough = 4;
-  const double slope = line.slope();
-  if (line.n >= enough && std::abs(slope) * std::sqrt(line.tt) > enough * effective_noise_ &&
-      change_of(piece) > drift_) {
-    const double meets = line.t + (level - line.y) / slope;
-    const double error =
-        noise_ * std::sqrt(1 / line.n + (meets - line.t) * (meets - line.t) / line.tt + 1 / mark.line.n) /
-        std::abs(slope);
-    const double low = step < 0 ? t_[piece.first] : t_[mark.first];
-    const double high = step < 0 ? t_[mark.last] : t_[piece.last];
-    return {std::clamp(meets, low, high), error, rim};
-  }
-  const double band = std::max(4 * effective_noise_, 0.005 * std::abs(level));
-  std::size_t k = rim;
-  const auto has_more = [&] { return step < 0 ? k > 0 : k + 1 < t_.size(); };
-  while (has_more() && std::abs(y_[beside(k)] - level) <= band) k = beside(k);
-  const double gap = has_more() ? std::abs(t_[beside(k)] - t_[k]) : 0;
-  return {t_[k], gap / std::sqrt(12.0), k};
-}
-
-// The samples in which a change between neighbouring holds may lie that the noise hides: a ramp of m samples
-// taken for a step costs m/12 of the squared change.
-std::pair<std::size_t, std::size_t> RecordingMarks::window(const Mark& a, const Mark& b) const {
-  const double change = std::abs(a.line.y - b.line.y) / effective_noise_;
-  const double hidden = change > 0 ? 12 * evidence_ / (change * change) : 1e9;
-  const double between = static_cast<double>(b.first - a.last);
-  const auto reach = static_cast<std::size_t>(std::clamp(std::max(1.5 * hidden, 1.5 * between), 8.0, 400.0));
-  const std::size_t middle = (a.last + b.first) / 2;
-  const std::size_t first = std::max(a.first + (a.last - a.first) / 4, middle > reach ? middle - reach : 0);
-  const std::size_t last = std::min(b.last - (b.last - b.first) / 4, middle + reach);
-  return {first, last};
-}
-
-// A slow ramp may look like a flight of stairs: a hold between two others that a ramp fits as well is none.
-void RecordingMarks::drop_stairs() {
-  constexpr std::size_t next_to = 4;
-  for (std::size_t k = 1; k + 1 < marks_.size();) {
-    const Mark &a = marks_[k - 1], &b = marks_[k], &c = marks_[k + 1];
-    const bool holds = a.kind == Mark::Kind::hold && b.kind == Mark::Kind::hold && c.kind == Mark::Kind::hold;
-    const bool monotone = (b.line.y - a.line.y) * (c.line.y - b.line.y) > 0;
-    const std::size_t count = b.last - b.first + 1;
-    constexpr std::size_t most = 400;
-    if (!holds || !monotone || count > most || b.first - a.last > next_to || c.first - b.last > next_to) {
-      ++k;
-      continue;
-    }
-    const std::size_t first = std::max(a.first, b.first > count ? b.first - count : 0);
-    const std::size_t last = std::min(c.last, b.last + count);
-    const std::size_t middle = (b.first + b.last) / 2;
-    const std::span<const double> y(y_), t(t_);
-    const double stairs = step_misfit(y.subspan(first, middle - first + 1), a.line.y, b.line.y) +
-                          step_misfit(y.subspan(middle + 1, last - middle), b.line.y, c.line.y);
-    const HiddenRamp ramp = fit_hidden_ramp(t.subspan(first, last - first + 1),
-                                            y.subspan(first, last - first + 1), a.line.y, c.line.y);
-    if (ramp.misfit > stairs + evidence_ * effective_noise_ * effective_noise_) {
-      ++k;
-      continue;
-    }
-    marks_.erase(marks_.begin() + static_cast<std::ptrdiff_t>(k));
-    k = std::max<std::size_t>(k, 2) - 1;
-  }
-}
-
-void RecordingMarks::time_marks() {
-  drop_stairs();
-  for (bool all = false; !all;) {
-    time_each();
-    all = !drop_doubtful();
-  }
-}
-
-// A short hold on the way to another that is as long as its ends are uncertain is a bend of the ramp.
-bool RecordingMarks::drop_doubtful() {
-  const std::size_t before = marks_.size();
-  for (std::size_t k = 0; k < marks_.size(); ++k) {
-    Mark& mark = marks_[k];
-    const auto loaded = [this](std::size_t i) {
-      return i < marks_.size() && marks_[i].kind != Mark::Kind::rest;
-    };
-    if (mark.kind != Mark::Kind::hold || mark.end - mark.begin > 3 * mark.dwell_error) continue;
-    if (!loaded(k - 1) && !loaded(k + 1)) continue;
-    const double top = *std::max_element(y_.begin() + static_cast<std::ptrdiff_t>(mark.first),
-                                         y_.begin() + static_cast<std::ptrdiff_t>(mark.last) + 1);
-    const double beside =
-        std::max(loaded(k - 1) ? marks_[k - 1].line.y : 0.0, loaded(k + 1) ? marks_[k + 1].line.y : 0.0);
-    if (top - beside > std::max(surely * effective_noise_, options_.least_overshoot * beside)) {
-      mark.kind = Mark::Kind::peak;  // an overshoot that stayed
-      mark.line = {1, mark.line.t, top, 0, 0, 0};
-      mark.begin_error = mark.end_error = interval_ / std::sqrt(12.0);
-      continue;
-    }
-    doubtful_.push_back(mark);
-    marks_.erase(marks_.begin() + static_cast<std::ptrdiff_t>(k));
-  }
-  return marks_.size() < before;
-}
-
-void RecordingMarks::time_each() {
-  for (Mark& mark : marks_) {
-    if (mark.kind == Mark::Kind::peak) continue;
-    const Corner begin = corner(mark, -1), end = corner(mark, 1);
-    mark.begin = begin.time;
-    mark.end = end.time;
-    mark.begin_error = begin.error;
-    mark.end_error = end.error;
-  }
-  constexpr double plain = 30;  // times the noise: such a change is well met by the straight pieces
-  for (std::size_t k = 0; k + 1 < marks_.size(); ++k) {
-    Mark &a = marks_[k], &b = marks_[k + 1];
-    const double change = std::abs(a.line.y - b.line.y) / effective_noise_;
-    if (a.kind == Mark::Kind::peak || b.kind == Mark::Kind::peak || a.kind == Mark::Kind::rest) {
-      if (a.kind != Mark::Kind::rest || b.kind != Mark::Kind::hold) continue;
-    }
-    constexpr std::size_t most = 600;
-    if (change > plain || b.first - a.last > most) continue;
-    const auto [first, last] = window(a, b);
-    if (last < first + 4) continue;
-    const std::span<const double> y(y_), t(t_);
-    const HiddenRamp ramp = fit_hidden_ramp(t.subspan(first, last - first + 1),
-                                            y.subspan(first, last - first + 1), a.line.y, b.line.y);
-    a.end = ramp.begin;
-    b.begin = ramp.end;
-    const double samples = (ramp.end - ramp.begin) / interval_;
-    a.end_error = b.begin_error = interval_ * std::max(0.3, 3.5 * std::sqrt(samples + 2) / change);
-  }
-  double last = t_.front();
-  for (Mark& mark : marks_) {
-    if (mark.kind != Mark::Kind::peak) mark.dwell_error = std::hypot(mark.begin_error, mark.end_error);
-    // In order, whatever the noise made of corners that nearly meet.
-    mark.begin = std::max(mark.begin, last);
-    mark.end = std::max(mark.end, mark.begin);
-    last = mark.end;
-  }
+Protocol detect_events(const PressRecording& recording, const DetectionOptions& options, Monitor& monitor) {
+  return EventMaker(recording, options, monitor).make();
 }
 
 }  // namespace asperity

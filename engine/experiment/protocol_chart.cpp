@@ -26,9 +26,8 @@ struct Played {
 };
 
 std::string minutes(double seconds) {
-  return seconds >= 60 && seconds == 60 * std::round(seconds / 60)
-             ? format_short(seconds / 60, 4) + " min"
-             : format_quantity(seconds, dimension::time, 3);
+  return seconds >= 120 ? format_short(seconds / 60, 3) + " min"
+                        : format_quantity(seconds, dimension::time, 3);
 }
 
 // What a protocol without a recording looks like on a clock.
@@ -167,9 +166,8 @@ LineChart protocol_chart(const Protocol& protocol, const std::string& title) {
         if (!held) add(peak, middle, span.load);
         const double dwell = found != nullptr ? span.end - span.begin : span.dwell_error;
         std::string text = format_quantity(span.load, unit, 4);
-        if (held && dwell > 0)
-          text += ", " + minutes(found != nullptr ? std::stod(format_short(dwell, 3)) : dwell);
-        if (held) chart.labels.push_back({middle / clock, span.load, text});
+        if (held && dwell > 0) text += ", " + minutes(dwell);
+        if (held) chart.labels.push_back({middle / clock, span.load, "hold " + text});
         break;
       }
       case Kind::release:

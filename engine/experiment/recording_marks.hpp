@@ -17,6 +17,9 @@ namespace asperity {
 
 class RecordingMarks {
  public:
+  // A sample counts as noise within so many standard deviations: a million Gaussian ones stay within 4.9.
+  static constexpr double certain = 6;
+
   struct Mark {
     enum class Kind { rest, hold, peak };
     Kind kind = Kind::rest;

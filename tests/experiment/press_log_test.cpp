@@ -56,11 +56,11 @@ TEST_F(PressLog, RowsAreEvents) {
       "1800, 0, 0, 0\n");
   EXPECT_EQ(p.text(),
             "protocol of 5 events\n"
-            "  1  press 152.78 MPa for 10 min (at 0 s)\n"
-            "  2  release (at 900 s)\n"
-            "  3  rotate 90 deg (at 900 s)\n"
-            "  4  press 152.78 MPa for 10 min (at 900 s)\n"
-            "  5  release (at 1800 s)");
+            "  1  press 152.78 MPa for 10 min (at 0 s, log.csv line 2)\n"
+            "  2  release (at 900 s, log.csv line 3)\n"
+            "  3  rotate 90 deg (at 900 s, log.csv line 3)\n"
+            "  4  press 152.78 MPa for 10 min (at 900 s, log.csv line 3)\n"
+            "  5  release (at 1800 s, log.csv line 4)");
   // The same doubles as in a script.
   EXPECT_EQ(std::get<PressRequest>(p.events()[0].step).value, 152.78e6);
   EXPECT_EQ(std::get<PressRequest>(p.events()[0].step).dwell, 600.0);
@@ -214,14 +214,14 @@ TEST_F(PressLog, AFileAsItIsKept) {
   const Protocol p = read_press_log(ASPERITY_TEST_DATA "/../data/press_log.csv", listener);
   EXPECT_EQ(p.text(),
             "protocol of 8 events\n"
-            "  1  press 1.9098 kN for 10 min (at 0 s)\n"
-            "  2  release (at 900 s)\n"
-            "  3  rotate 90 deg (at 900 s)\n"
-            "  4  press 1.9098 kN for 10 min (at 900 s)\n"
-            "  5  release (at 1800.5 s)\n"
-            "  6  rotate -90 deg (at 1800.5 s)\n"
-            "  7  press 1.9098 kN for 150 s (at 1800.5 s)\n"
-            "  8  release (at 2700 s)");
+            "  1  press 1.9098 kN for 10 min (at 0 s, press_log.csv line 4)\n"
+            "  2  release (at 900 s, press_log.csv line 5)\n"
+            "  3  rotate 90 deg (at 900 s, press_log.csv line 5)\n"
+            "  4  press 1.9098 kN for 10 min (at 900 s, press_log.csv line 5)\n"
+            "  5  release (at 1800.5 s, press_log.csv line 7)\n"
+            "  6  rotate -90 deg (at 1800.5 s, press_log.csv line 7)\n"
+            "  7  press 1.9098 kN for 150 s (at 1800.5 s, press_log.csv line 7)\n"
+            "  8  release (at 2700 s, press_log.csv line 8)");
   EXPECT_EQ(p.events()[6].origin, "press_log.csv line 7");
   ASSERT_EQ(listener.warnings.size(), 1U);
   EXPECT_NE(listener.warnings[0].find("\"Operator\""), std::string::npos);

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Marks rests, holds and peaks on a recording; recording_times.cpp says when they begin and end.
+#include "engine/experiment/recording_marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.hpp"
+
+namespace asperity {
+
+namespace {
+
+double median_of(Array<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The most that three neighbours in a row reach: one sample out of line does not count.
+double highest_of_three(std::span<const double> y, double sign) {
+  double highest = -INFINITY;
+  for (std::size_t k = 0; k + 2 < y.size(); ++k) {
+    const double a = sign * y[k], b = sign * y[k + 1], c = sign * y[k + 2];
+    highest = std::max(highest, std::max(std::min(a, b), std::min(std::max(a, b), c)));
+  }
+  return sign * highest;
+}
+
+}  // namespace
+
+RecordingMarks::RecordingMarks(const PressRecording& recording, const DetectionOptions& options,
+                               Monitor& monitor)
+    : recording_(recording), options_(options), monitor_(monitor) {
+  take_samples();
+  measure_noise();
+  pieces_ = straight_pieces(t_, y_, effective_noise_, evidence_, monitor_);
+  find_zero();
+  find_levels();
+  join_levels();
+  look_between();
+  time_marks();
+}
+
+void RecordingMarks::refuse(const std::string& finding, const std::string& hint) const {
+  throw Error(ErrorCode::bad_file, "\"" + recording_.name + "\" " + finding, hint);
+}
+
+void RecordingMarks::take_samples() {
+  for (std::size_t k = 0; k < recording_.time.size(); ++k) {
+    if (std::isnan(recording_.load[k])) continue;
+    t_.push_back(recording_.time[k]);
+    y_.push_back(recording_.load[k]);
+    row_.push_back(static_cast<std::uint32_t>(k));
+  }
+  constexpr std::size_t fewest = 10;
+  if (t_.size() < fewest)
+    refuse("holds " + std::to_string(t_.size()) + " samples of the load, too few to find events in",
+           "read it with events=\"rows\" if each of its rows is an event");
+  Array<double> steps;
+  for (std::size_t k = 0; k + 1 < t_.size(); ++k) steps.push_back(t_[k + 1] - t_[k]);
+  interval_ = median_of(steps);
+  shortest_hold_ = options_.shortest_hold.value_or(4 * interval_);
+  evidence_ = options_.evidence.value_or(10 + 4 * std::log(static_cast<double>(t_.size())));
+  top_ = highest_of_three(y_, 1);
+  bottom_ = highest_of_three(y_, -1);
+  range_ = top_ - bottom_;
+}
+
+void RecordingMarks::measure_noise() {
+  Array<double> above, below;
+  double resolution = INFINITY;
+  for (std::size_t k = 1; k + 1 < t_.size(); ++k) {
+    if (const double step = std::abs(y_[k] - y_[k - 1]); step > 0) resolution = std::min(resolution, step);
+    const double w = (t_[k + 1] - t_[k]) / (t_[k + 1] - t_[k - 1]);
+    const double bend = y_[k] - w * y_[k - 1] - (1 - w) * y_[k + 1];
+    const double scaled = std::abs(bend) / std::sqrt(1 + w * w + (1 - w) * (1 - w));
+    (y_[k] > bottom_ + 0.5 * range_ ? above : below).push_back(scaled);
+  }
+  constexpr double per_deviation = 0.6745;  // median magnitude of a Gaussian
+  constexpr std::size_t enough = 30;
+  const double high = above.size() < enough && below.size() >= enough ? 0 : median_of(above);
+  const double low = below.size() < enough && above.size() >= enough ? 0 : median_of(below);
+  noise_ = options_.noise.value_or(std::max(high, low) / per_deviation);
+  // A reading in coarse steps is off by up to half of one, and no ramp is straight to the last digit.
+  constexpr double of_a_step = 0.3, of_the_range = 1e-4;
+  effective_noise_ =
+      std::max({noise_, std::isinf(resolution) ? 0 : of_a_step * std::min(resolution, 0.02 * range_),
+                of_the_range * range_});
+  if (!(range_ > 8 * noise_) || !(top_ > 0))
+    refuse("holds no load above its noise: the readings go from " + quantity(bottom_) + " to " +
+               quantity(top_) + ", and scatter by " + quantity(noise_),
+           "give the noise as `noise` if it is less");
+}
+
+double RecordingMarks::change_of(const StraightPiece& piece) const {
+  return std::abs(piece.line.slope()) * (t_[piece.last] - t_[piece.first]);
+}
+
+bool RecordingMarks::is_level(const StraightPiece& piece, double tolerance) const {
+  constexpr double fewest = 3;
+  const double by_chance = effective_noise_ * std::sqrt(12 * evidence_ / piece.line.n);
+  return piece.line.n >= fewest && change_of(piece) <= std::max(tolerance, by_chance);
+}
+
+void RecordingMarks::find_zero() {
+  const double scale = std::max(std::abs(top_), std::abs(bottom_));
+  drift_ = options_.zero_drift * scale;
+  if (options_.zero) {
+    zeros_.push_back({t_.front(), *options_.zero});
+    drift_ = options_.zero_drift * std::abs(top_ - *options_.zero);
+    return;
+  }
+  double least = INFINITY;
+  const StraightPiece* first = nullptr;
+  for (const StraightPiece& piece : pieces_)
+    if (is_level(piece, drift_)) {
+      if (first == nullptr) first = &piece;
+      least = std::min(least, piece.line.y);
+    }
+  if (std::isinf(least)) least = bottom_;
+  // A recording is begun before the press as a rule: then its first level is that without load, if it is the
+  // lowest.
+  constexpr double near_zero = 0.05, doubtful = 0.25;
+  const bool begins_low = first != nullptr && first->line.y <= least + near_zero * scale;
+  const std::string give = "give the sensor's reading without load as `zero` if that is wrong";
+  if (least <= near_zero * scale || (begins_low && first->line.y <= doubtful * scale)) {
+    for (const StraightPiece& piece : pieces_)
+      if (is_level(piece, drift_) && piece.line.y <= least + near_zero * scale) {
+        first_zero_ = piece.line.y;
+        break;
+      }
+    first_zero_ = first_zero_.value_or(least);
+    if (std::abs(*first_zero_) > near_zero * scale)
+      monitor_.warn("\"" + recording_.name + "\": the reading " + quantity(*first_zero_) + ", " +
+                    share(*first_zero_ / scale) + " of the highest, is taken for that without load; " + give);
+  } else if (least <= doubtful * scale) {
+    monitor_.warn("\"" + recording_.name + "\": the lowest load held, " + quantity(least) + " or " +
+                  share(least / scale) + " of the highest, is taken for a load, not for the sensor's zero; " +
+                  give);
+  }
+  if (!first_zero_) zeros_.push_back({t_.front(), 0});
+}
+
+// Rests, one after another: the zero follows them, and is taken off all readings.
+std::vector<bool> RecordingMarks::find_rests() {
+  constexpr double near_zero = 0.05;
+  double zero = first_zero_.value_or(zeros_.empty() ? 0 : zeros_.front().level);
+  std::vector<bool> is_rest;
+  std::vector<Mark> rests;
+  for (const StraightPiece& piece : pieces_) {
+    const double load = piece.line.y - zero, error = effective_noise_ / std::sqrt(piece.line.n);
+    const bool after_rest = !is_rest.empty() && is_rest.back();
+    is_rest.push_back(load <= std::max(drift_, 4 * error) && is_level(piece, drift_));
+    if (!is_rest.back() || std::abs(load) > near_zero * range_ || !first_zero_) continue;
+    zero = piece.line.y;
+    if (after_rest && !rests.empty())
+      rests.back().last = piece.last;
+    else
+      rests.push_back({Mark::Kind::rest, piece.first, piece.last});
+  }
+  if (first_zero_) {
+    for (Mark& rest : rests) {
+      trim(rest);
+      zeros_.push_back({rest.line.t, rest.line.y});
+    }
+    if (zeros_.empty()) zeros_.push_back({t_.front(), *first_zero_});
+  }
+  for (std::size_t k = 0; k < t_.size(); ++k) y_[k] -= zero_at(t_[k]);
+  for (StraightPiece& piece : pieces_) {
+    piece.line = {};
+    for (std::size_t k = piece.first; k <= piece.last; ++k) piece.line.add(t_[k], y_[k]);
+  }
+  return is_rest;
+}
+
+void RecordingMarks::find_levels() {
+  const std::vector<bool> is_rest = find_rests();
+  for (std::size_t k = 0; k < pieces_.size(); ++k) {
+    const StraightPiece& piece = pieces_[k];
+    const double load = piece.line.y;
+    if (is_rest[k] || (load > 0 && is_level(piece, options_.same_load * load)))
+      levels_.push_back(
+          {is_rest[k] ? Mark::Kind::rest : Mark::Kind::hold, piece.first, piece.last, piece.line});
+  }
+}
+
+bool RecordingMarks::one_level(const Mark& a, const Mark& b) {
+  if (a.kind != b.kind) return false;
+  const double level = a.line.y, error = effective_noise_ * std::sqrt(1 / a.line.n + 1 / b.line.n);
+  const double tolerance =
+      std::max(4 * error, a.kind == Mark::Kind::rest ? drift_ : options_.same_load * std::abs(level));
+  if (std::abs(b.line.y - level) > tolerance) return false;
+  const double band = std::max(tolerance, certain * effective_noise_);
+  std::size_t out = 0;
+  double furthest = 0;
+  std::size_t at = a.last;
+  for (std::size_t k = a.last + 1; k < b.first; ++k)
+    if (const double off = y_[k] - level; std::abs(off) > band) {
+      ++out;
+      if (std::abs(off) > std::abs(furthest)) {
+        furthest = off;
+        at = k;
+      }
+    }
+  constexpr std::size_t glitch = 2;
+  if (out == 0) return true;
+  if (b.first - a.last - 1 > glitch + 2 || out > glitch) return false;
+  disturbances_.push_back({line(at), level + furthest});
+  return true;
+}
+
+void RecordingMarks::join_levels() {
+  for (const Mark& level : levels_) {
+    if (!marks_.empty() && one_level(marks_.back(), level)) {
+      marks_.back().last = level.last;
+      marks_.back().line = marks_.back().line.joined(level.line);
+    } else {
+      marks_.push_back(level);
+    }
+  }
+  std::erase_if(marks_, [this](const Mark& mark) {
+    return mark.kind == Mark::Kind::hold &&
+           (t_[mark.last] - t_[mark.first] < (1 - 1e-9) * shortest_hold_ || mark.last - mark.first < 3);
+  });
+  for (Mark& mark : marks_) trim(mark);
+}
+
+// Leaves the samples at both ends out of the level: a corner may lie within the piece.
+void RecordingMarks::trim(Mark& mark) const {
+  const std::size_t count = mark.last - mark.first + 1, off = std::min<std::size_t>(2, count / 8);
+  const double level = mark.line.y, band = certain * effective_noise_ + options_.same_load * range_;
+  const bool known = mark.line.n > 0;
+  LineMoments line;
+  for (std::size_t k = mark.first + off; k + off <= mark.last; ++k)
+    if (!known || std::abs(y_[k] - level) <= band) line.add(t_[k], y_[k]);
+  if (line.n > 0) mark.line = line;
+}
+
+double RecordingMarks::zero_at(double time) const {
+  const auto after = std::lower_bound(zeros_.begin(), zeros_.end(), time,
+                                      [](const Zero& zero, double t) { return zero.time < t; });
+  if (after == zeros_.begin()) return zeros_.front().level;
+  if (after == zeros_.end()) return zeros_.back().level;
+  const Zero& before = *(after - 1);
+  const double w = (time - before.time) / (after->time - before.time);
+  return before.level + w * (after->level - before.level);
+}
+
+void RecordingMarks::look_between() {
+  std::vector<Mark> all;
+  const std::vector<Mark> levels = std::move(marks_);
+  const std::size_t n = t_.size();
+  const double unloaded = std::max(drift_, 4 * effective_noise_);
+  for (std::size_t k = 0; k <= levels.size(); ++k) {
+    const std::size_t first = k == 0 ? 0 : levels[k - 1].last + 1;
+    const std::size_t end = k == levels.size() ? n : levels[k].first;
+    // Runs without load, which a short rest leaves that has no level of its own.
+    std::size_t begun = first;
+    constexpr std::size_t shortest = 3;
+    for (std::size_t i = first; i < end;) {
+      std::size_t j = i;
+      while (j < end && y_[j] < unloaded) ++j;
+      const bool after_rest = !all.empty() && all.back().kind == Mark::Kind::rest && i == all.back().last + 1;
+      const bool before_rest = j == end && k < levels.size() && levels[k].kind == Mark::Kind::rest;
+      const bool at_rim = (i == 0 || j == n) && j > i;
+      if (after_rest && j > i) {
+        all.back().last = j - 1;
+        begun = j;
+      } else if (!before_rest && (j - i >= shortest || at_rim)) {
+        look_for_peak(all, begun, i, nullptr);
+        Mark rest{Mark::Kind::rest, i, j - 1, {}};
+        for (std::size_t s = i; s < j; ++s) rest.line.add(t_[s], y_[s]);
+        all.push_back(rest);
+        begun = j;
+      }
+      i = std::max(j, i + 1);
+    }
+    look_for_peak(all, begun, end, k < levels.size() ? &levels[k] : nullptr);
+    if (k < levels.size()) {
+      if (!all.empty() && all.back().kind == Mark::Kind::rest && levels[k].kind == Mark::Kind::rest) {
+        all.back().last = levels[k].last;
+        all.back().line = all.back().line.joined(levels[k].line);
+      } else {
+        all.push_back(levels[k]);
+      }
+    }
+  }
+  marks_ = std::move(all);
+}
+
+// The highest of the samples from `first` until `end`, if it stands out above what is at both sides.
+void RecordingMarks::look_for_peak(std::vector<Mark>& all, std::size_t first, std::size_t end,
+                                   const Mark* next) {
+  if (first >= end) return;
+  const auto top = std::max_element(y_.begin() + static_cast<std::ptrdiff_t>(first),
+                                    y_.begin() + static_cast<std::ptrdiff_t>(end));
+  const auto at = static_cast<std::size_t>(top - y_.begin());
+  const Mark* before = all.empty() ? nullptr : &all.back();
+  const auto level = [&](const Mark* mark) {
+    return mark != nullptr && mark->kind != Mark::Kind::rest ? mark->line.y : 0.0;
+  };
+  const double base = std::max(level(before), level(next));
+  const bool pulse = base <= 0;
+  const double least =
+      std::max(certain * effective_noise_, pulse ? 2 * drift_ : options_.least_overshoot * base);
+  if (!(*top - base > least)) return;
+  const double half = 0.5 * (*top + base);
+  std::size_t left = at, right = at;
+  const auto low = [&](std::size_t k) { return y_[k] < half; };
+  while (left > first && !(low(left - 1) && (left < first + 2 || low(left - 2)))) --left;
+  while (right + 1 < end && !(low(right + 1) && (right + 2 >= end || low(right + 2)))) ++right;
+  if (pulse && left == right) {
+    disturbances_.push_back({line(at), *top});
+    return;
+  }
+  const auto crossing = [&](std::size_t in, std::size_t out) {
+    const double w = y_[in] > y_[out] ? (y_[in] - half) / (y_[in] - y_[out]) : 0.5;
+    return t_[in] + std::clamp(w, 0.0, 1.0) * (t_[out] - t_[in]);
+  };
+  Mark peak{Mark::Kind::peak, left, right, {1, t_[at], *top, 0, 0, 0}};
+  peak.begin = left > 0 ? crossing(left, left - 1) : t_[left];
+  peak.end = right + 1 < t_.size() ? crossing(right, right + 1) : t_[right];
+  peak.dwell_error = interval_ / std::sqrt(6.0);
+  peak.pulse = pulse;
+  all.push_back(peak);
+}
+
+}  // namespace asperity

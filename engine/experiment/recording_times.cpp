@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// When the marks on a recording begin and end: where the straight pieces beside them meet their levels, or a
+// ramp that the noise hides fits best; and which marks are none, seen so.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/experiment/hidden_ramp.hpp"
+#include "engine/experiment/recording_marks.hpp"
+
+namespace asperity {
+
+const StraightPiece& RecordingMarks::piece_at(std::size_t sample) const {
+  return *std::partition_point(pieces_.begin(), pieces_.end(),
+                               [sample](const StraightPiece& piece) { return piece.last < sample; });
+}
+
+// Where the level of a mark begins (step -1) or ends (step 1): where the straight piece beside it meets it.
+RecordingMarks::Corner RecordingMarks::corner(const Mark& mark, int step) const {
+  const std::size_t rim = step < 0 ? mark.first : mark.last;
+  if (step < 0 ? rim == 0 : rim + 1 == t_.size()) return {t_[rim], 0, rim};
+  const auto beside = [step](std::size_t k) { return step < 0 ? k - 1 : k + 1; };
+  // A hold that drifts for certain has another level here than in its middle.
+  const bool slopes = std::abs(mark.line.slope()) * std::sqrt(mark.line.tt) > 4 * effective_noise_;
+  const double level = mark.line.y + (slopes ? mark.line.slope() * (t_[rim] - mark.line.t) : 0);
+  const StraightPiece& piece = piece_at(beside(rim));
+  const LineMoments& line = piece.line;
+  constexpr double enough = 4;
+  const double slope = line.slope();
+  if (line.n >= enough && std::abs(slope) * std::sqrt(line.tt) > enough * effective_noise_ &&
+      change_of(piece) > drift_) {
+    const double meets = line.t + (level - line.y) / slope;
+    const double error =
+        noise_ * std::sqrt(1 / line.n + (meets - line.t) * (meets - line.t) / line.tt + 1 / mark.line.n) /
+        std::abs(slope);
+    const double low = step < 0 ? t_[piece.first] : t_[mark.first];
+    const double high = step < 0 ? t_[mark.last] : t_[piece.last];
+    return {std::clamp(meets, low, high), error, rim};
+  }
+  const double band = std::max(4 * effective_noise_, 0.005 * std::abs(level));
+  std::size_t k = rim;
+  const auto has_more = [&] { return step < 0 ? k > 0 : k + 1 < t_.size(); };
+  while (has_more() && std::abs(y_[beside(k)] - level) <= band) k = beside(k);
+  const double gap = has_more() ? std::abs(t_[beside(k)] - t_[k]) : 0;
+  return {t_[k], gap / std::sqrt(12.0), k};
+}
+
+// The samples in which a change between neighbouring holds may lie that the noise hides: a ramp of m samples
+// taken for a step costs m/12 of the squared change.
+std::pair<std::size_t, std::size_t> RecordingMarks::window(const Mark& a, const Mark& b) const {
+  const double change = std::abs(a.line.y - b.line.y) / effective_noise_;
+  const double hidden = change > 0 ? 12 * evidence_ / (change * change) : 1e9;
+  const double between = static_cast<double>(b.first - a.last);
+  const auto reach = static_cast<std::size_t>(std::clamp(std::max(1.5 * hidden, 1.5 * between), 8.0, 400.0));
+  const std::size_t middle = (a.last + b.first) / 2;
+  const std::size_t first = std::max(a.first + (a.last - a.first) / 4, middle > reach ? middle - reach : 0);
+  const std::size_t last = std::min(b.last - (b.last - b.first) / 4, middle + reach);
+  return {first, last};
+}
+
+// A slow ramp may look like a flight of stairs: a hold between two others that a ramp fits as well is none.
+void RecordingMarks::drop_stairs() {
+  constexpr std::size_t next_to = 4;
+  for (std::size_t k = 1; k + 1 < marks_.size();) {
+    const Mark &a = marks_[k - 1], &b = marks_[k], &c = marks_[k + 1];
+    const bool holds = a.kind == Mark::Kind::hold && b.kind == Mark::Kind::hold && c.kind == Mark::Kind::hold;
+    const bool monotone = (b.line.y - a.line.y) * (c.line.y - b.line.y) > 0;
+    const std::size_t count = b.last - b.first + 1;
+    constexpr std::size_t most = 400;
+    if (!holds || !monotone || count > most || b.first - a.last > next_to || c.first - b.last > next_to) {
+      ++k;
+      continue;
+    }
+    const std::size_t first = std::max(a.first, b.first > count ? b.first - count : 0);
+    const std::size_t last = std::min(c.last, b.last + count);
+    const std::size_t middle = (b.first + b.last) / 2;
+    const std::span<const double> y(y_), t(t_);
+    const double stairs = step_misfit(y.subspan(first, middle - first + 1), a.line.y, b.line.y) +
+                          step_misfit(y.subspan(middle + 1, last - middle), b.line.y, c.line.y);
+    const HiddenRamp ramp = fit_hidden_ramp(t.subspan(first, last - first + 1),
+                                            y.subspan(first, last - first + 1), a.line.y, c.line.y);
+    if (ramp.misfit > stairs + evidence_ * effective_noise_ * effective_noise_) {
+      ++k;
+      continue;
+    }
+    marks_.erase(marks_.begin() + static_cast<std::ptrdiff_t>(k));
+    k = std::max<std::size_t>(k, 2) - 1;
+  }
+}
+
+void RecordingMarks::time_marks() {
+  drop_stairs();
+  for (bool all = false; !all;) {
+    time_each();
+    all = !drop_doubtful();
+  }
+}
+
+// A short hold on the way to another that is as long as its ends are uncertain is a bend of the ramp.
+bool RecordingMarks::drop_doubtful() {
+  const std::size_t before = marks_.size();
+  for (std::size_t k = 0; k < marks_.size(); ++k) {
+    Mark& mark = marks_[k];
+    const auto loaded = [this](std::size_t i) {
+      return i < marks_.size() && marks_[i].kind != Mark::Kind::rest;
+    };
+    if (mark.kind != Mark::Kind::hold || mark.end - mark.begin > 3 * mark.dwell_error) continue;
+    if (!loaded(k - 1) && !loaded(k + 1)) continue;
+    const double top = *std::max_element(y_.begin() + static_cast<std::ptrdiff_t>(mark.first),
+                                         y_.begin() + static_cast<std::ptrdiff_t>(mark.last) + 1);
+    const double beside =
+        std::max(loaded(k - 1) ? marks_[k - 1].line.y : 0.0, loaded(k + 1) ? marks_[k + 1].line.y : 0.0);
+    if (top - beside > std::max(certain * effective_noise_, options_.least_overshoot * beside)) {
+      mark.kind = Mark::Kind::peak;  // an overshoot that stayed
+      mark.line = {1, mark.line.t, top, 0, 0, 0};
+      mark.begin_error = mark.end_error = interval_ / std::sqrt(12.0);
+      continue;
+    }
+    doubtful_.push_back(mark);
+    marks_.erase(marks_.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  return marks_.size() < before;
+}
+
+void RecordingMarks::time_each() {
+  for (Mark& mark : marks_) {
+    if (mark.kind == Mark::Kind::peak) continue;
+    const Corner begin = corner(mark, -1), end = corner(mark, 1);
+    mark.begin = begin.time;
+    mark.end = end.time;
+    mark.begin_error = begin.error;
+    mark.end_error = end.error;
+  }
+  constexpr double plain = 30;  // times the noise: such a change is well met by the straight pieces
+  for (std::size_t k = 0; k + 1 < marks_.size(); ++k) {
+    Mark &a = marks_[k], &b = marks_[k + 1];
+    const double change = std::abs(a.line.y - b.line.y) / effective_noise_;
+    if (a.kind == Mark::Kind::peak || b.kind == Mark::Kind::peak || a.kind == Mark::Kind::rest) {
+      if (a.kind != Mark::Kind::rest || b.kind != Mark::Kind::hold) continue;
+    }
+    constexpr std::size_t most = 600;
+    if (change > plain || b.first - a.last > most) continue;
+    const auto [first, last] = window(a, b);
+    if (last < first + 4) continue;
+    const std::span<const double> y(y_), t(t_);
+    const HiddenRamp ramp = fit_hidden_ramp(t.subspan(first, last - first + 1),
+                                            y.subspan(first, last - first + 1), a.line.y, b.line.y);
+    a.end = ramp.begin;
+    b.begin = ramp.end;
+    const double samples = (ramp.end - ramp.begin) / interval_;
+    a.end_error = b.begin_error = interval_ * std::max(0.3, 3.5 * std::sqrt(samples + 2) / change);
+  }
+  double last = t_.front();
+  for (Mark& mark : marks_) {
+    if (mark.kind != Mark::Kind::peak) mark.dwell_error = std::hypot(mark.begin_error, mark.end_error);
+    // In order, whatever the noise made of corners that nearly meet.
+    mark.begin = std::max(mark.begin, last);
+    mark.end = std::max(mark.end, mark.begin);
+    last = mark.end;
+  }
+}
+
+}  // namespace asperity

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Recordings of a press: units of the titles, missing cells, and everything wrong with a file by line and
+// column; and which tables look like one.
+#include "engine/experiment/press_recording.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/surface/io/source_file.hpp"
+#include "tests/experiment/run_fixture.hpp"
+
+namespace asperity {
+namespace {
+
+PressRecording read(const std::string& text) { return read_press_recording(SourceFile("press.csv", text)); }
+std::string refusal(const std::string& text) {
+  return error_of([&] { read(text); });
+}
+
+TEST(PressRecording, UnitsAreThoseOfTheTitles) {
+  const PressRecording r = read("Time [min]; Load [kN]; Angle [deg]\n-1; 0,25; 90\n0,5; -0.001; \n1; ; 45\n");
+  EXPECT_EQ(r.name, "press.csv");
+  EXPECT_EQ(r.by, PressBy::load);
+  ASSERT_EQ(r.time.size(), 3U);
+  EXPECT_EQ(r.time[0], -60.0);
+  EXPECT_EQ(r.time[1], 30.0);
+  EXPECT_EQ(r.load[0], 250.0);
+  EXPECT_EQ(r.load[1], -1.0);
+  EXPECT_TRUE(std::isnan(r.load[2]));
+  EXPECT_TRUE(std::isnan(r.angle[1]));
+  EXPECT_DOUBLE_EQ(r.angle[2], 0.25 * std::numbers::pi);
+  EXPECT_EQ(r.line[2], 4U);
+  EXPECT_EQ(read("time [ms],pressure [MPa]\n1,2\n").by, PressBy::pressure);
+  EXPECT_TRUE(read("time [ms],pressure [MPa]\n1,2\n").angle.empty());
+  EXPECT_TRUE(std::isnan(read("time [s],load [N]\n1,NaN\n").load[0]));
+}
+
+TEST(PressRecording, TimesIncreaseOrTheirLinesAreNamed) {
+  EXPECT_EQ(refusal("time [s],load [N]\n1,1\n1,1\n0.5,1\n,1\nx,1\n2,y\n"),
+            "bad_file: \"press.csv\" has 5 problems\n"
+            "  line 3, column 1 (time): the time 1 s stands in line 2 too\n"
+            "  line 4, column 1 (time): the time 0.5 s runs backwards: 1 s stands before it\n"
+            "  line 5, column 1 (time): the time is missing\n"
+            "  line 6, column 1 (time): \"x\" is no finite number\n"
+            "  line 7, column 2 (load): \"y\" is no finite number");
+}
+
+TEST(PressRecording, ColumnsOfEventsAndLackOfTimesAreRefused) {
+  EXPECT_EQ(refusal("load [N]\n1\n"),
+            "bad_file: \"press.csv\" line 1: no column `time`, without which no event is found; write \"time "
+            "[s]\"");
+  EXPECT_TRUE(refusal("time [s],load [N],dwell [min]\n1,1,1\n")
+                  .find("line 1, column 3 (dwell): a recording has none") != std::string::npos);
+  EXPECT_TRUE(refusal("time [s],load [N],pressure [Pa]\n1,1,1\n").find("both `pressure` and `load`") !=
+              std::string::npos);
+  EXPECT_TRUE(refusal("time [s]\n1\n").find("no column `pressure` or `load`") != std::string::npos);
+  EXPECT_TRUE(refusal("time [s],load [N]\n").find("names columns but holds no row") != std::string::npos);
+}
+
+TEST(PressRecording, LooksLikeOneFromAHundredRowsWithoutDwellsOrTurns) {
+  const auto table = [](const std::string& titles, const std::string& rest, int rows) {
+    std::string text = titles + "\n";
+    for (int k = 0; k < rows; ++k) text += std::to_string(k) + ",1" + rest + "\n";
+    return looks_like_recording(SourceFile("press.csv", text));
+  };
+  EXPECT_TRUE(table("time [s],load [N]", "", 100));
+  EXPECT_FALSE(table("time [s],load [N]", "", 99));
+  EXPECT_TRUE(table("time [s],load [N],angle [deg]", ",90", 100));
+  EXPECT_TRUE(table("time [s],load [N],rotation [deg]", ",0", 100));
+  EXPECT_FALSE(table("time [s],load [N],rotation [deg]", ",90", 100));
+  EXPECT_FALSE(table("time [s],load [N],dwell [s]", ",", 100));
+  EXPECT_FALSE(table("time [s],load [N],turn [deg]", ",0", 100));
+  EXPECT_FALSE(table("load [N],other", "", 100));
+}
+
+}  // namespace
+}  // namespace asperity
