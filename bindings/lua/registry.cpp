@@ -12,6 +12,7 @@
 #include "bindings/lua/guard.hpp"
 #include "bindings/lua/ledger.hpp"
 #include "bindings/lua/placeholder.hpp"
+#include "bindings/lua/result_digest.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -149,12 +150,6 @@ Values dry_call(const Call& call, const Function& function) {
   return results;
 }
 
-std::string digest_of(const Object& object) {
-  return object.pointer == nullptr || object.type->digest == nullptr
-             ? ""
-             : object.type->digest(object.pointer.get());
-}
-
 Values call_function(lua_State* L, const Entry& entry) {
   Call call(L, entry.name, entry.owner != nullptr);
   const Function& function = *entry.function;
@@ -210,9 +205,7 @@ void record_call(const Session& session, const std::string& function, const Obje
   Json given = Json::object();
   for (const auto& [key, text] : inputs) given.set(key, text);
   line.set("inputs", given);
-  for (const Value& result : results)
-    if (const auto* object = std::get_if<Object>(&result.data))
-      if (const std::string digest = digest_of(*object); !digest.empty()) line.set("result", digest);
+  if (const std::string digest = digest_of(results); !digest.empty()) line.set("result", digest);
   session.run->journal().write("call", line);
 }
 

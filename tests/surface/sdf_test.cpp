@@ -117,6 +117,16 @@ TEST(Sdf, EachFaultIsSaid) {
             "\"a.sdf\" has no number for \"xscale\" in its header: \"um\"");
 }
 
+TEST(Sdf, MeasuredFile) {
+  const std::string path = testing::measured("sdf-1.sdf");
+  if (path.empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
+  const Surface s = read_surface(path);
+  EXPECT_EQ(s.grid(), (Grid{7, 4, 7e-6, 4e-6}));
+  EXPECT_NEAR(mean(s.heights().values()), 0.9835632143e-6, 1e-16);
+  EXPECT_EQ(s.height_range().min, 0.94907 * 1e-6);
+  EXPECT_EQ(s.height_range().max, 1e-6);
+}
+
 TEST(Sdf, DamageIsAnErrorOrAnotherSurface) {
   testing::damage(SdfExample()(std::vector<double>{1, 2, 3, 4, 5, 6}), 21, 4000,
                   [](const std::string& bytes) { read(bytes, HoleFill::interpolate()); });

@@ -100,6 +100,24 @@ TEST(Sur, EachFaultIsSaid) {
   EXPECT_EQ(refusal(SurExample{.dz = 0}(six)), "\"a.sur\" gives 0 as the height of one step");
 }
 
+// The points that were not measured stand 2 steps below the least height, 89120 steps of 0.1 nm.
+TEST(Sur, MeasuredFile) {
+  const std::string path = testing::measured("sur-2.sur");
+  if (path.empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
+  EXPECT_NE(message_of([&] { read_surface(path); }).find("has 117 missing heights of 272492"),
+            std::string::npos);
+  ReadOptions options;
+  options.fill = HoleFill::with(10e-6);
+  const Surface s = read_surface(path, options);
+  EXPECT_EQ(s.grid().nx, 563);
+  EXPECT_EQ(s.grid().ny, 484);
+  EXPECT_NEAR(s.grid().hx(), 3.484e-6, 1e-12);
+  const double step = static_cast<double>(1e-7F) * 1e-3;
+  EXPECT_NEAR(s.height(0, 0), 101477 * step, 1e-18);
+  EXPECT_NEAR(s.height_range().min, 89120 * step, 1e-18);
+  EXPECT_NEAR(s.height_range().max, 103880 * step, 1e-18);
+}
+
 TEST(Sur, DamageIsAnErrorOrAnotherSurface) {
   testing::damage(SurExample{.special = 1}(six), 31, 4000,
                   [](const std::string& bytes) { read(bytes, HoleFill::interpolate()); });
