@@ -38,7 +38,7 @@ TEST(Protocol, ReadsAsAListing) {
             "  3  place with seed 3\n"
             "  4  rotate -90 deg\n"
             "  5  shift by 10 um along x and 0 m along y\n"
-            "  6  press 2.5 N (at 90 s)\n"
+            "  6  press 2.5 N (at 90 s, a.csv line 2)\n"
             "  7  press to an approach of 1 um for 1.5 s\n"
             "  8  press to `indentation` 0.1\n"
             "  9  press to `flatten` 1");
