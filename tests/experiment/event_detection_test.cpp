@@ -326,6 +326,10 @@ TEST(EventDetection, WhatHoldsNoEventIsRefused) {
             "bad_file: \"press.csv\" holds 5 samples of the load, too few to find events in; read it with "
             "events=\"rows\" if each of its rows is an event");
   EXPECT_TRUE(refusal(times(50, {0})).find("holds no load above its noise") != std::string::npos);
+  EXPECT_EQ(
+      refusal(times(20, {0}) + times(20, {1e-300})),
+      "bad_file: \"press.csv\" holds times or loads out of all measure: 39 s in all, up to 1e-288 pN; check "
+      "the units of its columns");
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   std::vector<Sample> noise(500);
