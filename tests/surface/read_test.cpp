@@ -45,11 +45,12 @@ TEST(Read, PathsThatHoldNoFile) {
 
 TEST(Read, UnknownFormatSaysWhatWasLookedFor) {
   const Scratch scratch;
-  scratch.write("map.sdf", "aISO-1.0\nNumPoints = 7\n");
-  const auto error = error_of([&] { read_surface(scratch.path("map.sdf")); });
+  scratch.write("map.plu", "a topography\nof another make\n");
+  const auto error = error_of([&] { read_surface(scratch.path("map.plu")); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code(), ErrorCode::bad_file);
-  for (const char* name : {"npy", "x3p", "stylus-csv", "xyz", "text"})
+  for (const char* name :
+       {"npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "stylus-csv", "xyz", "text"})
     EXPECT_NE(error->sentence().find(name), std::string::npos) << name;
 }
 
@@ -68,10 +69,11 @@ TEST(Read, ForcedFormat) {
   EXPECT_EQ(matrix.grid().nx, 3);
   EXPECT_EQ(matrix.grid().ny, 12);
   options.format = "npi";
-  EXPECT_EQ(
-      message_of([&] { read_surface(sample("points.xyz"), options); }),
-      "`format` is \"npi\" (did you mean `npy`?); known formats are `npy`, `x3p`, `stylus-csv`, `xyz` and "
-      "`text`");
+  EXPECT_EQ(message_of([&] { read_surface(sample("points.xyz"), options); }),
+            "`format` is \"npi\" (did you mean `npy`?); known formats are `npy`, `x3p`, `hdf5`, `gwy`, "
+            "`sur`, `opd`, `sdf`, `bcr`, "
+            "`stylus-csv`, `xyz` and "
+            "`text`");
   options.format = "npy";
   EXPECT_NE(message_of([&] { read_surface(sample("points.xyz"), options); }).find("is not a NPY file"),
             std::string::npos);
