@@ -15,18 +15,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folder of the program or module that this function was linked into; empty if it cannot be told.
-fs::path own_folder() {
+// What this function was linked into.
+struct Own {
+  fs::path folder;  // empty if it cannot be told
+  bool program = true;
+};
+
+Own own_object() {
   Dl_info object{};
   void* found = nullptr;
   std::error_code failure;
-  if (::dladdr1(reinterpret_cast<void*>(&own_folder), &object, &found, RTLD_DL_LINKMAP) == 0) return {};
+  if (::dladdr1(reinterpret_cast<void*>(&own_object), &object, &found, RTLD_DL_LINKMAP) == 0) return {};
   const auto* const loaded = static_cast<const link_map*>(found);
   // The loader knows a program only by the name it was called by, which may be a word looked up on PATH.
   const bool program = loaded == nullptr || loaded->l_name == nullptr || loaded->l_name[0] == '\0';
   const fs::path file = program ? fs::path("/proc/self/exe") : fs::path(object.dli_fname);
   const fs::path real = fs::canonical(file, failure);
-  return failure ? fs::path() : real.parent_path();
+  return {failure ? fs::path() : real.parent_path(), program};
 }
 
 bool is_below(const fs::path& folder, const fs::path& top) {
@@ -44,13 +49,15 @@ std::string load_failure() {
 std::vector<fs::path> part_places(const LoadedPart& part) {
   const std::string file = "asperity-" + std::string(part.name) + ".so";
   std::vector<fs::path> places;
-  const fs::path own = own_folder();
-  if (own.empty()) return places;
-  for (const char* const way : {"", "../lib/asperity", "../../asperity"})
-    places.push_back((own / way / file).lexically_normal());
+  const Own own = own_object();
+  if (own.folder.empty()) return places;
+  places.push_back(own.folder / file);
+  // From bin/ and from lib/lua/5.4/ to lib/asperity/.
+  places.push_back(
+      (own.folder / (own.program ? "../lib/asperity" : "../../asperity") / file).lexically_normal());
   std::error_code failure;
   const fs::path build = fs::canonical(ASPERITY_BUILD_FOLDER, failure);
-  if (!failure && is_below(own, build)) places.push_back(build / file);
+  if (!failure && own.folder != build && is_below(own.folder, build)) places.push_back(build / file);
   return places;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the program that are loaded when they are first needed: `asperity-<name>.so`, each of which brings
 // a library that most runs never touch and whose loading they should not pay for. A part is looked for beside
-// the object that holds this code (the program, or the Lua module), then in ../lib/asperity and
-// ../../asperity from there (an installed program, an installed module), then, only for what runs inside the
+// the object that holds this code (the program, or the Lua module), then in lib/asperity, where installing
+// puts it (../lib/asperity from a program, ../../asperity from a module), then, only for what runs inside the
 // folder it was built in, in that folder. Nothing else is searched: no variable of the environment decides
 // what is run.
 #pragma once

@@ -20,6 +20,8 @@ specimen() {
   "$program" run --out "$work/$name" examples/measured_specimen.lua -- "$ASPERITY_MEASURED/$name" "$@"
 }
 specimen x3p-2.x3p
+specimen sdf-1.sdf
+specimen sur-2.sur fill=interpolate
 specimen matrix-4.txt
 specimen dektak-1.csv
 specimen xyz-1.txt unit=um

@@ -8,6 +8,8 @@ local again = lab.surface.read "s.h5"
 assert(again == s and again.digest == s.digest)
 assert(again.size[1] == s.size[1] and again.size[2] == s.size[2])
 
+assert(lab.surface.read(s:write "s.gwy") == s)
+
 local steel = lab.material{ young="210 GPa", poisson=0.3, hardness="20 GPa" }
 local c = lab.contact{ lower=s:with{ material=steel }, upper=lab.rigid, boundary="periodic",
                        effects={ elasticity="half_space", plasticity={} } }
