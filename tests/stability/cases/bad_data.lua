@@ -37,7 +37,7 @@ local function same(a, b)
 end
 
 -- 1. Every length from nothing to the whole file.
-local given = { npy = { size = { "90 um", "70 um" }, unit = "m" }, x3p = {},
+local given = { npy = { size = { "90 um", "70 um" }, unit = "m" }, x3p = {}, h5 = {}, gwy = {},
   txt = { size = { "90 um", "70 um" }, unit = "m" } }
 local cuts = lab.notebook "cuts"
 for extension, options in lab.sorted(given) do
@@ -60,17 +60,17 @@ case:evidence(cuts, "A map of 9 x 7 heights, cut at every byte. Of a text matrix
   .. " number of rows.", { { "format", "%s" }, { "bytes", "%d" }, { "cuts", "%d" }, { "refused", "%d" },
   { "read whole", "%d", "read as written" }, { "other", "%d", "read as another map" } })
 case:expect(cuts, "unnamed", { at_most = 0 })
-for _, format in ipairs{ "npy", "x3p" } do case:expect(cuts, "other",
+for _, format in ipairs{ "npy", "x3p", "h5", "gwy" } do case:expect(cuts, "other",
   { where = { format = format }, at_most = 0 }) end
 case:expect(cuts, "read whole", { at_least = 1 })
 
 -- 2. One byte changed, at every place and to several values: never a crash, never other heights from a
 -- checked format.
 local flips = lab.notebook "flips"
-for _, extension in ipairs{ "x3p", "npy" } do
+for _, extension in ipairs{ "x3p", "h5", "npy" } do
   local whole = bytes_of("whole." .. extension)
   local refused, read, other = 0, 0, 0
-  for place = 1, #whole, extension == "x3p" and 7 or 1 do
+  for place = 1, #whole, extension == "npy" and 1 or 7 do
     for _, mask in ipairs{ 0x01, 0x80, 0xff } do
       local bytes = whole:sub(1, place - 1) .. string.char(whole:byte(place) ~ mask) .. whole:sub(place + 1)
       local ok, s = pcall(lab.surface.read, write("flipped." .. extension, bytes), given[extension])
@@ -81,11 +81,12 @@ for _, extension in ipairs{ "x3p", "npy" } do
   flips:write{ format = extension, changed = refused + read + other, refused = refused, ["read whole"] = read,
     other = other }
 end
-case:evidence(flips, "One byte changed, at every place of an NPY file and every seventh of an X3P file,"
-  .. " in three ways. A changed height of an NPY file is a height; an X3P file has checksums.",
+case:evidence(flips, "One byte changed, at every place of an NPY file and every seventh of the others,"
+  .. " in three ways. A changed height of an NPY file is a height; X3P and HDF5 files have checksums.",
   { { "format", "%s" }, { "changed", "%d", "files" }, { "refused", "%d" },
   { "read whole", "%d", "read as written" }, { "other", "%d", "read as another map" } })
-case:expect(flips, "other", { where = { format = "x3p" }, at_most = 0 })
+for _, format in ipairs{ "x3p", "h5" } do case:expect(flips, "other",
+  { where = { format = format }, at_most = 0 }) end
 
 -- 3. Headers that lie.
 local function npy(shape, count, order)
