@@ -78,6 +78,16 @@ TEST(Bcr, EachFaultIsSaid) {
             "another format, name it with `format`");
 }
 
+// Found by fuzzing: without its blanks the line was the right one, but its key was not.
+TEST(Bcr, FirstLineHasTheKeyInOnePiece) {
+  EXPECT_EQ(refusal(example("fileforma t= bcrstm\nxpixels = 3\nypixels = 2\n", six)),
+            "\"a.bcr\" is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = "
+            "bcrf`; if it is "
+            "another format, name it with `format`");
+  EXPECT_EQ(read(example("FileFormat=bcrstm\r\n" + integers, six), HoleFill::with(0)).height(0, 0),
+            0.5 * 1e-9);
+}
+
 TEST(Bcr, DamageIsAnErrorOrAnotherSurface) {
   testing::damage(example(integers, six), 71, 3000,
                   [](const std::string& bytes) { read(bytes, HoleFill::interpolate()); });

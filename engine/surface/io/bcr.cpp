@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "engine/core/text.hpp"
 #include "engine/surface/io/binary_cursor.hpp"
@@ -25,10 +26,19 @@ constexpr double nanometre = 1e-9;
 
 using Lines = std::map<std::string, std::string>;
 
+// The key and the value of a line; both empty for a comment or a line without `=`.
+std::pair<std::string, std::string_view> statement(std::string_view line) {
+  const std::size_t sign = line.find('=');
+  if (line.starts_with('%') || line.starts_with('#') || sign == std::string_view::npos) return {};
+  return {lower_case(trimmed(line.substr(0, sign))), trimmed(line.substr(sign + 1))};
+}
+
 bool recognises(const SourceFile& file) {
-  std::string start = lower_case(file.bytes().substr(0, 32));
-  std::erase_if(start, [](char c) { return c == ' ' || c == '\t'; });
-  return start.starts_with("fileformat=bcrstm") || start.starts_with("fileformat=bcrf");
+  LineReader reader(file.bytes().substr(0, 64));
+  std::string_view line;
+  if (!reader.next(line)) return false;
+  const auto [key, value] = statement(line);
+  return key == "fileformat" && lower_case(value).starts_with("bcr");
 }
 
 Lines read_lines(const SourceFile& file) {
@@ -42,11 +52,8 @@ Lines read_lines(const SourceFile& file) {
   Lines lines;
   LineReader reader(text);
   std::string_view line;
-  while (reader.next(line)) {
-    const std::size_t sign = line.find('=');
-    if (line.starts_with('%') || line.starts_with('#') || sign == std::string_view::npos) continue;
-    lines.emplace(lower_case(trimmed(line.substr(0, sign))), trimmed(line.substr(sign + 1)));
-  }
+  while (reader.next(line))
+    if (const auto [key, value] = statement(line); !key.empty()) lines.emplace(key, value);
   return lines;
 }
 
