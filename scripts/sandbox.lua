@@ -44,6 +44,11 @@ if not trusted then
     end
     return open(path, mode)
   end
+  -- Whatever is read is found, and known to have been read, in the same way.
+  local function source(path) return type(path) == "string" and host.input_path(path) or path end
+  local lines, input = io.lines, io.input
+  function io.lines(path, ...) return lines(source(path), ...) end
+  function io.input(file, ...) return input(source(file), ...) end
   local output = io.output
   function io.output(file)
     if type(file) == "string" then
@@ -66,7 +71,8 @@ if not trusted then
   end
 
   -- Chunks are text: bytecode can be made to crash the interpreter.
-  local load_any, loadfile_any = load, loadfile
+  local load_any, loadfile_original = load, loadfile
+  local function loadfile_any(path, ...) return loadfile_original(source(path), ...) end
   function load(chunk, name, _, ...)
     if select("#", ...) > 0 then return load_any(chunk, name, "t", (...)) end
     return load_any(chunk, name, "t")

@@ -31,6 +31,10 @@ std::filesystem::path results_of(const std::string& named) {
 ResultFilesSetup result_files(const RunCommand& command) {
   ResultFilesSetup setup;
   for (const std::string& named : command.reuse) setup.also.push_back(results_of(named));
+  if (command.store) {
+    setup.folder = *command.store;
+    setup.most_bytes = unlimited;
+  }
   if (command.store_limit) setup.most_bytes = *command.store_limit;
   setup.build = build_identity();
   return setup;

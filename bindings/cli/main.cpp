@@ -11,6 +11,7 @@
 #include "bindings/cli/accuracy_command.hpp"
 #include "bindings/cli/replay_command.hpp"
 #include "bindings/cli/run_command.hpp"
+#include "bindings/cli/shard.hpp"
 #include "bindings/lua/help.hpp"
 #include "bindings/lua/version.hpp"
 #include "engine/core/error.hpp"
@@ -92,7 +93,7 @@ void add_run_options(CLI::App& command, cli::RunCommand& run, std::string& memor
   command.add_option("--limit-memory", memory, "most memory, e.g. 4G");
 }
 
-void add_store_options(CLI::App& command, cli::RunCommand& run, std::string& limit) {
+void add_store_options(CLI::App& command, cli::RunCommand& run, std::string& limit, std::string& shard) {
   CLI::Option* resume = command.add_option(
       "--resume", run.resume,
       "go on with the run in this directory where it was cut off; its script, arguments and seed are its own "
@@ -102,6 +103,18 @@ void add_store_options(CLI::App& command, cli::RunCommand& run, std::string& lim
                      "take the results of heavy calls that are the same from this run; may be given again");
   command.add_option("--store-limit", limit,
                      "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
+  command.add_option(
+      "--store", run.store,
+      "keep results in this folder and find them there, instead of RUN/store; several runs, on "
+      "several machines, may share it at the same time (no limit unless --store-limit is given)");
+  command
+      .add_option(
+          "--shard", shard,
+          "i/n: compute the cases i, i+n, i+2n, ... of every ensemble and keep them in the folder given "
+          "by --store; slurm: i and n are those of this task of a job array. The script goes on past an "
+          "ensemble once all its cases are there, and else ends. A run without --shard puts all together")
+      ->needs(command.get_option("--store"))
+      ->excludes(command.get_option("--trust"));
 }
 
 void add_trust(CLI::App& command, cli::RunCommand& run) {
@@ -121,7 +134,7 @@ int main(int argc, char** argv) {
   cli::AccuracyCommand accuracy;
   cli::ReplayCommand replay;
   std::string replay_time, replay_memory;
-  std::string run_time, check_time, explain_time, accuracy_time, memory, accuracy_memory, store_limit,
+  std::string run_time, check_time, explain_time, accuracy_time, memory, accuracy_memory, store_limit, shard,
       at_most, truth, topic;
   bool reference = false, types = false, explain_json = false;
 
@@ -129,7 +142,7 @@ int main(int argc, char** argv) {
   add_script_options(run_command, run, run_time)->required(false);
   add_run_options(run_command, run, memory);
   add_trust(run_command, run);
-  add_store_options(run_command, run, store_limit);
+  add_store_options(run_command, run, store_limit, shard);
 
   CLI::App& replay_command = *app.add_subcommand(
       "replay",
@@ -223,6 +236,10 @@ int main(int argc, char** argv) {
       run.store_limit = 0;
     else if (!store_limit.empty())
       run.store_limit = cli::parse_bytes(store_limit);
+    if (!shard.empty()) run.shard = cli::parse_shard(shard);
+    if (run.shard && run.store_limit == 0)
+      throw Error(ErrorCode::bad_value, "`--shard` keeps its cases, and `--store-limit 0` keeps nothing",
+                  "leave one of them out");
     if (run_command.parsed() && run.script.empty() && !run.resume)
       throw Error(ErrorCode::bad_value, "no script was named",
                   "give one, as in asperity run examples/quick_start.lua, or --resume RUN");

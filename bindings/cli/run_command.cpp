@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "bindings/cli/kept_results.hpp"
+#include "bindings/cli/mpi_ranks.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/argument.hpp"
@@ -20,6 +21,7 @@
 #include "bindings/lua/state.hpp"
 #include "bindings/lua/version.hpp"
 #include "engine/core/cost.hpp"
+#include "engine/core/digest.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
@@ -176,8 +178,18 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   monitor.keep_warnings_in(run.get());
   ResultFiles results(std::move(kept));
   UntilLine until(results, run->journal(), command.afresh_from.value_or(0));
-  if (command.store_limit != 0)
-    monitor.keep_results_in(command.afresh_from ? static_cast<ResultStore*>(&until) : &results);
+  ResultStore* store = command.afresh_from ? static_cast<ResultStore*>(&until) : &results;
+  if (command.store_limit == 0) store = nullptr;
+  std::optional<lua::RankStore> of_ranks;
+  if (command.ranks != nullptr) {
+    // What another rank than 0 keeps would be gone with its folder.
+    command.ranks->own_store = command.ranks->leads() || command.store ? store : nullptr;
+    store = &of_ranks.emplace(*command.ranks);
+  }
+  monitor.keep_results_in(store);
+  if (command.shard)
+    run->note_unhashed("shard",
+                       std::to_string(command.shard->index) + " of " + std::to_string(command.shard->count));
   const auto summary = [&] {
     const ResultFiles::Counts counts = results.counts();
     const std::string verdicts = run->expectations().summary();
@@ -242,6 +254,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   monitor.clear();
   std::fflush(stdout);
   if (!why.empty()) std::fprintf(stderr, "asperity: %s\n", why.c_str());
+  if (command.ranks != nullptr) command.ranks->note_failure(why);
   try {
     if (status == done && run->expectations().failed() > 0) {
       status = failed;
@@ -261,12 +274,27 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   lua::Session session(context.monitor);
   session.run = context.run;
   session.variation = context.command.variation;
+  Digester script;
+  script.add(context.text);
+  for (const std::string& argument : context.command.arguments) script.add(argument);
+  session.script_digest = script.hex();
+  session.shard = context.command.shard;
+  session.ranks = context.command.ranks;
+  session.shard_end = [&](const std::string& sentence) {
+    context.monitor.clear();
+    std::fprintf(stderr, "%s in %s\n", sentence.c_str(), context.command.store->c_str());
+    context.run->finish(RunStatus::done, sentence);
+    context.summary();
+    std::fflush(nullptr);
+    std::_Exit(done);
+  };
   session.exit_hook = [&](int code) {
     if (code == 0 && context.run->expectations().failed() > 0) code = failed;
     context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed,
                         "os.exit(" + std::to_string(code) + ")");
     context.summary();
     code = at_exit(code);
+    if (context.command.ranks != nullptr) code = context.command.ranks->leave(code);
     std::fflush(nullptr);
     std::_Exit(code);
   };
@@ -292,8 +320,32 @@ int run(const RunCommand& asked) {
       return bad_usage;
     }
   }
-  return in_run_directory(
-      command, [](RunContext& context) { return run_script(context, [](int code) { return code; }); });
+  const auto work = [](RunContext& context) { return run_script(context, [](int code) { return code; }); };
+  const std::optional<LaunchedRank> launched = launched_rank();
+  if (!launched) return in_run_directory(command, work);
+
+  std::unique_ptr<MpiRanks> ranks;
+  try {
+    if (command.shard)
+      throw Error(ErrorCode::bad_value, "`--shard` was given to one of the ranks of mpirun",
+                  "use one of the two: mpirun spreads the cases itself");
+    if (command.threads == 0) command.threads = threads_of(*launched);
+    ranks = std::make_unique<MpiRanks>();
+  } catch (const Error& error) {
+    if (launched->rank == 0)
+      std::fprintf(stderr, "asperity: started as %d ranks: %s\n", launched->size, error.what());
+    return bad_usage;
+  }
+  command.ranks = ranks.get();
+  if (!ranks->leads()) {
+    command.out = ranks->scratch_folder();
+    if (command.resume && !command.text) command.text = read_script(command.script);
+    command.resume.reset();
+    command.reuse.clear();
+    command.anew = false;
+    command.limit_time.reset();  // rank 0 watches it for all
+  }
+  return ranks->leave(in_run_directory(command, work));
 }
 
 namespace {

@@ -19,6 +19,7 @@ class RunDirectory;
 
 namespace asperity::cli {
 
+class MpiRanks;
 class TerminalMonitor;
 class Watchdog;
 
@@ -35,10 +36,13 @@ struct RunCommand {
   std::optional<std::string> resume;        // directory of a run that was cut off
   bool anew = false;                        // of another script: its files are moved aside, its results stay
   std::vector<std::string> reuse;           // runs, or folders of results, to take results from
+  std::optional<std::string> store;         // folder of results that several runs share, instead of its own
+  std::optional<lua::Shard> shard;          // of the cases of ensembles; needs `store`
   std::optional<std::int64_t> store_limit;  // bytes of results to keep; 0: none
   // Of a replay: from this line of the journal on nothing is taken from `reuse`.
   std::optional<std::int64_t> afresh_from;
   std::shared_ptr<lua::Variation> variation;  // of a replay; may be null
+  MpiRanks* ranks = nullptr;                  // the processes of the run; null where it is the only one
 };
 
 // Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage, 130 interrupted.

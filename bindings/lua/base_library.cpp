@@ -35,8 +35,13 @@ FunctionPaths read_function_paths() {
   for (const std::string_view library : base_libraries)
     with_base_table(state.get(), library, [&](const Argument& table) {
       table.each([&](const Argument& key, const Argument& value) {
-        if (lua_CFunction function = lua_tocfunction(value.state(), value.index()); function && key.is_text())
-          paths.try_emplace(function, BasePath{std::string(library), std::string(key.text())});
+        lua_CFunction function = lua_tocfunction(value.state(), value.index());
+        if (function == nullptr || !key.is_text()) return;
+        const auto [path, is_new] =
+            paths.try_emplace(function, BasePath{std::string(library), std::string(key.text())});
+        // Of two names (math.atan2 is math.atan) always the same one, whatever their order in memory.
+        if (!is_new && path->second.library == library && key.text() < path->second.key)
+          path->second.key = key.text();
       });
     });
   return paths;

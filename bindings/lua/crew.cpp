@@ -2,18 +2,22 @@
 #include "bindings/lua/crew.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
+#include <deque>
 #include <exception>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <system_error>
 #include <thread>
+#include <utility>
 
+#include "bindings/lua/ranks.hpp"
+#include "engine/core/byte_string.hpp"
 #include "engine/core/cost.hpp"
+#include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -22,25 +26,49 @@ namespace asperity::lua {
 namespace {
 
 constexpr auto look_every = std::chrono::milliseconds(20);
+constexpr auto exchange_every = std::chrono::milliseconds(1);
 
 class Crew {
  public:
-  Crew(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup, Session& session)
-      : setup_(setup), session_(session), results_(cases), finished_(cases, false) {}
+  Crew(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup, const KeptCases& kept,
+       const std::string& place, Session& session)
+      : setup_(setup),
+        kept_(kept),
+        place_(place),
+        session_(session),
+        shard_(session.is_case ? std::nullopt : session.shard),
+        ranks_(session.is_case ? nullptr : session.ranks),
+        results_(cases),
+        finished_(cases, false) {
+    for (std::size_t k = 0; k < cases; ++k)
+      if (!follows() && (!shard_ || shard_->own(k))) waiting_.push_back(k);
+    wanted_ = follows() ? cases : waiting_.size();
+    if (ranks_ == nullptr) return;
+    open_ = true;
+    given_.resize(static_cast<std::size_t>(ranks_->size()));
+    idle_.resize(static_cast<std::size_t>(ranks_->size()));
+    Digester digester;
+    for (std::size_t k = 0; k < cases; ++k) digester.add(case_name(setup_(k).values));
+    name_ = std::to_string(session.ensembles) + " " + digester.hex();
+  }
 
   std::vector<CaseResult> run() {
     const int threads = thread_count();
-    const std::size_t wanted = std::min(results_.size(), static_cast<std::size_t>(threads));
+    const std::size_t wanted = std::min(wanted_, static_cast<std::size_t>(threads));
     // A case that works alone may use all threads, unless it is itself inside a case.
     const bool single = wanted > 1 || threads == 1;
     {
       std::vector<std::jthread> workers;
       const Ending ending(*this);
+      if (leads()) find_kept();
+      if (follows()) ranks_->send(0, Ranks::Kind::hello, hello(wanted));
       start(workers, wanted, single);
       while (!look()) {
       }
     }
     stop_flag().check();
+    if (leads()) ranks_->send_to_others(Ranks::Kind::rows, all_rows());
+    if (shard_) find_others();
     double transforms = 0;
     for (const CaseResult& result : results_) transforms += result.transforms;
     cost::count_transforms(transforms);
@@ -51,7 +79,12 @@ class Crew {
   // No case is begun after this, whatever the way out; then the threads are joined.
   struct Ending {
     explicit Ending(Crew& c) : crew(c) {}
-    ~Ending() { crew.next_.store(crew.results_.size()); }
+    ~Ending() {
+      const std::lock_guard lock(crew.mutex_);
+      crew.waiting_.clear();
+      crew.open_ = false;
+      crew.more_.notify_all();
+    }
     Ending(const Ending&) = delete;
     Ending& operator=(const Ending&) = delete;
     Crew& crew;
@@ -78,33 +111,267 @@ class Crew {
     std::optional<SingleThreaded> alone;
     if (single) alone.emplace();
     while (stop_flag().reason() == StopReason::none) {
-      const std::size_t k = next_.fetch_add(1);
-      if (k >= results_.size()) break;
-      CaseResult result;
-      try {
-        result = run_case(setup_(k), states_);
-      } catch (const std::exception& error) {
-        result.failure = error.what();
-      }
+      const std::optional<std::size_t> k = next();
+      if (!k) break;
+      CaseResult result = result_of(*k);
       const std::lock_guard lock(mutex_);
-      if (!result.failure.empty()) ++failed_;
-      results_[k] = std::move(result);
-      finished_[k] = true;
-      ++done_;
+      finish(*k, std::move(result));
     }
     const std::lock_guard lock(mutex_);
     if (--working_ == 0) changed_.notify_all();
   }
 
+  std::optional<std::size_t> next() {
+    std::unique_lock lock(mutex_);
+    while (waiting_.empty()) {
+      if (!open_ || stop_flag().reason() != StopReason::none) return {};
+      more_.wait_for(lock, look_every);
+    }
+    const std::size_t k = waiting_.front();
+    waiting_.pop_front();
+    return k;
+  }
+
+  CaseResult result_of(std::size_t k) {
+    try {
+      const CaseSetup setup = setup_(k);
+      if (std::optional<CaseResult> found = kept_.find(setup, false)) return *std::move(found);
+      CaseResult result = run_case(setup, states_);
+      if (stop_flag().reason() != StopReason::none && !result.failure.empty()) return result;
+      if (ranks_ != nullptr) require_bytes(setup, result);
+      try {
+        kept_.keep(setup, result, shard_.has_value());
+      } catch (const Error& error) {
+        // Nobody else would find what this shard is here to compute.
+        result.row.reset();
+        result.failure = error.what();
+        kept_.keep(setup, result, true);
+      }
+      return result;
+    } catch (const std::exception& error) {
+      CaseResult result;
+      result.failure = error.what();
+      return result;
+    }
+  }
+
+  // A row that other processes cannot be given is a failure in every one of them.
+  static void require_bytes(const CaseSetup& setup, CaseResult& result) {
+    try {
+      (void)case_bytes(result, setup.values);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::not_permitted) throw;
+      result.row.reset();
+      result.failure = error.what();
+    }
+  }
+
+  // With the mutex held.
+  void finish(std::size_t k, CaseResult result) {
+    if (follows()) {
+      outbox_.emplace_back(k, std::move(result));
+      changed_.notify_all();
+      return;
+    }
+    if (!result.failure.empty()) ++failed_;
+    results_[k] = std::move(result);
+    finished_[k] = true;
+    ++done_;
+    if (leads() && done_ == results_.size()) {
+      open_ = false;
+      more_.notify_all();
+    }
+  }
+
+  // --- with other ranks
+
+  bool leads() const { return ranks_ != nullptr && ranks_->leads(); }
+  bool follows() const { return ranks_ != nullptr && !ranks_->leads(); }
+
+  std::string hello(std::size_t threads) const {
+    ByteWriter out;
+    out.text(name_);
+    out.number(static_cast<std::uint64_t>(threads));
+    return out.take();
+  }
+
+  // Rank 0 looks up all cases before any is handed out.
+  void find_kept() {
+    for (std::size_t k = 0; k < results_.size(); ++k)
+      if (std::optional<CaseResult> found = kept_.find(setup_(k), false)) {
+        const std::lock_guard lock(mutex_);
+        std::erase(waiting_, k);
+        finish(k, *std::move(found));
+      }
+  }
+
+  // Gives a rank up to so many cases; those there are not, once there are.
+  void hand_out(int to, std::size_t wanted) {
+    ByteWriter out;
+    out.text(name_);
+    {
+      const std::lock_guard lock(mutex_);
+      const std::size_t many = std::min(wanted, waiting_.size());
+      idle_[static_cast<std::size_t>(to)] = wanted - many;
+      if (many == 0) return;
+      out.number(static_cast<std::uint64_t>(many));
+      for (std::size_t n = 0; n < many; ++n) {
+        out.number(static_cast<std::uint64_t>(waiting_.front()));
+        given_[static_cast<std::size_t>(to)].insert(waiting_.front());
+        waiting_.pop_front();
+      }
+    }
+    ranks_->send(to, Ranks::Kind::cases, out.take());
+  }
+
+  void lead() {
+    while (const std::optional<Ranks::Message> message = ranks_->receive()) {
+      const int from = message->from;
+      auto& given = given_[static_cast<std::size_t>(from)];
+      ByteReader in(message->bytes);
+      const std::string name = in.text();
+      if (message->kind == Ranks::Kind::end) {
+        take_back(from, name.empty() ? "came to its end before rank 0" : "failed: " + name);
+      } else if (name != name_) {
+        // Of an ensemble that was over before that rank came to it; or else the two do not do the same.
+        if (std::stoll(name) < std::stoll(name_)) continue;
+        take_back(from,
+                  "came to another ensemble than rank 0: the script does not do the same in every process");
+        ranks_->send(from, Ranks::Kind::end, "");
+      } else if (message->kind == Ranks::Kind::hello) {
+        hand_out(from, static_cast<std::size_t>(in.number<std::uint64_t>()));
+      } else if (message->kind == Ranks::Kind::result) {
+        const auto k = static_cast<std::size_t>(in.number<std::uint64_t>());
+        if (given.erase(k) == 0) continue;
+        const CaseSetup setup = setup_(k);
+        CaseResult result = case_from_bytes(in.text(), setup.values);
+        kept_.keep(setup, result, false);
+        {
+          const std::lock_guard lock(mutex_);
+          finish(k, std::move(result));
+        }
+        hand_out(from, idle_[static_cast<std::size_t>(from)] + 1);
+      }
+    }
+  }
+
+  // What a rank that is lost had been given is done by the others.
+  void take_back(int from, const std::string& why) {
+    ranks_->lose(from, why);
+    const std::lock_guard lock(mutex_);
+    auto& given = given_[static_cast<std::size_t>(from)];
+    waiting_.insert(waiting_.begin(), given.begin(), given.end());
+    given.clear();
+    more_.notify_all();
+  }
+
+  std::string all_rows() const {
+    ByteWriter out;
+    out.text(name_);
+    for (std::size_t k = 0; k < results_.size(); ++k) out.text(case_bytes(results_[k], setup_(k).values));
+    return out.take();
+  }
+
+  void follow() {
+    std::vector<std::pair<std::size_t, CaseResult>> finished;
+    {
+      const std::lock_guard lock(mutex_);
+      finished.swap(outbox_);
+    }
+    for (const auto& [k, result] : finished) {
+      ByteWriter out;
+      out.text(name_);
+      out.number(static_cast<std::uint64_t>(k));
+      out.text(case_bytes(result, setup_(k).values));
+      ranks_->send(0, Ranks::Kind::result, out.take());
+    }
+    while (std::optional<Ranks::Message> message = ranks_->receive()) {
+      ByteReader in(message->bytes);
+      if (message->kind == Ranks::Kind::end) {
+        ranks_->put_back(*std::move(message));
+        throw Error(ErrorCode::bad_state, "rank 0 came to its end, or goes another way");
+      }
+      if (message->kind != Ranks::Kind::cases && message->kind != Ranks::Kind::rows) continue;
+      if (const std::string name = in.text(); name != name_) {
+        if (std::stoll(name) < std::stoll(name_)) continue;
+        throw Error(ErrorCode::bad_state,
+                    "rank 0 came to another ensemble: the script does not do the same in every process");
+      }
+      const std::lock_guard lock(mutex_);
+      if (message->kind == Ranks::Kind::cases) {
+        for (auto left = in.number<std::uint64_t>(); left > 0; --left)
+          waiting_.push_back(static_cast<std::size_t>(in.number<std::uint64_t>()));
+      } else if (message->kind == Ranks::Kind::rows) {
+        for (std::size_t k = 0; k < results_.size(); ++k) {
+          results_[k] = case_from_bytes(in.text(), setup_(k).values);
+          finished_[k] = true;
+        }
+        waiting_.clear();
+        open_ = false;
+      }
+      more_.notify_all();
+      if (!open_) return;  // what follows is for what comes after
+    }
+  }
+
+  // What other shards have kept. Ends the process if something is missing: the script needs every row.
+  void find_others() {
+    std::size_t own = 0, kept = 0;
+    for (std::size_t k = 0; k < results_.size(); ++k) {
+      const CaseSetup setup = setup_(k);
+      if (shard_->own(k)) {
+        ++own;
+        if (!kept_.find(setup, true))
+          throw Error(ErrorCode::bad_file, "what " + case_name(setup.values) + " found could not be kept",
+                      "see that the folder given by --store can be written and has room");
+        ++kept;
+        continue;
+      }
+      std::optional<CaseResult> found = kept_.find(setup, true);
+      if (!found) continue;
+      ++kept;
+      const std::lock_guard lock(mutex_);
+      finish(k, *std::move(found));
+    }
+    if (kept < results_.size())
+      session_.shard_end("shard " + std::to_string(shard_->index) + " of " + std::to_string(shard_->count) +
+                         ": its " + std::to_string(own) + (own == 1 ? " case" : " cases") +
+                         " of the ensemble " + place_ + (own == 1 ? " is" : " are") + " done; " +
+                         std::to_string(kept) + " of " + std::to_string(results_.size()) + " are");
+    show();
+  }
+
   // Waits a little, then shows what is new. True when all is done.
   bool look() {
+    bool over = false, open = false;
+    {
+      std::unique_lock lock(mutex_);
+      over = changed_.wait_for(lock, ranks_ != nullptr ? exchange_every : look_every,
+                               [this] { return working_ == 0 || !outbox_.empty(); });
+      over = working_ == 0;
+      open = open_;
+    }
+    if (leads()) lead();
+    if (follows() && open) follow();  // once all rows are there, what comes is for later
+    if (stop_flag().reason() != StopReason::none) states_.interrupt();
+    const auto [done, failed] = show();
+    if (!over) {
+      const std::string part = std::to_string(done) + " of " + std::to_string(wanted_) + " cases done" +
+                               (failed > 0 ? ", " + std::to_string(failed) + " failed" : "");
+      const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begun_;
+      session_.monitor().progress_of_parts(
+          "ensemble", static_cast<double>(done) / static_cast<double>(wanted_), part, since.count());
+    }
+    return over;
+  }
+
+  // What finished cases printed and warned of, in order. How many are done, and failed.
+  std::pair<std::size_t, std::size_t> show() {
     std::string output;
     std::vector<std::string> warnings, failures;
     std::size_t done = 0, failed = 0;
-    bool over = false;
     {
-      std::unique_lock lock(mutex_);
-      over = changed_.wait_for(lock, look_every, [this] { return working_ == 0; });
+      const std::lock_guard lock(mutex_);
       done = done_;
       failed = failed_;
       for (; shown_ < finished_.size() && finished_[shown_]; ++shown_) {
@@ -118,28 +385,30 @@ class Crew {
                              " failed: " + without_traceback(result.failure));
       }
     }
-    if (stop_flag().reason() != StopReason::none) states_.interrupt();
     std::fwrite(output.data(), 1, output.size(), session_.output);
     for (const std::string& warning : warnings)
       if (warned_.insert(warning).second) session_.monitor().warn(warning);
     for (const std::string& failure : failures) session_.monitor().warn(failure);
-    if (!over) {
-      const std::string part = std::to_string(done) + " of " + std::to_string(results_.size()) +
-                               " cases done" + (failed > 0 ? ", " + std::to_string(failed) + " failed" : "");
-      const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begun_;
-      session_.monitor().progress_of_parts(
-          "ensemble", static_cast<double>(done) / static_cast<double>(results_.size()), part, since.count());
-    }
-    return over;
+    return {done, failed};
   }
 
   const std::function<CaseSetup(std::size_t)>& setup_;
+  const KeptCases& kept_;
+  const std::string& place_;
   Session& session_;
+  const std::optional<Shard> shard_;
+  Ranks* const ranks_;
+  std::string name_;                          // of this ensemble among those of the run, for other ranks
+  std::vector<std::set<std::size_t>> given_;  // of rank 0: to each of the others
+  std::vector<std::size_t> idle_;             // of rank 0: threads of each that wait for cases
   RunningStates states_;
-  std::atomic<std::size_t> next_{0};
+  std::size_t wanted_ = 0;  // of this process
 
   std::mutex mutex_;  // of what follows
-  std::condition_variable changed_;
+  std::condition_variable changed_, more_;
+  bool open_ = false;                                       // cases may come yet
+  std::vector<std::pair<std::size_t, CaseResult>> outbox_;  // of the other ranks
+  std::deque<std::size_t> waiting_;                         // cases that nobody has begun
   std::vector<CaseResult> results_;
   std::vector<bool> finished_;
   std::size_t done_ = 0, failed_ = 0;
@@ -153,9 +422,9 @@ class Crew {
 }  // namespace
 
 std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
-                                  Session& session) {
+                                  const KeptCases& kept, const std::string& place, Session& session) {
   if (cases == 0) return {};
-  return Crew(cases, setup, session).run();
+  return Crew(cases, setup, kept, place, session).run();
 }
 
 }  // namespace asperity::lua

@@ -7,6 +7,7 @@
 #include "bindings/lua/crew.hpp"
 #include "bindings/lua/ensemble_case.hpp"
 #include "bindings/lua/explanation.hpp"
+#include "bindings/lua/guard.hpp"
 #include "bindings/lua/options.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/record.hpp"
@@ -262,6 +263,16 @@ void record(const Session& session, const EnsembleKeys& keys, const std::vector<
   session.run->journal().write("ensemble", line);
 }
 
+// What cases read is read by the run, or by the case that this ensemble stands in.
+void note_inputs(const Session& session, const std::vector<CaseResult>& results) {
+  for (const CaseResult& result : results)
+    for (const CaseInput& input : result.inputs)
+      if (session.notes != nullptr)
+        session.notes->inputs.push_back(input);
+      else if (session.run != nullptr && !input.digest.empty())
+        session.run->note_input(input.file, input.bytes, input.digest);
+}
+
 // The plain cells of the rows there are, in a notebook of the run, so that an error loses nothing.
 // Returns its file; "" where nothing is recorded.
 std::string keep_rows(const Call& call, const std::vector<CaseResult>& results) {
@@ -345,8 +356,11 @@ Values ensemble(Call& call) {
     common.refinement = session.refinement;
     common.variation = session.variation;
     common.ledger = session.ledger;
-    common.results = session.monitor().results();
+    common.results = results_for_cases(session);
     common.watched = lua_gethook(call.L) != nullptr;
+    common.script_digest = session.script_digest;
+    common.ensemble = ++session.ensembles;
+    if (session.notes != nullptr) session.notes->drew = true;  // its cases have seeds made of this one's
     if (session.dry_run) {
       const Explanation::Repeating cases(session.explanation.get(), static_cast<std::int64_t>(keys.count()));
       return dry_rows(call, keys, run);
@@ -358,7 +372,11 @@ Values ensemble(Call& call) {
       one.seed = seeds.bits(k);
       return one;
     };
-    std::vector<CaseResult> results = run_cases(keys.count(), setup, session);
+    const KeptCases kept(session, *common.run);
+    std::string place = where(call.L);
+    place = place.empty() ? "of the script" : "at " + place.substr(0, place.size() - 2);
+    std::vector<CaseResult> results = run_cases(keys.count(), setup, kept, place, session);
+    note_inputs(session, results);
     record(session, keys, results);
     const std::vector<std::size_t> failed = failed_cases(results);
     if (!failed.empty() && keys.on_failure == OnFailure::error) refuse_failures(call, keys, results, failed);

@@ -2,6 +2,7 @@
 #include "bindings/lua/ensemble_case.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -143,7 +144,46 @@ void refuse_other_values(const CaseSetup& setup, const Argument& returned, const
     });
 }
 
-std::shared_ptr<const Parcel> call_run(lua_State* L, const CaseSetup& setup) {
+// The next integer of math.random, and the generator as the seed leaves it: what comes first shows afterwards
+// whether the case drew any number. Pushes math.random and math.randomseed.
+lua_Integer first_draw(lua_State* L, std::uint64_t seed) {
+  auto action = [seed](lua_State* s) {
+    lua_getglobal(s, "math");
+    lua_getfield(s, -1, "random");
+    lua_getfield(s, -2, "randomseed");
+    lua_remove(s, -3);
+    lua_pushvalue(s, -2);
+    lua_pushinteger(s, 0);
+    lua_call(s, 1, 1);
+    lua_pushvalue(s, -2);
+    lua_pushinteger(s, static_cast<lua_Integer>(seed));
+    lua_pushinteger(s, 0);
+    lua_call(s, 2, 0);
+    return 3;
+  };
+  if (protect(L, 0, 3, action) != LUA_OK) fail(L);
+  const lua_Integer first = lua_tointeger(L, -1);
+  lua_pop(L, 1);
+  return first;
+}
+
+// Whether the next number is another than `first`.
+bool has_drawn(lua_State* L, int random, lua_Integer first) {
+  lua_pushvalue(L, random);
+  auto action = [](lua_State* s) {
+    lua_pushinteger(s, 0);
+    lua_call(s, 1, 1);
+    return 1;
+  };
+  if (protect(L, 1, 1, action) != LUA_OK) fail(L);
+  const bool drawn = lua_tointeger(L, -1) != first;
+  lua_pop(L, 1);
+  return drawn;
+}
+
+std::shared_ptr<const Parcel> call_run(lua_State* L, const CaseSetup& setup, CaseNotes& notes) {
+  const lua_Integer first = first_draw(L, setup.seed);
+  const int random = lua_gettop(L) - 1;
   lua_pushcfunction(L, traceback_handler);
   const int handler = lua_gettop(L);
   // The values go into two tables: `run` may change its own.
@@ -163,7 +203,9 @@ std::shared_ptr<const Parcel> call_run(lua_State* L, const CaseSetup& setup) {
     return 3;
   };
   if (protect(L, 0, 3, prepare) != LUA_OK) fail(L);
-  if (lua_pcall(L, 1, 1, handler) != LUA_OK) fail(L);
+  const int ended = lua_pcall(L, 1, 1, handler);
+  if (has_drawn(L, random, first)) notes.drew = true;
+  if (ended != LUA_OK) fail(L);
   make_table(L);
   const Argument given(L, handler + 1), returned(L, -1);
   refuse_other_values(setup, returned, given);
@@ -218,6 +260,7 @@ std::string wrong_return(const std::string& found) {
 CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
   CaseResult result;
   const double transforms = cost::transforms();
+  const auto begun = std::chrono::steady_clock::now();
   try {
     CaseMonitor monitor(result.warnings, setup.results);
     OutputBuffer output;
@@ -231,11 +274,14 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
     session.ledger = setup.ledger;
     session.output = output.file();
     session.left_behind = &setup.run->left_behind();
+    session.script_digest = setup.script_digest;
+    CaseNotes notes;
+    session.notes = &notes;
     try {
       const State state = make_state(session, "");
       if (setup.watched) watch_for_stops(state.get());
       const RunningStates::Member member(states, state.get());
-      result.row = call_run(state.get(), setup);
+      result.row = call_run(state.get(), setup, notes);
       result.digest = result.row->digest();
     } catch (const Error& error) {
       result.failure = error.what();
@@ -243,10 +289,13 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
       result.failure = "out of memory";
     }
     result.output = output.text();
+    result.inputs = std::move(notes.inputs);
+    result.drew = notes.drew;
   } catch (const std::exception& error) {
     result.failure = error.what();
   }
   result.transforms = cost::transforms() - transforms;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return result;
 }
 

@@ -30,6 +30,14 @@ struct CaseValue {
   std::string text;  // "2.5", "\"cold\"", "a surface"
 };
 
+// A file that a case looked at; no digest where there was none.
+struct CaseInput {
+  std::string file;
+  std::int64_t bytes = 0;
+  std::string digest;
+};
+CaseInput input_of_case(const std::string& file);
+
 struct CaseSetup {
   std::shared_ptr<const Parcel> run;
   std::vector<CaseValue> values;  // in the order in which messages name them
@@ -40,6 +48,8 @@ struct CaseSetup {
   std::shared_ptr<Variation> variation;
   std::shared_ptr<Ledger> ledger;
   ResultStore* results = nullptr;  // of the run; may be null
+  std::string script_digest;       // of the text of the script and its arguments
+  int ensemble = 0;                // of the run, which the case is part of; counted from 1
   bool watched = false;            // look at the stop flag every few thousand instructions
 };
 
@@ -49,7 +59,10 @@ struct CaseResult {
   std::string failure;                // message and traceback
   std::string output;                 // what it printed
   std::vector<std::string> warnings;
+  std::vector<CaseInput> inputs;
+  bool drew = false;  // random numbers, which its seed decides
   double transforms = 0;
+  double seconds = 0;
 };
 
 // The states that run now, so that a stop can reach them. Thread-safe.

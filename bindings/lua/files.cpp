@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "bindings/lua/ensemble_case.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/experiment/run_directory.hpp"
 #include "engine/experiment/run_facts.hpp"
@@ -26,6 +27,7 @@ std::string readable_path(const Call& call, const std::string& name) {
 void note_input(const Call& call, const std::string& path) {
   const Session& session = call.session();
   std::error_code problem;
+  if (session.notes != nullptr) session.notes->inputs.push_back(input_of_case(path));
   if (session.run == nullptr || session.is_case || !std::filesystem::is_regular_file(path, problem)) return;
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(path, problem));
   // A file that the run wrote itself has the same name in every run.

@@ -150,34 +150,33 @@ void Parcel::push(lua_State* L) const {
   lua_settop(L, top - 1);
 }
 
+bool Parcel::before(const Entry& a, const Entry& b) {
+  const auto rank = [](const Item& item) {
+    return std::holds_alternative<std::int64_t>(item) || std::holds_alternative<double>(item) ? 0
+           : std::holds_alternative<std::string>(item)                                        ? 1
+                                                                                              : 2;
+  };
+  const int rank_a = rank(a.key), rank_b = rank(b.key);
+  if (rank_a != rank_b) return rank_a < rank_b;
+  if (rank_a == 1) return std::get<std::string>(a.key) < std::get<std::string>(b.key);
+  if (rank_a == 2)
+    return std::holds_alternative<bool>(a.key) && std::holds_alternative<bool>(b.key) &&
+           std::get<bool>(a.key) < std::get<bool>(b.key);
+  if (const auto* i = std::get_if<std::int64_t>(&a.key))
+    if (const auto* j = std::get_if<std::int64_t>(&b.key)) return *i < *j;
+  const auto number_of = [](const Item& item) {
+    const auto* whole = std::get_if<std::int64_t>(&item);
+    return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(item);
+  };
+  return number_of(a.key) < number_of(b.key);
+}
+
 // Tables are numbered in the order in which the sorted keys lead to them.
 struct Parcel::Digest {
   const Parcel& parcel;
   Digester digester{};
   std::vector<std::int64_t> number = std::vector<std::int64_t>(parcel.nodes_.size(), -1);
   std::vector<std::uint32_t> order{};
-
-  // Numbers in their order, then strings, then the rest.
-  static bool before(const Entry& a, const Entry& b) {
-    const auto rank = [](const Item& item) {
-      return std::holds_alternative<std::int64_t>(item) || std::holds_alternative<double>(item) ? 0
-             : std::holds_alternative<std::string>(item)                                        ? 1
-                                                                                                : 2;
-    };
-    const int rank_a = rank(a.key), rank_b = rank(b.key);
-    if (rank_a != rank_b) return rank_a < rank_b;
-    if (rank_a == 1) return std::get<std::string>(a.key) < std::get<std::string>(b.key);
-    if (rank_a == 2)
-      return std::holds_alternative<bool>(a.key) && std::holds_alternative<bool>(b.key) &&
-             std::get<bool>(a.key) < std::get<bool>(b.key);
-    if (const auto* i = std::get_if<std::int64_t>(&a.key))
-      if (const auto* j = std::get_if<std::int64_t>(&b.key)) return *i < *j;
-    const auto number_of = [](const Item& item) {
-      const auto* whole = std::get_if<std::int64_t>(&item);
-      return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(item);
-    };
-    return number_of(a.key) < number_of(b.key);
-  }
 
   void add(const Object& object) {
     digester.add(object.type->name);

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -31,6 +32,26 @@ class Parcel {
 
   // Of the content of data: the same for equal values, whatever the order of keys in memory.
   std::string digest() const;
+
+  // Data as bytes, and out of them again bit for bit, in any process of this build. `given` are values that
+  // both sides have at hand: a native value that is one of them is not written but named. Surfaces that are
+  // no longer, or never were, those of a generator go by their heights, profiles and materials likewise.
+  // Cost: linear. bytes() throws Error{not_permitted} for what bytes cannot carry, saying how it is reached
+  // from `name`; from_bytes() Error{bad_file} for anything that bytes() did not write.
+  std::string bytes(const std::string& name, const std::vector<Value>& given = {}) const;
+  static std::shared_ptr<const Parcel> from_bytes(std::string_view bytes,
+                                                  const std::vector<Value>& given = {});
+  // The native value that is the whole of it; null where it is something else.
+  const Value* native() const;
+
+  // What the value is and, of functions, what they do, the same in every process of this build: code without
+  // the names of its files and lines, upvalues, globals.
+  struct Content {
+    std::string digest;
+    std::string lines;  // of the same with names of files and lines
+    bool whole = true;  // false where it holds values that a digest does not tell from all others
+  };
+  Content content() const;
 
   // Globals that could not come along: name -> "`app.bench` is a contact".
   const std::map<std::string, std::string>& left_behind() const { return left_behind_; }
@@ -76,8 +97,14 @@ class Parcel {
     Entry entry;
   };
 
+  // Numbers in their order, then strings, then the rest.
+  static bool before(const Entry& a, const Entry& b);
+
   struct Pusher;
   struct Digest;
+  struct Writer;
+  struct Reader;
+  struct ContentDigest;
 
   Item root_;
   std::vector<Node> nodes_;

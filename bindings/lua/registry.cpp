@@ -211,6 +211,12 @@ void record_call(const Session& session, const std::string& function, const Obje
 
 const std::string& qualified_name(const Function& function) { return entries().at(&function).name; }
 
+const std::string* name_of_entry(const void* pointer) {
+  for (const auto& [function, entry] : entries())
+    if (&entry == pointer) return &entry.name;
+  return nullptr;
+}
+
 void push_function(lua_State* L, const Function& function) {
   lua_pushlightuserdata(L, const_cast<Entry*>(&entries().at(&function)));
   lua_pushcclosure(L, outer_function, 1);

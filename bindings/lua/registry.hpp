@@ -152,6 +152,8 @@ void record_call(const Session& session, const std::string& function, const Obje
 void push_function(lua_State* L, const Function& function);
 // The full name of a function of the registry: "lab.surface.sine", "surface:scaled".
 const std::string& qualified_name(const Function& function);
+// That of the function whose closures hold this pointer as their upvalue; null if none does.
+const std::string* name_of_entry(const void* pointer);
 // Makes the metatable of a class, if it is not there yet, and pushes it.
 void push_metatable(lua_State* L, const Class& type);
 // The native value at an index if it is one of ours, whatever its class; null otherwise.

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,24 @@ class RunDirectory;
 namespace asperity::lua {
 
 class Explanation;
+class Ranks;
+struct CaseInput;
 struct Refinement;
 class Variation;
+
+// Process `index` of `count`, counted from 1, which run the same script and share a store: cases k = index -
+// 1 modulo `count` are its own.
+struct Shard {
+  int index = 1, count = 1;
+  bool own(std::size_t k) const {
+    return k % static_cast<std::size_t>(count) == static_cast<std::size_t>(index - 1);
+  }
+};
+
+struct CaseNotes {
+  std::vector<CaseInput> inputs;
+  bool drew = false;
+};
 
 class Session {
  public:
@@ -64,6 +81,14 @@ class Session {
   std::map<std::string, int> studies;      // names given to studies of work and precision, and how often
   std::shared_ptr<Refinement> refinement;  // of a script that a study of accuracy runs again; may be null
   std::shared_ptr<Variation> variation;  // of a recorded run that is run again with other values; may be null
+  std::string script_digest;             // of the text of the script and its arguments; may be empty
+  int ensembles = 0;                     // that the script has begun
+  std::optional<Shard> shard;            // of a run that computes some of the cases only
+  // What a shard does where the script can go no further without the cases of others: ends the process.
+  std::function<void(const std::string& sentence)> shard_end;
+  Ranks* ranks = nullptr;  // the processes that share the cases; may be null
+  // Of a case: what it depends on beside what it is given.
+  CaseNotes* notes = nullptr;
   // Of a case: the script's globals that could not come along, and why.
   const std::map<std::string, std::string>* left_behind = nullptr;
 

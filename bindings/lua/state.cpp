@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bindings/lua/embedded.hpp"
+#include "bindings/lua/ensemble_case.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/registry.hpp"
 #include "engine/core/error.hpp"
@@ -60,6 +61,7 @@ int path_body(lua_State* L, bool to_write) {
     const std::string name(Argument(L, 1).text());
     if (!to_write) {
       result = session.run == nullptr ? name : session.run->place_to_read(name).string();
+      if (session.notes != nullptr) session.notes->inputs.push_back(input_of_case(result));
     } else {
       if (session.is_case)
         throw Error(ErrorCode::not_permitted, "a case of an ensemble writes no files",

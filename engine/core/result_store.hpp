@@ -22,6 +22,7 @@ struct ResultFacts {
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<std::pair<std::string, std::string>> texts;
   Cost cost;
+  bool however_cheap = false;  // to be kept even if it would be quicker computed again
 };
 
 struct FoundResult : ResultFacts {

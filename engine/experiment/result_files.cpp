@@ -8,6 +8,7 @@
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/aside_file.hpp"
 #include "engine/surface/io/hdf5_file.hpp"
 
 namespace asperity {
@@ -122,14 +123,17 @@ void ResultFiles::bring_over(const fs::path& from, const std::string& name) {
   if (problem || !make_room(static_cast<std::int64_t>(bytes))) return;
   fs::create_hard_link(from, to, problem);  // one file of both folders, where they are on one disk
   if (!problem) return;
-  const fs::path aside = to.string() + ".part";
-  fs::copy_file(from, aside, fs::copy_options::overwrite_existing, problem);
-  if (!problem) fs::rename(aside, to, problem);
+  try {
+    AsideFile aside(to);  // other runs may bring it over at the same time
+    if (fs::copy_file(from, aside.temporary(), problem)) aside.commit();
+  } catch (const Error&) {
+    // it stays where it is
+  }
 }
 
 void ResultFiles::keep(const std::string& key, std::string_view call, const ResultFacts& facts,
                        const KeptFields& kept) {
-  if (facts.cost.seconds < setup_.least_seconds) return;
+  if (facts.cost.seconds < setup_.least_seconds && !facts.however_cheap) return;
   Hdf5Content content;
   content.texts = {{"form", std::string(form)}, {"call", std::string(call)}, {"key", key}};
   for (const auto& [name, text] : facts.texts) content.texts.emplace_back("text " + name, text);
@@ -173,6 +177,7 @@ void ResultFiles::keep(const std::string& key, std::string_view call, const Resu
 
 bool ResultFiles::make_room(std::int64_t bytes) {
   if (bytes > setup_.most_bytes) return false;
+  if (setup_.most_bytes == unlimited) return true;
   struct Old {
     fs::file_time_type used;
     fs::path file;

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <mutex>
 #include <set>
 #include <string>
@@ -26,6 +27,9 @@ struct ResultFilesSetup {
   double least_seconds = 0.01;                      // results that cost less are not worth a file
   std::string build;                                // identity of the program
 };
+
+// No limit: for a folder that several runs share, which must not take away what another one needs.
+inline constexpr std::int64_t unlimited = std::numeric_limits<std::int64_t>::max();
 
 class ResultFiles final : public ResultStore {
  public:

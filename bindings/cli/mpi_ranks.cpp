@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/cli/mpi_ranks.hpp"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <thread>
+#include <utility>
+
+#include "engine/core/byte_string.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/loaded_part.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/core/mpi/messages.hpp"
+
+namespace asperity::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr LoadedPart part{"mpi", "cases are spread over the ranks of mpirun", "libopenmpi3"};
+// How long rank 0 waits for the others once it has come to its end.
+constexpr auto patience_done = std::chrono::seconds(60), patience_failed = std::chrono::seconds(3);
+
+std::optional<int> whole(const std::optional<std::string>& text) {
+  if (!text || text->empty() || text->size() > 8 ||
+      text->find_first_not_of("0123456789") != std::string::npos)
+    return {};
+  return std::stoi(*text);
+}
+
+}  // namespace
+
+std::optional<LaunchedRank> launched_rank(const Environment& environment) {
+  using Names = std::array<const char*, 3>;
+  for (const Names& names :
+       {Names{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_LOCAL_SIZE"},
+        Names{"PMI_SIZE", "PMI_RANK", "MPI_LOCALNRANKS"}}) {
+    const auto size = whole(environment(names[0])), rank = whole(environment(names[1]));
+    if (!size || !rank) continue;
+    if (*size < 2) return {};
+    return LaunchedRank{*rank, *size, std::max(1, whole(environment(names[2])).value_or(1))};
+  }
+  return {};
+}
+
+int threads_of(const LaunchedRank& launched) {
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  cpu_set_t allowed;
+  const int bound = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : processors;
+  return std::max(1, std::min(bound, processors / launched.on_this_machine));
+}
+
+MpiRanks::MpiRanks() {
+  const auto table = part_function<AsperityMpiTable>(part, "asperity_mpi_1");
+  mpi_ = table();
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::array<char, 512> reason{};
+  if (mpi_->open(&rank_, &size_, reason.data(), reason.size()) != 0)
+    throw Error(ErrorCode::bad_file, reason.data());
+  if (leads()) return;
+  std::string pattern = (std::filesystem::temp_directory_path() / "asperity-rank-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr)
+    throw Error(ErrorCode::bad_file, "no temporary folder can be made for rank " + std::to_string(rank_));
+  scratch_ = pattern;
+  // Rank 0 speaks for all.
+  std::fflush(nullptr);
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere < 0) return;
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::dup2(nowhere, STDERR_FILENO);
+  ::close(nowhere);
+}
+
+void MpiRanks::send_bytes(int to, const std::string& bytes) { mpi_->send(to, bytes.data(), bytes.size()); }
+
+std::optional<std::pair<int, std::string>> MpiRanks::receive_bytes() {
+  int from = 0;
+  char* bytes = nullptr;
+  std::uint64_t length = 0;
+  if (mpi_->receive(&from, &bytes, &length) == 0) return {};
+  const std::unique_ptr<char, void (*)(void*)> held(bytes, std::free);
+  return std::pair(from, std::string(bytes, static_cast<std::size_t>(length)));
+}
+
+void MpiRanks::remove_scratch() const {
+  std::error_code ignored;
+  if (!scratch_.empty()) std::filesystem::remove_all(scratch_, ignored);
+}
+
+int MpiRanks::leave(int status) {
+  std::fflush(nullptr);
+  if (stop_flag().reason() != StopReason::none) {
+    remove_scratch();
+    if (!leads())
+      std::this_thread::sleep_for(patience_failed);  // rank 0 was stopped too, and keeps the record
+    mpi_->abort(status);
+  }
+  if (leads()) return leave_leading(status);
+  leave_following(status);
+  return 0;
+}
+
+int MpiRanks::leave_leading(int status) {
+  send_to_others(Kind::end, "");
+  const auto begun = Clock::now();
+  std::set<int> ended;
+  const auto patience = status == 0 ? patience_done : patience_failed;
+  while (static_cast<int>(ended.size()) < size_ - 1) {
+    if (const auto found = receive_bytes()) {
+      if (found->second.empty() || found->second[0] != static_cast<char>(Kind::end)) continue;
+      ended.insert(found->first);
+      ByteReader in(std::string_view(found->second).substr(1));
+      const std::string why = in.text();
+      if (!why.empty() && status == 0) lose(found->first, "failed: " + why);
+      continue;
+    }
+    for (int other = 1; other < size_; ++other)
+      if (lost(other)) ended.insert(other);
+    if (Clock::now() - begun > patience) {
+      std::fprintf(stderr,
+                   "asperity: rank 0 came to its end and %d of the other ranks did not: they are ended\n",
+                   size_ - 1 - static_cast<int>(ended.size()));
+      mpi_->abort(status == 0 ? 1 : status);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  for (const std::string& loss : losses()) std::fprintf(stderr, "asperity: %s\n", loss.c_str());
+  if (!losses().empty()) {
+    if (status == 0) status = 1;
+    // One that went another way may never come to its end.
+    std::fflush(nullptr);
+    mpi_->abort(status);
+  }
+  mpi_->close();
+  return status;
+}
+
+void MpiRanks::leave_following(int status) {
+  ByteWriter out;
+  out.text(status != 0 && why_.empty() ? "it ended with status " + std::to_string(status) : why_);
+  send(0, Kind::end, out.take());
+  for (;;) {
+    const std::optional<Message> message = receive();
+    if (message && message->kind == Kind::end) break;
+    if (!message) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  remove_scratch();
+  mpi_->close();
+}
+
+}  // namespace asperity::cli

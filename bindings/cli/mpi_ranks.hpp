@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The ranks of `mpirun -n K asperity run SCRIPT`, by messages of MPI. Nothing of MPI is loaded unless the
+// environment says that this process is one of several that mpirun started.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bindings/cli/shard.hpp"
+#include "bindings/lua/ranks.hpp"
+
+struct AsperityMpi;
+
+namespace asperity::cli {
+
+// What the launcher says of this process before MPI is started; none where it is alone.
+struct LaunchedRank {
+  int rank = 0, size = 1;
+  int on_this_machine = 1;
+};
+std::optional<LaunchedRank> launched_rank(const Environment& environment = environment_variable);
+// Threads of each rank where none are asked for: the processors it may use, shared by the ranks of a machine.
+int threads_of(const LaunchedRank& launched);
+
+class MpiRanks final : public lua::Ranks {
+ public:
+  // Joins the others; SIGINT and SIGTERM are blocked first, so that no thread of MPI takes them. Throws
+  // Error{bad_file} where the program was built without it.
+  MpiRanks();
+  ~MpiRanks() override = default;
+
+  // Where another rank than 0 keeps what its script writes, of which nothing remains.
+  std::string scratch_folder() const { return scratch_ + "/run"; }
+  void note_failure(const std::string& why) { why_ = why; }
+
+  // The end of the run in this process: waits for the others, and returns the exit status. Where they do not
+  // come to their end, ends all of them.
+  int leave(int status);
+
+ private:
+  void send_bytes(int to, const std::string& bytes) override;
+  std::optional<std::pair<int, std::string>> receive_bytes() override;
+  int leave_leading(int status);
+  void leave_following(int status);
+  void remove_scratch() const;
+
+  const AsperityMpi* mpi_ = nullptr;
+  std::string scratch_, why_;
+};
+
+}  // namespace asperity::cli

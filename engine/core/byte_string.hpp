@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Values one after the other in a string of bytes, and out of it again bit for bit, for processes of one
+// build on machines of one kind: numbers stand as they lie in memory. A reader believes nothing: it never
+// looks past the end and refuses lengths that cannot be. Not for files that outlive a build.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "engine/core/error.hpp"
+
+namespace asperity {
+
+class ByteWriter {
+ public:
+  // Of bool, integers and double.
+  template <class T>
+  void number(T value) {
+    static_assert(std::is_arithmetic_v<T>);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void text(std::string_view value) {
+    number(static_cast<std::uint64_t>(value.size()));
+    bytes_.append(value);
+  }
+  void numbers(std::span<const double> values) {
+    number(static_cast<std::uint64_t>(values.size()));
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : left_(bytes) {}
+
+  // All throw Error{bad_file} where the bytes end too early or cannot be what was written.
+  template <class T>
+  T number() {
+    static_assert(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
+    T value;
+    std::memcpy(&value, next(sizeof value).data(), sizeof value);
+    return value;
+  }
+  bool truth() {
+    const auto value = number<std::uint8_t>();
+    if (value > 1) damaged();
+    return value == 1;
+  }
+  // How many things follow, each of which takes at least `least` bytes.
+  std::size_t count(std::size_t least = 1) {
+    const auto value = number<std::uint64_t>();
+    if (value > left_.size() / least) damaged();
+    return static_cast<std::size_t>(value);
+  }
+  std::string text() { return std::string(next(count())); }
+  // As many numbers as there were written, into `values`, which is given their number first.
+  template <class Make>
+  auto numbers(Make make) {
+    const std::size_t length = count(sizeof(double));
+    auto values = make(length);
+    const std::string_view bytes = next(length * sizeof(double));
+    if (length > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
+  bool at_end() const { return left_.empty(); }
+
+  [[noreturn]] static void damaged() {
+    throw Error(ErrorCode::bad_file, "a string of bytes is not what was written: it is torn or altered");
+  }
+
+ private:
+  std::string_view next(std::size_t length) {
+    if (length > left_.size()) damaged();
+    const std::string_view bytes = left_.substr(0, length);
+    left_.remove_prefix(length);
+    return bytes;
+  }
+
+  std::string_view left_;
+};
+
+}  // namespace asperity
