@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/io/write.hpp"
 
+#include <sys/stat.h>
+
 #include <cmath>
 #include <limits>
 
@@ -21,6 +23,17 @@ Surface awkward(int nx, int ny, double size_x, double size_y) {
   if (heights.size() > 1) heights[1] = std::numeric_limits<double>::denorm_min();
   if (heights.size() > 2) heights[2] = std::numeric_limits<double>::max() / 4;
   return Surface(make_grid(nx, ny, size_x, size_y), std::move(heights));
+}
+
+TEST(Write, DevicesAndPipesStayWhatTheyAre) {
+  const Scratch scratch;
+  const std::string pipe = scratch.path("pipe.npy");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(message_of([&] {
+              write_surface(Surface(Grid{1, 1, 1, 1}, Field(1, 1)), pipe);
+            }),
+            "\"" + pipe + "\" is not a plain file; give the name of one");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(Write, SurfacesReadBackBitForBit) {

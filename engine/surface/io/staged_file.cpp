@@ -26,6 +26,9 @@ StagedFile::StagedFile(std::string path) : path_(std::move(path)) {
                 "there is no directory " + file_name(directory.string()) + " to write in", "make it first");
   if (fs::is_directory(whole, failure) || !whole.has_filename())
     throw Error(ErrorCode::bad_file, file_name(path_) + " is a directory", "give the name of a file in it");
+  // A rename would put the file in the place of a device.
+  if (fs::is_other(whole, failure))
+    throw Error(ErrorCode::bad_file, file_name(path_) + " is not a plain file", "give the name of one");
   aside_ = (directory / ("." + whole.filename().string() + "." + std::to_string(::getpid()) + "-" +
                          std::to_string(counter.fetch_add(1)) + ".part"))
                .string();

@@ -11,7 +11,7 @@ namespace asperity {
 
 class StagedFile {
  public:
-  // Throws Error{bad_file} if the directory does not exist or the path is a directory.
+  // Throws Error{bad_file} if the directory does not exist or the path is a directory, a device or a pipe.
   explicit StagedFile(std::string path);
   // Removes what was written aside unless commit() was called.
   ~StagedFile();
