@@ -168,7 +168,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     setup.versions = version_json();
     kept = result_files(command);
     run = std::make_shared<RunDirectory>(setup);
-    kept.folder = run->store();
+    if (!command.store) kept.folder = run->store();
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;

@@ -109,7 +109,7 @@ for how in interrupt kill; do
   until [ -f $how/journal.jsonl ] && [ "$(ls -d asperity-rank-*/run 2> /dev/null | wc -l)" -ge 1 ]; do
     sleep 0.1
     tries=$((tries + 1))
-    [ $tries -lt 300 ] || { cat $how.txt; fail "$how: did not begin"; }
+    [ $tries -lt 900 ] || { cat $how.txt; fail "$how: did not begin"; }
   done
   sleep 1
   began=$(date +%s)
