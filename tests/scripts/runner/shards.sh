@@ -127,7 +127,6 @@ ASPERITY=$program PATH=$folder/bin:$PATH "$example" study.lua four array 3 2 > a
   { cat array.log; fail "the example for Slurm failed"; }
 grep -v '^results in\|taken from the store' merge.log > array.txt
 same array "the job array"
-says "of 9 are in four" job-100-3.log 2> /dev/null || says "of 9 are in four" job-100-1.log
 
 # What cannot be.
 refused() {
