@@ -256,8 +256,8 @@ State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) cons
            : by == "flatten" ? solve_at_flattening(problem, value, monitor)
                              : solve_at_pressure(problem, value, nullptr, monitor);
   });
-  auto solution = std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(solved.result),
-                                                    factor, asked);
+  auto solution =
+      std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(solved.result), factor, asked);
   return State(std::move(solution), plan_, elastic(solved.cost));
 }
 
