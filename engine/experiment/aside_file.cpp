@@ -54,6 +54,11 @@ void throw_file_error(std::string_view action, const std::filesystem::path& path
 }
 
 AsideFile::AsideFile(std::filesystem::path target) : target_(std::move(target)) {
+  std::error_code ignored;
+  if (std::filesystem::is_other(target_, ignored))
+    throw Error(ErrorCode::bad_file,
+                "cannot write " + asperity::quoted(target_.string()) + ": it is a device or a pipe",
+                "give the name of a file");
   static std::atomic<unsigned> counter{0};
   // The extension stays last, because some writers choose their format by it.
   const std::string name = "." + target_.stem().string() + "." + std::to_string(::getpid()) + "-" +

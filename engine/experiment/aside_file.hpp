@@ -15,6 +15,7 @@ namespace asperity {
 // each other, the last commit wins.
 class AsideFile {
  public:
+  // Throws Error{bad_file} for a device or a pipe, in whose place the rename would put a file.
   explicit AsideFile(std::filesystem::path target);
   ~AsideFile();
   AsideFile(const AsideFile&) = delete;

@@ -3,6 +3,7 @@
 #include "engine/experiment/aside_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/experiment/run_fixture.hpp"
@@ -71,6 +72,15 @@ TEST(SafeFileName, CutsLongNamesBetweenCharacters) {
   for (int k = 0; k < 100; ++k) wide += "µ";
   const std::string cut = safe_file_name(wide);
   EXPECT_EQ(cut, wide.substr(0, 119));
+}
+
+TEST_F(AsideFileTest, ADeviceOrPipeIsLeftWhatItIs) {
+  const std::filesystem::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(
+      error_of([&] { write_aside(pipe, "text"); }),
+      "bad_file: cannot write `" + pipe.string() + "`: it is a device or a pipe; give the name of a file");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 }  // namespace
