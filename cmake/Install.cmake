@@ -1,13 +1,46 @@
-# cmake --install build/release --prefix /usr/local: the program, the module where Debian's lua5.4
-# looks for it, the documents, the editor's types and the examples.
+# cmake --install build/release --prefix /usr/local: the program with its parts, the module where Debian's lua5.4
+# looks for it, the documents and examples (component `program`); the part for mpirun (`mpi`); the engine's headers
+# and libraries for find_package(asperity) (`development`). cmake/Package.cmake makes a Debian package of each.
 include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
+
 install(TARGETS asperity RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS asperity_module LIBRARY DESTINATION lib/lua/5.4)
 # Parts loaded when first needed: core/loaded_part.cpp looks here.
 install(TARGETS asperity_part_hdf5 LIBRARY DESTINATION lib/asperity)
+# The page's server and the filter of its runs.
+foreach(part serve sandbox)
+  if(TARGET asperity_part_${part})
+    install(TARGETS asperity_part_${part} LIBRARY DESTINATION lib/asperity)
+  endif()
+endforeach()
 if(TARGET asperity_part_mpi)
-  install(TARGETS asperity_part_mpi LIBRARY DESTINATION lib/asperity)
+  install(TARGETS asperity_part_mpi LIBRARY DESTINATION lib/asperity COMPONENT mpi)
+endif()
+if(TARGET asperity_part_edit)
+  install(TARGETS asperity_part_edit LIBRARY DESTINATION lib/asperity)
 endif()
 install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES docs/asperity.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES docs/asperity.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME asperity)
+install(DIRECTORY scripts/lessons DESTINATION ${CMAKE_INSTALL_DATADIR}/asperity)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# asperity::engine is the whole of it; each floor has a name of its own (engine/CMakeLists.txt).
+add_library(asperity_engine INTERFACE)
+set_target_properties(asperity_engine PROPERTIES EXPORT_NAME engine)
+target_link_libraries(asperity_engine INTERFACE asperity_study)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/asperity)
+install(TARGETS asperity_engine EXPORT asperity COMPONENT development)
+install(DIRECTORY engine DESTINATION include/asperity COMPONENT development FILES_MATCHING PATTERN "*.hpp")
+install(EXPORT asperity NAMESPACE asperity:: FILE asperityTargets.cmake DESTINATION ${package_folder}
+        COMPONENT development)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/asperityConfig.cmake.in
+                              ${CMAKE_BINARY_DIR}/asperityConfig.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/asperityConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/asperityConfig.cmake ${CMAKE_BINARY_DIR}/asperityConfigVersion.cmake
+        DESTINATION ${package_folder} COMPONENT development)
+
+include(Package)

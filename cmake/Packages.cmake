@@ -13,5 +13,9 @@ pkg_check_modules(ZLIB REQUIRED IMPORTED_TARGET zlib)
 pkg_check_modules(LIBMD REQUIRED IMPORTED_TARGET libmd)
 # Linked by asperity-hdf5.so alone, which is loaded at the first HDF5 file written.
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
+# Linked by asperity-serve.so and asperity-sandbox.so, the page's server and what holds its runs. Without them the
+# program builds, and `asperity serve` says what it needs.
+pkg_check_modules(HTTPLIB IMPORTED_TARGET cpp-httplib)
+pkg_check_modules(SECCOMP IMPORTED_TARGET libseccomp)
 pkg_check_modules(LUA_C REQUIRED IMPORTED_TARGET lua5.4)
 pkg_check_modules(LUA_CXX REQUIRED IMPORTED_TARGET lua5.4-c++)

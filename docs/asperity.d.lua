@@ -774,6 +774,67 @@ function Study:cheapest(options) end
 ---@field confirmed integer how many finer settings of its way were measured
 local StudyChoice = {}
 
+---A rough surface of which each rank holds some rows.
+---@class asperity.SpreadSurface
+---@field cells integer[] cells along x and y
+---@field size number[] length of the sides
+---@field rms_height number root mean square height about the mean
+---@field mean number mean height
+---@field peak number greatest height
+---@field valley number least height
+---@field ranks integer over which it is spread
+---@field digest string of its heights and how they are spread
+local SpreadSurface = {}
+
+---Writes the heights in metres as one NPY file of shape (ny, nx), rank after rank.
+---@param path string a .npy under the run directory
+---@return string
+function SpreadSurface:write(path) end
+
+---@class asperity.options.spreadContact.press
+---@field pressure? number|string mean pressure over the tile (a pressure)
+---@field load? number|string force on the whole tile (a force)
+---@field approach? number|string from first touch (a length)
+---@field indentation? number approach over the peak-to-valley of the heights (number)
+
+---A surface in slabs under a flat, ready to be pressed by all ranks together.
+---@class asperity.SpreadContact
+local SpreadContact = {}
+
+---The state under a load, found by all ranks together, each with its rows.
+---@param options asperity.options.spreadContact.press
+---@return asperity.SpreadState
+function SpreadContact:press(options) end
+
+---A contact under load, its pressures and gaps in slabs: the numbers are the same in every rank.
+---@class asperity.SpreadState
+---@field load number force on the whole tile
+---@field pressure number load over the nominal area
+---@field approach number from first touch
+---@field area number real contact area
+---@field area_fraction number nodes in contact over all nodes
+---@field contacts integer nodes in contact
+---@field peak_pressure number greatest pressure
+---@field mean_gap number mean over the tile of the gap where it is open
+---@field energy number elastic energy in the tile
+---@field plastic_fraction number share of the tile at the cap; needs plasticity
+---@field plastic_volume number volume by which the bodies overlap at the cap; needs plasticity
+---@field certificate table how far the contact conditions are from being met, each relative
+---@field residual number greatest entry of the certificate
+---@field converged boolean whether every entry of the certificate is within the tolerance
+---@field iterations integer applications of the half-space on the finest grid
+---@field solver string what found the solution
+---@field ranks integer over which it is spread
+---@field cost table seconds and transforms; bytes is the most memory that any rank held at once for this press, its heights included
+---@field digest string of the surface and the numbers found
+local SpreadState = {}
+
+---Writes a field as one NPY file of shape (ny, nx), rank after rank: pressure in Pa, gap in metres (0 in contact) or contact (1 where it touches).
+---@param name "pressure"|"gap"|"contact" which
+---@param path string a .npy under the run directory
+---@return string
+function SpreadState:write(name, path) end
+
 ---@class asperity.options.lab.material
 ---@field young? number|string Young's modulus (a pressure above 0)
 ---@field poisson? number Poisson's ratio (number above -1 to 0.5)
@@ -879,7 +940,7 @@ function lab.work_precision(options) end
 function lab.ledger() end
 
 ---What the laboratory can do, or one function, value or field of it, as text.
----@param topic? string what to explain; nothing lists the topics
+---@param topic? any what to explain: a name or part of one, a key, or the function or value itself; nothing lists the topics
 ---@return string
 function lab.help(topic) end
 
@@ -1172,5 +1233,84 @@ function lab.exact.box_paraboloid(options) end
 ---@param options asperity.options.lab.exact.weierstrass_mandelbrot
 ---@return number
 function lab.exact.weierstrass_mandelbrot(options) end
+
+---@class asperity.options.lab.spread.self_affine
+---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
+---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
+---@field hurst number Hurst exponent H; D = 3 - H (number above 0 to 1, required)
+---@field rms_height? number|string root mean square height; or give rms_slope or ra (a length above 0)
+---@field rms_slope? number spectral root mean square slope; or give rms_height or ra (number above 0)
+---@field ra? number|string mean absolute height; or give rms_height or rms_slope (a length above 0)
+---@field long_wave? number|string longest wave (a length above 0, default size)
+---@field roll_off? number|string wave above which the spectrum is flat (a length above 0, default long_wave)
+---@field short_wave number|string shortest wave, at least two cells (a length above 0, required)
+---@field seed? integer of the random waves (integer at least 0, default 1)
+---@field material? asperity.Material what the body is made of (Material)
+
+---@class asperity.options.lab.spread.sine
+---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
+---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
+---@field amplitude number|string height of a crest above the mean (a length at least 0, required)
+---@field wavelength? number|string length of a wave (a length above 0, default size)
+---@field directions? integer 1: cos along x; 2: cos along x times cos along y (integer from 1 to 2, default 1)
+---@field material? asperity.Material what the body is made of (Material)
+
+---@class asperity.options.lab.spread.flat
+---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
+---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
+---@field material? asperity.Material what the body is made of (Material)
+
+---@class asperity.options.lab.spread.from_function
+---@field cells integer|table cells along x and y: a number, or {nx, ny} (integer|{integer, integer} from 1 to 65536, required)
+---@field size number|string|table length of the sides: one value, or {along x, along y} (a length|{a length, a length} above 0, required)
+---@field height function function(x, y) returning the height, all in metres (function, required)
+---@field material? asperity.Material what the body is made of (Material)
+
+---@class asperity.options.lab.spread.read
+---@field size number|string|table size of the map (a length|{a length, a length} above 0, required)
+---@field unit? number|string length of one number of the file, where it has no unit, e.g. "um" (a length above 0, default 1 m)
+---@field material? asperity.Material what the body is made of (Material)
+
+---@class asperity.options.lab.spread.contact
+---@field lower asperity.SpreadSurface the lower body, rough side up, from lab.spread (SpreadSurface, required)
+---@field upper asperity.Material a flat of a material, or lab.rigid (Material, required)
+---@field boundary "periodic" the tile goes on beyond its rim ("periodic", required)
+---@field effects table what the scene computes: { elasticity="half_space" }, and plasticity={ hardness= } if pressure is limited (table, required)
+---@field accuracy? table how close a solve must come, and what if it does not (table)
+
+---One contact that does not fit one process: surfaces, the half-space and its states in slabs over the ranks of `mpirun -n K asperity run`, none of which holds the whole grid. In a process alone the same with one slab.
+---@class asperity.lab.spread
+lab.spread = {}
+
+---The heights of lab.surface.self_affine, to rounding, made in slabs by a transform over the ranks.
+---@param options asperity.options.lab.spread.self_affine
+---@return asperity.SpreadSurface
+function lab.spread.self_affine(options) end
+
+---The heights of lab.surface.sine.
+---@param options asperity.options.lab.spread.sine
+---@return asperity.SpreadSurface
+function lab.spread.sine(options) end
+
+---A flat.
+---@param options asperity.options.lab.spread.flat
+---@return asperity.SpreadSurface
+function lab.spread.flat(options) end
+
+---Heights from a function of x and y, which each rank calls for its own rows.
+---@param options asperity.options.lab.spread.from_function
+---@return asperity.SpreadSurface
+function lab.spread.from_function(options) end
+
+---A surface from a NPY file of shape (ny, nx), of which each rank reads its own rows.
+---@param path string the file, which every rank must be able to read
+---@param options asperity.options.lab.spread.read
+---@return asperity.SpreadSurface
+function lab.spread.read(path, options) end
+
+---A periodic half-space contact over the ranks, under a flat: the problem, the certificates and the units of lab.contact. Nothing stays on the surface after a press.
+---@param options asperity.options.lab.spread.contact
+---@return asperity.SpreadContact
+function lab.spread.contact(options) end
 
 return lab

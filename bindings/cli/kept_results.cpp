@@ -28,6 +28,19 @@ std::filesystem::path results_of(const std::string& named) {
 
 }  // namespace
 
+void require_same_trust(const RunCommand& command, const RecordedRun& recorded, const char* purpose) {
+  if (command.trust == recorded.trusted) return;
+  if (recorded.trusted)
+    throw Error(
+        ErrorCode::bad_value,
+        asperity::quoted(recorded.root.string()) +
+            " was recorded with `--trust`, which gives its script the whole of Lua and files anywhere",
+        std::string("add `--trust` to ") + purpose + " it so");
+  throw Error(ErrorCode::bad_value,
+              asperity::quoted(recorded.root.string()) + " was recorded without `--trust`",
+              std::string("leave `--trust` out to ") + purpose + " it as it was");
+}
+
 ResultFilesSetup result_files(const RunCommand& command) {
   ResultFilesSetup setup;
   for (const std::string& named : command.reuse) setup.also.push_back(results_of(named));
@@ -58,7 +71,7 @@ std::optional<RunCommand> taken_up(RunCommand command) {
     changed.emplace_back("the script");
   if (!command.arguments.empty() && command.arguments != recorded.arguments)
     changed.emplace_back("its arguments");
-  if (command.seed != 1 && static_cast<std::int64_t>(command.seed) != recorded.seed)
+  if (command.seed_given && static_cast<std::int64_t>(command.seed) != recorded.seed)
     changed.emplace_back("the seed");
   if (!changed.empty() && command.reuse.empty())
     throw Error(ErrorCode::bad_value,
@@ -69,11 +82,11 @@ std::optional<RunCommand> taken_up(RunCommand command) {
   command.anew = !changed.empty();
   if (command.anew) return command;
   if (recorded.status == "done") return {};
+  require_same_trust(command, recorded, "go on with");
   command.script = recorded.script_path;
   command.text = recorded.script_text;
   command.arguments = recorded.arguments;
   command.seed = static_cast<std::uint64_t>(recorded.seed);
-  command.trust = recorded.trusted;
   return command;
 }
 

@@ -8,14 +8,20 @@
 
 #include "bindings/cli/run_command.hpp"
 #include "engine/experiment/journal.hpp"
+#include "engine/experiment/recorded_run.hpp"
 #include "engine/experiment/result_files.hpp"
 
 namespace asperity::cli {
 
 // The command that goes on with the run in `command.resume`: its script, arguments and seed, unless there is
 // nothing there yet, when it is begun there. None where that run came to its end. Throws Error for a script,
-// arguments or a seed that are not its own, unless `reuse` is given, and for a directory that is no run.
+// arguments or a seed that are not its own, unless `reuse` is given, for a run that was trusted otherwise,
+// and for a directory that is no run.
 std::optional<RunCommand> taken_up(RunCommand command);
+
+// Throws Error{bad_value} unless the command trusts its script as the recorded run did: a directory from
+// elsewhere shall not give itself the whole of Lua. `purpose` as in "go on with".
+void require_same_trust(const RunCommand& command, const RecordedRun& recorded, const char* purpose);
 
 // How results of a run are kept, and where else they are looked for; the folder is left open. Throws
 // Error{bad_value} for a `reuse` that is no folder.

@@ -6,14 +6,21 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bindings/cli/accuracy_command.hpp"
+#include "bindings/cli/command_pages.hpp"
+#include "bindings/cli/lesson_command.hpp"
+#include "bindings/cli/repl_command.hpp"
 #include "bindings/cli/replay_command.hpp"
 #include "bindings/cli/run_command.hpp"
 #include "bindings/cli/shard.hpp"
 #include "bindings/lua/help.hpp"
+#include "bindings/lua/lessons.hpp"
 #include "bindings/lua/version.hpp"
+#include "bindings/web/confined.hpp"
+#include "bindings/web/serve_command.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -45,6 +52,9 @@ constexpr const char* usage =
     "asperity check SCRIPT                          look for mistakes without running it\n"
     "asperity explain SCRIPT                        what it will compute, and at what cost\n"
     "asperity accuracy SCRIPT [options]              what accuracy costs a script that returns a number\n"
+    "asperity repl [options]                        try things line by line\n"
+    "asperity serve [options]                       open the laboratory as a page, for one or for a room\n"
+    "asperity lesson [NAME]                         lessons: a question, a prediction, a run that tells why\n"
     "asperity help [TOPIC]                          explain the language\n"
     "asperity materials                             list the materials known by name\n"
     "asperity version                               show what this program was built with\n"
@@ -72,25 +82,33 @@ double exact_value(const std::string& text) {
   }
 }
 
-CLI::Option* add_script_options(CLI::App& command, cli::RunCommand& run, std::string& limit_time) {
-  CLI::Option* script = command.add_option("script", run.script, "the Lua script")->required();
-  command.add_option("--seed", run.seed, "of math.random (default 1)")
+void add_seed(CLI::App& command, std::uint64_t& seed) {
+  command.add_option("--seed", seed, "of math.random (default 1)")
       ->check(CLI::Validator(
           [](const std::string& text) {
             const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
             return whole && (text.size() < 19) ? std::string() : "a seed is a whole number from 0 to 10^18";
           },
           "WHOLE NUMBER"));
+}
+
+CLI::Option* add_script_options(CLI::App& command, cli::RunCommand& run, std::string& limit_time) {
+  CLI::Option* script = command.add_option("script", run.script, "the Lua script")->required();
+  add_seed(command, run.seed);
   command.add_option("--limit-time", limit_time, "end the run after this long, e.g. 60s or \"2 min\"");
   command.add_option("arguments", run.arguments, "reach the script as ... and arg; put them after --");
   return script;
 }
 
-void add_run_options(CLI::App& command, cli::RunCommand& run, std::string& memory) {
-  command.add_option("--out", run.out, "the run directory (default runs/<script>-<n>); must be new or empty");
-  command.add_option("--threads", run.threads, "threads to use (default: one a processor)")
+void add_machine_options(CLI::App& command, int& threads, std::string& memory) {
+  command.add_option("--threads", threads, "threads to use (default: one a processor)")
       ->check(CLI::Range(1, 4096));
   command.add_option("--limit-memory", memory, "most memory, e.g. 4G");
+}
+
+void add_run_options(CLI::App& command, cli::RunCommand& run, std::string& memory) {
+  command.add_option("--out", run.out, "the run directory (default runs/<script>-<n>); must be new or empty");
+  add_machine_options(command, run.threads, memory);
 }
 
 void add_store_options(CLI::App& command, cli::RunCommand& run, std::string& limit, std::string& shard) {
@@ -117,13 +135,40 @@ void add_store_options(CLI::App& command, cli::RunCommand& run, std::string& lim
       ->excludes(command.get_option("--trust"));
 }
 
-void add_trust(CLI::App& command, cli::RunCommand& run) {
-  command.add_flag("--trust", run.trust, "give the script the whole of Lua, and files anywhere");
+void add_serve_options(CLI::App& command, web::ServeCommand& serve, std::string& time, std::string& memory) {
+  command.add_option("--port", serve.port, "of the address (default 8137, or any where that is taken)")
+      ->check(CLI::Range(1, 65535));
+  command.add_flag("--open", serve.open, "open the page in this machine's browser");
+  command.add_option("--out", serve.out,
+                     "where its runs are kept (default runs/serve-<n>); must be new or empty");
+  command.add_option("--runs", serve.runs, "scripts that run at once (default 2; in a room one a processor)")
+      ->check(CLI::Range(1, 256));
+  command.add_option("--limit-time", time, "of one run (default 10 min; in a room 60 s)");
+  command.add_option("--limit-memory", memory, "of one run (default: its share of half the machine's)");
+  CLI::Option* room = command.add_option("--classroom", serve.classroom,
+                                         "serve a room on this address of the machine, with a key for each "
+                                         "student; without it only this machine is");
+  CLI::Option* students =
+      command.add_option("--students", serve.students, "of the room")->check(CLI::Range(1, 400))->needs(room);
+  command.add_option("--names", serve.names, "a file of the students' names, one a line")
+      ->needs(room)
+      ->excludes(students);
+  command.footer(
+      "Each run is a process of its own that reaches no other file, process or network; what holds it on "
+      "this "
+      "machine is tried and shown at the start.");
+}
+
+void add_trust(CLI::App& command, bool& trust) {
+  command.add_flag("--trust", trust, "give the script the whole of Lua, and files anywhere");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  // The child of `asperity serve`: nothing of the command line is for it.
+  if (argc == 2 && std::string_view(argv[1]) == "--confined") return web::confined_main();
+
   CLI::App app{"Asperity: a laboratory for rough surfaces, scripted in Lua."};
   app.name("asperity");
   app.require_subcommand(1);
@@ -133,15 +178,20 @@ int main(int argc, char** argv) {
   cli::RunCommand run, check, explain;
   cli::AccuracyCommand accuracy;
   cli::ReplayCommand replay;
+  web::ServeCommand serve;
+  std::string serve_time, serve_memory;
+  cli::LessonCommand lesson;
   std::string replay_time, replay_memory;
+  cli::ReplCommand repl;
+  std::string repl_time, repl_memory;
   std::string run_time, check_time, explain_time, accuracy_time, memory, accuracy_memory, store_limit, shard,
-      at_most, truth, topic;
-  bool reference = false, types = false, explain_json = false;
+      at_most, truth, topic, lesson_memory;
+  bool reference = false, types = false, manual = false, completion = false, explain_json = false;
 
   CLI::App& run_command = *app.add_subcommand("run", "run a script and keep what it finds");
   add_script_options(run_command, run, run_time)->required(false);
   add_run_options(run_command, run, memory);
-  add_trust(run_command, run);
+  add_trust(run_command, run.trust);
   add_store_options(run_command, run, store_limit, shard);
 
   CLI::App& replay_command = *app.add_subcommand(
@@ -157,6 +207,7 @@ int main(int argc, char** argv) {
       "key=value or call.key=value: another value where calls give this key (from --from "
       "on), e.g. --set press.pressure=\"200 MPa\"; may be given again");
   add_run_options(replay_command, replay.run, replay_memory);
+  add_trust(replay_command, replay.run.trust);
   replay_command.add_option("--limit-time", replay_time, "end it after this long, e.g. 60s or \"2 min\"");
   replay_command.footer(
       "Every call, row, expectation and file is compared by its digest; times and dates are not. "
@@ -168,7 +219,7 @@ int main(int argc, char** argv) {
       "`cells` times 1/4, 1/2, 1, 2, rounded) and with looser and tighter contacts, and each is timed");
   add_script_options(accuracy_command, accuracy.run, accuracy_time);
   add_run_options(accuracy_command, accuracy.run, accuracy_memory);
-  add_trust(accuracy_command, accuracy.run);
+  add_trust(accuracy_command, accuracy.run.trust);
   accuracy_command.add_option("--at-most", at_most,
                               "time for all runs together (default 5 min); quoted first and kept");
   accuracy_command.add_option("--repeats", accuracy.repeats, "timed runs of each setting (default 3)")
@@ -184,6 +235,10 @@ int main(int argc, char** argv) {
       "the run "
       "directory.");
 
+  CLI::App& serve_command = *app.add_subcommand(
+      "serve", "open the laboratory as a page: an editor, runs, charts and lessons in a browser");
+  add_serve_options(serve_command, serve, serve_time, serve_memory);
+
   CLI::App& check_command = *app.add_subcommand("check", "look for mistakes in a script without running it");
   add_script_options(check_command, check, check_time);
 
@@ -194,10 +249,34 @@ int main(int argc, char** argv) {
   add_script_options(explain_command, explain, explain_time);
   explain_command.add_flag("--json", explain_json, "as JSON");
 
+  CLI::App& repl_command =
+      *app.add_subcommand("repl", "try things line by line, each value shown as it comes");
+  repl_command.add_option("--out", repl.out,
+                          "the run directory (default runs/prompt-<n>); made when the first file is written");
+  add_machine_options(repl_command, repl.threads, repl_memory);
+  add_seed(repl_command, repl.seed);
+  repl_command.add_option("--limit-time", repl_time, "end a line after this long, e.g. 60s or \"2 min\"");
+  repl_command.add_flag("--no-history", repl.no_history,
+                        "neither read nor keep the lines of other sessions, which are in "
+                        "$XDG_STATE_HOME/asperity/history, or ~/.local/state");
+  add_trust(repl_command, repl.trust);
+  repl_command.footer(
+      "help() explains, Tab completes, show(surface) draws. Ctrl-C stops a line and not the session, Ctrl-D "
+      "ends it. From a pipe or a file the lines are read without prompts; exit status 1 where one failed.");
+  CLI::App& lesson_command = *app.add_subcommand(
+      "lesson", "lessons that come with the program: lists them, shows one, copies or runs it");
+  lesson_command.add_option("name", lesson.name, "a lesson, by name or number; without it they are listed");
+  CLI::Option* copied = lesson_command.add_flag("--copy", lesson.copy,
+                                                "put its script into this folder, to be changed and run");
+  lesson_command.add_flag("--run", lesson.run, "run it as it is")->excludes(copied);
+  add_run_options(lesson_command, lesson.options, lesson_memory);
+
   CLI::App& help_command = *app.add_subcommand("help", "explain the language: a module, a function, a value");
   help_command.add_option("topic", topic, "e.g. lab.surface, sine, State.area");
   help_command.add_flag("--reference", reference, "the whole reference as Markdown");
   help_command.add_flag("--types", types, "the types of the language for editors (LuaCATS)");
+  help_command.add_flag("--manual", manual, "this program's manual page");
+  help_command.add_flag("--completion", completion, "what bash completes on its command line");
 
   CLI::App& materials_command = *app.add_subcommand("materials", "list the materials known by name");
   CLI::App& version_command = *app.add_subcommand("version", "show what this program is and was built with");
@@ -224,10 +303,14 @@ int main(int argc, char** argv) {
                     "give a time such as 60s or \"2 min\"");
       return q.value;
     };
+    run.seed_given = run_command.count("--seed") > 0;
     run.limit_time = seconds(run_time);
     replay.run.limit_time = seconds(replay_time);
+    serve.limit_time = seconds(serve_time);
+    if (!serve_memory.empty()) serve.limit_memory = cli::parse_bytes(serve_memory);
     check.limit_time = seconds(check_time);
     explain.limit_time = seconds(explain_time);
+    repl.limit_time = seconds(repl_time);
     accuracy.run.limit_time = seconds(accuracy_time);
     accuracy.at_most = seconds(at_most).value_or(accuracy.at_most);
     if (!truth.empty()) accuracy.truth = exact_value(truth);
@@ -243,6 +326,8 @@ int main(int argc, char** argv) {
     if (run_command.parsed() && run.script.empty() && !run.resume)
       throw Error(ErrorCode::bad_value, "no script was named",
                   "give one, as in asperity run examples/quick_start.lua, or --resume RUN");
+    if (!repl_memory.empty()) repl.limit_memory = cli::parse_bytes(repl_memory);
+    if (!lesson_memory.empty()) lesson.options.limit_memory = cli::parse_bytes(lesson_memory);
     if (!replay_memory.empty()) replay.run.limit_memory = cli::parse_bytes(replay_memory);
     if (!accuracy_memory.empty()) accuracy.run.limit_memory = cli::parse_bytes(accuracy_memory);
   } catch (const CLI::Success& success) {
@@ -257,9 +342,22 @@ int main(int argc, char** argv) {
 
   if (run_command.parsed()) return cli::run(run);
   if (replay_command.parsed()) return cli::replay(replay);
+  if (serve_command.parsed()) return web::serve(serve);
   if (check_command.parsed()) return cli::check(check);
   if (explain_command.parsed()) return cli::explain(explain, explain_json);
   if (accuracy_command.parsed()) return cli::accuracy(accuracy);
+  if (repl_command.parsed()) return cli::repl(repl);
+  if (lesson_command.parsed()) return cli::lesson(lesson);
+  if (help_command.parsed() && manual) {
+    std::fputs(cli::manual_page(app, lua::version_text()).c_str(), stdout);
+    return 0;
+  }
+  if (help_command.parsed() && completion) {
+    std::vector<std::string> names;
+    for (const lua::Lesson& known : lua::lessons()) names.push_back(known.name);
+    std::fputs(cli::bash_completion(app, names).c_str(), stdout);
+    return 0;
+  }
   if (help_command.parsed()) return print_help(topic, reference, types);
   if (materials_command.parsed()) print_materials();
   if (version_command.parsed())

@@ -21,6 +21,7 @@
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/mpi/messages.hpp"
+#include "engine/core/slabs/mpi_team.hpp"
 
 namespace asperity::cli {
 
@@ -83,6 +84,11 @@ MpiRanks::MpiRanks() {
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(nowhere, STDERR_FILENO);
   ::close(nowhere);
+}
+
+Team& MpiRanks::team() {
+  if (!team_) team_ = std::make_unique<MpiTeam>(part, rank_, size_);
+  return *team_;
 }
 
 void MpiRanks::send_bytes(int to, const std::string& bytes) { mpi_->send(to, bytes.data(), bytes.size()); }

@@ -31,6 +31,8 @@ class MpiRanks final : public lua::Ranks {
   MpiRanks();
   ~MpiRanks() override = default;
 
+  Team& team() override;
+
   // Where another rank than 0 keeps what its script writes, of which nothing remains.
   std::string scratch_folder() const { return scratch_ + "/run"; }
   void note_failure(const std::string& why) { why_ = why; }
@@ -47,6 +49,7 @@ class MpiRanks final : public lua::Ranks {
   void remove_scratch() const;
 
   const AsperityMpi* mpi_ = nullptr;
+  std::unique_ptr<Team> team_;  // made when it is first needed
   std::string scratch_, why_;
 };
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "bindings/cli/kept_results.hpp"
 #include "bindings/cli/muted.hpp"
 #include "bindings/lua/variation.hpp"
 #include "engine/core/error.hpp"
@@ -72,6 +73,7 @@ int replay(const ReplayCommand& command) {
   std::optional<RecordedRun> recorded;
   try {
     recorded = read_run(command.recorded);
+    require_same_trust(command.run, *recorded, "replay");
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;
@@ -84,7 +86,6 @@ int replay(const ReplayCommand& command) {
   run.text = recorded->script_text;
   run.arguments = recorded->arguments;
   run.seed = static_cast<std::uint64_t>(recorded->seed);
-  run.trust = recorded->trusted;
   const auto lines = static_cast<std::int64_t>(recorded->journal.size());
   if (command.from && (*command.from < 1 || *command.from > lines)) {
     std::fprintf(stderr, "asperity: `--from` is %lld; the journal of %s has lines 1 to %lld\n",

@@ -13,6 +13,7 @@
 
 #include "bindings/cli/kept_results.hpp"
 #include "bindings/cli/mpi_ranks.hpp"
+#include "bindings/cli/run_observer.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/argument.hpp"
@@ -48,12 +49,6 @@ void limit_address_space(std::int64_t bytes) {
 #endif
 }
 
-Json version_json() {
-  Json versions = Json::object();
-  for (const auto& [name, version] : lua::version_facts()) versions.set(name, version);
-  return versions;
-}
-
 std::string reason_text(StopReason reason, const RunCommand& command) {
   switch (reason) {
     case StopReason::interrupt:
@@ -72,6 +67,17 @@ std::string reason_text(StopReason reason, const RunCommand& command) {
 }
 
 }  // namespace
+
+Json version_json() {
+  Json versions = Json::object();
+  for (const auto& [name, version] : lua::version_facts()) versions.set(name, version);
+  return versions;
+}
+
+void limit_memory(std::int64_t bytes) {
+  memory::set_limit(bytes);
+  limit_address_space(bytes);
+}
 
 std::string read_script(const std::string& path) {
   std::error_code problem;
@@ -169,6 +175,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     kept = result_files(command);
     run = std::make_shared<RunDirectory>(setup);
     if (!command.store) kept.folder = run->store();
+    kept.needed = run->needed_to_resume();
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;
@@ -190,7 +197,14 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   if (command.shard)
     run->note_unhashed("shard",
                        std::to_string(command.shard->index) + " of " + std::to_string(command.shard->count));
+  RunObserver* const observer = command.observer;
+  if (observer != nullptr) {
+    monitor.report_to(observer);
+    run->journal().watch(
+        [observer](std::string_view event, const Json& fields) { observer->recorded(event, fields); });
+  }
   const auto summary = [&] {
+    if (observer != nullptr) return;
     const ResultFiles::Counts counts = results.counts();
     const std::string verdicts = run->expectations().summary();
     monitor.clear();
@@ -214,13 +228,13 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     } catch (const std::exception& error) {
       std::fprintf(stderr, "asperity: %s\n", error.what());
     }
-    std::fprintf(stderr, "asperity: %s; what was finished is in %s\n", why.c_str(), run->path().c_str());
+    if (observer != nullptr)
+      observer->ended(exit_status(reason), reason, why);
+    else
+      std::fprintf(stderr, "asperity: %s; what was finished is in %s\n", why.c_str(), run->path().c_str());
   });
 
-  if (command.limit_memory) {
-    memory::set_limit(*command.limit_memory);
-    limit_address_space(*command.limit_memory);
-  }
+  if (command.limit_memory) limit_memory(*command.limit_memory);
 
   std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away must not take the record with it
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is met like a full disk: by an error
@@ -253,7 +267,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   }
   monitor.clear();
   std::fflush(stdout);
-  if (!why.empty()) std::fprintf(stderr, "asperity: %s\n", why.c_str());
+  if (!why.empty() && observer == nullptr) std::fprintf(stderr, "asperity: %s\n", why.c_str());
   if (command.ranks != nullptr) command.ranks->note_failure(why);
   try {
     if (status == done && run->expectations().failed() > 0) {
@@ -267,6 +281,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     if (status == done) status = failed;
   }
   summary();
+  if (observer != nullptr) observer->ended(status, stopped, why);
   return status;
 }
 
@@ -279,6 +294,11 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   for (const std::string& argument : context.command.arguments) script.add(argument);
   session.script_digest = script.hex();
   session.shard = context.command.shard;
+  if (RunObserver* observer = context.command.observer; observer != nullptr && observer->looks_at_results())
+    session.onlooker = [observer, run = context.run.get()](const std::string& call,
+                                                           const lua::Values& results) {
+      observer->found(call, run->journal().count(), results);
+    };
   session.ranks = context.command.ranks;
   session.shard_end = [&](const std::string& sentence) {
     context.monitor.clear();
@@ -293,6 +313,8 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
     context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed,
                         "os.exit(" + std::to_string(code) + ")");
     context.summary();
+    if (context.command.observer != nullptr)
+      context.command.observer->ended(code, StopReason::none, "os.exit(" + std::to_string(code) + ")");
     code = at_exit(code);
     if (context.command.ranks != nullptr) code = context.command.ranks->leave(code);
     std::fflush(nullptr);
@@ -356,12 +378,15 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
             const std::function<void(const std::string& reached)>& report) {
   std::string text;
   try {
-    text = read_script(command.script);
+    text = command.text ? *command.text : read_script(command.script);
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;
   }
-  Watchdog watchdog(command.limit_time ? *command.limit_time : 60.0, [&](StopReason) {
+  RunObserver* const observer = command.observer;
+  Watchdog watchdog(command.limit_time ? *command.limit_time : 60.0, [&](StopReason reason) {
+    if (observer != nullptr)
+      return observer->ended(failed, reason, "the " + verb + " did not come to an end");
     std::fprintf(stderr, "asperity: %s: the %s did not come to an end\n", command.script.c_str(),
                  verb.c_str());
   });
@@ -383,6 +408,10 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
       return done;
     }
     const std::string message = lua::error_text(state.get(), -1);
+    if (observer != nullptr && stop_flag().reason() != StopReason::none) {
+      observer->ended(failed, stop_flag().reason(), "the " + verb + " was stopped");
+      return failed;
+    }
     if (stop_flag().reason() != StopReason::none) {
       std::fprintf(stderr, "asperity: %s: the %s was stopped\n", command.script.c_str(), verb.c_str());
       return exit_status(stop_flag().reason());
@@ -391,9 +420,15 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
       report("to line " + lua::line_of(message) + ": " + lua::cannot_follow);
       return done;
     }
-    std::fprintf(stderr, "asperity: %s\n", message.c_str());
+    if (observer != nullptr)
+      observer->ended(failed, StopReason::none, message);
+    else
+      std::fprintf(stderr, "asperity: %s\n", message.c_str());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
+    if (observer != nullptr)
+      observer->ended(failed, StopReason::none, error.what());
+    else
+      std::fprintf(stderr, "asperity: %s\n", error.what());
   }
   return failed;
 }
@@ -404,6 +439,7 @@ int check(const RunCommand& command) {
   TerminalMonitor monitor;
   lua::Session session(monitor);
   return dry_run(command, "check", session, [&](const std::string& reached) {
+    if (command.observer != nullptr) return command.observer->ended(done, StopReason::none, reached);
     std::printf("%s: no problem found%s%s\n", command.script.c_str(), reached.empty() ? "" : "; checked ",
                 reached.c_str());
   });

@@ -14,12 +14,14 @@
 #include "bindings/lua/state.hpp"
 
 namespace asperity {
+class Json;
 class RunDirectory;
-}
+}  // namespace asperity
 
 namespace asperity::cli {
 
 class MpiRanks;
+class RunObserver;
 class TerminalMonitor;
 class Watchdog;
 
@@ -28,6 +30,7 @@ struct RunCommand {
   std::optional<std::string> out;
   int threads = 0;  // 0: one a processor
   std::uint64_t seed = 1;
+  bool seed_given = false;
   std::optional<std::int64_t> limit_memory;  // bytes
   std::optional<double> limit_time;          // seconds
   bool trust = false;
@@ -42,6 +45,7 @@ struct RunCommand {
   // Of a replay: from this line of the journal on nothing is taken from `reuse`.
   std::optional<std::int64_t> afresh_from;
   std::shared_ptr<lua::Variation> variation;  // of a replay; may be null
+  RunObserver* observer = nullptr;            // hears what is otherwise said on standard error; may be null
   MpiRanks* ranks = nullptr;                  // the processes of the run; null where it is the only one
 };
 
@@ -78,6 +82,11 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
 
 // The text of a script. Throws Error{bad_file}.
 std::string read_script(const std::string& path);
+
+// Holds the process to so much memory: grids and Lua's heap by count, what libraries take by the system.
+void limit_memory(std::int64_t bytes);
+// Versions of the program and what it is made of, for the manifest.
+Json version_json();
 
 // "4G", "512M", "64KiB", "1000000". Throws Error{bad_value}.
 std::int64_t parse_bytes(const std::string& text);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bindings/cli/run_observer.hpp"
 #include "engine/experiment/run_directory.hpp"
 
 namespace asperity::cli {
@@ -36,7 +37,7 @@ void TerminalMonitor::progress(std::string_view what, double done) {
   }
   last_done_ = done;
   const double elapsed = std::chrono::duration<double>(now - started_).count();
-  if (elapsed < quiet_seconds || std::chrono::duration<double>(now - shown_).count() < pause()) return;
+  if (elapsed < quiet() || std::chrono::duration<double>(now - shown_).count() < pause()) return;
   shown_ = now;
   show(current_, done, elapsed);
 }
@@ -46,14 +47,20 @@ void TerminalMonitor::progress_of_parts(std::string_view what, double done, std:
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
   current_.clear();
-  if (seconds < quiet_seconds || std::chrono::duration<double>(now - parts_shown_).count() < pause()) return;
+  if (seconds < quiet() || std::chrono::duration<double>(now - parts_shown_).count() < pause()) return;
   parts_shown_ = now;
   show(std::string(what) + ", " + std::string(part), done, seconds);
 }
 
-double TerminalMonitor::pause() const { return terminal_ ? redraw_seconds : relist_seconds; }
+double TerminalMonitor::pause() const {
+  return observer_ != nullptr ? redraw_seconds : terminal_ ? redraw_seconds : relist_seconds;
+}
+
+double TerminalMonitor::quiet() const { return observer_ != nullptr ? redraw_seconds : quiet_seconds; }
 
 void TerminalMonitor::show(const std::string& title, double done, double seconds) {
+  if (observer_ != nullptr)
+    return observer_->progress(title, done, done > 0 ? seconds / done * (1 - done) : -1);
   const std::string left = done > 0 ? ", about " + duration_text(seconds / done * (1 - done)) + " left" : "";
   char percent[16];
   std::snprintf(percent, sizeof percent, "%.0f %%", 100 * done);

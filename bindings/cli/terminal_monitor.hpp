@@ -17,12 +17,16 @@ class RunDirectory;
 
 namespace asperity::cli {
 
+class RunObserver;
+
 class TerminalMonitor final : public Monitor {
  public:
   TerminalMonitor();
   ~TerminalMonitor() override;
   // Warnings also go to this run's journal.
   void keep_warnings_in(RunDirectory* run) { run_ = run; }
+  // Progress goes there instead.
+  void report_to(RunObserver* observer) { observer_ = observer; }
   // Heavy calls take their results from here and keep them here.
   void keep_results_in(ResultStore* results) { results_ = results; }
 
@@ -37,12 +41,14 @@ class TerminalMonitor final : public Monitor {
  private:
   using Clock = std::chrono::steady_clock;
   double pause() const;  // seconds between two lines
+  double quiet() const;  // work shorter than this shows nothing
   void show(const std::string& title, double done, double seconds);
   void clear_line();
 
   std::mutex mutex_;
   RunDirectory* run_ = nullptr;
   ResultStore* results_ = nullptr;
+  RunObserver* observer_ = nullptr;
   bool terminal_;
   bool line_shown_ = false;
   std::string current_;

@@ -25,8 +25,9 @@ sigset_t watched_signals() {
 
 int exit_status(StopReason reason) { return reason == StopReason::interrupt ? 130 : 1; }
 
-Watchdog::Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words)
-    : last_words_(std::move(last_words)) {
+Watchdog::Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words,
+                   CtrlC ctrl_c)
+    : last_words_(std::move(last_words)), ctrl_c_(ctrl_c) {
   const sigset_t set = watched_signals();
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   thread_ = std::thread([this, limit_seconds] { guard(limit_seconds); });
@@ -70,14 +71,17 @@ void Watchdog::guard(std::optional<double> limit_seconds) {
 
     bool end_now = false;
     if (signal == SIGINT || signal == SIGTERM) {
-      end_now = patience_ends.has_value();
+      const bool waited = patience_ends.has_value() && Clock::now() >= *patience_ends;
+      end_now = patience_ends.has_value() && (ctrl_c_ != CtrlC::is_patient || signal == SIGTERM || waited);
+      if (signal == SIGTERM) terminated_.store(true);
       ask(StopReason::interrupt);
     } else if (limit_seconds && !patience_ends &&
                std::chrono::duration<double>(Clock::now() - start).count() >= *limit_seconds) {
       ask(StopReason::time_limit);
     }
     if (stop_flag().reason() != StopReason::none && !patience_ends) patience_ends = Clock::now() + grace;
-    if (patience_ends && (end_now || Clock::now() >= *patience_ends)) {
+    const bool patient = ctrl_c_ == CtrlC::is_patient && stop_flag().reason() == StopReason::interrupt;
+    if (patience_ends && (end_now || (!patient && Clock::now() >= *patience_ends))) {
       const StopReason reason = stop_flag().reason();
       last_words_(reason);
       std::fflush(stdout);

@@ -2,7 +2,8 @@
 // Ctrl-C and limits. A thread of its own takes SIGINT and SIGTERM and watches the clock. It asks
 // first: it raises the stop flag, which native work polls, and sets a hook, which Lua code runs into.
 // Work that does neither (a pattern that backtracks for ever) is ended after a grace period: the
-// journal and the notebooks are made safe and the process exits. A second Ctrl-C does not wait.
+// journal and the notebooks are made safe and the process exits. A second Ctrl-C does not wait. At a prompt
+// Ctrl-C is patient: what it stops may take its time, and only a second one after the grace period ends all.
 #pragma once
 
 #include <atomic>
@@ -21,10 +22,15 @@ class Watchdog {
  public:
   // Blocks the signals in the calling thread and those it starts: construct it before any other
   // thread. `last_words` is called from the watchdog's thread before the process is ended.
-  Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words);
+  enum class CtrlC { ends_within_grace, is_patient };
+  Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words,
+           CtrlC ctrl_c = CtrlC::ends_within_grace);
   ~Watchdog();
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
+
+  // Whether SIGTERM was met, which means all of it and not the work of the moment.
+  bool terminated() const { return terminated_.load(); }
 
   // While it lives, stops reach this Lua state; it must go before the state is closed.
   class Watching {
@@ -44,9 +50,10 @@ class Watchdog {
   void ask(StopReason reason);
 
   std::function<void(StopReason)> last_words_;
+  CtrlC ctrl_c_;
   std::mutex mutex_;  // of state_: it may not be closed between being read and being interrupted
   lua_State* state_ = nullptr;
-  std::atomic<bool> done_{false};
+  std::atomic<bool> done_{false}, terminated_{false};
   std::thread thread_;
 };
 

@@ -12,6 +12,7 @@ const Module& surface_module();
 const Module& profile_module();
 const Module& protocol_module();
 const Module& exact_module();
+const Module& spread_module();
 
 const Class& state_class();
 const Class& state_error_class();
@@ -32,5 +33,8 @@ const Class& study_choice_class();
 const Class& material_class();
 const Class& surface_class();
 const Class& profile_class();
+const Class& spread_surface_class();
+const Class& spread_contact_class();
+const Class& spread_state_class();
 
 }  // namespace asperity::lua

@@ -286,7 +286,8 @@ const Class& contact_class() {
         shear_method(),
         {.name = "release",
          .body = release_load,
-         .sentence = "Takes the load off. The bodies recover elastically; what yielded stays."},
+         .sentence = "Takes the load off. The bodies recover elastically; what yielded stays.",
+         .example = "c:release()"},
         {.name = "place",
          .body = place,
          .sentence = "Lifts the upper body and puts it down turned by a multiple of 90 degrees and, on a "
@@ -321,7 +322,8 @@ const Class& contact_class() {
         {.name = "copy",
          .body = copy,
          .sentence = "A second contact in the same state.",
-         .returns = "Contact"},
+         .returns = "Contact",
+         .example = "local before = c:copy()"},
         {.name = "explain",
          .body = explain,
          .sentence = "What a press will compute, what is off, and the expected transforms, memory and time.",
@@ -330,18 +332,21 @@ const Class& contact_class() {
         {.name = "lower",
          .body = lower,
          .sentence = "The lower body's surface as it is now, with all that yielded.",
-         .returns = "Surface"},
+         .returns = "Surface",
+         .example = "print(c:lower():roughness().Ra)"},
         {.name = "upper",
          .body = upper,
          .sentence = "The upper body's surface as it is now, in its own frame, rough side up.",
-         .returns = "Surface"},
+         .returns = "Surface",
+         .example = "c:upper():write \"worn.x3p\""},
         {.name = "close",
          .body = close,
          .sentence =
              "Frees the memory of the contact and of its states now instead of when Lua collects them. "
              "What was read of a state stays, and its load, approach, area, peak pressure, certificate and "
              "digest; "
-             "reading anything else of it is an error."},
+             "reading anything else of it is an error.",
+         .example = "c:close()"},
     };
     return c;
   }();

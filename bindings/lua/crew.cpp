@@ -232,6 +232,11 @@ class Crew {
       const std::string name = in.text();
       if (message->kind == Ranks::Kind::end) {
         take_back(from, name.empty() ? "came to its end before rank 0" : "failed: " + name);
+      } else if (message->kind == Ranks::Kind::here) {
+        take_back(from,
+                  "came to " + name +
+                      " when rank 0 came to an ensemble: the script does not do the same in every process");
+        ranks_->send(from, Ranks::Kind::end, "");
       } else if (name != name_) {
         // Of an ensemble that was over before that rank came to it; or else the two do not do the same.
         if (std::stoll(name) < std::stoll(name_)) continue;

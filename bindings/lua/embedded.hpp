@@ -16,6 +16,8 @@ struct EmbeddedScript {
 };
 
 std::span<const EmbeddedScript> embedded_scripts();
+// Those of scripts/lessons, by name; bindings/lua/lessons.hpp knows what they say.
+std::span<const EmbeddedScript> embedded_lessons();
 // Empty if there is none of this name.
 std::string_view embedded_script(std::string_view name);
 // Makes `require "asperity.NAME"` find every embedded script. Raises on lack of memory.

@@ -5,13 +5,10 @@
 #include <cctype>
 #include <vector>
 
-#include "bindings/lua/registry.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
-
-namespace {
 
 std::string signature(const Function& function) {
   std::string text = qualified_name(function);
@@ -37,6 +34,23 @@ std::string signature(const Function& function) {
   return text + "(" + joined(parts, ", ") + ")";
 }
 
+std::string describe_option(const OptionInfo& option) {
+  std::string text = option.type;
+  if (!option.range_text.empty()) text += " " + option.range_text;
+  if (option.required)
+    text += ", required";
+  else if (!option.default_text.empty())
+    text += ", default " + option.default_text;
+  return text;
+}
+
+std::string describe_field(const Getter& field) {
+  const std::string unit = si_unit(field.dimension);
+  return field.type + (unit.empty() ? "" : ", " + unit);
+}
+
+namespace {
+
 // The options of a block, those of tables inside it after the table's own, as `accuracy.tolerance`.
 struct NamedOption {
   std::string name;
@@ -51,16 +65,6 @@ std::vector<NamedOption> all_options(const BlockInfo& block, const std::string& 
       result.push_back(std::move(inner));
   }
   return result;
-}
-
-std::string option_line(const OptionInfo& option) {
-  std::string text = option.type;
-  if (!option.range_text.empty()) text += " " + option.range_text;
-  if (option.required)
-    text += ", required";
-  else if (!option.default_text.empty())
-    text += ", default " + option.default_text;
-  return text;
 }
 
 std::string padded(const std::string& text, std::size_t width) {
@@ -81,14 +85,9 @@ std::string function_help(const Function& function) {
     text += "  " + padded(p.name, width) + "  " + p.sentence + " (" + p.type + ")\n";
   if (function.options != nullptr)
     for (const auto& [name, option] : all_options(*function.options))
-      text += "  " + padded(name, width) + "  " + option->sentence + " (" + option_line(*option) + ")\n";
+      text += "  " + padded(name, width) + "  " + option->sentence + " (" + describe_option(*option) + ")\n";
   if (!function.example.empty()) text += "\nExample:\n  " + function.example + "\n";
   return text;
-}
-
-std::string getter_type(const Getter& field) {
-  const std::string unit = si_unit(field.dimension);
-  return field.type + (unit.empty() ? "" : ", " + unit);
 }
 
 std::string class_help(const Class& type) {
@@ -97,7 +96,7 @@ std::string class_help(const Class& type) {
   for (const std::string& name : type.names()) width = std::max(width, name.size());
   if (!type.fields.empty()) text += "\nFields:\n";
   for (const Getter& field : type.fields)
-    text += "  " + padded(field.name, width) + "  " + field.sentence + " (" + getter_type(field) + ")\n";
+    text += "  " + padded(field.name, width) + "  " + field.sentence + " (" + describe_field(field) + ")\n";
   if (!type.methods.empty()) text += "\nMethods:\n";
   for (const Function& method : type.methods)
     text += "  " + padded(method.name, width) + "  " + method.sentence + "\n";
@@ -155,15 +154,40 @@ std::vector<Topic> all_topics() {
     for (const Function& f : type->methods) topics.push_back({qualified_name(f), function_help(f)});
     for (const Getter& field : type->fields)
       topics.push_back({type->name + "." + field.name, type->name + "." + field.name + ": " + field.sentence +
-                                                           " (" + getter_type(field) + ")\n"});
+                                                           " (" + describe_field(field) + ")\n"});
   }
   return topics;
+}
+
+std::vector<const Function*> functions_with_options() {
+  std::vector<const Function*> all;
+  const auto look_at = [&](const Function& f) {
+    if (f.options != nullptr) all.push_back(&f);
+  };
+  for (const Module* module : modules()) {
+    if (module->call) look_at(*module->call);
+    for (const Function& f : module->functions) look_at(f);
+  }
+  for (const Class* type : classes())
+    for (const Function& f : type->methods) look_at(f);
+  return all;
 }
 
 bool same(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
   });
+}
+
+// The keys of this name, by the call that takes them; "" if there is none.
+std::string keys_help(const std::string& name) {
+  std::string text;
+  for (const Function* function : functions_with_options())
+    for (const auto& [path, option] : all_options(*function->options))
+      if (same(path, name) || same(last_name(path), name))
+        text += "Key `" + path + "` of " + qualified_name(*function) + ": " + option->sentence + " (" +
+                describe_option(*option) + ")\n";
+  return text;
 }
 
 // --- the reference page
@@ -184,7 +208,8 @@ void function_reference(std::string& page, const Function& function) {
       page += "| `" + p.name + "` | " + cell(p.type) + " | " + cell(p.sentence) + " |\n";
     if (function.options != nullptr)
       for (const auto& [name, option] : all_options(*function.options))
-        page += "| `" + name + "` | " + cell(option_line(*option)) + " | " + cell(option->sentence) + " |\n";
+        page +=
+            "| `" + name + "` | " + cell(describe_option(*option)) + " | " + cell(option->sentence) + " |\n";
     page += "\n";
   }
   if (!function.example.empty()) page += "```lua\n" + function.example + "\n```\n\n";
@@ -221,7 +246,7 @@ void cats_block(std::string& page, const Function& function) {
   page += "---@class " + block_class(function) + "\n";
   for (const OptionInfo* option : function.options->options())
     page += "---@field " + option->name + (option->required ? "" : "?") + " " + cats_type(option->type) +
-            " " + option->sentence + " (" + option_line(*option) + ")\n";
+            " " + option->sentence + " (" + describe_option(*option) + ")\n";
   page += "\n";
 }
 
@@ -258,8 +283,11 @@ std::string help_text(const std::string& topic) {
   std::string found;
   for (const Topic& t : topics)
     if (same(last_name(t.name), topic)) found += (found.empty() ? "" : "\n") + t.text;
+  if (const std::string keys = keys_help(topic); !keys.empty()) found += (found.empty() ? "" : "\n") + keys;
   if (!found.empty()) return found;
   std::vector<std::string> names;
+  for (const Function* function : functions_with_options())
+    for (const NamedOption& named : all_options(*function->options)) names.push_back(last_name(named.name));
   for (const Topic& t : topics) {
     names.push_back(t.name);
     names.push_back(last_name(t.name));
@@ -268,11 +296,53 @@ std::string help_text(const std::string& topic) {
               "help without a topic lists what there is");
 }
 
+std::vector<std::string> help_topics() {
+  std::vector<std::string> names;
+  for (const Topic& topic : all_topics()) names.push_back(topic.name);
+  return names;
+}
+
+const std::string& example_preamble() {
+  static const std::string text = R"(local lab = require "asperity"
+local al = lab.material "Al-2011"
+local function face(seed)
+  return lab.surface.self_affine{ cells=64, size="640 um", hurst=0.8, ra="1 um", short_wave="40 um", seed=seed,
+                                  material=al }
+end
+local s, fine = face(1), face(2):scaled{ ra="0.1 um" }
+local p = s:profile{ row=0 }
+local grain = lab.surface.grain_profile{ radius="100 um", D=1.3, points=512 }
+local stylus = lab.stylus{ tip="2 um", spacing="1 um", length="0.5 mm" }
+local c = lab.contact{ lower=s, upper=lab.material "quartz", boundary="periodic", accuracy={ estimate=true },
+                       effects={ elasticity="half_space", tangential={} } }
+local st = c:press{ pressure="10 MPa" }
+local q = c:shear{ ratio=0.5, friction=0.3 }
+local law = lab.friction{ tau0="500 MPa", alpha=0.2 }
+local stage = lab.tilt_stage{ contact=c, friction=law, mass="4.3 g" }
+local protocol = lab.protocol{ { press={ pressure="10 MPa" } }, { release=true }, { rotate="90 deg" } }
+local book = lab.notebook "examples"
+for N = 1, 3 do book:write{ N=N, D=2.5, r=0.1, mu=0.4 + 0.01 * N } end
+local study = lab.work_precision{
+  ask=function(knobs) return lab.exact.hertz{ radius=1, modulus=1, load=1 }.approach + 1e-2 / knobs.cells ^ 2 end,
+  truth={ cells=1024 }, try={ { name="finer grid", cells={ 16, 32, 64 } } }, repeats=1,
+}
+local tile = lab.spread.sine{ cells=64, size="1 mm", amplitude="1 um", material=al }
+local spread = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary="periodic",
+                                   effects={ elasticity="half_space" } }
+local under = spread:press{ pressure="10 MPa" }
+s:write "specimen.txt" p:write "scan.csv" protocol:write "press_log.csv"
+)";
+  return text;
+}
+
 std::string reference_page() {
   std::string page =
       "# Reference\n\n<!-- Generated by `asperity help --reference`; do not edit. -->\n\n"
       "Every function, value and key of the language, from the same entries that drive the program.\n"
-      "A quantity is a plain SI number or a string with a unit, `\"250 um\"`.\n\n";
+      "A quantity is a plain SI number or a string with a unit, `\"250 um\"`. Every entry has an example "
+      "that runs\n"
+      "after these lines:\n\n```lua\n" +
+      example_preamble() + "```\n\n";
   for (const Module* module : modules()) {
     page += "## `" + module->path + "`\n\n" + module->sentence + "\n\n";
     if (!module->constants.empty()) {
@@ -290,7 +360,7 @@ std::string reference_page() {
       page += "| field | type | meaning |\n|---|---|---|\n";
       for (const Getter& field : type->fields)
         page +=
-            "| `" + field.name + "` | " + cell(getter_type(field)) + " | " + cell(field.sentence) + " |\n";
+            "| `" + field.name + "` | " + cell(describe_field(field)) + " | " + cell(field.sentence) + " |\n";
       page += "\n";
     }
     for (const Function& f : type->methods) function_reference(page, f);

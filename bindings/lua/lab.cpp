@@ -3,6 +3,7 @@
 #include <numbers>
 #include <string>
 
+#include "bindings/lua/base_library.hpp"
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/ensemble.hpp"
@@ -11,15 +12,50 @@
 #include "bindings/lua/ledger.hpp"
 #include "bindings/lua/material.hpp"
 #include "bindings/lua/notebook.hpp"
+#include "bindings/lua/record.hpp"
 #include "bindings/lua/stylus.hpp"
 #include "bindings/lua/version.hpp"
 #include "bindings/lua/work_precision.hpp"
+#include "engine/core/error.hpp"
 
 namespace asperity::lua {
 
 namespace {
 
-Values help(Call& call) { return {help_text(call.given(1) ? call.text(1, "topic") : std::string())}; }
+// Help on a value that a script holds: a function of the laboratory, a module, an object, a result.
+std::string help_on(const Argument& value) {
+  lua_State* L = value.state();
+  const Argument::StackGuard guard(L);
+  if (const Module* module = module_at(L, value.index())) return help_text(module->path);
+  if (const Object* object = value.as_any_object()) return help_text(object->type->name);
+  if (const std::shared_ptr<Record> record = record_at(L, value.index())) {
+    std::string text = "A " + record->name + " result, with its values:\n";
+    for (const Record::Entry& entry : record->entries)
+      if (!entry.value.is_nil()) text += "  " + entry.field + "  " + show(entry) + "\n";
+    return text;
+  }
+  if (lua_iscfunction(L, value.index())) {
+    if (lua_getupvalue(L, value.index(), 1) != nullptr)
+      if (const std::string* name = name_of_entry(lua_touserdata(L, -1))) return help_text(*name);
+    if (const BasePath* path = base_function(lua_tocfunction(L, value.index())))
+      return (path->library == "_G" ? path->key : path->library + "." + path->key) +
+             ": a function of Lua itself, which its manual explains (https://www.lua.org/manual/5.4)\n";
+  }
+  if (value.is_function()) {
+    lua_Debug facts;
+    lua_pushvalue(L, value.index());
+    lua_getinfo(L, ">S", &facts);
+    if (is_sandbox_function(L, value.index())) return "a function of Lua itself\n";
+    return std::string("a function of this script, line ") + std::to_string(facts.linedefined) + "\n";
+  }
+  throw Error(ErrorCode::bad_value, "`topic` is " + value.describe(),
+              "give a name such as \"surface.sine\", or a value of the laboratory");
+}
+
+Values help(Call& call) {
+  if (!call.given(1)) return {help_text("")};
+  return {call.argument(1).is_text() ? help_text(call.text(1, "topic")) : help_on(call.argument(1))};
+}
 
 template <int numerator, int denominator = 1>
 Value factor() {
@@ -42,7 +78,9 @@ const Module& lab_module() {
         {.name = "help",
          .body = help,
          .sentence = "What the laboratory can do, or one function, value or field of it, as text.",
-         .parameters = {{"topic", "string?", "what to explain; nothing lists the topics"}},
+         .parameters = {{"topic", "any?",
+                         "what to explain: a name or part of one, a key, or the function or value itself; "
+                         "nothing lists the topics"}},
          .returns = "string",
          .example = "print(lab.help \"surface.sine\")"});
     m.constants = {

@@ -204,7 +204,23 @@ Values expect(Call& call) {
   return {call.self<Notebook>().expect(expectation).passed};
 }
 
-const Block<NotebookChart>& chart_block() {
+Values chart(Call& call) {
+  const NotebookChart options = call.options(notebook_chart_block());
+  const DrawnChart drawn = draw_chart(run_of(call), call.self<Notebook>(), options);
+  for (const std::string& warning : drawn.warnings) call.session().monitor().warn(warning);
+  return {drawn.file.string()};
+}
+
+std::string describe(const void* self) {
+  const auto& book = *static_cast<const Notebook*>(self);
+  const Table table = book.table();
+  return "notebook \"" + book.name() + "\": " + std::to_string(table.rows()) + " rows of " +
+         std::to_string(table.columns().size()) + " columns";
+}
+
+}  // namespace
+
+const Block<NotebookChart>& notebook_chart_block() {
   using C = NotebookChart;
   static const Block<C> block{
       "chart",
@@ -244,22 +260,6 @@ const Block<NotebookChart>& chart_block() {
        text("file", &C::file, "an .svg or .png under the run directory; default <notebook>-<y>-<x>.svg")}};
   return block;
 }
-
-Values chart(Call& call) {
-  const NotebookChart options = call.options(chart_block());
-  const DrawnChart drawn = draw_chart(run_of(call), call.self<Notebook>(), options);
-  for (const std::string& warning : drawn.warnings) call.session().monitor().warn(warning);
-  return {drawn.file.string()};
-}
-
-std::string describe(const void* self) {
-  const auto& book = *static_cast<const Notebook*>(self);
-  const Table table = book.table();
-  return "notebook \"" + book.name() + "\": " + std::to_string(table.rows()) + " rows of " +
-         std::to_string(table.columns().size()) + " columns";
-}
-
-}  // namespace
 
 Function notebook_function() {
   return {
@@ -303,7 +303,11 @@ const Class& notebook_class() {
          .sentence = "Gives columns their units, for the table's header and the charts.",
          .parameters = {{"units", "table", "unit of each column"}},
          .example = "book:units{ Ra=\"m\", pressure=\"Pa\" }"},
-        {.name = "rows", .body = rows, .sentence = "All rows as tables.", .returns = "table[]"},
+        {.name = "rows",
+         .body = rows,
+         .sentence = "All rows as tables.",
+         .returns = "table[]",
+         .example = "for _, row in ipairs(book:rows()) do print(row.N, row.mu) end"},
         {.name = "expect",
          .body = expect,
          .sentence = "States what a column should show; returns whether it does. A failed expectation makes "
@@ -317,7 +321,7 @@ const Class& notebook_class() {
         {.name = "chart",
          .body = chart,
          .sentence = "Draws columns against a column; returns the file.",
-         .options = &chart_block(),
+         .options = &notebook_chart_block(),
          .returns = "string",
          .example = "book:chart{ x=\"D\", y=\"mu\", one_line_per=\"r\" }",
          .heavy = true},

@@ -4,6 +4,7 @@
 
 #include "bindings/lua/registry.hpp"
 #include "engine/experiment/notebook.hpp"
+#include "engine/experiment/notebook_chart.hpp"
 
 namespace asperity::lua {
 
@@ -11,5 +12,7 @@ template <>
 const Class& class_of<Notebook>();
 
 Function notebook_function();
+// The keys of book:chart.
+const Block<NotebookChart>& notebook_chart_block();
 
 }  // namespace asperity::lua

@@ -217,6 +217,7 @@ const Class& profile_class() {
          .sentence = "Writes the profile: .csv, .txt or .npy by the extension of the path.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",
+         .example = "p:write \"trace.csv\"",
          .heavy = true},
     };
     return c;

@@ -392,26 +392,27 @@ const Class& protocol_class() {
              "leaves the rest undone.",
          .parameters = {{"contact", "Contact", "what it is done to"}},
          .returns = "iterator<table and State?>",
-         .example = "for event, st in p:on(c) do if st then print(event.text, st.area_fraction) end end",
+         .example =
+             "for event, st in protocol:on(c) do if st then print(event.text, st.area_fraction) end end",
          .heavy = true},
         {.name = "events",
          .body = events,
          .sentence = "All events as a list, as p:on gives them.",
          .returns = "table[]",
-         .example = "for _, event in ipairs(p:events()) do print(event.index, event.text) end"},
+         .example = "for _, event in ipairs(protocol:events()) do print(event.index, event.text) end"},
         {.name = "repeated",
          .body = repeated,
          .sentence = "The same events several times over, without recorded times.",
          .options = &repeated_block(),
          .returns = "Protocol",
-         .example = "local p = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, "
+         .example = "local eight = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, "
                     "{ rotate=\"90 deg\" } }:repeated{ times=8 }"},
         {.name = "plus",
          .body = plus,
          .sentence = "One protocol after another, without recorded times.",
          .parameters = {{"next", "Protocol", "what is done after this one"}},
          .returns = "Protocol",
-         .example = "local both = p:plus(q)"},
+         .example = "local both = protocol:plus(protocol:repeated{ times=2 })"},
         {.name = "chart",
          .body = chart,
          .sentence =
@@ -422,7 +423,7 @@ const Class& protocol_class() {
          .options = &chart_block(),
          .options_optional = true,
          .returns = "string",
-         .example = "p:chart \"protocol.svg\"",
+         .example = "protocol:chart \"protocol.svg\"",
          .heavy = true},
         {.name = "write",
          .body = write,
@@ -431,7 +432,7 @@ const Class& protocol_class() {
                      "or load, and dwell. Shifts, and presses to anything else, are an error.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",
-         .example = "p:write \"press_log.csv\"",
+         .example = "protocol:write \"press_log.csv\"",
          .heavy = true},
     };
     return c;
@@ -471,16 +472,17 @@ const Module& protocol_module() {
          .options = &read_block(),
          .options_optional = true,
          .returns = "Protocol",
-         .example = "local p = lab.protocol.read \"press_log.csv\"",
+         .example = "local protocol = lab.protocol.read \"press_log.csv\"",
          .heavy = true}};
-    m.call = Function{.name = "protocol",
-                      .body = make_protocol,
-                      .sentence = "A protocol from a list of events: tables with one key each.",
-                      .options = &protocol_keys(),
-                      .returns = "Protocol",
-                      .example =
-                          "local p = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 min\" } }, "
-                          "{ release=true }, { place={ seed=1 } } }"};
+    m.call = Function{
+        .name = "protocol",
+        .body = make_protocol,
+        .sentence = "A protocol from a list of events: tables with one key each.",
+        .options = &protocol_keys(),
+        .returns = "Protocol",
+        .example =
+            "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 min\" } }, "
+            "{ release=true }, { place={ seed=1 } } }"};
     return m;
   }();
   return module;

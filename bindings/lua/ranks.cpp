@@ -5,7 +5,9 @@
 #include <chrono>
 #include <thread>
 
+#include "bindings/lua/ensemble_case.hpp"
 #include "engine/core/byte_string.hpp"
+#include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
 
 namespace asperity::lua {
@@ -91,6 +93,75 @@ std::optional<Ranks::Message> Ranks::receive() {
 void Ranks::lose(int other, const std::string& why) {
   if (!lost_.insert(other).second) return;
   losses_.push_back("rank " + std::to_string(other) + " " + why);
+}
+
+Ranks::Message Ranks::next() {
+  for (;;) {
+    if (std::optional<Message> message = receive()) return *std::move(message);
+    stop_flag().check();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+void Ranks::meet(const std::string& what, int ensembles) {
+  ++meetings_;
+  if (leads())
+    call_together(what, ensembles);
+  else
+    wait_for_call(what, ensembles);
+}
+
+namespace {
+
+[[noreturn]] void throw_apart(const std::string& what, const std::string& why) {
+  throw Error(ErrorCode::bad_state, what + " is done by all ranks together, and " + without_traceback(why));
+}
+
+}  // namespace
+
+void Ranks::call_together(const std::string& what, int ensembles) {
+  std::set<int> here;
+  while (static_cast<int>(here.size() + lost_.size()) < size_ - 1) {
+    const Message message = next();
+    ByteReader in(message.bytes);
+    const std::string name = in.text();
+    if (message.kind == Kind::here) {
+      if (name == what)
+        here.insert(message.from);
+      else
+        lose(message.from, "came to " + name + " when rank 0 came to " + what +
+                               ": the script does not do the same in every process");
+    } else if (message.kind == Kind::end) {
+      lose(message.from, name.empty() ? "came to its end before rank 0" : "failed: " + name);
+    } else if (message.kind == Kind::hello && std::stoll(name) > ensembles) {
+      lose(message.from, "came to an ensemble when rank 0 came to " + what +
+                             ": the script does not do the same in every process");
+    }  // else of an ensemble that is over
+  }
+  ByteWriter out;
+  out.number(meetings_);
+  out.text(losses_.empty() ? "" : losses_.front());
+  send_to_others(Kind::go, out.take());
+  if (!losses_.empty()) throw_apart(what, losses_.front());
+}
+
+void Ranks::wait_for_call(const std::string& what, int ensembles) {
+  ByteWriter out;
+  out.text(what);
+  send(0, Kind::here, out.take());
+  for (;;) {
+    Message message = next();
+    ByteReader in(message.bytes);
+    if (message.kind == Kind::end) {
+      put_back(std::move(message));
+      throw_apart(what, "rank 0 came to its end, or goes another way");
+    }
+    if ((message.kind == Kind::cases || message.kind == Kind::rows) && std::stoll(in.text()) > ensembles)
+      throw_apart(what, "rank 0 came to an ensemble");
+    if (message.kind != Kind::go || in.number<std::uint64_t>() != meetings_) continue;
+    if (const std::string why = in.text(); !why.empty()) throw_apart(what, why);
+    return;
+  }
 }
 
 std::optional<FoundResult> RankStore::find(const std::string& key) {

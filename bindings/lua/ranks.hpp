@@ -13,12 +13,13 @@
 #include <vector>
 
 #include "engine/core/result_store.hpp"
+#include "engine/core/slabs/team.hpp"
 
 namespace asperity::lua {
 
 class Ranks {
  public:
-  enum class Kind : std::uint8_t { hello, result, cases, rows, kept, end };
+  enum class Kind : std::uint8_t { hello, result, cases, rows, kept, end, here, go };
   struct Message {
     int from = 0;
     Kind kind = Kind::end;
@@ -42,6 +43,13 @@ class Ranks {
   bool lost(int other) const { return lost_.contains(other); }
   const std::vector<std::string>& losses() const { return losses_; }
 
+  // Before work that all processes do together (Team): waits until each has come to it. `what` names it, the
+  // same in all; `ensembles` is how many the script has begun. Throws Error{bad_state} in every process that
+  // comes where one does not, or comes to something else.
+  void meet(const std::string& what, int ensembles);
+  // For that work.
+  virtual Team& team() = 0;
+
   // The run's own store, for cases; null where there is none. On ranks other than 0 that of `--store`.
   ResultStore* own_store = nullptr;
 
@@ -51,7 +59,12 @@ class Ranks {
   int rank_ = 0, size_ = 1;
 
  private:
+  void call_together(const std::string& what, int ensembles);
+  void wait_for_call(const std::string& what, int ensembles);
+  Message next();
+
   std::deque<Message> put_back_;
+  std::uint64_t meetings_ = 0;
   std::set<int> lost_;
   std::vector<std::string> losses_;
 };

@@ -207,6 +207,7 @@ void record_call(const Session& session, const std::string& function, const Obje
   line.set("inputs", given);
   if (const std::string digest = digest_of(results); !digest.empty()) line.set("result", digest);
   session.run->journal().write("call", line);
+  if (session.onlooker) session.onlooker(function, results);
 }
 
 const std::string& qualified_name(const Function& function) { return entries().at(&function).name; }

@@ -39,8 +39,8 @@ struct Function {
   const BlockInfo* options = nullptr;   // the table of named keys: the last argument
   bool options_optional = false;        // the table may be left out
   std::string returns{};  // "State", "number", "Profile[]", "iterator<State>", "number, string", "" for none
-  std::string example{};
-  bool heavy = false;  // not run by `asperity check`
+  std::string example{};  // required; a line that runs after example_preamble()
+  bool heavy = false;     // not run by `asperity check`
 };
 
 // The types of its results one by one.

@@ -86,6 +86,8 @@ class Session {
   std::optional<Shard> shard;            // of a run that computes some of the cases only
   // What a shard does where the script can go no further without the cases of others: ends the process.
   std::function<void(const std::string& sentence)> shard_end;
+  // Shown what each heavy call found; empty where nobody looks.
+  std::function<void(const std::string& call, const Values& results)> onlooker;
   Ranks* ranks = nullptr;  // the processes that share the cases; may be null
   // Of a case: what it depends on beside what it is given.
   CaseNotes* notes = nullptr;

@@ -352,11 +352,13 @@ const Class& field_class() {
          .body = field_value,
          .sentence = "The value at node (i, j), counted from 0.",
          .parameters = {{"i", "integer", "along x"}, {"j", "integer", "along y"}},
-         .returns = "number"},
+         .returns = "number",
+         .example = "print(st:field \"gap\":value(0, 0))"},
         {.name = "values",
          .body = field_values,
          .sentence = "All values as a table of rows, values[j+1][i+1].",
-         .returns = "number[][]"},
+         .returns = "number[][]",
+         .example = "local first_row = st:field \"gap\":values()[1]"},
         {.name = "picture",
          .body = field_picture,
          .sentence = "A picture of the field as PNG, true to scale.",
@@ -364,6 +366,7 @@ const Class& field_class() {
          .options = &picture_block(),
          .options_optional = true,
          .returns = "string",
+         .example = "st:field \"gap\":picture(\"gap.png\", { title=\"the gap\" })",
          .heavy = true},
     };
     return c;

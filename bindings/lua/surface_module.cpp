@@ -5,12 +5,11 @@
 #include "bindings/lua/grid_keys.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/surface.hpp"
+#include "bindings/lua/surface_keys.hpp"
 #include "bindings/lua/weierstrass_mandelbrot_keys.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/grain_profile.hpp"
-#include "engine/surface/generators/self_affine.hpp"
-#include "engine/surface/generators/sine.hpp"
 #include "engine/surface/generators/sphere.hpp"
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 
@@ -45,20 +44,8 @@ Values weierstrass_mandelbrot_body(Call& call) {
 
 // --- the simple shapes
 
-struct SineKeys : GridKeys, SineOptions {};
 const Block<SineKeys>& sine_block() {
-  static const Block<SineKeys> block{
-      "lab.surface.sine",
-      {Option<SineKeys>(cells_key()).required(), Option<SineKeys>(size_key()).required(),
-       Option<SineKeys>(quantity("amplitude", &SineOptions::amplitude, dimension::length, at_least(0),
-                                 "height of a crest above the mean"))
-           .required(),
-       Option<SineKeys>(
-           quantity("wavelength", &SineOptions::wavelength, dimension::length, above(0), "length of a wave"))
-           .defaults_to("size"),
-       integer("directions", &SineOptions::directions, between(1, 2),
-               "1: cos along x; 2: cos along x times cos along y"),
-       material_key()}};
+  static const Block<SineKeys> block{"lab.surface.sine", sine_keys()};
   return block;
 }
 Values sine_body(Call& call) {
@@ -97,37 +84,9 @@ Values sphere_body(Call& call) {
   return result(sphere_surface(keys, call.session().monitor()), keys.body_material);
 }
 
-struct SelfAffineKeys : GridKeys, SelfAffineOptions {};
 const Block<SelfAffineKeys>& self_affine_block() {
-  using O = SelfAffineOptions;
-  using K = SelfAffineKeys;
-  static const Block<K> block{
-      "lab.surface.self_affine",
-      {Option<K>(cells_key()).required(), Option<K>(size_key()).required(),
-       Option<K>(number("hurst", &O::hurst, {0, 1, true, false, false}, "Hurst exponent H; D = 3 - H"))
-           .required(),
-       quantity("rms_height", &O::rms_height, dimension::length, above(0),
-                "root mean square height; or give rms_slope or ra"),
-       number("rms_slope", &O::rms_slope, above(0),
-              "spectral root mean square slope; or give rms_height or ra"),
-       quantity("ra", &O::ra, dimension::length, above(0),
-                "mean absolute height; or give rms_height or rms_slope"),
-       Option<K>(quantity("long_wave", &O::long_wave, dimension::length, above(0), "longest wave"))
-           .defaults_to("size"),
-       Option<K>(quantity("roll_off", &O::roll_off, dimension::length, above(0),
-                          "wave above which the spectrum is flat"))
-           .defaults_to("long_wave"),
-       Option<K>(quantity("short_wave", &O::short_wave, dimension::length, above(0),
-                          "shortest wave, at least two cells"))
-           .required(),
-       integer("seed", &O::seed, at_least(0), "of the random waves"), material_key()},
-      [](K& keys, Problems& problems) {
-        const int given = (keys.rms_height ? 1 : 0) + (keys.rms_slope ? 1 : 0) + (keys.ra ? 1 : 0);
-        if (given != 1)
-          problems.push_back(
-              "give exactly one of `rms_height`, `rms_slope` and `ra`, which sets the amplitude; " +
-              std::to_string(given) + " are given");
-      }};
+  static const Block<SelfAffineKeys> block{"lab.surface.self_affine", self_affine_keys(),
+                                           check_self_affine_keys};
   return block;
 }
 Values self_affine_body(Call& call) {
@@ -219,16 +178,7 @@ Values grain_profile_body(Call& call) {
 // --- from functions and tables
 
 const Block<GridKeys>& from_function_block() {
-  static const Block<GridKeys> block{
-      "lab.surface.from_function",
-      {cells_key().required(), size_key().required(),
-       custom<GridKeys>("height", "function", "function(x, y) returning the height, all in metres",
-                        [](const Argument& value, const OptionInfo& info, GridKeys&, Problems& problems) {
-                          if (!value.is_function())
-                            detail::wrong_type(value, info, "a function(x, y)", problems);
-                        })
-           .required(),
-       material_key()}};
+  static const Block<GridKeys> block{"lab.surface.from_function", from_function_keys()};
   return block;
 }
 Values from_function_body(Call& call) {

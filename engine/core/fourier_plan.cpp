@@ -24,12 +24,16 @@ struct DestroyPlan {
 using Plan = std::unique_ptr<std::remove_pointer_t<fftw_plan>, DestroyPlan>;
 }  // namespace
 
+std::unique_lock<std::mutex> lock_fourier_planner() {
+  static std::mutex mutex;
+  return std::unique_lock(mutex);
+}
+
 // The planner of FFTW is not thread-safe; executing a finished plan is. A plan is never thrown away
 // while the process lives.
 fftw_plan fourier_plan(int n, FourierPlan kind) {
-  static std::mutex mutex;
   static std::map<std::pair<int, FourierPlan>, Plan> plans;
-  const std::lock_guard lock(mutex);
+  const auto lock = lock_fourier_planner();
   Plan& plan = plans[{n, kind}];
   if (plan) return plan.get();
   Array<Complex> in(static_cast<std::size_t>(n)), out(static_cast<std::size_t>(n));

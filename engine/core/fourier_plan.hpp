@@ -6,6 +6,7 @@
 #include <fftw3.h>
 
 #include <complex>
+#include <mutex>
 
 namespace asperity {
 
@@ -14,5 +15,8 @@ enum class FourierPlan { real_forward, real_inverse, complex_forward, complex_in
 // From one 64-byte aligned buffer into another; only real_inverse spoils its input. Unnormalised.
 // Throws Error{internal} if FFTW has no plan.
 fftw_plan fourier_plan(int n, FourierPlan kind);
+
+// Held while plans of other kinds are made or destroyed: FFTW's planner is not thread-safe.
+std::unique_lock<std::mutex> lock_fourier_planner();
 
 }  // namespace asperity

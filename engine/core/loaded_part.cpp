@@ -4,7 +4,12 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -49,20 +54,30 @@ std::string load_failure() {
 std::vector<fs::path> part_places(const LoadedPart& part) {
   const std::string file = "asperity-" + std::string(part.name) + ".so";
   std::vector<fs::path> places;
-  const Own own = own_object();
-  if (own.folder.empty()) return places;
-  places.push_back(own.folder / file);
-  // From bin/ and from lib/lua/5.4/ to lib/asperity/.
-  places.push_back(
-      (own.folder / (own.program ? "../lib/asperity" : "../../asperity") / file).lexically_normal());
-  std::error_code failure;
-  const fs::path build = fs::canonical(ASPERITY_BUILD_FOLDER, failure);
-  if (!failure && own.folder != build && is_below(own.folder, build)) places.push_back(build / file);
+  // Unknown where there is no /proc.
+  if (const Own own = own_object(); !own.folder.empty()) {
+    places.push_back(own.folder / file);
+    // From bin/ and from lib/lua/5.4/ to lib/asperity/.
+    places.push_back(
+        (own.folder / (own.program ? "../lib/asperity" : "../../asperity") / file).lexically_normal());
+    std::error_code failure;
+    const fs::path build = fs::canonical(ASPERITY_BUILD_FOLDER, failure);
+    if (!failure && own.folder != build && is_below(own.folder, build)) places.push_back(build / file);
+  }
+  // A program of somebody else's, linked with the installed library, may lie anywhere.
+  const fs::path installed = fs::path(ASPERITY_PARTS_FOLDER) / file;
+  if (std::ranges::find(places, installed) == places.end()) places.push_back(installed);
   return places;
 }
 
 void* part_symbol(const LoadedPart& part, const char* symbol) {
-  return part_symbol(part, symbol, part_places(part));
+  // What was found once is not looked for again: a process that has shut itself in no longer sees the files.
+  static std::mutex mutex;
+  static std::map<std::pair<std::string, std::string>, void*> found;
+  const std::lock_guard lock(mutex);
+  void*& address = found[{std::string(part.name), symbol}];
+  if (address == nullptr) address = part_symbol(part, symbol, part_places(part));
+  return address;
 }
 
 void* part_symbol(const LoadedPart& part, const char* symbol, const std::vector<fs::path>& places) {
@@ -85,13 +100,11 @@ void* part_symbol(const LoadedPart& part, const char* symbol, const std::vector<
                     ", belongs to another version: it has no " + quoted(symbol),
                 "build or install the program and its parts together");
   }
-  throw Error(
-      ErrorCode::bad_file,
-      "the part by which " + std::string(part.purpose) + ", asperity-" + std::string(part.name) +
-          ".so, is missing; looked for " +
-          (searched.empty() ? "no place, as the program's own is unknown" : joined(searched, " and ")),
-      "build or install the program as a whole; that part needs Debian's package " +
-          std::string(part.package));
+  throw Error(ErrorCode::bad_file,
+              "the part by which " + std::string(part.purpose) + ", asperity-" + std::string(part.name) +
+                  ".so, is missing; looked for " + joined(searched, " and "),
+              "build or install the program as a whole; that part needs Debian's package " +
+                  std::string(part.package));
 }
 
 }  // namespace asperity

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace asperity {
 
@@ -40,6 +41,9 @@ std::string describe(Dimension dimension);
 std::string example_quantity(Dimension dimension);
 // The SI unit as text: "m", "Pa", "J/m^2"; "" for a plain number.
 std::string si_unit(Dimension dimension);
+
+// The units that values of a dimension are mostly given in, smallest first.
+std::vector<std::string> usual_units(Dimension dimension);
 
 struct Quantity {
   double value = 0;  // SI

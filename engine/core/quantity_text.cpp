@@ -128,6 +128,17 @@ std::string si_unit(Dimension dimension) {
   return text;
 }
 
+std::vector<std::string> usual_units(Dimension dimension) {
+  std::vector<std::string> names;
+  if (const Kind* kind = find(dimension))
+    for (const DisplayUnit& unit : kind->display) names.push_back(unit.name);
+  if (names.empty() && !si_unit(dimension).empty()) names.push_back(si_unit(dimension));
+  // Read, but never chosen for printing.
+  if (dimension == dimension::time) names.insert(names.end(), {"min", "h"});
+  if (dimension == dimension::angle) names.push_back("rad");
+  return names;
+}
+
 std::string format_quantity(double value, Dimension dimension, int digits) {
   const DisplayUnit unit = display_unit_for(std::abs(value), dimension, digits);
   const std::string number = format_short(value / unit.factor, digits);

@@ -16,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "engine/core/error.hpp"
@@ -201,12 +202,25 @@ std::string gnuplot_terminal(PictureFormat format, int width, int height, double
   return "set terminal svg size " + size + " dynamic" + look + " background '#ffffff'\n";
 }
 
-GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> data) {
-  const TemporaryDirectory folder;
+namespace {
+std::function<GnuplotDrawer>& drawer() {
+  static std::function<GnuplotDrawer> other;
+  return other;
+}
+}  // namespace
+
+void draw_pictures_by(std::function<GnuplotDrawer> other) { drawer() = std::move(other); }
+
+std::string script_for_file(std::string_view script) {
   const std::size_t canvas = script.find('\n') + 1;
-  write_aside(folder.path() / "script", "set encoding utf8\n" + std::string(script.substr(0, canvas)) +
-                                            "set output 'picture'\n" + std::string(script.substr(canvas)) +
-                                            "\nunset output\n");
+  return "set encoding utf8\n" + std::string(script.substr(0, canvas)) + "set output 'picture'\n" +
+         std::string(script.substr(canvas)) + "\nunset output\n";
+}
+
+GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> data) {
+  if (drawer()) return drawer()(script, data);
+  const TemporaryDirectory folder;
+  write_aside(folder.path() / "script", script_for_file(script));
   for (const GnuplotData& item : data) write_aside(folder.path() / item.name, item.bytes);
   const int status = wait_for(start(folder.path()));
   GnuplotResult result{content_of(folder.path() / "picture"),

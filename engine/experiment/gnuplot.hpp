@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,6 +38,14 @@ struct GnuplotResult {
   std::string picture;   // the bytes of the file
   std::string messages;  // what gnuplot said on its standard error; empty when all was well
 };
+
+// Who draws instead of a program started here: a process that may start none asks another for its pictures.
+using GnuplotDrawer = GnuplotResult(std::string_view script, std::span<const GnuplotData> data);
+// From now on, in the whole process; not while a picture is drawn.
+void draw_pictures_by(std::function<GnuplotDrawer> drawer);
+
+// The script as gnuplot reads it, to leave its picture in the file `picture` of its working directory.
+std::string script_for_file(std::string_view script);
 
 // Runs the script, whose canvas must be the first line, in a temporary directory of its own. Checks
 // the stop flag while waiting. Thread-safe. Throws Error{bad_state} when gnuplot is not installed,

@@ -61,7 +61,9 @@ std::int64_t Journal::append(std::string_view event, const Json& fields) {
       for (const auto& [name, value] : fields.members()) line.set(name, value);
     if (!repeats(line)) append_whole(descriptor_, line.text() + "\n", path_);
   }
-  return ++count_;
+  ++count_;
+  if (watcher_) watcher_(event, fields);
+  return count_;
 }
 
 // Whether the line stands there already. What is the same step with another value ends the repetition.

@@ -10,10 +10,12 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/experiment/json.hpp"
@@ -40,6 +42,11 @@ class Journal {
   // recorded in its place is another step.
   std::int64_t write(std::string_view event, const Json& fields = {});
 
+  // Shows each line to `watcher` once it is kept, in order. Set before others write.
+  void watch(std::function<void(std::string_view event, const Json& fields)> watcher) {
+    watcher_ = std::move(watcher);
+  }
+
   // Lines written.
   std::int64_t count() const;
   // Whether recorded lines are still ahead.
@@ -63,6 +70,7 @@ class Journal {
   std::vector<Json> recorded_;      // of a journal taken up again, without what is unhashed
   std::vector<std::int64_t> ends_;  // byte after each
   std::string departure_;
+  std::function<void(std::string_view, const Json&)> watcher_;
   mutable std::mutex mutex_;
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
+#include "engine/core/disk.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/aside_file.hpp"
@@ -133,7 +134,8 @@ void ResultFiles::bring_over(const fs::path& from, const std::string& name) {
 
 void ResultFiles::keep(const std::string& key, std::string_view call, const ResultFacts& facts,
                        const KeptFields& kept) {
-  if (facts.cost.seconds < setup_.least_seconds && !facts.however_cheap) return;
+  if (facts.cost.seconds < std::max(setup_.least_seconds, facts.least_seconds) && !facts.however_cheap)
+    return;
   Hdf5Content content;
   content.texts = {{"form", std::string(form)}, {"call", std::string(call)}, {"key", key}};
   for (const auto& [name, text] : facts.texts) content.texts.emplace_back("text " + name, text);
@@ -166,7 +168,11 @@ void ResultFiles::keep(const std::string& key, std::string_view call, const Resu
                        " GiB of its store: some would be computed again if it were resumed (--store-limit)");
       return;
     }
+    if (!needed_on_disk_)
+      for (const fs::path& file : setup_.needed) wait_for_disk(file);
+    needed_on_disk_ = true;
     write_hdf5(setup_.folder / name, content);
+    wait_for_disk(setup_.folder);
     used_.insert(name);
     ++counts_.kept;
   } catch (const Error& error) {

@@ -26,6 +26,7 @@ struct ResultFilesSetup {
   std::int64_t most_bytes = std::int64_t{8} << 30;  // of the folder; what was used longest ago goes first
   double least_seconds = 0.01;                      // results that cost less are not worth a file
   std::string build;                                // identity of the program
+  std::vector<std::filesystem::path> needed;  // without which results are of no use: on the disk before them
 };
 
 // No limit: for a folder that several runs share, which must not take away what another one needs.
@@ -57,6 +58,7 @@ class ResultFiles final : public ResultStore {
   void note(std::string_view about, std::string sentence);
 
   const ResultFilesSetup setup_;
+  bool needed_on_disk_ = false;
   mutable std::mutex mutex_;    // of what follows, and of the folder as far as this process goes
   std::set<std::string> used_;  // by this run: never removed to make room
   std::vector<std::pair<std::string, std::string>> notices_;

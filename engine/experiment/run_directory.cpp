@@ -97,7 +97,15 @@ std::string_view name(RunStatus status) {
   return "unknown";
 }
 
-RunDirectory::RunDirectory(const RunSetup& setup) : trusted_(setup.trusted) {
+RunDirectory::RunDirectory(const RunSetup& setup) : trusted_(setup.trusted) { make(setup); }
+
+RunDirectory::RunDirectory(RunSetup setup, std::function<std::string()> text)
+    : trusted_(setup.trusted),
+      journal_(std::make_unique<Journal>()),
+      later_(std::move(setup)),
+      text_(std::move(text)) {}
+
+void RunDirectory::make(const RunSetup& setup) {
   // Absolute, so that a script which changes the working directory moves nothing.
   root_ = fs::absolute(setup.resume ? *setup.resume
                        : setup.out  ? given_directory(*setup.out)
@@ -113,6 +121,11 @@ RunDirectory::RunDirectory(Without kind, bool trusted)
       journal_(std::make_unique<Journal>()) {}
 
 RunDirectory::~RunDirectory() = default;
+
+std::vector<fs::path> RunDirectory::needed_to_resume() const {
+  if (kind_ != Kind::directory || later_) return {};
+  return {root_ / script_file, root_ / manifest_file, root_};
+}
 
 void RunDirectory::begin(const RunSetup& setup) {
   const bool again = setup.resume && !setup.anew;
@@ -172,6 +185,12 @@ void RunDirectory::keep_inside(const fs::path& relative, std::string_view file) 
 }
 
 fs::path RunDirectory::path_for(std::string_view file) {
+  if (later_) {
+    RunSetup setup = *later_;
+    setup.script_text = text_();
+    make(setup);
+    later_.reset();
+  }
   fs::path given = fs::path(std::string(file)).lexically_normal();
   // What a method returned as the place of a file may be given back: it is inside, though absolute.
   if (given.is_absolute() && !root_.empty())
@@ -292,8 +311,15 @@ bool RunDirectory::finish(RunStatus status, std::string_view reason, std::chrono
     if (!reason.empty()) fields.set("reason", reason);
     journal_->close("end", fields, patience);
   });
-  if (kind_ == Kind::directory && lock.owns_lock()) {
+  if (kind_ == Kind::directory && !later_ && lock.owns_lock()) {
     attempt([&] {
+      if (text_) {
+        const std::string text = text_();
+        write_aside(root_ / script_file, text);
+        const Json* script = manifest_.find("script");
+        Json whole = script == nullptr ? Json::object() : *script;
+        manifest_.set("script", std::move(whole.set("digest", Digester().add(text).hex())));
+      }
       manifest_.set("status", name(status));
       if (!reason.empty()) manifest_.set("reason", reason);
       Json::List inputs;

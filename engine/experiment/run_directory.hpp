@@ -5,6 +5,9 @@
 // threads, place). Files are kept inside: a name that leads out is refused unless the run is trusted.
 // The folder `store` keeps the results of its heavy calls (result_files.hpp): a run that is taken up again
 // repeats its script, finds them there, and checks itself against the journal as far as that goes.
+// A run that is made later has its directory from the first file on that the script writes: until then
+// nothing is made and no journal is kept. Its text, which grows while it runs, is asked for when the
+// directory is made and when it ends.
 // A loose run has no directory: names are relative to the working directory and neither manifest nor
 // journal is kept. A dry one (`asperity check`) resolves names and keeps notebooks, and writes nothing.
 #pragma once
@@ -12,6 +15,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -52,6 +56,8 @@ class RunDirectory {
   // Makes the directory and its first files. Throws Error{bad_value} if `out` is there and not
   // empty, Error{bad_file} if it cannot be made.
   explicit RunDirectory(const RunSetup& setup);
+  // Makes the directory when the first file is written; `text` gives that of the script so far.
+  RunDirectory(RunSetup setup, std::function<std::string()> text);
   enum class Without { loose, dry };
   explicit RunDirectory(Without kind, bool trusted = false);
   ~RunDirectory();
@@ -62,8 +68,10 @@ class RunDirectory {
   bool repeating() const { return journal_->repeating(); }
   // Where results of heavy calls are kept.
   std::filesystem::path store() const { return root_ / "store"; }
+  // The files, and the folder they are in, without which the run cannot be taken up again.
+  std::vector<std::filesystem::path> needed_to_resume() const;
 
-  // Empty for loose and dry runs.
+  // Empty for loose and dry runs, and for one that is made later until it is.
   const std::filesystem::path& path() const { return root_; }
   bool trusted() const { return trusted_; }
   bool dry() const { return kind_ == Kind::dry; }
@@ -100,6 +108,7 @@ class RunDirectory {
 
  private:
   enum class Kind { directory, loose, dry };
+  void make(const RunSetup& setup);
   void begin(const RunSetup& setup);
   void take_up();
   void write_manifest();
@@ -112,6 +121,10 @@ class RunDirectory {
   std::unique_ptr<Journal> journal_;
   ExpectationLog expectations_;
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+
+  // Of a run that is made later, until it is; and the text it keeps.
+  std::optional<RunSetup> later_;
+  std::function<std::string()> text_;
 
   mutable std::mutex mutex_;  // of everything below
   Json manifest_ = Json::object();

@@ -73,7 +73,7 @@ TEST_F(Help, ClassesThatFunctionsReturnExist) {
 
 TEST_F(Help, FindsATopicByItsLastNameInAnyCase) {
   EXPECT_EQ(help_text("surface.sine"), help_text("lab.surface.sine"));
-  EXPECT_EQ(help_text("sine"), help_text("lab.surface.sine"));
+  EXPECT_EQ(help_text("grain_profile"), help_text("lab.surface.grain_profile"));
   EXPECT_EQ(help_text("STATE"), help_text("State"));
   EXPECT_EQ(help_text("surface"), help_text("lab.surface"));
   EXPECT_NE(help_text("Surface"), help_text("surface"));
@@ -86,6 +86,27 @@ TEST_F(Help, SaysWhatSinglePrecisionIsWorth) {
   EXPECT_NE(
       help_text("lab.contact").find("refined until the certificate, always double, meets the tolerance"),
       std::string::npos);
+}
+
+TEST_F(Help, FindsKeysByTheirNameAndTheCallsThatTakeThem) {
+  const std::string text = help_text("hardness");
+  EXPECT_NE(text.find("Material.hardness"), std::string::npos);
+  EXPECT_NE(text.find("Key `effects.plasticity.hardness` of lab.contact"), std::string::npos);
+  EXPECT_NE(help_text("accuracy.tolerance").find("of lab.contact"), std::string::npos);
+}
+
+TEST_F(Help, ExplainsFunctionsAndValuesThemselves) {
+  EXPECT_EQ(value("lab.help(lab.surface.sine) == lab.help 'lab.surface.sine'"), "true");
+  EXPECT_EQ(value("lab.help(lab.surface) == lab.help 'lab.surface'"), "true");
+  EXPECT_EQ(value("lab.help(lab.rigid) == lab.help 'Material'"), "true");
+  EXPECT_EQ(value("lab.help(lab.surface.flat{ cells=2, size=1 }.rotated) == lab.help 'surface:rotated'"),
+            "true");
+  EXPECT_EQ(value("lab.help(lab.surface.flat{ cells=2, size=1 }:roughness()):match 'A roughness result'"),
+            "A roughness result");
+  EXPECT_NE(value("lab.help(math.floor)").find("math.floor: a function of Lua itself"), std::string::npos);
+  EXPECT_NE(value("lab.help(io.open)").find("of Lua itself"), std::string::npos);
+  EXPECT_NE(value("lab.help(function() end)").find("a function of this script, line 1"), std::string::npos);
+  EXPECT_NE(value("lab.help(3)").find("`topic` is the number 3"), std::string::npos);
 }
 
 TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {

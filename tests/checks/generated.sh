@@ -18,5 +18,7 @@ check() {
 }
 check docs/reference.md --reference
 check docs/asperity.d.lua --types
+check docs/asperity.1 --manual
+check docs/asperity.bash --completion
 [ $stale = 0 ] || exit 1
 echo "the generated pages are fresh"

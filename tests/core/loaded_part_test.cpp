@@ -24,11 +24,13 @@ std::string refusal(const std::vector<std::filesystem::path>& places, const char
 
 TEST(LoadedPart, ProgramsInTheBuildFolderLookThere) {
   const auto places = part_places(unknown);
-  ASSERT_EQ(places.size(), 3u);
+  ASSERT_EQ(places.size(), 4u);
   for (const auto& place : places) EXPECT_EQ(place.filename(), "asperity-nothing.so");
   const auto own = std::filesystem::canonical("/proc/self/exe").parent_path();
   EXPECT_EQ(places[0], own / "asperity-nothing.so");
   EXPECT_EQ(places[1], own.parent_path() / "lib/asperity/asperity-nothing.so");
+  // Last, where the build is installed to.
+  EXPECT_EQ(places[3].parent_path().filename(), "asperity");
 }
 
 TEST(LoadedPart, MissingFileNamesThePlaces) {

@@ -239,5 +239,14 @@ TEST(Quantity, DisplayUnitOfAnAxis) {
   EXPECT_EQ(display_unit(5, dimension::number).factor, 1.0);
 }
 
+TEST(Quantity, UsualUnitsAreReadAsTheirDimension) {
+  for (const Dimension wanted : {dimension::length, dimension::area, dimension::mass, dimension::time,
+                                 dimension::angle, dimension::force, dimension::pressure, dimension::speed}) {
+    EXPECT_FALSE(usual_units(wanted).empty());
+    for (const std::string& unit : usual_units(wanted)) EXPECT_EQ(parse_unit(unit).dimension, wanted) << unit;
+  }
+  EXPECT_TRUE(usual_units(dimension::number).empty());
+}
+
 }  // namespace
 }  // namespace asperity

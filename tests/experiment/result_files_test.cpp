@@ -175,6 +175,20 @@ TEST_F(ResultFilesTest, AFolderThatCannotBeMadeIsNoticedAndNothingElse) {
   EXPECT_NE(files.notices().front().find("could not be kept"), std::string::npos);
 }
 
+TEST_F(ResultFilesTest, NothingIsKeptBeforeTheDiskHasWhatItNeeds) {
+  ResultFilesSetup made = setup();
+  made.needed = {folder / "script.lua", folder};
+  ResultFiles files(made);
+  keep(files, "key", ramp());
+  EXPECT_EQ(files.counts().kept, 0);
+  ASSERT_EQ(files.notices().size(), 1U);
+  EXPECT_NE(files.notices().front().find("script.lua` to the disk: No such file"), std::string::npos)
+      << files.notices().front();
+  std::ofstream(folder / "script.lua") << "return 1";
+  keep(files, "key", ramp());
+  EXPECT_EQ(files.counts().kept, 1);
+}
+
 TEST(BuildIdentity, IsAlwaysTheSame) {
   EXPECT_EQ(build_identity(), build_identity());
   EXPECT_GE(build_identity().size(), 32U);

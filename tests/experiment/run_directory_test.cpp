@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "engine/core/digest.hpp"
 #include "engine/experiment/run_facts.hpp"
 #include "tests/experiment/run_fixture.hpp"
 
@@ -48,6 +49,27 @@ TEST_F(RunDirectoryTest, ThreadsNeverShareOne) {
     threads.emplace_back([&path, this] { path = RunDirectory(setup()).path().string(); });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(std::set<std::string>(paths.begin(), paths.end()).size(), paths.size());
+}
+
+TEST_F(RunDirectoryTest, MadeLaterIsThereWithItsFirstFile) {
+  std::string text = "one\n";
+  {
+    RunDirectory unused(setup(), [&] { return text; });
+    unused.journal().write("call");
+    EXPECT_EQ(unused.place_to_read("here.csv"), "here.csv");
+    EXPECT_TRUE(unused.finish(RunStatus::done));
+    EXPECT_TRUE(unused.path().empty());
+    EXPECT_FALSE(fs::exists(folder / "runs"));
+  }
+  RunDirectory run(setup(), [&] { return text; });
+  EXPECT_EQ(run.path_for("a.csv"), folder / "runs" / "fig9-1" / "a.csv");
+  EXPECT_EQ(content_of(run.path() / "script.lua"), "one\n");
+  run.journal().write("call");
+  text += "two\n";
+  EXPECT_TRUE(run.finish(RunStatus::done));
+  EXPECT_EQ(content_of(run.path() / "script.lua"), "one\ntwo\n");
+  EXPECT_NE(content_of(run.path() / "journal.jsonl").find("\"event\":\"call\""), std::string::npos);
+  EXPECT_EQ(manifest(run).find("script")->find("digest")->string(), Digester().add(text).hex());
 }
 
 TEST_F(RunDirectoryTest, BeginsWithScriptManifestAndJournal) {

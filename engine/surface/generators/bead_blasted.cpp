@@ -10,11 +10,13 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/random.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/generators/recalled_heights.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
 namespace asperity {
@@ -213,6 +215,26 @@ Surface texture(const BeadBlastedOptions& o, const Grid& grid, Monitor& monitor)
   }
 }
 
+// Flat ground after every dent.
+Field dented(const BeadBlastedOptions& options, const Grid& grid, Monitor& monitor) {
+  const auto dents = static_cast<std::int64_t>(dent_count(options));
+  const auto key = [&] {
+    Digester digester;
+    digester.add(grid.nx).add(grid.ny).add(grid.size_x).add(grid.size_y);
+    digester.add(options.bead_low).add(options.bead_high).add(options.dent_low).add(options.dent_high);
+    return digester.add(dents).add(static_cast<std::int64_t>(options.seed)).hex();
+  };
+  const auto strike = [&] {
+    const Stream stream(options.seed, "bead_blasted");
+    Ground ground(grid);
+    Task task(monitor, "bead-blasted surface", dents);
+    for (std::int64_t k = 0; k < dents; ++k, task.advance())
+      ground.strike(draw(stream, static_cast<std::uint64_t>(k), options, grid));
+    return MadeHeights{std::move(ground).take()};
+  };
+  return recall_or_make("dents of beads", key, monitor, strike).heights;
+}
+
 // What the first grid decided: the texture, and how ground, and ground with texture, are scaled.
 struct Decided {
   std::shared_ptr<const SurfaceRecipe> fine;
@@ -226,14 +248,7 @@ Surface blasted(const BeadBlastedOptions& options, const Decided* decided, Monit
   if (options.fine)
     fine = decided == nullptr ? texture(options, grid, monitor) : (*decided->fine)(grid.nx, grid.ny, monitor);
 
-  const auto dents = static_cast<std::int64_t>(dent_count(options));
-  const Stream stream(options.seed, "bead_blasted");
-  Ground ground(grid);
-  Task task(monitor, "bead-blasted surface", dents);
-  for (std::int64_t k = 0; k < dents; ++k, task.advance())
-    ground.strike(draw(stream, static_cast<std::uint64_t>(k), options, grid));
-
-  Field heights = std::move(ground).take();
+  Field heights = dented(options, grid, monitor);
   Decided now;
   if (decided != nullptr)
     apply(heights, decided->of_ground);

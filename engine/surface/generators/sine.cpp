@@ -61,7 +61,7 @@ void check_resolved(double wavelength, double cell, const char* direction) {
 
 }  // namespace
 
-Surface sine_surface(const SineOptions& options, Monitor&) {
+SineFactors sine_factors(const SineOptions& options) {
   const Grid grid = make_grid(options.grid.nx, options.grid.ny, options.grid.size_x, options.grid.size_y);
   const double amplitude = options.amplitude;
   if (!(std::isfinite(amplitude) && amplitude >= 0))
@@ -78,18 +78,26 @@ Surface sine_surface(const SineOptions& options, Monitor&) {
   check_resolved(wavelength, grid.hx(), "x");
   if (both) check_resolved(wavelength, grid.hy(), "y");
 
+  SineFactors factors;
+  factors.wavelength = wavelength;
   const Waves along_x = waves_in(grid.size_x, wavelength);
   const Waves along_y = waves_in(grid.size_y, wavelength);
-  const Array<double> x = wave(grid.nx, along_x);
-  const Array<double> y =
-      both ? wave(grid.ny, along_y) : Array<double>(static_cast<std::size_t>(grid.ny), 1.0);
+  factors.x = wave(grid.nx, along_x);
+  factors.y = both ? wave(grid.ny, along_y) : Array<double>(static_cast<std::size_t>(grid.ny), 1.0);
+  factors.periodic = along_x.whole && (!both || along_y.whole);
+  return factors;
+}
+
+Surface sine_surface(const SineOptions& options, Monitor&) {
+  const SineFactors factors = sine_factors(options);
+  const Grid& grid = options.grid;
   Field heights(grid.nx, grid.ny);
   for (int j = 0; j < grid.ny; ++j)
-    for (int i = 0; i < grid.nx; ++i) heights(i, j) = amplitude * (x[i] * y[j]);
+    for (int i = 0; i < grid.nx; ++i) heights(i, j) = options.amplitude * (factors.x[i] * factors.y[j]);
   SurfaceTraits traits;
-  traits.periodic = along_x.whole && (!both || along_y.whole);
+  traits.periodic = factors.periodic;
   SineOptions same = options;
-  same.wavelength = wavelength;
+  same.wavelength = factors.wavelength;
   return Surface(grid, std::move(heights), std::move(traits))
       .made_by([same](int nx, int ny, Monitor& monitor) {
         SineOptions on_other_cells = same;

@@ -18,6 +18,14 @@ struct SineOptions {
   int directions = 1;                // 1: along x only; 2: the product
 };
 
+// z(i, j) = A x[i] y[j]. Throws as sine_surface.
+struct SineFactors {
+  Array<double> x, y;
+  double wavelength = 0;  // m
+  bool periodic = false;  // whole waves in the tile
+};
+SineFactors sine_factors(const SineOptions& options);
+
 // The phase is reduced exactly when the size is a whole number of wavelengths (to 1e-12), and the
 // surface is then marked periodic and mirror-symmetric to the bit. O(nodes), of which only nx + ny
 // evaluate a cosine. Throws Error{bad_value} naming `amplitude`, `directions`, or `wavelength` when a

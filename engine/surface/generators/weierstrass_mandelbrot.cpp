@@ -7,12 +7,14 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/exact_phase.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/generators/plane_waves.hpp"
+#include "engine/surface/generators/recalled_heights.hpp"
 
 namespace asperity {
 
@@ -109,7 +111,24 @@ std::function<double(int, int)> remembered(const WeierstrassMandelbrotOptions& o
 Surface summed(const WeierstrassMandelbrotOptions& options, const Grid& grid,
                const PhaseIncrements& increments, int kept, Monitor& monitor) {
   const Array<PlaneWave> waves = plane_waves(options, increments, kept);
-  Field heights = sum_of_plane_waves(grid.nx, grid.ny, waves, monitor, "Weierstrass-Mandelbrot surface");
+  Field heights = recall_or_make(
+                      "plane waves",
+                      [&] {
+                        Digester key;
+                        key.add(grid.nx).add(grid.ny);
+                        for (const PlaneWave& wave : waves)
+                          key.add(static_cast<std::int64_t>(wave.step_x))
+                              .add(static_cast<std::int64_t>(wave.step_y))
+                              .add(wave.amplitude)
+                              .add(wave.phase);
+                        return key.hex();
+                      },
+                      monitor,
+                      [&] {
+                        return MadeHeights{sum_of_plane_waves(grid.nx, grid.ny, waves, monitor,
+                                                              "Weierstrass-Mandelbrot surface")};
+                      })
+                      .heights;
 
   // L (G/L)^(D−2) without forming G/L, which could overflow where the result does not.
   const double scale = std::pow(options.L, 3.0 - options.D) * std::pow(options.G, options.D - 2.0) *

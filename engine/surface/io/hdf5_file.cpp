@@ -2,9 +2,6 @@
 // The digest of an array is over its shape and the bytes of its values, so that neither can change unseen.
 #include "engine/surface/io/hdf5_file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <deque>
@@ -12,6 +9,7 @@
 #include <set>
 
 #include "engine/core/digest.hpp"
+#include "engine/core/disk.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
@@ -101,15 +99,6 @@ void check_names(const Hdf5Content& content) {
   }
   for (const std::string& name : arrays)
     if (groups.count(name) != 0) twice(name);
-}
-
-// Until the disk has it, so that a renamed file is whole even after a power cut.
-void wait_for_disk(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool done = descriptor >= 0 && ::fsync(descriptor) == 0;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!done)
-    throw Error(ErrorCode::bad_file, file_name(path) + " cannot be written to the disk", "check the disk");
 }
 
 // The walk over a file's groups.

@@ -14,6 +14,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
+#include "engine/surface/io/npy_header.hpp"
 #include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
@@ -21,15 +22,6 @@ namespace asperity {
 namespace {
 
 constexpr std::string_view magic("\x93NUMPY", 6);
-
-struct NpyHeader {
-  char order = '|';  // '<' or '>' or '|'
-  char kind = 'f';   // f, i, u
-  std::size_t width = 8;
-  bool fortran_order = false;
-  std::vector<std::uint64_t> shape;
-  std::size_t data_at = 0;
-};
 
 // What follows "'key':" in the dictionary, blanks skipped; empty if the key is missing.
 std::string_view value_of(std::string_view dictionary, std::string_view key) {
@@ -45,7 +37,9 @@ std::string_view value_of(std::string_view dictionary, std::string_view key) {
   return {};
 }
 
-NpyHeader read_header(const SourceFile& file) {
+}  // namespace
+
+NpyHeader read_npy_header(const SourceFile& file) {
   const std::string_view bytes = file.bytes();
   if (!bytes.starts_with(magic))
     refuse_file(file, "is not a NPY file: it does not start with \\x93NUMPY",
@@ -97,6 +91,8 @@ NpyHeader read_header(const SourceFile& file) {
   return header;
 }
 
+namespace {
+
 template <class T>
 double element(const char* at, bool swap) {
   std::array<char, sizeof(T)> raw;
@@ -106,9 +102,9 @@ double element(const char* at, bool swap) {
   return static_cast<double>(std::bit_cast<T>(raw));
 }
 
-using Reader = double (*)(const char*, bool);
+}  // namespace
 
-Reader reader_of(const NpyHeader& header) {
+NpyNumber npy_number(const NpyHeader& header) {
   const std::string type = header.kind + std::to_string(header.width);
   if (type == "f4") return element<float>;
   if (type == "f8") return element<double>;
@@ -122,10 +118,17 @@ Reader reader_of(const NpyHeader& header) {
   return element<std::uint64_t>;
 }
 
+bool NpyHeader::swapped() const {
+  return order == '>' ? std::endian::native == std::endian::little
+                      : order == '<' && std::endian::native == std::endian::big;
+}
+
+namespace {
+
 bool recognises(const SourceFile& file) { return file.bytes().starts_with(magic); }
 
 HeightMap read(const SourceFile& file, Monitor& monitor) {
-  const NpyHeader header = read_header(file);
+  const NpyHeader header = read_npy_header(file);
   if (header.shape.empty() || header.shape.size() > 2)
     refuse_file(file, "holds an array of " + std::to_string(header.shape.size()) + " dimensions",
                 "a surface has shape (ny, nx), a trace (n,)");
@@ -144,9 +147,8 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
   HeightMap map;
   map.trace = header.shape.size() == 1;
   map.heights = Field(static_cast<int>(nx), static_cast<int>(ny));
-  const bool swap = header.order == '>' ? std::endian::native == std::endian::little
-                                        : header.order == '<' && std::endian::native == std::endian::big;
-  const Reader reader = reader_of(header);
+  const bool swap = header.swapped();
+  const NpyNumber reader = npy_number(header);
   const char* const data = file.bytes().data() + header.data_at;
   Task task(monitor, "reading", static_cast<std::int64_t>(ny));
   for (std::uint64_t j = 0; j < ny; ++j) {

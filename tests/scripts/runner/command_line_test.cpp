@@ -53,6 +53,9 @@ TEST_F(CommandLine, BadUsageEndsWithTwoAndMakesNothing) {
       {"check", "nothere.lua"},
       {"check", "good.lua", "--trust"},
       {"help", "nosuchthing"},
+      {"lesson", "nosuchthing"},
+      {"lesson", "--copy"},
+      {"lesson", "tilt", "--copy", "--run"},
       {"accuracy"},
       {"accuracy", "nothere.lua"},
       {"accuracy", "good.lua", "--at-most", "5 kg"},
@@ -186,6 +189,23 @@ TEST_F(CommandLine, HelpMaterialsAndVersionAnswer) {
   }
   EXPECT_NE(call({"materials"}).output.find("Al-2011"), std::string::npos);
   EXPECT_NE(call({"help", "surfase"}).error.find("did you mean"), std::string::npos);
+}
+
+TEST_F(CommandLine, LessonsAreListedShownCopiedAndRun) {
+  EXPECT_NE(call({"lesson"}).output.find("6  tilt: Tilt it"), std::string::npos);
+  EXPECT_NE(call({"lesson", "6"}).output.find("Predict: "), std::string::npos);
+  EXPECT_EQ(call({"lesson", "fractal_dimension", "--copy"}).status, 0);
+  EXPECT_TRUE(exists("02_fractal_dimension.lua"));
+  write("02_fractal_dimension.lua", "print 'mine'");
+  const Outcome refused = call({"lesson", "fractal_dimension", "--copy"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.error.find("is there already"), std::string::npos) << refused.error;
+  EXPECT_EQ(call({"run", "02_fractal_dimension.lua"}).output, "mine\n");  // what was changed stays
+  const Outcome ran = call({"lesson", "fractal_dimension", "--run", "--out", "found"});
+  EXPECT_EQ(ran.status, 0) << ran.error;
+  EXPECT_NE(ran.output.find("Why: "), std::string::npos);
+  EXPECT_TRUE(exists("found/stretched.svg"));
+  EXPECT_NE(call({"lesson", "tild"}).error.find("did you mean `tilt`?"), std::string::npos);
 }
 
 TEST_F(CommandLine, AnUnwritableFolderIsAnErrorOfUsage) {

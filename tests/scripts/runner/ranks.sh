@@ -6,6 +6,7 @@
 #
 #   tests/scripts/runner/ranks.sh PROGRAM FOLDER
 set -eu
+. "$(dirname "$0")/saying.sh"
 program=$1
 folder=$2
 command -v mpirun > /dev/null 2>&1 || { echo "ranks: there is no mpirun here: skipped"; exit 77; }
@@ -17,9 +18,9 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export TMPDIR=$folder
 # Open MPI looks for a way to other machines first, though there are none here.
 command -v ssh > /dev/null 2>&1 || export OMPI_MCA_plm_rsh_agent=true
+# And it kills a second after an interrupt, which is short on a machine that builds something meanwhile.
+export OMPI_MCA_odls_base_sigkill_timeout=20
 ranks() { count=$1; shift; timeout -k 5 100 mpirun --oversubscribe --bind-to none -n "$count" "$@"; }
-fail() { echo "ranks: $*" >&2; exit 1; }
-says() { grep -qF -- "$1" "$2" || { cat "$2"; fail "$2 does not say: $1"; }; }
 
 cat > study.lua <<'LUA'
 local lab = require "asperity"

@@ -5,22 +5,12 @@
 #
 #   tests/scripts/runner/replay.sh PROGRAM FOLDER
 set -eu
+. "$(dirname "$0")/saying.sh"
 program=$1
 folder=$2
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
-
-fail() { echo "replay: $*" >&2; exit 1; }
-# status text command...: the command ends so, and prints that.
-ends() {
-  wanted=$1 text=$2
-  shift 2
-  status=0
-  "$@" > output 2>&1 || status=$?
-  [ "$status" = "$wanted" ] || { cat output; fail "$* ended with $status instead of $wanted"; }
-  grep -qF -- "$text" output || { cat output; fail "$* did not print: $text"; }
-}
 
 cat > events.lua <<'LUA'
 local lab = require "asperity"
@@ -85,5 +75,9 @@ lab.notebook "times":write{ seconds = os.clock() + os.time() }
 LUA
 "$program" run clock.lua --out clock --trust > printed 2>&1
 sleep 1
-ends 1 "times, row.seconds" "$program" replay clock --out clock-again
+ends 1 "times, row.seconds" "$program" replay clock --out clock-again --trust
+
+# Trust is given on the command line, never by the directory of a run.
+ends 2 'add `--trust` to replay it so' "$program" replay clock --out untrusted
+ends 2 'leave `--trust` out to replay' "$program" replay run --out trusted --trust
 echo "replay: all as it should be"

@@ -6,23 +6,13 @@
 #
 #   tests/scripts/runner/resume.sh PROGRAM FOLDER [KILLS]
 set -eu
+. "$(dirname "$0")/saying.sh"
 program=$1
 folder=$2
 kills=${3:-5}
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
-
-fail() { echo "resume: $*" >&2; exit 1; }
-# status text command...: the command ends so, and prints that.
-ends() {
-  wanted=$1 text=$2
-  shift 2
-  status=0
-  "$@" > output 2>&1 || status=$?
-  [ "$status" = "$wanted" ] || { cat output; fail "$* ended with $status instead of $wanted"; }
-  grep -qF -- "$text" output || { cat output; fail "$* did not print: $text"; }
-}
 
 # Plastic memory, random streams, two notebooks (one that gets a column late), an ensemble and a chart.
 cat > events.lua <<'LUA'
@@ -148,6 +138,13 @@ sed 's/event = 1, 8/event = 1, 9/' events.lua > edited.lua
 ends 2 "the script of" "$program" run edited.lua --resume whole
 ends 2 "its arguments of" "$program" run events.lua --resume whole -- second
 ends 2 "the seed of" "$program" run events.lua --resume whole --seed 4
+ends 2 "the seed of" "$program" run --resume whole --seed 1
+# Trust is given on the command line, never by the directory of a run.
+echo 'error "here it is cut off"' > trusted.lua
+"$program" run trusted.lua --trust --out trusted > /dev/null 2>&1 && fail "the error was passed over"
+ends 2 'add `--trust` to go on with it so' "$program" run --resume trusted
+ends 1 "here it is cut off" "$program" run --resume trusted --trust
+ends 2 'leave `--trust` out to go on' "$program" run --resume timed --trust
 ends 0 "results were taken from the store" "$program" run edited.lua --reuse whole --out edited --seed 3 -- first
 [ "$(wc -l < edited/events.csv)" = 10 ] || fail "the edited script did not run to its end"
 head -n 9 edited/events.csv | cmp - whole/events.csv || fail "results that were reused are others"

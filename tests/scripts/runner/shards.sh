@@ -6,15 +6,13 @@
 #
 #   tests/scripts/runner/shards.sh PROGRAM FOLDER SLURM_EXAMPLE
 set -eu
+. "$(dirname "$0")/saying.sh"
 program=$1
 folder=$2
 example=$3
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
-
-fail() { echo "shards: $*" >&2; exit 1; }
-says() { grep -qF -- "$1" "$2" || { cat "$2"; fail "$2 does not say: $1"; }; }
 
 cat > study.lua <<'LUA'
 local lab = require "asperity"

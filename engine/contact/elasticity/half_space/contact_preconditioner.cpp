@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sweeps are done tile by tile with a margin as wide as there are sweeps, so that a tile needs
-// nothing of its neighbours and stays in the cache, and in it only on the groups of eight nodes that
-// are near the edge of the free set. Both Ext and its transpose are Horner's rule for Σ (D N)^s: N adds
-// up the four neighbours, D is 1/4 off the free set and 0 on it.
+// nothing of its neighbours and stays in the cache, and in it only on the groups of eight nodes of one colour
+// that are near the edge of the free set. A sweep makes the nodes of one colour of a chessboard, off the free
+// set, the mean of their four neighbours, which all are of the other. Its transpose passes what a node holds
+// on to its neighbours, a quarter to each: what a node has passed on by then is v = D (y + N v), taken colour
+// by colour in the opposite order, where N adds up the four neighbours and D is 1/4 off the free set and 0
+// on it. On a line of nodes there are two neighbours, and halves.
 #include "engine/contact/elasticity/half_space/contact_preconditioner.hpp"
 
 #include <algorithm>
@@ -30,66 +33,72 @@ class ContactPreconditioner::Parts {
  public:
   Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps, double weight);
   void set_free(std::span<const std::uint8_t> free);
-  void apply(const Read& read, const Keep& keep);
+  void apply(const Residual& r, const Keep& keep);
   std::size_t tiles() const { return tiles_.size(); }
   std::size_t nodes() const { return free_.size(); }
 
  private:
+  // Those near the edge of the free set, in order of their distance.
+  struct Groups {
+    Array<Group> starts;
+    Array<std::uint32_t> reached;  // how many of them are within 0, 1, … steps
+    std::span<const Group> within(int steps) const {
+      return std::span(starts.data(), reached[static_cast<std::size_t>(steps)]);
+    }
+  };
   struct Tile {
     int x, y, width, height;
-    bool holds_free = false;       // a free node in the tile
-    bool reaches_free = false;     // or in its margin
-    Array<std::uint32_t> groups;   // those near the edge of the free set, in order of their distance
-    Array<std::uint32_t> reached;  // how many of them are within 0, 1, … steps
+    bool stale = true;          // the marks of the tile or its margin are new
+    bool holds_free = false;    // a free node in the tile
+    bool reaches_free = false;  // or in its margin
+    bool swept = false;         // or near enough to one that is not free
+    // By colour, and by even and odd columns.
+    Groups groups[2][2] = {};
   };
-  // A tile with its margin, and a row more on either side that is always 0.
+  // A tile with its margin, and a row more on either side.
   struct Patch {
-    Array<float> given, factor, now, next;
+    Array<float> given, now;
     // One bit a node: free, on the grid but not free, within some steps of free.
     Array<std::uint64_t> free, bound, near, nearer, found;
     Patch(std::size_t nodes, std::size_t words)
-        : given(nodes),
-          factor(nodes),
-          now(nodes),
-          next(nodes),
-          free(words),
-          bound(words),
-          near(words),
-          nearer(words),
-          found(words) {}
+        : given(nodes), now(nodes), free(words), bound(words), near(words), nearer(words), found(words) {}
   };
 
   int patch_height(const Tile& tile) const { return tile.height + 2 * sweeps_; }
-  std::size_t patch_row(int j) const {
-    return static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(stride_);
-  }
+  std::size_t patch_row(int j) const { return static_cast<std::size_t>(j + 1) * 2 * half(); }
   // Where row j of the tile itself begins in its patch.
-  std::size_t core_row(int j) const {
-    return patch_row(j + sweeps_) + static_cast<std::size_t>(group + margin_);
-  }
+  std::size_t core_row(int j) const { return patch_row(j + sweeps_) + static_cast<std::size_t>(margin_ / 2); }
+  std::size_t half() const { return static_cast<std::size_t>(half_); }
+  // Of row j of the patch, counted over the whole grid: nodes of one colour have an even sum of rows and
+  // columns.
+  int parity(const Tile& tile, int j) const { return (tile.y + sweeps_ + j) % 2; }
   ScratchPool<Patch>::Loan borrow() {
     return patches_.borrow([this] {
-      const std::size_t nodes = patch_row(tile_height + 2 * sweeps_ + 1) + group;
-      return std::make_unique<Patch>(nodes, nodes / bits);
+      const int rows = tile_height + 2 * sweeps_;
+      return std::make_unique<Patch>(patch_row(rows + 1) + group,
+                                     static_cast<std::size_t>(rows) * row_words());
     });
   }
   template <class Run>
   void each_run(const Tile& tile, int j, const Run& run) const;
   void find_groups(Tile& tile);
-  template <class Steps>
-  void sweep(Patch& patch, const Tile& tile, int sweeps, const Steps& steps) const;
+  std::size_t row_words() const {
+    return static_cast<std::size_t>((tile_width + 2 * margin_ + bits - 1) / bits);
+  }
   template <class Put>
   void load(Patch& patch, const Tile& tile, const Put& put) const;
-  void extend(const Tile& tile, const Read& read, double scale);
+  void extend(const Tile& tile, const Residual& scaled);
   void gather_back(std::size_t number, std::span<const float> y, double scale, const Keep& keep);
-  double greatest(const Read& read) const;
+  double greatest(const Residual& r) const;
   std::size_t node(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(i);
   }
 
   int nx_, ny_;
-  bool wraps_;
-  int sweeps_, margin_, stride_;
+  bool wraps_x_, wraps_y_;
+  int sweeps_, margin_;
+  int half_;     // from the even columns of a row of a patch to the odd ones
+  float share_;  // of a neighbour in the mean of them
   HalfOrderPyramid pyramid_;
   Array<std::uint8_t> free_;
   std::vector<Tile> tiles_;
@@ -100,68 +109,73 @@ ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boun
                                     double weight)
     : nx_(nx),
       ny_(ny),
-      wraps_(boundary == Boundary::periodic),
+      // Where a period is odd, two nodes of one colour meet: nothing is carried on there.
+      wraps_x_(boundary == Boundary::periodic && nx % 2 == 0),
+      wraps_y_(boundary == Boundary::periodic && ny % 2 == 0),
       sweeps_(sweeps),
-      margin_((sweeps + group - 1) / group * group),
-      stride_((tile_width + 2 * margin_ + 2 * group + bits - 1) / bits * bits),
+      margin_((sweeps + columns) / columns * columns),
+      half_(tile_width / 2 + margin_ + group),
+      share_(nx == 1 || ny == 1 ? 0.5f : 0.25f),
       pyramid_(nx, ny, aspect, boundary, weight),
       free_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), 0) {
   for (int y = 0; y < ny; y += tile_height)
     for (int x = 0; x < nx; x += tile_width)
-      tiles_.push_back(
-          {x, y, std::min(tile_width, nx - x), std::min(tile_height, ny - y), false, false, {}, {0}});
+      tiles_.push_back({x, y, std::min(tile_width, nx - x), std::min(tile_height, ny - y)});
 }
 
-// Calls run(place in the patch, node, length) for the stretches of row j of a patch that lie on the grid.
+// Calls run(column, node, length) for the stretches of row j of a patch that lie on the grid.
 template <class Run>
 void ContactPreconditioner::Parts::each_run(const Tile& tile, int j, const Run& run) const {
   int y = tile.y - sweeps_ + j;
-  if (wraps_)
+  if (wraps_y_)
     y = (y % ny_ + ny_) % ny_;
   else if (y < 0 || y >= ny_)
     return;
   int x = tile.x - margin_;
   const int end = tile.x + tile.width + margin_;
-  std::size_t place = patch_row(j) + group;
+  std::size_t column = 0;
   while (x < end) {
-    if (!wraps_ && x < 0) {
-      place += static_cast<std::size_t>(-x);
+    if (!wraps_x_ && x < 0) {
+      column += static_cast<std::size_t>(-x);
       x = 0;
     }
-    const int i = wraps_ ? (x % nx_ + nx_) % nx_ : x;
-    if (!wraps_ && i >= nx_) return;
+    const int i = wraps_x_ ? (x % nx_ + nx_) % nx_ : x;
+    if (i >= nx_) return;
     const int length = std::min(end - x, nx_ - i);
-    run(place, node(i, y), static_cast<std::size_t>(length));
-    place += static_cast<std::size_t>(length);
+    run(column, node(i, y), static_cast<std::size_t>(length));
+    column += static_cast<std::size_t>(length);
     x += length;
   }
 }
 
-// Calls put(place, node, length) for the stretches of a patch that lie on the grid; what lies beyond a
-// free rim is 0. What an earlier tile left around the patch is too far off to reach the tile.
+// Calls put(place of the row, column, node, length) for the stretches of a patch that lie on the grid; what
+// lies beyond is 0. So are the rows on either side of the patch, which sweeping back just reaches: no tile
+// writes the first of them, but in the last a taller tile may have been before. What an earlier tile left
+// beside the patch is farther off than there are sweeps.
 template <class Put>
 void ContactPreconditioner::Parts::load(Patch& patch, const Tile& tile, const Put& put) const {
-  for (int j = 0; j < patch_height(tile); ++j) {
-    if (!wraps_)
-      for (Array<float>* field : {&patch.given, &patch.factor, &patch.now, &patch.next})
-        std::fill_n(field->data() + patch_row(j), stride_, 0.0f);
-    each_run(tile, j, put);
+  const int height = patch_height(tile);
+  for (int j = 0; j < height; ++j) {
+    const std::size_t place = patch_row(j);
+    if (!wraps_x_ || !wraps_y_) std::fill_n(patch.now.data() + place, 2 * half(), 0.0f);
+    each_run(tile, j, [&](std::size_t column, std::size_t from, std::size_t length) {
+      put(place, column, from, length);
+    });
   }
+  std::fill_n(patch.now.data() + patch_row(height), 2 * half(), 0.0f);
 }
 
 void ContactPreconditioner::Parts::find_groups(Tile& tile) {
   const auto patch = borrow();
   const int rows = patch_height(tile);
-  const auto row_words = static_cast<std::size_t>(stride_ / bits);
-  const std::size_t words = static_cast<std::size_t>(rows) * row_words;
+  const std::size_t row_words = this->row_words(), words = static_cast<std::size_t>(rows) * row_words;
   const auto clear = [&](Array<std::uint64_t>& field) { std::fill_n(field.begin(), words, 0); };
   clear(patch->free);
   clear(patch->bound);
   clear(patch->found);
   for (int j = 0; j < rows; ++j) {
     const std::size_t start = static_cast<std::size_t>(j) * row_words;
-    each_run(tile, j, [&](std::size_t place, std::size_t from, std::size_t length) {
-      const std::size_t column = place - patch_row(j);
+    each_run(tile, j, [&](std::size_t column, std::size_t from, std::size_t length) {
       pack(free_.data() + from, length, column, patch->free.data() + start);
       fill_bits(column, length, patch->bound.data() + start);
     });
@@ -174,35 +188,67 @@ void ContactPreconditioner::Parts::find_groups(Tile& tile) {
   };
   tile.holds_free = any(sweeps_, sweeps_ + tile.height);
   tile.reaches_free = any(0, rows);
-  tile.groups.clear();
-  tile.reached.assign(1, 0);
+  tile.swept = false;
+  for (auto& of_colour : tile.groups)
+    for (Groups& groups : of_colour) {
+      groups.starts.clear();
+      groups.reached.assign(1, 0);
+    }
   if (!tile.reaches_free) return;
   std::copy_n(patch->free.begin(), words, patch->near.begin());
   for (int step = 1; step <= sweeps_; ++step) {
     widen(patch->near, rows, row_words, patch->nearer);
     for (std::size_t w = 0; w < words; ++w) {
-      std::uint64_t fresh = patch->near[w] & patch->bound[w] & ~patch->found[w];
-      while (fresh != 0) {
-        const int lane = std::countr_zero(fresh) / group * group;
-        const std::uint64_t whole = std::uint64_t{0xff} << lane;
-        patch->found[w] |= whole;
-        fresh &= ~whole;
-        tile.groups.push_back(
-            static_cast<std::uint32_t>(patch_row(static_cast<int>(w / row_words)) + w % row_words * bits) +
-            static_cast<std::uint32_t>(lane));
+      const std::uint64_t fresh = patch->near[w] & patch->bound[w] & ~patch->found[w];
+      if (fresh == 0) continue;
+      const int j = static_cast<int>(w / row_words);
+      for (const int odd : {0, 1}) {
+        constexpr std::uint64_t even_columns = 0x5555555555555555u;
+        Array<Group>& starts = tile.groups[(parity(tile, j) + odd) % 2][odd].starts;
+        std::uint64_t rest = fresh & even_columns << odd;
+        while (rest != 0) {
+          const int lane = std::countr_zero(rest) / columns * columns;
+          const std::uint64_t whole = (even_columns << odd) & std::uint64_t{0xffff} << lane;
+          patch->found[w] |= whole;
+          rest &= ~whole;
+          const std::size_t column = w % row_words * bits + static_cast<std::size_t>(lane);
+          starts.push_back(group_of(patch_row(j) + static_cast<std::size_t>(odd) * half() + column / 2,
+                                    static_cast<std::size_t>(lane + odd), patch->bound[w]));
+        }
       }
     }
-    tile.reached.push_back(static_cast<std::uint32_t>(tile.groups.size()));
+    for (auto& of_colour : tile.groups)
+      for (Groups& groups : of_colour) {
+        groups.reached.push_back(static_cast<std::uint32_t>(groups.starts.size()));
+        tile.swept = tile.swept || !groups.starts.empty();
+      }
   }
 }
 
 void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) {
   if (free.size() != free_.size()) throw Error(ErrorCode::internal, "a free set of another grid");
-  std::transform(free.begin(), free.end(), free_.begin(),
-                 [](std::uint8_t value) { return static_cast<std::uint8_t>(value != 0); });
   const std::span<float> extended = pyramid_.input();
-  parallel_for(static_cast<std::int64_t>(tiles_.size()), [&](std::int64_t k) {
+  const auto count = static_cast<std::int64_t>(tiles_.size());
+  // Late in a solve few tiles see a new mark.
+  parallel_for(count, [&](std::int64_t k) {
     Tile& tile = tiles_[static_cast<std::size_t>(k)];
+    for (int j = 0; j < patch_height(tile) && !tile.stale; ++j)
+      each_run(tile, j, [&](std::size_t, std::size_t from, std::size_t length) {
+        tile.stale = tile.stale || differ(free.data() + from, free_.data() + from, length);
+      });
+  });
+  parallel_for(count, [&](std::int64_t k) {
+    const Tile& tile = tiles_[static_cast<std::size_t>(k)];
+    if (!tile.stale) return;
+    for (int j = tile.y; j < tile.y + tile.height; ++j) {
+      const std::size_t from = node(tile.x, j);
+      copy_marks(free.data() + from, static_cast<std::size_t>(tile.width), free_.data() + from);
+    }
+  });
+  parallel_for(count, [&](std::int64_t k) {
+    Tile& tile = tiles_[static_cast<std::size_t>(k)];
+    if (!tile.stale) return;
+    tile.stale = false;
     find_groups(tile);
     // extend() leaves such a tile alone.
     if (!tile.reaches_free)
@@ -211,54 +257,32 @@ void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) 
   });
 }
 
-// now = Σ_{s <= sweeps} (D N)^s given, from now = next = given; the s-th sweep on the groups within steps(s)
-// of the free set.
-template <class Steps>
-void ContactPreconditioner::Parts::sweep(Patch& patch, const Tile& tile, int sweeps,
-                                         const Steps& steps) const {
-  for (int s = 1; s <= sweeps; ++s) {
-    const std::span groups(tile.groups.data(), tile.reached[static_cast<std::size_t>(steps(s))]);
-    sweep_groups(groups, stride_, patch.given.data(), patch.factor.data(), patch.now.data(),
-                 patch.next.data());
-    std::swap(patch.now, patch.next);
-  }
-}
-
-void ContactPreconditioner::Parts::extend(const Tile& tile, const Read& read, double scale) {
+void ContactPreconditioner::Parts::extend(const Tile& tile, const Residual& r) {
   if (!tile.reaches_free) return;
-  constexpr std::size_t most = tile_width + 2 * 64;
-  double values[most];  // of a run
-  const auto convert_run = [&](std::size_t from, std::size_t length, float* to) {
-    for (std::size_t done = 0; done < length; done += most) {
-      const std::size_t part = std::min(most, length - done);
-      read(from + done, part, values);
-      convert(values, scale, part, to + done);
-    }
-  };
   const auto width = static_cast<std::size_t>(tile.width);
   float* const extended = pyramid_.input().data();
-  if (tile.groups.empty()) {
+  if (!tile.swept) {
     for (int j = tile.y; j < tile.y + tile.height; ++j) {
       const std::size_t k = node(tile.x, j);
-      convert_run(k, width, extended + k);
+      convert(r.values + k, r.factor, r.offset, width, extended + k);
       keep_free(free_.data() + k, width, extended + k);
     }
     return;
   }
   const auto patch = borrow();
-  load(*patch, tile, [&](std::size_t place, std::size_t from, std::size_t length) {
-    float* const given = patch->given.data() + place;
-    convert_run(from, length, given);
-    start_free(free_.data() + from, length, given, patch->factor.data() + place, patch->now.data() + place,
-               patch->next.data() + place);
+  load(*patch, tile, [&](std::size_t row, std::size_t column, std::size_t from, std::size_t length) {
+    start_free(free_.data() + from, r.values + from, r.factor, r.offset, length, column, half(),
+               patch->now.data() + row);
   });
   // Nothing is farther from the free set than there have been sweeps.
-  sweep(*patch, tile, sweeps_, [](int s) { return s; });
+  for (int s = 1; s <= sweeps_; ++s)
+    for (const int odd : {0, 1})
+      sweep_groups(tile.groups[s % 2][odd].within(s), odd != 0, half_, share_, patch->now.data());
   for (int j = 0; j < tile.height; ++j)
-    std::copy_n(patch->now.data() + core_row(j), width, extended + node(tile.x, tile.y + j));
+    merge(patch->now.data() + core_row(j), half_, width, extended + node(tile.x, tile.y + j));
 }
 
-// z = (y + N v) on the free set, v = Σ_{s < sweeps} (D N)^s D y.
+// z = (y + N v) on the free set, v being what has been passed on off it.
 void ContactPreconditioner::Parts::gather_back(std::size_t number, std::span<const float> y, double scale,
                                                const Keep& keep) {
   const Tile& tile = tiles_[number];
@@ -268,38 +292,41 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, std::span<con
     return;
   }
   const auto patch = borrow();
-  const bool swept = !tile.groups.empty();
-  if (swept) {
-    load(*patch, tile, [&](std::size_t place, std::size_t from, std::size_t length) {
-      start_bound(free_.data() + from, y.data() + from, length, patch->given.data() + place,
-                  patch->factor.data() + place, patch->now.data() + place, patch->next.data() + place);
+  if (tile.swept) {
+    load(*patch, tile, [&](std::size_t row, std::size_t column, std::size_t from, std::size_t length) {
+      start_bound(y.data() + from, length, column, half(), patch->given.data() + row,
+                  patch->now.data() + row);
     });
-    // Nothing matters that is farther from the free set than there are sweeps to come, and the sum.
-    sweep(*patch, tile, sweeps_ - 1, [this](int s) { return sweeps_ - s; });
+    // Nothing matters that is farther from the free set than there are sweeps to come.
+    for (int s = sweeps_; s >= 1; --s)
+      for (const int odd : {0, 1})
+        sweep_back_groups(tile.groups[s % 2][odd].within(s), odd != 0, half_, share_, patch->given.data(),
+                          patch->now.data());
   }
+  float sum[tile_width];
   for (int j = 0; j < tile.height; ++j) {
     const std::size_t k = node(tile.x, tile.y + j);
-    float* const sum = patch->next.data();
-    if (swept)
-      add_neighbours(y.data() + k, patch->now.data() + core_row(j), stride_, width, sum);
-    else
+    if (tile.swept) {
+      add_neighbours(free_.data() + k, y.data() + k, patch->now.data() + core_row(j), half_, width, sum);
+    } else {
       std::copy_n(y.data() + k, width, sum);
-    keep_free(free_.data() + k, width, sum);
+      keep_free(free_.data() + k, width, sum);
+    }
     keep(number, k, width, sum, scale);
   }
 }
 
 // Roughly: of every sixteenth row, and of all only if that finds nothing.
-double ContactPreconditioner::Parts::greatest(const Read& read) const {
-  Array<double> row(static_cast<std::size_t>(nx_));
+double ContactPreconditioner::Parts::greatest(const Residual& r) const {
+  const auto width = static_cast<std::size_t>(nx_);
   for (const int step : {16, 1}) {
     double most = 0;
     for (int j = 0; j < ny_; j += step) {
       const std::uint8_t* const free = free_.data() + node(0, j);
-      read(node(0, j), row.size(), row.data());
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        const double value = free[i] != 0 ? std::abs(row[i]) : 0.0;
-        most = value > most ? value : most;
+      const double* const values = r.values + node(0, j);
+      for (std::size_t i = 0; i < width; ++i) {
+        const double value = std::abs(r.offset + r.factor * values[i]), counted = free[i] != 0 ? value : 0.0;
+        most = counted > most ? counted : most;
       }
     }
     if (most > 0) return most;
@@ -307,9 +334,9 @@ double ContactPreconditioner::Parts::greatest(const Read& read) const {
   return 0;
 }
 
-void ContactPreconditioner::Parts::apply(const Read& read, const Keep& keep) {
+void ContactPreconditioner::Parts::apply(const Residual& r, const Keep& keep) {
   // Single precision has little range: near 1, and by a power of two, which rounds nothing.
-  const double most = greatest(read);
+  const double most = greatest(r);
   const auto width = static_cast<std::size_t>(nx_);
   if (!(most > 0)) {
     for (int j = 0; j < ny_; ++j) keep(0, node(0, j), width, nullptr, 0);
@@ -318,7 +345,8 @@ void ContactPreconditioner::Parts::apply(const Read& read, const Keep& keep) {
   const int exponent = std::clamp(std::ilogb(most), -1000, 1000);
   const auto count = static_cast<std::int64_t>(tiles_.size());
   const double shrink = std::ldexp(1.0, -exponent), grow = std::ldexp(1.0, exponent);
-  parallel_for(count, [&](std::int64_t k) { extend(tiles_[static_cast<std::size_t>(k)], read, shrink); });
+  const Residual near_one{r.values, r.factor * shrink, r.offset * shrink};
+  parallel_for(count, [&](std::int64_t k) { extend(tiles_[static_cast<std::size_t>(k)], near_one); });
   const std::span<const float> y = pyramid_.apply();
   parallel_for(count, [&](std::int64_t k) { gather_back(static_cast<std::size_t>(k), y, grow, keep); });
 }
@@ -336,7 +364,7 @@ void ContactPreconditioner::set_free(std::span<const std::uint8_t> free) { parts
 void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z) {
   if (r.size() != parts_->nodes() || z.size() != parts_->nodes())
     throw Error(ErrorCode::internal, "a preconditioner of another grid's values");
-  parts_->apply([&](std::size_t first, std::size_t n, double* to) { std::copy_n(r.data() + first, n, to); },
+  parts_->apply(Residual{r.data()},
                 [&](std::size_t, std::size_t first, std::size_t n, const float* values, double factor) {
                   if (values)
                     convert(values, factor, n, z.data() + first);
@@ -345,13 +373,13 @@ void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z
                 });
 }
 
-void ContactPreconditioner::apply(const Read& read, const Keep& keep) { parts_->apply(read, keep); }
+void ContactPreconditioner::apply(const Residual& r, const Keep& keep) { parts_->apply(r, keep); }
 
 std::size_t ContactPreconditioner::tiles() const { return parts_->tiles(); }
 
 std::int64_t ContactPreconditioner::bytes(int nx, int ny, double aspect, Boundary boundary) {
   // The free set, the groups of eight nodes with their margins', and a patch a thread.
-  constexpr std::int64_t patch = 20 * (tile_width + 64) * (tile_height + 32);
+  constexpr std::int64_t patch = 12 * (tile_width + 64) * (tile_height + 32);
   return HalfOrderPyramid::bytes(nx, ny, aspect, boundary) + 2 * static_cast<std::int64_t>(nx) * ny +
          patch * thread_count();
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An approximate inverse of the half-space's compliance restricted to the free nodes of a contact:
 // z = Extᵀ (|q|/2) Ext r on the free set, in cell units. Ext carries r past the edge of the set by a
-// few Jacobi sweeps, each node off the set becoming the mean of its four neighbours, so that no jump is
-// paid for there; |q|/2 is HalfOrderPyramid's. Symmetric, positive semi-definite on the free set; single
-// precision inside. No projection of the mean.
+// few sweeps, each making the nodes of one colour of a chessboard, off the set, the mean of their four
+// neighbours, of two on a line of nodes, so that no jump is paid for there; on a periodic side of an odd
+// number of nodes, where two of one colour meet, it does not wrap. |q|/2 is HalfOrderPyramid's. Symmetric,
+// positive semi-definite on the free set; single precision inside. No projection of the mean.
 #pragma once
 
 #include <cstddef>
@@ -32,14 +33,17 @@ class ContactPreconditioner {
   // times the same, bit for bit. The same bits for any number of threads. Not thread-safe.
   void apply(std::span<const double> r, std::span<double> z);
 
-  // The same, r and z passing by in stretches of a row. `read` puts r of the `n` nodes from `first` on into
-  // `to`, and may be asked more than once. `keep` takes z, `factor` times the values, which mean nothing off
-  // the free set, or null for no free node there, with the number of the tile, 0 … tiles(): the stretches of
+  // r = offset + factor · values, nx·ny of them.
+  struct Residual {
+    const double* values;
+    double factor = 1, offset = 0;
+  };
+  // The same, z passing by in stretches of a row: `keep` takes z, `factor` times the values, 0 off the
+  // free set, or null for no free node there, with the number of the tile, 0 … tiles(): the stretches of
   // a tile come in their order on one thread.
-  using Read = std::function<void(std::size_t first, std::size_t n, double* to)>;
   using Keep = std::function<void(std::size_t tile, std::size_t first, std::size_t n, const float* values,
                                   double factor)>;
-  void apply(const Read& read, const Keep& keep);
+  void apply(const Residual& r, const Keep& keep);
   std::size_t tiles() const;
 
   // What an object of this grid holds, at most.

@@ -3,10 +3,12 @@
 // its pressure by value, small enough to be taken along into every loop.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "engine/contact/elasticity/half_space/free_set.hpp"
+#include "engine/contact/elasticity/half_space/lane_terms.hpp"
 
 namespace asperity {
 
@@ -43,5 +45,54 @@ struct DescentNodes {
       return (pressure[k] > 0) & (pressure[k] < limit.upper());
   }
 };
+
+// gap += unit · image, the image of a stretch of nodes from `begin`. The sum of the total gaps of those that
+// balance the load.
+template <class Limit>
+std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
+                                 const double* image, double unit, Freedom balancing) {
+  const double* const from = image - begin;
+  if constexpr (Limit::hardens)
+    return over_stretch<1>(begin, end, [=, n = nodes](std::size_t k, double* v) {
+      n.gap[k] += from[k] * unit;
+      const double gap = n.total_gap(k);
+      v[0] = n.free[k] == balancing ? gap : 0.0;
+    });
+  else
+    return over_lanes_of_stretch<1>(begin, end, [=, n = nodes]<class Value>(std::size_t k, Value* v) {
+      Value gap, change, mark;
+      lane_terms::read(n.gap + k, gap);
+      lane_terms::read(from + k, change);
+      lane_terms::read(n.free + k, mark);
+      const Value none = {};
+      gap += change * unit;
+      lane_terms::put(gap, n.gap + k);
+      v[0] = mark > none ? gap : none;
+    });
+}
+
+// Of a stretch of nodes, `step` being the image of `direction`: the sum of their products, and that of the
+// image with the opening of ground that yields over those that balance the load.
+template <class Limit>
+std::array<double, 2> weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
+                                  Freedom balancing) {
+  if constexpr (Limit::hardens)
+    return over_marked_stretch<2>(nodes.free, begin, end, [=, n = nodes](std::size_t k, double* v) {
+      const double d = n.direction[k], image = n.step[k];
+      const double total = image + (n.free[k] == yielding ? n.limit.yielding_slope() * d : 0.0);
+      v[0] = d * total;
+      v[1] = n.free[k] == balancing ? total : 0.0;
+    });
+  else
+    return over_lanes_of_stretch<2>(begin, end, [n = nodes]<class Value>(std::size_t k, Value* v) {
+      Value d, image, mark;
+      lane_terms::read(n.direction + k, d);
+      lane_terms::read(n.step + k, image);
+      lane_terms::read(n.free + k, mark);
+      const Value none = {};
+      v[0] = d * image;
+      v[1] = mark > none ? image : none;
+    });
+}
 
 }  // namespace asperity

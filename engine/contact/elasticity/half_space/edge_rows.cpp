@@ -8,6 +8,47 @@
 
 namespace asperity::edge_rows {
 
+namespace {
+
+typedef float Eight __attribute__((vector_size(32), aligned(4), may_alias));
+typedef double EightDoubles __attribute__((vector_size(64), aligned(8), may_alias));
+typedef std::uint16_t EightPairs __attribute__((vector_size(16), aligned(1), may_alias));
+typedef std::int32_t EightMarks __attribute__((vector_size(32)));
+typedef std::uint32_t EightWords __attribute__((vector_size(32)));
+
+// Plain functions: as an argument of a template a type would lose its alignment. Vectors are passed and
+// returned by reference alone.
+inline __attribute__((always_inline)) const Eight& eight(const float* at) {
+  return *reinterpret_cast<const Eight*>(at);
+}
+inline __attribute__((always_inline)) Eight& eight(float* at) { return *reinterpret_cast<Eight*>(at); }
+inline __attribute__((always_inline)) const EightDoubles& eight(const double* at) {
+  return *reinterpret_cast<const EightDoubles*>(at);
+}
+
+// Not 0 where the even, and the odd, of sixteen bytes are not.
+inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, EightMarks& even,
+                                                      EightMarks& odd) {
+  const EightPairs pairs = *reinterpret_cast<const EightPairs*>(bytes);
+  constexpr bool little = std::endian::native == std::endian::little;
+  const EightPairs low = pairs & 0xff, high = pairs >> 8;
+  even = __builtin_convertvector(little ? low : high, EightMarks);
+  odd = __builtin_convertvector(little ? high : low, EightMarks);
+}
+
+inline __attribute__((always_inline)) void take_apart(const Eight& low, const Eight& high, Eight& even,
+                                                      Eight& odd) {
+  even = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
+  odd = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
+}
+
+inline __attribute__((always_inline)) void merge(const Eight& even, const Eight& odd, float* to) {
+  eight(to) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
+  eight(to + group) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+
+}  // namespace
+
 void pack(const std::uint8_t* bytes, std::size_t n, std::size_t place, std::uint64_t* words) {
   std::size_t k = 0;
   if (place % 8 == 0) {
@@ -22,6 +63,12 @@ void pack(const std::uint8_t* bytes, std::size_t n, std::size_t place, std::uint
   }
   for (; k < n; ++k)
     words[(place + k) / bits] |= static_cast<std::uint64_t>(bytes[k]) << ((place + k) % bits);
+}
+
+bool differ(const std::uint8_t* a, const std::uint8_t* b, std::size_t n) {
+  std::uint8_t any = 0;
+  for (std::size_t k = 0; k < n; ++k) any |= static_cast<std::uint8_t>((a[k] != 0) != (b[k] != 0));
+  return any != 0;
 }
 
 void fill_bits(std::size_t place, std::size_t n, std::uint64_t* words) {
@@ -48,8 +95,13 @@ void widen(Array<std::uint64_t>& field, int rows, std::size_t row_words, Array<s
   std::swap(field, work);
 }
 
-void convert(const double* __restrict from, double scale, std::size_t n, float* __restrict to) {
-  for (std::size_t k = 0; k < n; ++k) to[k] = static_cast<float>(from[k] * scale);
+void copy_marks(const std::uint8_t* __restrict from, std::size_t n, std::uint8_t* __restrict to) {
+  for (std::size_t k = 0; k < n; ++k) to[k] = from[k] != 0 ? 1 : 0;
+}
+
+void convert(const double* __restrict from, double factor, double offset, std::size_t n,
+             float* __restrict to) {
+  for (std::size_t k = 0; k < n; ++k) to[k] = static_cast<float>(offset + factor * from[k]);
 }
 
 void convert(const float* __restrict from, double scale, std::size_t n, double* __restrict to) {
@@ -60,41 +112,145 @@ void keep_free(const std::uint8_t* __restrict free, std::size_t n, float* __rest
   for (std::size_t k = 0; k < n; ++k) values[k] = free[k] != 0 ? values[k] : 0.0f;
 }
 
-void start_free(const std::uint8_t* __restrict free, std::size_t n, float* __restrict given,
-                float* __restrict factor, float* __restrict now, float* __restrict next) {
-  for (std::size_t k = 0; k < n; ++k) {
-    const float value = free[k] != 0 ? given[k] : 0.0f;
-    given[k] = now[k] = next[k] = value;
-    factor[k] = free[k] != 0 ? 0.0f : 0.25f;
+// Where column p of a row is.
+inline std::size_t split(std::size_t column, std::size_t half) { return column % 2 * half + column / 2; }
+
+void start_free(const std::uint8_t* __restrict free, const double* __restrict values, double slope,
+                double offset, std::size_t n, std::size_t place, std::size_t half, float* __restrict now) {
+  std::size_t k = 0;
+  const auto one = [&] {
+    now[split(place + k, half)] = free[k] != 0 ? static_cast<float>(offset + slope * values[k]) : 0.0f;
+    ++k;
+  };
+  while (k < n && (place + k) % columns != 0) one();
+  for (; k + columns <= n; k += columns) {
+    const Eight low = __builtin_convertvector(offset + slope * eight(values + k), Eight);
+    const Eight high = __builtin_convertvector(offset + slope * eight(values + k + group), Eight);
+    Eight even, odd;
+    take_apart(low, high, even, odd);
+    EightMarks free_even, free_odd;
+    read_marks(free + k, free_even, free_odd);
+    const Eight none = {};
+    float* const to = now + (place + k) / 2;
+    eight(to) = free_even != 0 ? even : none;
+    eight(to + half) = free_odd != 0 ? odd : none;
+  }
+  while (k < n) one();
+}
+
+void start_bound(const float* __restrict values, std::size_t n, std::size_t place, std::size_t half,
+                 float* __restrict given, float* __restrict now) {
+  std::size_t k = 0;
+  const auto one = [&] {
+    const std::size_t at = split(place + k, half);
+    given[at] = values[k];
+    now[at] = 0;
+    ++k;
+  };
+  while (k < n && (place + k) % columns != 0) one();
+  for (; k + columns <= n; k += columns) {
+    const std::size_t to = (place + k) / 2;
+    Eight even, odd;
+    take_apart(eight(values + k), eight(values + k + group), even, odd);
+    const Eight none = {};
+    eight(given + to) = even;
+    eight(given + to + half) = odd;
+    eight(now + to) = eight(now + to + half) = none;
+  }
+  while (k < n) one();
+}
+
+Group group_of(std::size_t start, std::size_t lane, std::uint64_t marks) {
+  // The even bits of the sixteen, side by side.
+  std::uint64_t bound = marks >> lane & 0x5555;
+  bound = (bound | bound >> 1) & 0x3333;
+  bound = (bound | bound >> 2) & 0x0f0f;
+  bound = (bound | bound >> 4) & 0x00ff;
+  return static_cast<Group>(start) | static_cast<Group>(bound << start_bits);
+}
+
+namespace {
+inline std::size_t start_of(Group one) { return one & ((Group{1} << start_bits) - 1); }
+// Not 0 for the nodes of a group that sweeps change.
+inline __attribute__((always_inline)) void read_bound(Group one, EightMarks& bound) {
+  constexpr std::uint32_t first = Group{1} << start_bits;
+  const EightWords bits_of = {first,      first << 1, first << 2, first << 3,
+                              first << 4, first << 5, first << 6, first << 7};
+  bound = reinterpret_cast<EightMarks>((EightWords{} + one) & bits_of);
+}
+
+// The sum of the four neighbours.
+template <bool odd>
+inline __attribute__((always_inline)) void add_up(const float* here, std::ptrdiff_t half, Eight& sum) {
+  const float* const aside = here + (odd ? -half : half - 1);
+  sum = (eight(aside) + eight(aside + 1)) + (eight(here - 2 * half) + eight(here + 2 * half));
+}
+
+template <bool odd>
+void sweep(std::span<const Group> groups, std::ptrdiff_t half, float share, float* now) {
+  for (const Group one : groups) {
+    float* const at = now + start_of(one);
+    Eight sum;
+    add_up<odd>(at, half, sum);
+    EightMarks bound;
+    read_bound(one, bound);
+    const Eight here = eight(at);
+    eight(at) = bound != 0 ? share * sum : here;
   }
 }
 
-void start_bound(const std::uint8_t* __restrict free, const float* __restrict values, std::size_t n,
-                 float* __restrict given, float* __restrict factor, float* __restrict now,
-                 float* __restrict next) {
-  for (std::size_t k = 0; k < n; ++k) {
-    factor[k] = free[k] != 0 ? 0.0f : 0.25f;
-    given[k] = now[k] = next[k] = factor[k] * values[k];
+template <bool odd>
+void sweep_back(std::span<const Group> groups, std::ptrdiff_t half, float share,
+                const float* __restrict given, float* now) {
+  for (const Group one : groups) {
+    float* const at = now + start_of(one);
+    Eight sum;
+    add_up<odd>(at, half, sum);
+    EightMarks bound;
+    read_bound(one, bound);
+    const Eight none = {};
+    eight(at) = bound != 0 ? share * (eight(given + start_of(one)) + sum) : none;
   }
 }
+}  // namespace
 
-void add_neighbours(const float* __restrict values, const float* __restrict v, std::ptrdiff_t stride,
-                    std::size_t n, float* __restrict to) {
-  for (std::size_t k = 0; k < n; ++k) {
-    const float* const at = v + k;
-    to[k] = values[k] + ((at[-1] + at[1]) + (at[-stride] + at[stride]));
-  }
+void sweep_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t half, float share, float* now) {
+  odd ? sweep<true>(groups, half, share, now) : sweep<false>(groups, half, share, now);
 }
 
-void sweep_groups(std::span<const std::uint32_t> groups, std::ptrdiff_t stride, const float* __restrict given,
-                  const float* __restrict factor, const float* __restrict now, float* __restrict next) {
-  for (const std::uint32_t start : groups) {
-    const float* __restrict const at = now + start;
-    const float* __restrict const add = given + start;
-    const float* __restrict const times = factor + start;
-    float* __restrict const to = next + start;
-    for (int k = 0; k < group; ++k)
-      to[k] = add[k] + times[k] * ((at[k - 1] + at[k + 1]) + (at[k - stride] + at[k + stride]));
+void sweep_back_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t half, float share,
+                       const float* given, float* now) {
+  odd ? sweep_back<true>(groups, half, share, given, now)
+      : sweep_back<false>(groups, half, share, given, now);
+}
+
+void merge(const float* __restrict row, std::ptrdiff_t half, std::size_t n, float* __restrict to) {
+  std::size_t k = 0;
+  for (; k + columns <= n; k += columns) merge(eight(row + k / 2), eight(row + half + k / 2), to + k);
+  for (; k < n; ++k) to[k] = row[split(k, static_cast<std::size_t>(half))];
+}
+
+void add_neighbours(const std::uint8_t* __restrict free, const float* __restrict values,
+                    const float* __restrict row, std::ptrdiff_t half, std::size_t n, float* __restrict to) {
+  std::size_t k = 0;
+  for (; k + columns <= n; k += columns) {
+    Eight even, odd;
+    add_up<false>(row + k / 2, half, even);
+    add_up<true>(row + half + k / 2, half, odd);
+    Eight even_value, odd_value;
+    take_apart(eight(values + k), eight(values + k + group), even_value, odd_value);
+    EightMarks free_even, free_odd;
+    read_marks(free + k, free_even, free_odd);
+    const Eight none = {};
+    even += even_value;
+    odd += odd_value;
+    merge(free_even != 0 ? even : none, free_odd != 0 ? odd : none, to + k);
+  }
+  for (; k < n; ++k) {
+    const float* const here = row + split(k, static_cast<std::size_t>(half));
+    const float* const aside = here + (k % 2 != 0 ? -half : half - 1);
+    const float sum = values[k] + ((aside[0] + aside[1]) + (here[-2 * half] + here[2 * half]));
+    to[k] = free[k] != 0 ? sum : 0.0f;
   }
 }
 

@@ -6,12 +6,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
 
 #include "engine/contact/elasticity/half_space/contact_level.hpp"
 #include "engine/contact/elasticity/half_space/contact_quality.hpp"
+#include "engine/contact/elasticity/half_space/lane_terms.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {
@@ -28,6 +30,9 @@ struct FreeSet {
   double elastic_gap = 0, yielding_gap = 0;  // Σ of the total gap
   bool changed = true;
   double yielding_worth = 0;  // of a yielding node beside an elastic one, in balancing the load
+  // With the settled pressures, those of the elastic interior moved by `shift` and kept within the bounds:
+  // the load, and how many were not stopped.
+  double shifted_load = 0, shifted_count = 0;
 
   double count() const { return elastic_count + yielding_count; }
   // Who balances the load: a few elastic nodes among many that yield would have to take too much of it.
@@ -39,36 +44,79 @@ struct FreeSet {
   double balancing_gap() const { return elastic_balance() ? elastic_gap : yielding_gap; }
 };
 
+// Of ground that does not harden: marks it, and sums free nodes, their gaps, new marks, and of the shift.
+inline constexpr std::size_t free_sums = 5;
+
+inline std::array<double, free_sums> mark_elastic(double upper, double offset, double shift,
+                                                  std::span<const double> p, std::span<const double> g,
+                                                  std::span<const std::uint8_t> before,
+                                                  std::span<std::uint8_t> free) {
+  return over_lanes<free_sums>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
+                                          free = free.data()]<class Value>(std::size_t k, Value* v) {
+    Value pressure, gap, old;
+    lane_terms::read(p + k, pressure);
+    lane_terms::read(g + k, gap);
+    lane_terms::read(before + k, old);
+    const Value none = {}, one = none + 1.0, at = none + offset, most = none + upper;
+    const Value below = gap < at ? one : none, above = gap > at ? one : none;
+    const Value opens = pressure >= none ? below : none, leaves = pressure <= most ? above : none;
+    const Value not_full = pressure < most ? one : leaves, kind = pressure > none ? not_full : opens;
+    lane_terms::put(kind, free + k);
+    v[0] = kind;
+    v[1] = kind > none ? gap : none;
+    v[2] = kind == old ? none : one;
+    const Value within = pressure < most ? one : none, inside = pressure > none ? within : none;
+    const Value moved = pressure + inside * shift, positive = moved > none ? moved : none;
+    v[3] = moved < most ? positive : most;
+    const Value stays = moved > none ? inside : none;
+    v[4] = moved < most ? stays : none;
+  });
+}
+
 // Marks `free` with Freedom values, comparing with `before`. At least two nodes are free, the nearest to
-// leaving their bound if need be.
+// leaving their bound if need be. `shift` is what is tried on the elastic interior.
 template <class Limit>
-FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balance, std::span<const double> p,
-                      std::span<const double> g, std::span<const std::uint8_t> before,
-                      std::span<std::uint8_t> free) {
-  const double upper = limit.upper(), offset = at.interior_gap;
-  // By value: a store of a byte could change anything that is reached by a reference.
-  const auto sums = over_nodes<6>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
-                                             free = free.data(), limit = limit](std::size_t k, double* v) {
-    const double q = limit.settle(k, p[k], g[k], balance);
-    const double pressure = p[k], gap = g[k];
-    const bool inside = (q > 0) & (q < upper);
-    const bool enters =
-        ((q <= 0) & (gap < offset) & (pressure >= 0)) | ((q > 0) & (gap > offset) & (pressure <= upper));
-    std::uint8_t kind = (inside | enters) ? elastic : fixed;
-    if constexpr (Limit::hardens) {
+FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balance, double shift,
+                      std::span<const double> p, std::span<const double> g,
+                      std::span<const std::uint8_t> before, std::span<std::uint8_t> free) {
+  const double offset = at.interior_gap;
+  std::array<double, Limit::hardens ? free_sums + 3 : free_sums> sums;
+  if constexpr (!Limit::hardens)
+    sums = mark_elastic(limit.upper(), offset, shift, p, g, before, free);
+  else
+    // By value: a store of a byte could change anything that is reached by a reference.
+    sums = over_nodes<free_sums + 3>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
+                                                free = free.data(), limit = limit](std::size_t k, double* v) {
+      const double q = limit.settle(k, p[k], g[k], balance);
+      const double pressure = p[k], gap = g[k];
+      const bool enters = (q <= 0) & (gap < offset) & (pressure >= 0);
+      std::uint8_t kind = ((q > 0) | enters) ? elastic : fixed;
       const std::uint8_t past = q != pressure ? settling : yielding;
       kind = pressure > limit.yields_at(k) ? past : kind;
-    }
-    free[k] = kind;
-    v[0] = kind == elastic ? 1.0 : 0.0;
-    v[1] = kind == yielding ? 1.0 : 0.0;
-    v[2] = kind == settling ? 1.0 : 0.0;
-    v[3] = kind == before[k] ? 0.0 : 1.0;
-    const double total_gap = gap + limit.opening(k, q);
-    v[4] = kind == elastic ? gap : 0.0;
-    v[5] = kind == yielding ? total_gap : 0.0;
-  });
-  FreeSet set{sums[0], sums[1], sums[2], sums[4], sums[5], sums[3] != 0};
+      free[k] = kind;
+      v[0] = kind == elastic ? 1.0 : 0.0;
+      v[1] = kind == elastic ? gap : 0.0;
+      v[2] = kind == before[k] ? 0.0 : 1.0;
+      const bool here = (q > 0) & (q < limit.yields_at(k));
+      const double moved = q + (here ? shift : 0.0), positive = moved > 0 ? moved : 0.0;
+      v[3] = positive;
+      v[4] = (here & (moved > 0)) ? 1.0 : 0.0;
+      const double total_gap = gap + limit.opening(k, q);
+      v[5] = kind == yielding ? 1.0 : 0.0;
+      v[6] = kind == settling ? 1.0 : 0.0;
+      v[7] = kind == yielding ? total_gap : 0.0;
+    });
+  FreeSet set;
+  set.elastic_count = sums[0];
+  set.elastic_gap = sums[1];
+  set.changed = sums[2] != 0;
+  set.shifted_load = sums[3];
+  set.shifted_count = sums[4];
+  if constexpr (Limit::hardens) {
+    set.yielding_count = sums[free_sums];
+    set.settling_count = sums[free_sums + 1];
+    set.yielding_gap = sums[free_sums + 2];
+  }
   if constexpr (Limit::hardens)
     set.yielding_worth = Limit::own_compliance / (limit.yielding_slope() + Limit::own_compliance);
   constexpr std::size_t few = 9;

@@ -2,6 +2,7 @@
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -52,7 +53,9 @@ double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
 // its approach is a flat one: no pressure can be so exact as to fill its roughness to the tolerance. On a
 // periodic one that is so only where rounding alone would be seen.
 bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
-  if (!(problem.rms > 0) || range(problem.heights->values()).span() == 0) return false;
+  const auto heights = problem.heights->values();
+  const auto differs = [first = heights.front()](double h) { return h != first; };
+  if (!(problem.rms > 0) || std::none_of(heights.begin(), heights.end(), differs)) return false;
   const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
   return problem.rms > least * punch_length(problem, mean_pressure);
 }
@@ -85,17 +88,21 @@ PressureLimit cell_limit(const YieldLaw& law, const CellUnits& units) {
 // √mean(slope²) by differences; a little less than the spectral slope.
 double rough_slope(const HalfSpaceProblem& problem) {
   const Field& h = *problem.heights;
-  const int nx = h.nx(), ny = h.ny();
+  const auto nx = static_cast<std::size_t>(h.nx()), ny = static_cast<std::size_t>(h.ny());
   const double per_x = 1 / problem.grid.hx(), per_y = 1 / problem.grid.hy();
-  const auto sums = over_nodes<1>(h.size(), [&](std::size_t k, double* v) {
-    const int i = static_cast<int>(k % static_cast<std::size_t>(nx));
-    const std::size_t right = i + 1 < nx ? k + 1 : k + 1 - static_cast<std::size_t>(nx);
-    const std::size_t up =
-        (k + static_cast<std::size_t>(nx)) % (static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
-    const double x = (h[right] - h[k]) * per_x, y = (h[up] - h[k]) * per_y;
-    v[0] = x * x + y * y;
+  Array<std::array<double, 1>> rows(ny);
+  parallel_for(h.ny(), [&](std::int64_t j) {
+    const auto number = static_cast<std::size_t>(j);
+    const double* const here = h.values().data() + number * nx;
+    const double* const above = h.values().data() + (number + 1) % ny * nx;
+    const auto term = [=](std::size_t i, std::size_t right) {
+      const double x = (here[right] - here[i]) * per_x, y = (above[i] - here[i]) * per_y;
+      return x * x + y * y;
+    };
+    rows[number] = over_stretch<1>(0, nx - 1, [=](std::size_t i, double* v) { v[0] = term(i, i + 1); });
+    rows[number][0] += term(nx - 1, 0);
   });
-  return std::sqrt(sums[0] / static_cast<double>(h.size()));
+  return std::sqrt(added_up(rows)[0] / static_cast<double>(h.size()));
 }
 
 double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.yield)[k] : law.cap; }
@@ -107,21 +114,35 @@ void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   const double cap = law.caps() ? law.cap : infinity;
   const Field &p = answer.pressure, &g = answer.gap;
   const double per_hardening = law.hardens() ? 1 / law.hardening : 0;
-  auto opened = [&](std::size_t k) {
-    return law.hardens() ? std::max(0.0, p[k] - yields_at(law, k)) * per_hardening : 0.0;
-  };
-  const auto found = over_nodes<5, 4>(p.size(), [&](std::size_t k, double* v) {
-    const double gap = g[k] + opened(k);
-    v[0] = p[k];
-    v[1] = p[k] > 0 ? 1.0 : 0.0;
-    v[2] = (law.hardens() ? p[k] > yields_at(law, k) : p[k] >= cap) ? 1.0 : 0.0;
-    v[3] = p[k] * gap;
-    v[4] = std::isfinite(cap) ? (gap > 0 ? p[k] * gap : (p[k] - cap) * gap) : 0.0;
-    v[5] = gap;
-    v[6] = p[k] < cap ? gap : infinity;
-    v[7] = p[k];
-    v[8] = -p[k];
-  });
+  const bool finite = std::isfinite(cap);
+  const double most = finite ? cap : 0.0;
+  std::array<double, 9> found;
+  if (law.hardens())
+    found = over_nodes<5, 4>(p.size(), [&](std::size_t k, double* v) {
+      const double past = p[k] - yields_at(law, k), gap = g[k] + std::max(0.0, past) * per_hardening;
+      v[0] = p[k];
+      v[1] = p[k] > 0 ? 1.0 : 0.0;
+      v[2] = past > 0 ? 1.0 : 0.0;
+      v[3] = p[k] * gap;
+      v[4] = 0;
+      v[5] = v[6] = gap;
+      v[7] = p[k];
+      v[8] = -p[k];
+    });
+  else
+    found = over_nodes<5, 4>(
+        p.size(), [=, p = p.values().data(), g = g.values().data()](std::size_t k, double* v) {
+          const double pressure = p[k], gap = g[k];
+          v[0] = pressure;
+          v[1] = pressure > 0 ? 1.0 : 0.0;
+          v[2] = pressure >= cap ? 1.0 : 0.0;
+          v[3] = pressure * gap;
+          v[4] = (pressure - (gap > 0 ? 0.0 : most)) * gap;  // means something of a cap only
+          v[5] = gap;
+          v[6] = pressure < cap ? gap : infinity;
+          v[7] = pressure;
+          v[8] = -pressure;
+        });
   answer.contacts = static_cast<std::int64_t>(found[1]);
   answer.yielded = static_cast<std::int64_t>(found[2]);
   answer.peak_pressure = -found[8];
@@ -187,11 +208,13 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   answer.gap = Field(nx, ny);
   const double cap = problem.yield.caps() ? problem.yield.cap : infinity;
   const double cell_cap = problem.yield.caps() ? cap / units.pressure : infinity;
-  for_nodes(cell.pressure.size(), [&](std::size_t k) {
-    const double p = cell.pressure[k];
-    answer.pressure[k] = p >= cell_cap ? cap : std::min(p * units.pressure, cap);
-    answer.gap[k] = (cell.gap[k] - cell.offset) * units.height;
-  });
+  for_nodes(cell.pressure.size(),
+            [=, from = cell.pressure.data(), gap = cell.gap.data(), offset = cell.offset,
+             pressure = answer.pressure.values().data(), to = answer.gap.values().data()](std::size_t k) {
+              const double p = from[k], scaled = p * units.pressure, within = scaled < cap ? scaled : cap;
+              pressure[k] = p >= cell_cap ? cap : within;
+              to[k] = (gap[k] - offset) * units.height;
+            });
   answer.mean_pressure = mean_pressure;
   const double offset = cell.offset * units.height;
   const double peak = range(problem.heights->values()).max;

@@ -18,7 +18,7 @@
 namespace asperity {
 
 namespace {
-constexpr double coarse_tolerance = 1e-3;
+constexpr double coarse_tolerance = 5e-3;
 
 // Progress on a logarithmic scale of the residual, and the place where a stop is seen.
 class Progress {

@@ -66,12 +66,16 @@ void visit(std::size_t nodes, Take take, const Body& body) {
   });
 }
 
+// One number for each lane of a block, as a vector: left to itself, the compiler takes the lanes of a sum one
+// by one through memory.
+typedef double LaneVector __attribute__((vector_size(lanes_a_block * sizeof(double)), may_alias));
+
 // The lanes of a block.
 template <std::size_t sums, std::size_t minima>
 struct Lanes {
   static constexpr std::size_t size = sums + minima;
   using Parts = std::array<double, size>;
-  double lanes[size][lanes_a_block];
+  LaneVector lanes[size];
 
   static constexpr double none(std::size_t i) {
     return i < sums ? 0.0 : std::numeric_limits<double>::infinity();
@@ -81,7 +85,7 @@ struct Lanes {
   }
   Lanes() {
     for (std::size_t i = 0; i < size; ++i)
-      for (double& lane : lanes[i]) lane = none(i);
+      for (std::size_t lane = 0; lane < lanes_a_block; ++lane) lanes[i][lane] = none(i);
   }
   // `k` is a whole number of lanes from the beginning of the block.
   template <class Term>
@@ -93,15 +97,15 @@ struct Lanes {
       for (std::size_t i = 0; i < size; ++i) values[i][j] = v[i];
     }
     for (std::size_t i = 0; i < size; ++i) {
-      double* const into = lanes[i];
+      LaneVector into = lanes[i];
       for (std::size_t j = 0; j < nodes_a_chunk; j += lanes_a_block) {
-        const double* const from = values[i] + j;
+        const LaneVector from = *reinterpret_cast<const LaneVector*>(values[i] + j);
         if (i < sums)
-          for (std::size_t lane = 0; lane < lanes_a_block; ++lane) into[lane] += from[lane];
+          into += from;
         else
-          for (std::size_t lane = 0; lane < lanes_a_block; ++lane)
-            into[lane] = from[lane] < into[lane] ? from[lane] : into[lane];
+          into = from < into ? from : into;
       }
+      lanes[i] = into;
     }
   }
   template <class Term>
@@ -133,20 +137,27 @@ std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t en
   return block.total();
 }
 
-template <std::size_t sums, std::size_t minima, class Take, class Term>
-std::array<double, sums + minima> gather(std::size_t nodes, Take take, const Term& term) {
+// Of what range(begin, end) gives for each block.
+template <std::size_t sums, std::size_t minima, class Range>
+std::array<double, sums + minima> gather_blocks(std::size_t nodes, const Range& range) {
   using Block = Lanes<sums, minima>;
   const std::size_t blocks = (nodes + nodes_a_block - 1) / nodes_a_block;
   Array<typename Block::Parts> parts(blocks);
-  for_node_blocks(nodes, [&](std::size_t begin, std::size_t end) {
-    parts[begin / nodes_a_block] = gather_range<sums, minima>(begin, end, take, term);
-  });
+  for_node_blocks(
+      nodes, [&](std::size_t begin, std::size_t end) { parts[begin / nodes_a_block] = range(begin, end); });
   typename Block::Parts total;
   for (std::size_t i = 0; i < Block::size; ++i) {
     total[i] = Block::none(i);
     for (const auto& part : parts) total[i] = Block::merge(i, total[i], part[i]);
   }
   return total;
+}
+
+template <std::size_t sums, std::size_t minima, class Take, class Term>
+std::array<double, sums + minima> gather(std::size_t nodes, Take take, const Term& term) {
+  return gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
+    return gather_range<sums, minima>(begin, end, take, term);
+  });
 }
 
 }  // namespace node_loop

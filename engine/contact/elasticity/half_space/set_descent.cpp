@@ -49,7 +49,7 @@ class Descent {
   // What the pressures lack of feasible ones: each settled, those of the elastic interior shifted to the
   // load.
   void project(const ContactQuality& at, Array<double>& target);
-  std::optional<double> shift_to_load(const ContactQuality& at);
+  std::optional<double> shift_to_load(const ContactQuality& at) const;
   // Feasible pressures and their gap.
   void renew(const ContactQuality& at) {
     project(at, f_.pressure);
@@ -108,24 +108,18 @@ void Descent<Limit>::project(const ContactQuality& at, Array<double>& target) {
   project_to_load(target, {}, upper, level_.total_load(), target);
 }
 
-// The shift of project(), two Newton steps from none: what it misses of the load the next pass makes good.
-// Nothing where that is not small.
+// The first of two Newton steps, from none, to the shift of project().
+double first_shift(const ContactQuality& at, double load) {
+  return at.interior > 0 ? (load - at.load) / at.interior : 0.0;
+}
+
+// That shift, but for what it misses of the load, which the next pass makes good. Nothing where that is not
+// small.
 template <class Limit>
-std::optional<double> Descent<Limit>::shift_to_load(const ContactQuality& at) {
-  const double load = level_.total_load(), upper = limit_.upper();
-  if (at.interior == 0) return {};
-  const double first = (load - at.load) / at.interior;
-  const auto found = over_nodes<2>(nodes(), [=, n = view()](std::size_t k, double* v) {
-    const double q = n.settled(k);
-    const bool here = n.shifts(k, q, true);
-    const double x = q + (here ? first : 0.0);
-    const bool above = x > 0, below = x < upper;
-    const double positive = above ? x : 0.0;
-    v[0] = below ? positive : upper;
-    v[1] = (here & above & below) ? 1.0 : 0.0;
-  });
-  if (!(std::abs(found[0] - load) < 0.01 * load) || found[1] == 0) return {};
-  return first - (found[0] - load) / found[1];
+std::optional<double> Descent<Limit>::shift_to_load(const ContactQuality& at) const {
+  const double load = level_.total_load(), found = set_.shifted_load;
+  if (at.interior == 0 || !(std::abs(found - load) < 0.01 * load) || set_.shifted_count == 0) return {};
+  return first_shift(at, load) - (found - load) / set_.shifted_count;
 }
 
 // Of what the gaps of the free nodes lack of their mean.
@@ -144,11 +138,6 @@ double Descent<Limit>::residual_norm() const {
 template <class Limit>
 double Descent<Limit>::precondition() {
   const double shrink = 1 / level_.pressure_unit();
-  const auto weigh = [n = view(), mean = mean_gap_](std::size_t k, double* v) {
-    const double all = static_cast<double>(n.correction[k]), r = mean - n.total_gap(k);
-    v[0] = n.moves(k) ? all : 0.0;
-    v[1] = n.moves(k) ? all * r : 0.0;
-  };
   std::array<double, 2> sums;
   if constexpr (Limit::hardens) {
     work_.resize(nodes());
@@ -160,23 +149,31 @@ double Descent<Limit>::precondition() {
     for_marked_nodes(f_.free, [n = view(), from = work_.data(), shrink](std::size_t k) {
       n.correction[k] = static_cast<float>(from[k] * shrink);
     });
-    sums = over_marked_nodes<2>(f_.free, weigh);
+    sums = over_marked_nodes<2>(f_.free, [n = view(), mean = mean_gap_](std::size_t k, double* v) {
+      const double all = static_cast<double>(n.correction[k]), r = mean - n.total_gap(k);
+      v[0] = n.moves(k) ? all : 0.0;
+      v[1] = n.moves(k) ? all * r : 0.0;
+    });
   } else {
     Array<std::array<double, 2>> parts(level_.preconditioner.tiles());
-    const auto read = [gap = f_.gap.data(), mean = mean_gap_](std::size_t first, std::size_t n, double* to) {
-      for (std::size_t i = 0; i < n; ++i) to[i] = mean - gap[first + i];
-    };
     const auto put = [&](std::size_t tile, std::size_t first, std::size_t n, const float* values,
                          double factor) {
       if (!values) return;
-      float* const to = f_.correction.data() + first;
-      const double times = factor * shrink;
-      for (std::size_t i = 0; i < n; ++i) to[i] = static_cast<float>(static_cast<double>(values[i]) * times);
-      const auto part = over_marked_stretch<2>(f_.free.data(), first, first + n, weigh);
+      const auto part = over_lanes_of_stretch<2>(
+          first, first + n,
+          [from = values - first, to = f_.correction.data(), gap = f_.gap.data(), times = factor * shrink,
+           mean = mean_gap_]<class Value>(std::size_t k, Value* v) {
+            Value correction, apart;
+            lane_terms::read(from + k, correction);
+            lane_terms::put(correction * times, to + k);
+            lane_terms::read(to + k, v[0]);
+            lane_terms::read(gap + k, apart);
+            v[1] = v[0] * (mean - apart);
+          });
       for (std::size_t i = 0; i < 2; ++i) parts[tile][i] += part[i];
     };
     std::fill(parts.begin(), parts.end(), std::array<double, 2>{});
-    level_.preconditioner.apply(read, put);
+    level_.preconditioner.apply({f_.gap.data(), -1, mean_gap_}, put);
     sums = added_up(parts);
   }
   surplus_ = sums[0] / set_.balancing_count();
@@ -222,12 +219,7 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
   Array<std::array<double, 1>> rows(static_cast<std::size_t>(level_.shape.ny));
   const auto sink = [&](int j, const double* image) {
     const std::size_t begin = static_cast<std::size_t>(j) * nx;
-    rows[static_cast<std::size_t>(j)] = over_stretch<1>(
-        begin, begin + nx, [n = view(), balances, unit, from = image - begin](std::size_t k, double* v) {
-          n.gap[k] += from[k] * unit;
-          const double gap = n.total_gap(k);
-          v[0] = n.free[k] == balances ? gap : 0.0;
-        });
+    rows[static_cast<std::size_t>(j)] = take_image(view(), begin, begin + nx, image, unit, balances);
   };
   level_.apply(source, sink, {});
   auto sums = added_up(rows);
@@ -278,16 +270,7 @@ bool Descent<Limit>::descend(int steps) {
     Array<std::array<double, 2>> rows(static_cast<std::size_t>(level_.shape.ny));
     const auto sink = [&](int j, const double*) {
       const std::size_t begin = static_cast<std::size_t>(j) * nx;
-      rows[static_cast<std::size_t>(j)] =
-          over_marked_stretch<2>(f_.free.data(), begin, begin + nx,
-                                 [=, n = view(), slope = limit_.yielding_slope()](std::size_t k, double* v) {
-                                   const double d = n.direction[k];
-                                   double image = n.step[k];
-                                   if constexpr (Limit::hardens)
-                                     image += n.free[k] == yielding ? slope * d : 0.0;
-                                   v[0] = d * image;
-                                   v[1] = n.free[k] == balancing ? image : 0.0;
-                                 });
+      rows[static_cast<std::size_t>(j)] = weigh_image(view(), begin, begin + nx, balancing);
     };
     level_.apply(source, sink, f_.step);
     const auto sums = added_up(rows);
@@ -364,7 +347,8 @@ StageEnd Descent<Limit>::run() {
       f_.old_gap = f_.gap;
     }
 
-    set_ = mark_free_set(limit_, at, balance_, f_.pressure, f_.gap, f_.old_free, f_.free);
+    set_ = mark_free_set(limit_, at, balance_, first_shift(at, level_.total_load()), f_.pressure, f_.gap,
+                         f_.old_free, f_.free);
     if (set_.changed) preconditioner_.set_free(f_.free);
     if (!at.within || set_.changed) have_direction_ = false;
     fresh_ = false;

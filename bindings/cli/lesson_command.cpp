@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/cli/lesson_command.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "bindings/lua/lessons.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::cli {
+
+namespace {
+
+// The words of a text in lines of at most 100 letters, each after the first behind an indent.
+std::string in_lines(const std::string& text, std::size_t indent) {
+  std::string result, word;
+  std::size_t column = indent;
+  for (const char c : text + " ") {
+    if (c != ' ') {
+      word += c;
+      continue;
+    }
+    if (column > indent && column + word.size() > 100) {
+      result.back() = '\n';
+      result += std::string(indent, ' ');
+      column = indent;
+    }
+    result += word + " ";
+    column += word.size() + 1;
+    word.clear();
+  }
+  result.pop_back();
+  return result;
+}
+
+void list() {
+  for (const lua::Lesson& lesson : lua::lessons())
+    std::printf("%d  %s: %s (%d min)\n   %s\n", lesson.number, lesson.name.c_str(), lesson.title.c_str(),
+                lesson.minutes, in_lines(lesson.question, 3).c_str());
+  std::printf(
+      "\nasperity lesson NAME          shows one\n"
+      "asperity lesson NAME --copy   puts its script here, to be changed and run\n"
+      "asperity lesson NAME --run    runs it as it is\n");
+}
+
+void copy(const lua::Lesson& lesson) {
+  if (std::filesystem::exists(lesson.file))
+    throw Error(ErrorCode::bad_file, quoted(lesson.file) + " is there already, and may have been changed",
+                "move it away, or run it: asperity run " + lesson.file);
+  std::ofstream file(lesson.file, std::ios::binary);
+  file << lesson.script;
+  file.close();
+  if (!file) throw Error(ErrorCode::bad_file, quoted(lesson.file) + " cannot be written here");
+  std::printf("%s is here. Write your prediction into it, then: asperity run %s\n", lesson.file.c_str(),
+              lesson.file.c_str());
+}
+
+}  // namespace
+
+int lesson(const LessonCommand& command) {
+  try {
+    if (command.name.empty()) {
+      if (command.copy || command.run)
+        throw Error(ErrorCode::bad_value, "no lesson was named",
+                    "name one, as in asperity lesson tilt; asperity lesson lists them");
+      return list(), 0;
+    }
+    const lua::Lesson& lesson = lua::find_lesson(command.name);
+    if (command.copy) copy(lesson);
+    if (command.run) {
+      RunCommand run = command.options;
+      run.script = lesson.file;
+      run.text = std::string(lesson.script);
+      return cli::run(run);
+    }
+    if (!command.copy)
+      std::printf(
+          "%s (%d minutes)\n\nQuestion: %s\n\nPredict: %s\n\n%s\nasperity lesson %s --copy   puts its script "
+          "here, to be changed and run\n"
+          "asperity lesson %s --run    runs it as it is\n",
+          lesson.title.c_str(), lesson.minutes, in_lines(lesson.question, 0).c_str(),
+          in_lines(lesson.predict, 0).c_str(), lesson.explanation.c_str(), lesson.name.c_str(),
+          lesson.name.c_str());
+    return 0;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return 2;
+  }
+}
+
+}  // namespace asperity::cli

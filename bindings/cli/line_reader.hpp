@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lines of standard input. From a terminal they are edited, with those of earlier sessions to come back to
+// and Tab to complete, if the part that brings libedit is there; without it the terminal's own editing does.
+// From a pipe or a file they are read as they are, without prompts. While it waits, Ctrl-C gives up the line
+// and SIGTERM ends the input; both are blocked otherwise, for whoever watches over the work.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bindings/cli/edit/line_editor.hpp"
+#include "bindings/cli/line_history.hpp"
+#include "bindings/lua/completion.hpp"
+
+namespace asperity::cli {
+
+class LineReader {
+ public:
+  using Complete = std::function<lua::Completion(std::string_view line, std::size_t position)>;
+
+  // Blocks SIGINT and SIGTERM in this thread and those it starts: construct it before any other thread.
+  LineReader(LineHistory history, Complete complete);
+  ~LineReader();
+  LineReader(const LineReader&) = delete;
+  LineReader& operator=(const LineReader&) = delete;
+
+  bool terminal() const { return terminal_; }
+  enum class Event { line, given_up, end };
+  // The next line goes into `line`.
+  Event read(const std::string& prompt, std::string& line);
+  // Why it ended without being asked to; 0, or the number of a signal.
+  int ended_by() const;
+
+ private:
+  Event read_plain(const std::string& prompt, std::string& line);
+  int next_byte(unsigned char* byte);
+  AsperityEditAnswer answer(std::string_view line, std::size_t before);
+
+  bool terminal_;
+  void* editor_ = nullptr;
+  LineHistory history_;
+  Complete complete_;
+  std::string insert_, list_;
+};
+
+// The candidates as lines for a terminal so wide: with what is known of them while they are few.
+std::string candidate_list(const std::vector<lua::Candidate>& candidates, int columns);
+
+}  // namespace asperity::cli

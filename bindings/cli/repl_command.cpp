@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/cli/repl_command.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+
+#include "bindings/cli/line_reader.hpp"
+#include "bindings/cli/run_command.hpp"
+#include "bindings/cli/terminal_monitor.hpp"
+#include "bindings/cli/watchdog.hpp"
+#include "bindings/lua/prompt.hpp"
+#include "bindings/lua/session.hpp"
+#include "bindings/lua/state.hpp"
+#include "bindings/lua/version.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/experiment/run_directory.hpp"
+
+namespace asperity::cli {
+
+namespace {
+
+constexpr int done = 0, failed = 1, bad_usage = 2;
+
+class Conversation {
+ public:
+  explicit Conversation(const ReplCommand& command)
+      : command_(command),
+        reader_(LineHistory(command.no_history ? std::filesystem::path() : LineHistory::default_file()),
+                [this](std::string_view line, std::size_t position) {
+                  return prompt_->complete(line, position);
+                }) {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+    set_thread_count(command.threads);
+    if (command.limit_memory) limit_memory(*command.limit_memory);
+    RunSetup setup;
+    setup.script_name = "prompt";
+    if (command.out) setup.out = *command.out;
+    setup.trusted = command.trust;
+    setup.seed = static_cast<std::int64_t>(command.seed);
+    setup.threads = thread_count();
+    setup.versions = version_json();
+    run_ = std::make_shared<RunDirectory>(std::move(setup),
+                                          [this] { return prompt_ ? prompt_->script() : std::string(); });
+    monitor_.keep_warnings_in(run_.get());
+    session_.seed = command.seed;
+    session_.trusted = command.trust;
+    session_.run = run_;
+    session_.exit_hook = [this](int code) {
+      finish(code == 0 ? RunStatus::done : RunStatus::failed, "os.exit(" + std::to_string(code) + ")");
+      std::fflush(nullptr);
+      std::_Exit(code);
+    };
+    state_ = lua::make_state(session_, ".");
+    prompt_.emplace(state_.get());
+    hear_stops();
+  }
+
+  int converse() {
+    if (reader_.terminal())
+      std::printf("asperity %s. help() explains, Tab completes, Ctrl-C stops a line, Ctrl-D ends.\n",
+                  lua::version_text().c_str());
+    std::string line;
+    for (int number = 1;; ++number) {
+      const LineReader::Event event = reader_.read(prompt_->continued() ? ">> " : "> ", line);
+      if (event == LineReader::Event::end) break;
+      if (event == LineReader::Event::given_up)
+        prompt_->forget();
+      else if (!take(line, reader_.terminal() ? 1 : number))
+        break;
+    }
+    return end();
+  }
+
+ private:
+  // False where the session is to end.
+  bool take(const std::string& line, int number) {
+    lua::Prompt::Outcome outcome;
+    bool terminated = false;
+    StopReason stopped = StopReason::none;
+    {
+      Watchdog watchdog(
+          command_.limit_time,
+          [this](StopReason reason) {
+            std::fprintf(stderr, "asperity: %s; it could not be stopped, and the session ends\n",
+                         reason_text(reason).c_str());
+            finish(RunStatus::killed, reason_text(reason), std::chrono::milliseconds(500));
+          },
+          reader_.terminal() ? Watchdog::CtrlC::is_patient : Watchdog::CtrlC::ends_within_grace);
+      const Watchdog::Watching watching(watchdog, state_.get());
+      outcome = prompt_->take(line, number);
+      stopped = stop_flag().reason();
+      terminated = watchdog.terminated() || (stopped == StopReason::interrupt && !reader_.terminal());
+    }
+    hear_stops();
+    monitor_.clear();
+    std::fflush(stdout);
+    if (outcome == lua::Prompt::Outcome::failed) {
+      lines_failed_ = true;
+      std::fprintf(stderr, "asperity: %s\n", failure(stopped).c_str());
+    }
+    if (terminated) stopped_ = true;
+    return !terminated;
+  }
+
+  // Takes back what a stop left behind, so that the next line runs.
+  void hear_stops() {
+    stop_flag().clear();
+    lua_sethook(state_.get(), nullptr, 0, 0);
+    if (command_.limit_time || command_.limit_memory) lua::watch_for_stops(state_.get());
+    if (command_.limit_memory) memory::set_limit(*command_.limit_memory);
+  }
+
+  std::string reason_text(StopReason reason) const {
+    if (reason == StopReason::interrupt) return "interrupted";
+    return "the time limit of " + format_quantity(command_.limit_time.value_or(0), dimension::time) +
+           " a line was reached";
+  }
+
+  // What a line that failed is told with. Where a limit was met is worth knowing; where Ctrl-C was pressed is
+  // not.
+  std::string failure(StopReason stopped) const {
+    if (stopped == StopReason::none) return prompt_->error();
+    return reason_text(stopped) + (stopped == StopReason::interrupt ? "" : "\n" + prompt_->error());
+  }
+
+  int end() {
+    int status = done;
+    if (!reader_.terminal() && prompt_->continued()) {
+      std::fprintf(stderr, "asperity: the input ends within a statement\n");
+      lines_failed_ = true;
+    }
+    if (!reader_.terminal() && (lines_failed_ || run_->expectations().failed() > 0)) status = failed;
+    if (stopped_ || reader_.ended_by() != 0) status = exit_status(StopReason::interrupt);
+    finish(status == done     ? RunStatus::done
+           : status == failed ? RunStatus::failed
+                              : RunStatus::interrupted,
+           status == failed ? "a line or an expectation failed" : "");
+    return status;
+  }
+
+  void finish(RunStatus status, const std::string& reason,
+              std::chrono::milliseconds patience = std::chrono::seconds(2)) {
+    try {
+      run_->finish(status, reason, patience);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "asperity: %s\n", error.what());
+    }
+    const std::string verdicts = run_->expectations().summary();
+    if (!verdicts.empty()) std::fprintf(stderr, "%s\n", verdicts.c_str());
+    if (!run_->path().empty()) std::fprintf(stderr, "results in %s\n", run_->path().c_str());
+  }
+
+  const ReplCommand& command_;
+  LineReader reader_;  // first: it blocks signals for the threads of all that follows
+  TerminalMonitor monitor_;
+  lua::Session session_{monitor_};
+  std::shared_ptr<RunDirectory> run_;
+  lua::State state_;
+  std::optional<lua::Prompt> prompt_;
+  bool lines_failed_ = false, stopped_ = false;
+};
+
+}  // namespace
+
+int repl(const ReplCommand& command) {
+  try {
+    Conversation conversation(command);
+    return conversation.converse();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return bad_usage;
+  }
+}
+
+}  // namespace asperity::cli

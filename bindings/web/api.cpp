@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/api.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "bindings/lua/lessons.hpp"
+#include "bindings/lua/version.hpp"
+#include "bindings/web/answers.hpp"
+#include "bindings/web/plain_files.hpp"
+#include "bindings/web/run_files.hpp"
+#include "bindings/web/script_check.hpp"
+#include "bindings/web/script_completion.hpp"
+#include "engine/core/error.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+constexpr std::size_t longest_script = std::size_t{1} << 20, longest_name = 200;
+
+HttpResponse not_there() { return problem_answer(404, "there is no such thing here"); }
+
+// "/api/runs/7/files/a.csv" after "/api/runs/" is "7" and "files/a.csv".
+std::pair<std::string, std::string> split(const std::string& path) {
+  const std::size_t slash = path.find('/');
+  if (slash == std::string::npos) return {path, ""};
+  return {path.substr(0, slash), path.substr(slash + 1)};
+}
+
+}  // namespace
+
+Api::Api(ApiSetup setup, const Access& access, RunQueue& runs, PageFiles page)
+    : setup_(std::move(setup)),
+      access_(access),
+      runs_(runs),
+      page_(std::move(page)),
+      streams_(setup_.classroom ? 24 : 300, 600) {}
+
+std::optional<HttpResponse> Api::refuse(const HttpRequest& head) {
+  auto refused = [](HttpResponse response) {
+    add_safe_headers(response);
+    return response;
+  };
+  if (const std::string why = access_.misdirected(head); !why.empty())
+    return refused(problem_answer(403, why));
+  if (head.path.size() > 2000 || head.path.find('\0') != std::string::npos)
+    return refused(problem_answer(414, "the address is too long"));
+  const bool api = head.path.starts_with("/api/");
+  if (api && !access_.person(head))
+    return refused(problem_answer(401, "the request carries no token that this server knows",
+                                  "open the whole address that `asperity serve` printed"));
+  const bool reads = head.method == "GET" || (head.method == "HEAD" && !api);
+  if (!reads && !(api && (head.method == "POST" || head.method == "DELETE")))
+    return refused(problem_answer(405, "the method is not one of this address"));
+  const bool has_body =
+      head.headers.contains("transfer-encoding") ||
+      (head.headers.contains("content-length") && head.headers.find("content-length")->second != "0");
+  if (head.method != "POST")
+    return has_body ? std::optional(refused(problem_answer(400, "a request of this method has no body")))
+                    : std::nullopt;
+  const std::string* length = head.header("content-length");
+  std::size_t bytes = 0;
+  if (length == nullptr || head.headers.contains("transfer-encoding") ||
+      head.headers.contains("content-encoding"))
+    return refused(problem_answer(411, "the body must come as it is, with its length"));
+  const auto [end, wrong] = std::from_chars(length->data(), length->data() + length->size(), bytes);
+  if (wrong != std::errc() || end != length->data() + length->size())
+    return refused(problem_answer(400, "the length of the body is no number"));
+  if (bytes > HttpSetup{}.most_body_bytes)
+    return refused(problem_answer(413, "the body has " + std::to_string(bytes) + " bytes",
+                                  "a request may have " + std::to_string(HttpSetup{}.most_body_bytes)));
+  const std::string* type = head.header("content-type");
+  if (type == nullptr || !type->starts_with("application/json"))
+    return refused(
+        problem_answer(415, "the body must be JSON, and said to be (Content-Type: application/json)"));
+  return {};
+}
+
+HttpResponse Api::answer(const HttpRequest& request) {
+  HttpResponse response;
+  try {
+    response = request.path.starts_with("/api/") ? route(request) : page_.answer(request);
+  } catch (const Error& error) {
+    const bool theirs = error.code() != ErrorCode::bad_state && error.code() != ErrorCode::internal;
+    response = problem_answer(theirs ? 400 : 503, error.sentence(), error.hint());
+  } catch (const std::exception& error) {
+    response = problem_answer(500, error.what());
+  }
+  add_safe_headers(response);
+  return response;
+}
+
+HttpResponse Api::route(const HttpRequest& request) {
+  const std::optional<std::size_t> person = access_.person(request);
+  if (!person) return problem_answer(401, "the request carries no token that this server knows");
+  const std::string path = request.path.substr(5);
+  const bool get = request.method == "GET", post = request.method == "POST";
+  if (path == "about" && get) return about();
+  if (path == "complete" && post) return complete(request);
+  if (path == "check" && post) return check(*person, request);
+  if (path == "lessons" && get) return lessons();
+  if (path.starts_with("lessons/") && get) return lesson(path.substr(8));
+  if (path == "runs" && get) return runs_of(*person);
+  if (path == "runs" && post) return begin_run(*person, request);
+  if (path.starts_with("runs/")) {
+    const auto [id, rest] = split(path.substr(5));
+    const auto run = runs_.find(*person, id);
+    if (run != nullptr) return of_run(request, run, rest);
+  }
+  return not_there();
+}
+
+HttpResponse Api::about() const {
+  const RunLimits& limits = setup_.limits;
+  return json_answer(Json::object({{"version", lua::version_text()},
+                                   {"limits", Json::object({{"memory_bytes", limits.memory_bytes},
+                                                            {"seconds", limits.seconds},
+                                                            {"output_bytes", limits.output_bytes},
+                                                            {"runs", setup_.at_once}})},
+                                   {"classroom", setup_.classroom}}));
+}
+
+HttpResponse Api::complete(const HttpRequest& request) const {
+  const Json body = body_of(request);
+  const std::string text = text_member(body, "text", longest_script);
+  const std::int64_t position = whole_member(body, "position", 0);
+  return json_answer(completion_of(text, static_cast<std::size_t>(position)));
+}
+
+HttpResponse Api::check(std::size_t person, const HttpRequest& request) {
+  const std::string script = text_member(body_of(request), "script", longest_script);
+  const auto share = checks_.take(person, std::chrono::seconds(8));
+  if (share == nullptr) return problem_answer(503, "other scripts are being checked", "try again");
+  return json_answer(check_script(script, setup_.scratch, setup_.barriers));
+}
+
+HttpResponse Api::begin_run(std::size_t person, const HttpRequest& request) {
+  const Json body = body_of(request);
+  RunRequest asked;
+  asked.script = text_member(body, "script", longest_script);
+  if (body.find("name") != nullptr) asked.name = text_member(body, "name", longest_name);
+  asked.seed = whole_member(body, "seed", 1);
+  asked.views = flag_member(body, "views");
+  try {
+    const auto run = runs_.add(person, std::move(asked));
+    return json_answer(Json::object({{"id", run->id}}), 201);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_state) throw;
+    return problem_answer(429, error.sentence(), error.hint());
+  }
+}
+
+HttpResponse Api::runs_of(std::size_t person) const {
+  Json::List list;
+  for (const auto& run : runs_.of(person))
+    list.push_back(
+        Json::object({{"id", run->id}, {"name", run->request.name}, {"state", name(run->state())}}));
+  return json_answer(list);
+}
+
+HttpResponse Api::of_run(const HttpRequest& request, const std::shared_ptr<PageRun>& run,
+                         const std::string& rest) {
+  if (rest.empty()) {
+    if (request.method == "DELETE") runs_.stop(*run);
+    return json_answer(
+        Json::object({{"id", run->id}, {"name", run->request.name}, {"state", name(run->state())}}));
+  }
+  if (request.method != "GET") return problem_answer(405, "this can only be read");
+  const auto share = streams_.take(run->owner, std::chrono::milliseconds(0));
+  if (share == nullptr)
+    return problem_answer(429, "as many answers are under way to this person as may be", "close other pages");
+  HttpResponse response = rest == "events"             ? events_answer(run, request)
+                          : rest.starts_with("files/") ? file_answer(*run, rest.substr(6))
+                          : rest.starts_with("views/") ? view_answer(*run, rest.substr(6))
+                                                       : not_there();
+  if (response.stream)
+    response.stream = [share, next = std::move(response.stream)](std::string& piece) { return next(piece); };
+  return response;
+}
+
+HttpResponse Api::lessons() const {
+  Json::List list;
+  for (const lua::Lesson& lesson : lua::lessons())
+    list.push_back(Json::object({{"name", lesson.name},
+                                 {"title", lesson.title},
+                                 {"question", lesson.question},
+                                 {"minutes", lesson.minutes}}));
+  return json_answer(list);
+}
+
+HttpResponse Api::lesson(const std::string& name) const {
+  const auto& all = lua::lessons();
+  const auto found = std::ranges::find(all, name, &lua::Lesson::name);
+  if (found == all.end()) return problem_answer(404, "there is no such lesson");
+  return json_answer(Json::object({{"name", found->name},
+                                   {"title", found->title},
+                                   {"question", found->question},
+                                   {"predict", found->predict},
+                                   {"minutes", found->minutes},
+                                   {"text", found->explanation},
+                                   {"script", found->script}}));
+}
+
+}  // namespace asperity::web

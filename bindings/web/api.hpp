@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The server's answers: the page's files to anybody who names it rightly, and under /api, to whoever has a
+// token: about, complete, check, runs with their events, files and views, and lessons. A problem is
+// {error: {message, hint?}}. A person finds their own runs only; another's are not there.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bindings/web/access.hpp"
+#include "bindings/web/http.hpp"
+#include "bindings/web/page_files.hpp"
+#include "bindings/web/run_queue.hpp"
+#include "bindings/web/shares.hpp"
+
+namespace asperity::web {
+
+struct ApiSetup {
+  RunLimits limits;
+  int at_once = 2;
+  bool classroom = false;
+  std::vector<std::string> barriers;
+  std::filesystem::path scratch;  // for checks
+};
+
+class Api final : public HttpHandler {
+ public:
+  Api(ApiSetup setup, const Access& access, RunQueue& runs, PageFiles page);
+
+  std::optional<HttpResponse> refuse(const HttpRequest& head) override;
+  HttpResponse answer(const HttpRequest& request) override;
+
+ private:
+  HttpResponse route(const HttpRequest& request);
+  HttpResponse about() const;
+  HttpResponse complete(const HttpRequest& request) const;
+  HttpResponse check(std::size_t person, const HttpRequest& request);
+  HttpResponse begin_run(std::size_t person, const HttpRequest& request);
+  HttpResponse runs_of(std::size_t person) const;
+  HttpResponse of_run(const HttpRequest& request, const std::shared_ptr<PageRun>& run,
+                      const std::string& rest);
+  HttpResponse lessons() const;
+  HttpResponse lesson(const std::string& name) const;
+
+  const ApiSetup setup_;
+  const Access& access_;
+  RunQueue& runs_;
+  const PageFiles page_;
+  Shares checks_{1, 4};
+  Shares streams_;  // answers that last
+};
+
+}  // namespace asperity::web

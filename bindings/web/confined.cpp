@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/confined.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include "bindings/cli/run_command.hpp"
+#include "bindings/web/drawing.hpp"
+#include "bindings/web/event_channel.hpp"
+#include "bindings/web/sandbox/system_calls.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/loaded_part.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+constexpr int failed = 1, bad_usage = 2;
+constexpr std::array<const char*, 4> works{"run", "check", "draw", "probe"};
+
+const Json& member(const Json& json, const char* name) {
+  const Json* found = json.find(name);
+  if (found == nullptr) throw Error(ErrorCode::bad_file, "the request has no " + asperity::quoted(name));
+  return *found;
+}
+
+std::int64_t whole(const Json& json, const char* name) {
+  return static_cast<std::int64_t>(member(json, name).number());
+}
+
+std::string standard_input() {
+  std::string text;
+  char piece[65536];
+  for (ssize_t got = 0; (got = ::read(STDIN_FILENO, piece, sizeof piece)) != 0;) {
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) break;
+    text.append(piece, static_cast<std::size_t>(got));
+  }
+  return text;
+}
+
+// What a run may load later lies behind the barrier; a part that is not there is met when it is needed.
+void load_parts() {
+  try {
+    part_symbol({"hdf5", "HDF5 files are written", "libhdf5-103-1"}, "asperity_hdf5_write_1");
+  } catch (const Error&) {
+  }
+}
+
+int print_probe(const std::vector<std::string>& made, const std::vector<std::string>& missing) {
+  Json::List barriers;
+  for (const Barrier& barrier : try_barriers()) {
+    barriers.push_back(Json::object({{"name", barrier.name},
+                                     {"sentence", barrier.sentence},
+                                     {"holds", barrier.holds},
+                                     {"by", barrier.by}}));
+    // One by one: the last, if it does not hold, is the end of this process.
+    const Json all = Json::object(
+        {{"made", Json::strings(made)}, {"missing", Json::strings(missing)}, {"barriers", barriers}});
+    std::printf("%s\n", all.text().c_str());
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+int become_gnuplot() {
+  char program[] = "gnuplot", settings[] = "-d", script[] = "script";
+  char path[] = "PATH=/usr/bin:/bin", language[] = "LC_ALL=C.UTF-8";
+  char* const arguments[] = {program, settings, script, nullptr};
+  char* const environment[] = {path, language, nullptr};
+  ::execve("/usr/bin/gnuplot", arguments, environment);
+  std::fprintf(stderr, "gnuplot cannot be started: %s\n", std::strerror(errno));
+  return 127;
+}
+
+int run_or_check(const ConfinedRequest& request) {
+  EventChannel events(events_descriptor, request.views ? ".views" : "");
+  cli::RunCommand command;
+  command.script = request.name;
+  command.text = request.script;
+  command.out = ".";
+  command.threads = request.threads;
+  command.seed = static_cast<std::uint64_t>(request.seed);
+  command.limit_memory = request.confinement.memory_bytes;
+  command.limit_time = request.seconds;
+  command.store_limit = 0;
+  command.observer = &events;
+  std::setvbuf(stdout, nullptr, _IOLBF, std::size_t{1} << 14);
+  if (request.work == Work::check) return cli::check(command);
+  draw_by_server(drawing_descriptor);
+  return cli::run(command);
+}
+
+}  // namespace
+
+Json to_json(const ConfinedRequest& request) {
+  const Confinement& c = request.confinement;
+  return Json::object({{"work", works.at(static_cast<std::size_t>(request.work))},
+                       {"drawing", c.as == Confined::drawing},
+                       {"memory_bytes", c.memory_bytes},
+                       {"file_bytes", c.file_bytes},
+                       {"processor_seconds", c.processor_seconds},
+                       {"script", request.script},
+                       {"name", request.name},
+                       {"seed", request.seed},
+                       {"seconds", request.seconds},
+                       {"threads", request.threads},
+                       {"views", request.views},
+                       {"barriers", Json::strings(request.barriers)}});
+}
+
+ConfinedRequest confined_request(const Json& json) {
+  ConfinedRequest request;
+  const std::string& work = member(json, "work").string();
+  const auto known = std::ranges::find(works, work);
+  if (known == works.end()) throw Error(ErrorCode::bad_file, "the request is to " + asperity::quoted(work));
+  request.work = static_cast<Work>(known - works.begin());
+  request.confinement.as = member(json, "drawing").boolean() ? Confined::drawing : Confined::script;
+  request.confinement.memory_bytes = whole(json, "memory_bytes");
+  request.confinement.file_bytes = whole(json, "file_bytes");
+  request.confinement.processor_seconds = whole(json, "processor_seconds");
+  request.script = member(json, "script").string();
+  request.name = member(json, "name").string();
+  request.seed = whole(json, "seed");
+  request.seconds = member(json, "seconds").number();
+  request.threads = static_cast<int>(whole(json, "threads"));
+  request.confinement.threads = request.threads;
+  request.views = member(json, "views").boolean();
+  for (const Json& barrier : member(json, "barriers").list()) request.barriers.push_back(barrier.string());
+  return request;
+}
+
+int confined_main() {
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    const ConfinedRequest request = confined_request(Json::parse(standard_input(), "the request"));
+    if (const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC); nothing >= 0) {
+      ::dup2(nothing, STDIN_FILENO);
+      ::close(nothing);
+    }
+    load_system_call_filter();
+    if (request.work == Work::run) load_parts();
+    std::vector<std::string> missing;
+    const std::vector<std::string> made = confine(request.confinement, missing);
+    for (const std::string& barrier : request.barriers)
+      if (std::ranges::find(made, barrier) == made.end())
+        throw Error(ErrorCode::bad_state,
+                    "the run was not begun: " + asperity::quoted(barrier) + " could not be put up",
+                    joined(missing, ", "));
+    switch (request.work) {
+      case Work::probe:
+        return print_probe(made, missing);
+      case Work::draw:
+        return become_gnuplot();
+      case Work::run:
+      case Work::check:
+        return run_or_check(request);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return bad_usage;
+  }
+  return failed;
+}
+
+}  // namespace asperity::web

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/drawing.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+
+#include "bindings/web/frames.hpp"
+#include "bindings/web/plain_files.hpp"
+#include "bindings/web/sandbox/confined_process.hpp"
+#include "engine/core/error.hpp"
+#include "engine/experiment/aside_file.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_bytes = std::size_t{64} << 20;
+constexpr auto patience = std::chrono::seconds(30);
+
+bool is_plain_name(const std::string& name) {
+  return !name.empty() && name.size() < 64 && name[0] != '.' && name != "script" && name != "picture" &&
+         std::ranges::all_of(
+             name, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; });
+}
+
+GnuplotResult ask(int socket, std::string_view script, std::span<const GnuplotData> data) {
+  static std::mutex one_at_a_time;
+  std::vector<std::string_view> texts{script};
+  for (const GnuplotData& item : data) texts.insert(texts.end(), {item.name, item.bytes});
+  const std::lock_guard lock(one_at_a_time);
+  const auto answer = send_frame(socket, texts) ? receive_frame(socket, most_bytes) : std::nullopt;
+  if (!answer || answer->size() != 3)
+    throw Error(ErrorCode::bad_state, "the picture was not drawn: the server that draws it gave no answer",
+                "a picture may have at most 64 MiB of data");
+  if (!(*answer)[0].empty()) throw Error(ErrorCode::bad_state, (*answer)[0]);
+  return {(*answer)[1], (*answer)[2]};
+}
+
+// Gone with all in it.
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "asperity-picture-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) throw_file_error("make a temporary folder in", pattern, errno);
+    path = pattern;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  fs::path path;
+};
+
+GnuplotResult draw(const std::vector<std::string>& request, const std::vector<std::string>& barriers) {
+  const Folder folder;
+  write_aside(folder.path / "script", script_for_file(request[0]));
+  for (std::size_t k = 1; k + 1 < request.size(); k += 2) {
+    if (!is_plain_name(request[k]))
+      throw Error(ErrorCode::not_permitted, "data of a picture have a name that is none");
+    write_aside(folder.path / request[k], request[k + 1]);
+  }
+  ConfinedRequest work{.work = Work::draw, .confinement = {}};
+  work.confinement.as = Confined::drawing;
+  work.confinement.processor_seconds = 20;
+  for (const std::string& barrier : barriers)
+    if (barrier != "a root of its own") work.barriers.push_back(barrier);
+  const Finished done = run_confined(work, folder.path.string(), patience, std::size_t{1} << 16);
+  std::string picture = read_plain_file(folder.path, "picture", most_bytes).value_or("");
+  if (done.status != 0 || picture.empty())
+    throw Error(ErrorCode::bad_state,
+                done.status == 127
+                    ? "charts and pictures are drawn by gnuplot, which is not installed"
+                    : "gnuplot drew no picture: " + done.error + (done.late ? "it took too long" : ""));
+  return {std::move(picture), done.error};
+}
+
+}  // namespace
+
+void draw_by_server(int socket) {
+  draw_pictures_by([socket](std::string_view script, std::span<const GnuplotData> data) {
+    return ask(socket, script, data);
+  });
+}
+
+bool answer_drawing(int socket, const std::vector<std::string>& barriers) {
+  const auto request = receive_frame(socket, most_bytes);
+  if (!request || request->empty() || request->size() % 2 == 0) return false;
+  try {
+    const GnuplotResult drawn = draw(*request, barriers);
+    const std::string_view answer[] = {"", drawn.picture, drawn.messages};
+    return send_frame(socket, answer);
+  } catch (const std::exception& error) {
+    const std::string_view answer[] = {error.what(), "", ""};
+    return send_frame(socket, answer);
+  }
+}
+
+}  // namespace asperity::web

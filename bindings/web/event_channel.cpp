@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/event_channel.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "bindings/cli/terminal_monitor.hpp"
+#include "bindings/lua/contact.hpp"
+#include "bindings/lua/placeholder.hpp"
+#include "bindings/lua/surface.hpp"
+#include "bindings/web/frames.hpp"
+#include "bindings/web/views.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/experiment/aside_file.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+constexpr int most_views = 200;
+
+const char* stop_name(StopReason reason) {
+  switch (reason) {
+    case StopReason::interrupt:
+      return "interrupt";
+    case StopReason::time_limit:
+      return "time";
+    case StopReason::memory_limit:
+      return "memory";
+    case StopReason::none:
+      break;
+  }
+  return "";
+}
+
+Json member(const Json& fields, std::string_view name) {
+  const Json* found = fields.find(name);
+  return found == nullptr ? Json() : *found;
+}
+
+// The native value of a class in a result.
+template <class T>
+std::shared_ptr<const T> as(const lua::Value& value) {
+  const auto* object = std::get_if<lua::Object>(&value.data);
+  if (object == nullptr || object->pointer == nullptr || object->type != &lua::class_of<T>()) return nullptr;
+  return std::static_pointer_cast<const T>(object->pointer);
+}
+
+}  // namespace
+
+Json error_parts(const std::string& text) {
+  constexpr std::string_view mark = "\nstack traceback:\n";
+  Json parts = Json::object();
+  const std::size_t trace = text.find(mark);
+  std::string message = text.substr(0, trace);
+  if (const std::string line = lua::line_of(message); !line.empty() && line != "?" && line.size() < 9) {
+    parts.set("line", std::stoi(line));
+    // "script.lua:12: " says where; the page says that itself.
+    const std::string where = ":" + line + ": ";
+    if (const std::size_t at = message.find(where); at != std::string::npos)
+      message.erase(0, at + where.size());
+  }
+  parts.set("message", message);
+  if (trace != std::string::npos) parts.set("traceback", text.substr(trace + mark.size()));
+  return parts;
+}
+
+void EventChannel::send(const std::string& type, Json fields) {
+  Json event = Json::object({{"type", type}});
+  for (const auto& [name, value] : fields.members()) event.set(name, value);
+  const std::lock_guard lock(mutex_);
+  write_whole(descriptor_, event.text() + "\n");
+}
+
+void EventChannel::progress(std::string_view task, double done, double seconds_left) {
+  Json fields = Json::object({{"task", task}, {"fraction", std::clamp(done, 0.0, 1.0)}});
+  if (seconds_left >= 0) {
+    fields.set("eta_s", seconds_left);
+    fields.set("text", "about " + cli::duration_text(seconds_left) + " left");
+  }
+  send("progress", std::move(fields));
+}
+
+void EventChannel::recorded(std::string_view event, const Json& fields) {
+  if (event == "row") {
+    Json units = member(fields, "units");
+    send("row", Json::object({{"notebook", member(fields, "notebook")},
+                              {"row", member(fields, "row")},
+                              {"units", units.is_null() ? Json::object() : std::move(units)}}));
+  } else if (event == "expect") {
+    const Json label = member(fields, "label"), sentence = member(fields, "sentence");
+    const std::string text = (label.is_null() ? "" : label.string() + ": ") + sentence.string();
+    send("expectation", Json::object({{"text", text}, {"held", member(fields, "passed")}}));
+  }
+}
+
+void EventChannel::found(const std::string& call, std::int64_t line, const lua::Values& results) {
+  if (views_.empty() || views_in_all_ >= most_views) return;
+  for (const lua::Value& value : results) {
+    if (const auto surface = as<Surface>(value))
+      keep_view("surface", view_of(*surface, call, line));
+    else if (const auto state = as<asperity::State>(value))
+      keep_view(
+          "press",
+          view_of(*state, call + " at " + format_quantity(state->pressure(), dimension::pressure), line));
+  }
+}
+
+void EventChannel::keep_view(const std::string& kind, const Json& view) {
+  ++views_in_all_;
+  const std::string name = kind + "-" + std::to_string(++kept_[kind]);
+  try {
+    std::filesystem::create_directories(views_);
+    write_aside(std::filesystem::path(views_) / (name + ".json"), view.text());
+    send("view", Json::object({{"name", name}, {"title", member(view, "title")}}));
+  } catch (const std::exception&) {
+    views_.clear();  // a full disk must not end the run
+  }
+}
+
+void EventChannel::ended(int status, StopReason stopped, const std::string& why) {
+  const bool asked = stopped == StopReason::interrupt || why.starts_with("os.exit(");
+  if (!why.empty() && status != 0 && !asked) send("error", error_parts(why));
+  send("ended",
+       Json::object(
+           {{"exit", status}, {"stopped", stop_name(stopped)}, {"why", why.substr(0, why.find('\n'))}}));
+}
+
+}  // namespace asperity::web

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/frames.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+
+namespace asperity::web {
+
+namespace {
+
+constexpr std::uint64_t most_texts = 64;
+
+void put_number(std::string& to, std::uint64_t number) {
+  char bytes[sizeof number];
+  std::memcpy(bytes, &number, sizeof number);
+  to.append(bytes, sizeof number);
+}
+
+bool get_number(int descriptor, std::uint64_t& number) {
+  return read_whole(descriptor, reinterpret_cast<char*>(&number), sizeof number);
+}
+
+}  // namespace
+
+bool write_whole(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+bool read_whole(int descriptor, char* to, std::size_t bytes) {
+  while (bytes > 0) {
+    const ssize_t got = ::read(descriptor, to, bytes);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    to += got;
+    bytes -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+std::string frame(std::span<const std::string_view> texts) {
+  std::string bytes;
+  put_number(bytes, texts.size());
+  for (const std::string_view text : texts) {
+    put_number(bytes, text.size());
+    bytes += text;
+  }
+  return bytes;
+}
+
+bool send_frame(int descriptor, std::span<const std::string_view> texts) {
+  return write_whole(descriptor, frame(texts));
+}
+
+std::optional<std::vector<std::string>> receive_frame(int descriptor, std::size_t most_bytes) {
+  std::uint64_t count = 0;
+  if (!get_number(descriptor, count) || count > most_texts) return {};
+  std::vector<std::string> texts;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    std::uint64_t bytes = 0;
+    if (!get_number(descriptor, bytes) || bytes > most_bytes) return {};
+    most_bytes -= static_cast<std::size_t>(bytes);
+    std::string& text = texts.emplace_back();
+    // In pieces: a length that was claimed is not yet memory.
+    while (text.size() < bytes) {
+      const std::size_t had = text.size();
+      text.resize(had + std::min<std::uint64_t>(bytes - had, std::uint64_t{1} << 20));
+      if (!read_whole(descriptor, text.data() + had, text.size() - had)) return {};
+    }
+  }
+  return texts;
+}
+
+}  // namespace asperity::web

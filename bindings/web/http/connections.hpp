@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A thread for each connection, made when it is needed and kept for a while, and never more of them than
+// there may be. Where one more comes, the connection that has waited longest for its client's request is shut
+// down to make room.
+#pragma once
+
+#include <httplib.h>
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <map>
+#include <mutex>
+#include <thread>
+
+namespace asperity::web {
+
+// Thread-safe.
+class Connections {
+ public:
+  // A connection while it waits for what its client sends; it may be shut down then.
+  class Waiting {
+   public:
+    Waiting(Connections& connections, int socket);
+    ~Waiting() { end(); }
+    void end();
+    Waiting(const Waiting&) = delete;
+    Waiting& operator=(const Waiting&) = delete;
+
+   private:
+    Connections& connections_;
+    std::uint64_t number_;
+  };
+
+  // Shuts down the one that has waited longest; false if none waits.
+  bool make_room();
+  void shut_down_all();
+
+ private:
+  std::mutex mutex_;
+  std::uint64_t last_ = 0;
+  std::map<std::uint64_t, int> waiting_;  // in the order in which they began
+};
+
+class ConnectionThreads final : public httplib::TaskQueue {
+ public:
+  ConnectionThreads(std::size_t most, Connections& connections) : most_(most), connections_(connections) {}
+  void enqueue(std::function<void()> serve) override;
+  void shutdown() override;
+
+ private:
+  void work();
+
+  const std::size_t most_;
+  Connections& connections_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::list<std::function<void()>> queue_;
+  std::size_t threads_ = 0, idle_ = 0;
+  bool over_ = false;
+};
+
+}  // namespace asperity::web

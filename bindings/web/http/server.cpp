@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The part asperity-serve.so: cpp-httplib under the bounds of bindings/web/http.hpp. What the library would
+// do by itself for a client (unpack a body, pack an answer, cut it into ranges, take forms apart) is refused
+// or left out: each is a way to make a short request cost much.
+#include <httplib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+#include "bindings/web/http.hpp"
+#include "bindings/web/http/connections.hpp"
+#include "bindings/web/http/deadline_stream.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+// What the connection of this thread has come to.
+struct Here {
+  Connections::Waiting* waiting = nullptr;
+  bool close = false;
+};
+thread_local Here here;
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+HttpRequest head_of(const httplib::Request& from) {
+  HttpRequest request;
+  request.method = from.method;
+  request.path = from.path;
+  for (const auto& [name, value] : from.params) request.parameters.emplace(name, value);
+  for (const auto& [name, value] : from.headers) request.headers.emplace(lower(name), value);
+  return request;
+}
+
+void put(HttpResponse from, httplib::Response& to) {
+  to.status = from.status;
+  for (const auto& [name, value] : from.headers) to.set_header(name, value);
+  if (!from.stream) {
+    to.set_content(from.body, from.type);
+    return;
+  }
+  auto stream = std::make_shared<std::function<bool(std::string&)>>(std::move(from.stream));
+  to.set_chunked_content_provider(from.type, [stream](std::size_t, httplib::DataSink& sink) {
+    // An answer that waits for what is to come would else not notice that its client has gone.
+    if (!sink.is_writable()) return false;
+    std::string piece;
+    const bool more = (*stream)(piece);
+    if (!piece.empty() && !sink.write(piece.data(), piece.size())) return false;
+    if (!more) sink.done();
+    return true;
+  });
+}
+
+class Server final : public HttpServer, private httplib::Server {
+ public:
+  Server(const HttpSetup& setup, HttpHandler& handler) : setup_(setup), handler_(handler) {}
+
+  bool begin(std::string& problem);
+  int port() const override { return port_; }
+  void serve() override { listen_after_bind(); }
+  void stop() override {
+    httplib::Server::stop();
+    connections_.shut_down_all();
+  }
+
+ private:
+  bool process_and_close_socket(int socket) override;
+  void answer_with_body(const httplib::Request& from, httplib::Response& to,
+                        const httplib::ContentReader& read);
+
+  const HttpSetup setup_;
+  HttpHandler& handler_;
+  Connections connections_;
+  int port_ = 0;
+};
+
+bool Server::begin(std::string& problem) {
+  new_task_queue = [this] { return new ConnectionThreads(setup_.most_connections, connections_); };
+  set_payload_max_length(setup_.most_body_bytes);
+  set_tcp_nodelay(true);
+  // The library's own options would let another program of this user share the port.
+  set_socket_options([](int socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
+  set_pre_routing_handler([this](const httplib::Request& from, httplib::Response& to) {
+    const HttpRequest head = head_of(from);
+    if (auto refused = handler_.refuse(head)) {
+      here.close = from.method != "GET";  // a body may follow that nobody reads
+      put(*std::move(refused), to);
+      return HandlerResponse::Handled;
+    }
+    if (from.method == "POST") return HandlerResponse::Unhandled;
+    put(handler_.answer(head), to);
+    return HandlerResponse::Handled;
+  });
+  Post("/api/.*", [this](const httplib::Request& from, httplib::Response& to,
+                         const httplib::ContentReader& read) { answer_with_body(from, to, read); });
+  if (setup_.port == 0) {
+    port_ = bind_to_any_port(setup_.address);
+  } else {
+    port_ = bind_to_port(setup_.address, setup_.port) ? setup_.port : -1;
+  }
+  if (port_ <= 0) {
+    problem = std::strerror(errno);
+    return false;
+  }
+  // A room that begins together; the library's own queue holds five.
+  ::listen(svr_sock_, 512);
+  return true;
+}
+
+void Server::answer_with_body(const httplib::Request& from, httplib::Response& to,
+                              const httplib::ContentReader& read) {
+  HttpRequest request = head_of(from);
+  const bool whole = read([&](const char* bytes, std::size_t count) {
+    if (request.body.size() + count > setup_.most_body_bytes) return false;
+    request.body.append(bytes, count);
+    return true;
+  });
+  if (!whole) {
+    to.status = 400;
+    here.close = true;
+    return;
+  }
+  here.waiting->end();
+  put(handler_.answer(request), to);
+}
+
+bool Server::process_and_close_socket(int socket) {
+  DeadlineStream stream(socket, setup_);
+  constexpr int most_requests = 1000;
+  for (int k = 0; k < most_requests && svr_sock_ >= 0; ++k) {
+    Connections::Waiting waiting(connections_, socket);
+    if (!stream.wait_for_request()) break;
+    stream.begin_request();
+    here = {&waiting, false};
+    bool closed = false;
+    const bool good = process_request(stream, k + 1 == most_requests, closed, [&](httplib::Request& request) {
+      stream.head_is_read();
+      request.headers.erase("Accept-Encoding");
+      request.headers.erase("Range");
+      request.ranges.clear();
+      // A request with a body is waited for until it is there.
+      if (request.method != "POST") waiting.end();
+    });
+    if (!good || closed || here.close) break;
+  }
+  ::shutdown(socket, SHUT_RDWR);
+  ::close(socket);
+  return true;
+}
+
+}  // namespace
+
+}  // namespace asperity::web
+
+extern "C" __attribute__((visibility("default"))) asperity::web::HttpServer* asperity_http_server(
+    const asperity::web::HttpSetup& setup, asperity::web::HttpHandler& handler, std::string& problem) {
+  auto server = std::make_unique<asperity::web::Server>(setup, handler);
+  return server->begin(problem) ? server.release() : nullptr;
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bundles the page: node build.mjs [OUTPUT]. Writes index.html, page.js with the chunks it loads later,
+// page.css, the icon and THIRD_PARTY.txt with the licence of every package whose code is in the bundle. A
+// package without a licence that may be given on under the GPL stops the build.
+
+import { build } from 'esbuild';
+import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const output = resolve(process.argv[2] ?? join(here, 'dist'));
+const allowed = new Set(['MIT', 'ISC', 'BSD-2-Clause', 'BSD-3-Clause', '0BSD', 'Apache-2.0', 'CC0-1.0']);
+
+rmSync(output, { recursive: true, force: true });
+mkdirSync(output, { recursive: true });
+
+const result = await build({
+  absWorkingDir: here,
+  entryPoints: { page: 'src/main.ts' },
+  outdir: output,
+  bundle: true,
+  splitting: true,
+  format: 'esm',
+  target: 'es2022',
+  minify: true,
+  legalComments: 'none',
+  metafile: true,
+  charset: 'utf8',
+  logLevel: 'warning',
+});
+await build({ absWorkingDir: here, entryPoints: ['src/page.css'], outdir: output, minify: true, logLevel: 'warning' });
+for (const file of ['index.html', 'icon.svg']) copyFileSync(join(here, 'src', file), join(output, file));
+
+const packages = new Map();
+for (const file of Object.keys(result.metafile.inputs)) {
+  const found = /^(.*node_modules\/((?:@[^/]+\/)?[^/]+))\//.exec(file);
+  if (found) packages.set(found[2], resolve(here, found[1]));
+}
+const notices = [...packages]
+  .sort(([a], [b]) => (a < b ? -1 : 1))
+  .map(([name, folder]) => {
+    const { version, license, author } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
+    if (!allowed.has(license))
+      throw new Error(`${name} ${version} is under ${license}, which is not among ${[...allowed].join(', ')}`);
+    const file = readdirSync(folder).find((f) => /^(licen[cs]e|copying)(\.\w+)?$/i.test(f));
+    if (!file) throw new Error(`${name} ${version} brings no licence text`);
+    const by = typeof author === 'string' ? author : author?.name;
+    return `${name} ${version} (${license})${by ? `, ${by}` : ''}\n\n${readFileSync(join(folder, file), 'utf8').trim()}\n`;
+  });
+writeFileSync(
+  join(output, 'THIRD_PARTY.txt'),
+  `The page of Asperity holds code of these packages, under their licences.\n\n${notices.join(`\n${'-'.repeat(80)}\n\n`)}`,
+);
+
+for (const file of readdirSync(output)
+  .filter((f) => /\.(js|css|html)$/.test(f))
+  .sort()) {
+  const text = readFileSync(join(output, file));
+  console.log(
+    `${file.padEnd(22)} ${(text.length / 1000).toFixed(1).padStart(7)} kB, ${(gzipSync(text).length / 1000).toFixed(1).padStart(6)} kB compressed`,
+  );
+}
+console.log(`${packages.size} packages, see THIRD_PARTY.txt`);

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Views as drawings that stand by themselves: the relief as an image, with legend, labels and caption, in
+// the light colours of paper. One drawing a view, of what the pane would show first: of a press its
+// pressure, of a surface its heights.
+
+import { lightInk } from './chart';
+import { coloursOf, legend, rangeOf } from './colour';
+import { svg } from './dom';
+import {
+  anchorText,
+  barFor,
+  captionOf,
+  describe,
+  exaggerations,
+  fittingExaggeration,
+  heightsOf,
+  reliefFields,
+  spanOf,
+  type Attitude,
+  type Field,
+} from './pictures';
+import type { ReliefScene } from './scene';
+
+export interface Drawing {
+  title: string;
+  caption: string;
+  text: string;
+  element: SVGElement;
+}
+
+const [width, height] = [720, 480];
+const above: Attitude = { turn: 0, tilt: 89.9, zoom: 1 };
+
+/** `stepOf` may say how much a relief is exaggerated; otherwise it is as fits. */
+export async function drawingsOf(
+  views: { name: string; title: string }[],
+  fieldsOf: (name: string) => Promise<Field[]>,
+  attitude: Attitude,
+  stepOf: (relief: Field) => number | undefined,
+): Promise<Drawing[]> {
+  const canvas = document.createElement('canvas');
+  const scene = await sceneOn(canvas);
+  const result: Drawing[] = [];
+  for (const { name, title } of views) {
+    const fields = await fieldsOf(name);
+    const field = fields.find((f) => f.name === 'pressure') ?? fields[0];
+    if (!field) continue;
+    await new Promise((r) => setTimeout(r)); // the page goes on answering
+    const found = reliefFields(fields).find((f) => f.name === 'height') ?? reliefFields(fields)[0];
+    const relief = scene && found && found.nx === field.nx && found.ny === field.ny ? found : undefined;
+    const step = relief
+      ? (stepOf(relief) ?? fittingExaggeration(spanOf(relief.values), Math.max(relief.sizeX, relief.sizeY)))
+      : 0;
+    const exaggeration = exaggerations[step];
+    const range = rangeOf(field.name, field.values);
+    const colours = coloursOf(field.name, field.values, range);
+    if (scene) {
+      const { nx, ny, sizeX, sizeY } = field;
+      scene.show(
+        { nx, ny, sizeX, sizeY, colours, heights: relief ? heightsOf(relief) : null, exaggeration },
+        relief ? barFor(spanOf(relief.values)) : 0,
+      );
+      scene.turnTo(relief ? attitude : above);
+      scene.render();
+    } else {
+      drawFlat(canvas, field, colours);
+    }
+    const element = svg('svg', {
+      xmlns: 'http://www.w3.org/2000/svg',
+      viewBox: `0 0 ${width + 120} ${height}`,
+      width: width + 120,
+      height,
+      role: 'img',
+      'aria-label': `${title}: ${describe(field)}`,
+      'font-family': 'system-ui, sans-serif',
+      'font-size': 16,
+      fill: lightInk.text,
+    });
+    element.append(svg('image', { href: canvas.toDataURL('image/png'), width, height }));
+    for (const anchor of scene?.anchors(width, height) ?? []) {
+      const end = anchor.name === 'z' ? 'middle' : anchor.outward < 0 ? 'end' : 'start';
+      const place = { x: anchor.left, y: anchor.top + (anchor.name === 'z' ? 20 : 24), 'text-anchor': end };
+      element.append(svg('text', place, anchorText(anchor.name, field, relief)));
+    }
+    const bar = legend(field.name, field.unit, range, 320, lightInk.text);
+    bar.setAttribute('x', String(width + 4));
+    bar.setAttribute('y', '60');
+    element.append(bar);
+    result.push({ title, caption: captionOf(field, relief, exaggeration), text: describe(field), element });
+  }
+  scene?.dispose();
+  return result;
+}
+
+/** Nothing where there is no WebGL. */
+async function sceneOn(canvas: HTMLCanvasElement): Promise<ReliefScene | undefined> {
+  const { ReliefScene: Made } = await import('./scene');
+  try {
+    const scene = new Made(canvas);
+    scene.resize(width, height, 1);
+    scene.setInk(lightInk.muted);
+    return scene;
+  } catch {
+    return undefined;
+  }
+}
+
+/** The map from above, y upwards, one pixel a node. */
+export function drawFlat(canvas: HTMLCanvasElement, field: Field, colours: Uint8Array): void {
+  canvas.width = field.nx;
+  canvas.height = field.ny;
+  const pixels = new ImageData(field.nx, field.ny);
+  for (let j = 0; j < field.ny; ++j) {
+    for (let i = 0; i < field.nx; ++i) {
+      const from = 3 * (j * field.nx + i);
+      const to = 4 * ((field.ny - 1 - j) * field.nx + i);
+      pixels.data.set([colours[from], colours[from + 1], colours[from + 2], 255], to);
+    }
+  }
+  canvas.getContext('2d')!.putImageData(pixels, 0, 0);
+}

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The editor: CodeMirror with Lua, the language's completion asked of the server, and marks at the lines
+// of mistakes, from the dry run while typing and from a run's own error. It lives in a shadow root,
+// where CodeMirror adopts style sheets instead of writing <style> elements, so that the content policy
+// needs no exception; colours come in through the page's custom properties.
+
+import {
+  autocompletion,
+  closeBrackets,
+  closeBracketsKeymap,
+  completionKeymap,
+  completionStatus,
+} from '@codemirror/autocomplete';
+import type { Completion, CompletionContext, CompletionResult } from '@codemirror/autocomplete';
+import { defaultKeymap, history, historyKeymap, indentWithTab } from '@codemirror/commands';
+import {
+  bracketMatching,
+  HighlightStyle,
+  indentOnInput,
+  indentUnit,
+  StreamLanguage,
+  syntaxHighlighting,
+} from '@codemirror/language';
+import { lua } from '@codemirror/legacy-modes/mode/lua';
+import { lintGutter, lintKeymap, setDiagnostics, type Diagnostic } from '@codemirror/lint';
+import { highlightSelectionMatches, searchKeymap, searchPanelOpen } from '@codemirror/search';
+import { EditorState, RangeSetBuilder, type Text, type Transaction } from '@codemirror/state';
+import {
+  Decoration,
+  drawSelection,
+  dropCursor,
+  EditorView,
+  highlightActiveLine,
+  highlightActiveLineGutter,
+  keymap,
+  lineNumbers,
+  ViewPlugin,
+  type DecorationSet,
+  type ViewUpdate,
+} from '@codemirror/view';
+import { tags } from '@lezer/highlight';
+import type { Api, Mark } from './api';
+import { h } from './dom';
+
+const kinds: Record<string, string> = {
+  module: 'namespace',
+  method: 'method',
+  key: 'property',
+  value: 'enum',
+  keyword: 'keyword',
+  global: 'variable',
+  function: 'function',
+};
+
+const look = EditorView.theme({
+  '&': { height: '100%', color: 'var(--ink)', backgroundColor: 'var(--paper)', fontSize: 'var(--code-size)' },
+  '&.cm-focused': { outline: 'none' }, // the host, #editor, shows it
+  '.cm-scroller': { fontFamily: 'var(--code-font)', lineHeight: '1.5' },
+  '.cm-content': { caretColor: 'var(--ink)', paddingBottom: '4em' },
+  '.cm-cursor': { borderLeftColor: 'var(--ink)', borderLeftWidth: '2px' },
+  '.cm-gutters': { backgroundColor: 'var(--paper)', color: 'var(--muted)', border: 'none' },
+  '.cm-lineNumbers .cm-gutterElement': { minWidth: '2ch', paddingRight: '6px' },
+  '.cm-gutter-lint': { width: '1em' },
+  '.cm-gutter-lint .cm-gutterElement': { padding: '0.25em 0 0 0' },
+  '.cm-activeLine': { backgroundColor: 'var(--line)' },
+  '.cm-activeLineGutter': { backgroundColor: 'var(--line)', color: 'var(--ink)' },
+  '.cm-selectionBackground, &.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground': {
+    backgroundColor: 'var(--selection)',
+  },
+  '.cm-matchingBracket, &.cm-focused .cm-matchingBracket': {
+    backgroundColor: 'var(--selection)',
+    outline: '1px solid var(--muted)',
+  },
+  '.cm-tooltip': {
+    backgroundColor: 'var(--raised)',
+    color: 'var(--ink)',
+    border: '1px solid var(--rule)',
+    borderRadius: '4px',
+  },
+  '.cm-tooltip.cm-tooltip-autocomplete > ul': { fontFamily: 'var(--code-font)', maxHeight: '14em' },
+  '.cm-tooltip.cm-tooltip-autocomplete > ul > li': { padding: '3px 8px' },
+  '.cm-tooltip-autocomplete ul li[aria-selected]': { backgroundColor: 'var(--accent)', color: 'var(--on-accent)' },
+  '.cm-completionDetail': { fontStyle: 'normal', opacity: '1', marginLeft: '1.2em' },
+  '.cm-completionMatchedText': { textDecoration: 'none', fontWeight: '700' },
+  '.cm-tooltip.cm-completionInfo': { padding: '8px 10px', fontFamily: 'var(--text-font)', maxWidth: '26em' },
+  '.cm-diagnostic': { padding: '6px 10px', whiteSpace: 'pre-wrap', fontFamily: 'var(--text-font)' },
+  '.cm-diagnostic-error': { borderLeft: '5px solid var(--error)' },
+  '.cm-diagnostic-warning': { borderLeft: '5px solid var(--warning)' },
+  '.cm-diagnostic-info': { borderLeft: '5px solid var(--accent)' },
+  '.cm-panels': { backgroundColor: 'var(--raised)', color: 'var(--ink)', borderColor: 'var(--rule)' },
+  '.cm-panel.cm-search': { fontSize: '16px', padding: '6px 8px' },
+  '.cm-textfield, .cm-button': {
+    fontSize: '15px',
+    color: 'var(--ink)',
+    backgroundColor: 'var(--paper)',
+    backgroundImage: 'none',
+    border: '1px solid var(--rule)',
+  },
+});
+
+const colours = HighlightStyle.define([
+  { tag: [tags.keyword, tags.controlKeyword], color: 'var(--code-keyword)' },
+  { tag: [tags.string, tags.special(tags.string)], color: 'var(--code-string)' },
+  { tag: [tags.number, tags.bool, tags.null, tags.atom], color: 'var(--code-number)' },
+  { tag: tags.comment, color: 'var(--code-comment)', fontStyle: 'italic' },
+  { tag: [tags.standard(tags.variableName), tags.function(tags.variableName)], color: 'var(--code-builtin)' },
+]);
+
+// A class for each depth: a style attribute would need an exception in the content policy.
+const deepest = 16;
+const hangingLines = Array.from({ length: deepest + 1 }, (_, depth) => Decoration.line({ class: `hang-${depth}` }));
+const hangingLook = EditorView.theme(
+  Object.fromEntries(
+    hangingLines.map((_, depth) => [
+      `.cm-line.hang-${depth}`,
+      { paddingLeft: `calc(${depth}ch + 6px)`, textIndent: `-${depth}ch` },
+    ]),
+  ),
+);
+
+/** Lines that are too long go on under their own text and not at the margin. */
+const hanging = ViewPlugin.fromClass(
+  class {
+    decorations: DecorationSet;
+    constructor(view: EditorView) {
+      this.decorations = this.build(view);
+    }
+    update(update: ViewUpdate): void {
+      if (update.docChanged || update.viewportChanged) this.decorations = this.build(update.view);
+    }
+    private build(view: EditorView): DecorationSet {
+      const builder = new RangeSetBuilder<Decoration>();
+      for (const { from, to } of view.visibleRanges) {
+        for (let at = from; at <= to; ) {
+          const line = view.state.doc.lineAt(at);
+          const indent = Math.min(deepest, /^ */.exec(line.text)![0].length + 2);
+          builder.add(line.from, line.from, hangingLines[indent]);
+          at = line.to + 1;
+        }
+      }
+      return builder.finish();
+    }
+  },
+  { decorations: (plugin) => plugin.decorations },
+);
+
+/**
+ * Typing over a selection. Left to it, Chromium keeps the look of what goes by style attributes of its own,
+ * which the content policy refuses and reports.
+ */
+const typingOver = EditorView.domEventHandlers({
+  beforeinput(event, view) {
+    const { data } = event;
+    if (event.inputType !== 'insertText' || !data || view.state.selection.ranges.every((r) => r.empty)) return false;
+    event.preventDefault();
+    const { from, to } = view.state.selection.main;
+    const typed = (): Transaction =>
+      view.state.update(view.state.replaceSelection(data), { userEvent: 'input.type', scrollIntoView: true });
+    if (!view.state.facet(EditorView.inputHandler).some((takes) => takes(view, from, to, data, typed)))
+      view.dispatch(typed());
+    return true;
+  },
+});
+
+export interface EditorEvents {
+  changed: (text: string) => void;
+  checked: (marks: Mark[]) => void;
+  failed: (error: unknown) => void;
+}
+
+export class Editor {
+  readonly view: EditorView;
+  private marks: Mark[] = [];
+  private runMarks: Mark[] = [];
+  private timer = 0;
+  private checking: AbortController | undefined;
+  private quiet = false;
+
+  constructor(
+    host: HTMLElement,
+    private readonly api: Api,
+    private readonly on: EditorEvents,
+  ) {
+    const root = host.attachShadow({ mode: 'open' });
+    const frame = h('div');
+    frame.style.height = '100%';
+    root.append(frame);
+    this.view = new EditorView({ root, parent: frame, state: this.state('') });
+  }
+
+  get text(): string {
+    return this.view.state.doc.toString();
+  }
+
+  /** Another document: its own history of changes, no marks. */
+  open(text: string): void {
+    this.runMarks = [];
+    this.marks = [];
+    this.quiet = true;
+    this.view.setState(this.state(text));
+    this.quiet = false;
+    this.checkSoon(0);
+  }
+
+  /** A change that Ctrl-Z takes back. */
+  replace(text: string): void {
+    this.view.dispatch({
+      changes: { from: 0, to: this.view.state.doc.length, insert: text },
+      selection: { anchor: 0 },
+    });
+  }
+
+  focus(): void {
+    this.view.focus();
+  }
+
+  goTo(line: number, column = 1): void {
+    const at = this.view.state.doc.line(Math.min(Math.max(1, line), this.view.state.doc.lines));
+    const anchor = Math.min(at.from + Math.max(0, column - 1), at.to);
+    this.view.dispatch({ selection: { anchor }, effects: EditorView.scrollIntoView(anchor, { y: 'center' }) });
+    this.view.focus();
+  }
+
+  /** Brings a line to the top without going there. */
+  showLine(line: number): void {
+    const at = this.view.state.doc.line(Math.min(Math.max(1, line), this.view.state.doc.lines));
+    this.view.dispatch({ effects: EditorView.scrollIntoView(at.from, { y: 'start' }) });
+  }
+
+  /** What a run had to say about lines; kept until the text changes there or another run starts. */
+  showRunMarks(marks: Mark[]): void {
+    this.runMarks = marks;
+    this.draw();
+  }
+
+  /** True while Escape has something to close in the editor itself. */
+  get wantsEscape(): boolean {
+    return completionStatus(this.view.state) !== null || searchPanelOpen(this.view.state);
+  }
+
+  checkSoon(delay = 350): void {
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.check(), delay);
+  }
+
+  private async check(): Promise<void> {
+    this.checking?.abort();
+    const mine = (this.checking = new AbortController());
+    const doc = this.view.state.doc;
+    if (!this.api.hasToken) return;
+    try {
+      const answer = doc.length ? await this.api.check(doc.toString(), mine.signal) : { marks: [] };
+      if (mine.signal.aborted || !this.view.state.doc.eq(doc)) return;
+      this.marks = answer.marks;
+      this.draw();
+    } catch (error) {
+      if (!mine.signal.aborted) this.on.failed(error);
+    }
+  }
+
+  private draw(): void {
+    const doc = this.view.state.doc;
+    const all = [
+      ...this.runMarks,
+      ...this.marks.filter((m) => !this.runMarks.some((r) => r.line === m.line && r.message === m.message)),
+    ];
+    const diagnostics = all.map((m) => diagnostic(doc, m)).sort((a, b) => a.from - b.from);
+    this.view.dispatch(setDiagnostics(this.view.state, diagnostics));
+    this.on.checked(all);
+  }
+
+  private state(doc: string): EditorState {
+    return EditorState.create({
+      doc,
+      extensions: [
+        lineNumbers(),
+        lintGutter(),
+        highlightActiveLineGutter(),
+        history(),
+        drawSelection(),
+        dropCursor(),
+        indentOnInput(),
+        indentUnit.of('  '),
+        bracketMatching(),
+        closeBrackets(),
+        highlightActiveLine(),
+        highlightSelectionMatches(),
+        EditorView.lineWrapping,
+        hanging,
+        hangingLook,
+        typingOver,
+        StreamLanguage.define(lua),
+        syntaxHighlighting(colours),
+        look,
+        autocompletion({
+          override: [(context) => this.complete(context)],
+          icons: false,
+          tooltipClass: () => 'asperity-completion',
+        }),
+        // Ctrl-Enter runs the script; the page hears it, so the editor must not take it for a new line.
+        keymap.of([{ key: 'Mod-Enter', run: () => true }]),
+        keymap.of([
+          ...closeBracketsKeymap,
+          ...defaultKeymap,
+          ...searchKeymap,
+          ...historyKeymap,
+          ...completionKeymap,
+          ...lintKeymap,
+          indentWithTab,
+        ]),
+        EditorView.contentAttributes.of({
+          'aria-label': 'Script in Lua. Escape and then Tab leaves the editor.',
+          tabindex: '0',
+        }),
+        EditorView.updateListener.of((update) => {
+          if (!update.docChanged || this.quiet) return;
+          this.runMarks = [];
+          this.on.changed(this.text);
+          this.checkSoon();
+        }),
+      ],
+    });
+  }
+
+  private async complete(context: CompletionContext): Promise<CompletionResult | null> {
+    // Unasked only while a word is written or right after a dot or colon: a list that opens after a
+    // brace or comma would take the next Enter.
+    if (!context.explicit && !context.matchBefore(/[\w][.:]?$|[)\]"'}][.:]$/)) return null;
+    const waiting = new AbortController();
+    context.addEventListener('abort', () => waiting.abort());
+    try {
+      const answer = await this.api.complete(context.state.doc.toString(), context.pos, waiting.signal);
+      if (answer.candidates.length === 0) return null;
+      return {
+        from: answer.from,
+        validFor: /^\w*$/,
+        options: answer.candidates.map(
+          (c): Completion => ({
+            label: c.text,
+            type: kinds[c.kind] ?? 'variable',
+            detail: c.detail,
+            info: c.help ? () => h('div', {}, c.help!) : undefined,
+          }),
+        ),
+      };
+    } catch (error) {
+      if (!waiting.signal.aborted) this.on.failed(error);
+      return null;
+    }
+  }
+}
+
+function diagnostic(doc: Text, mark: Mark): Diagnostic {
+  const line = doc.line(Math.min(Math.max(1, mark.line), doc.lines));
+  const indent = /^\s*/.exec(line.text)![0].length;
+  const from = mark.column ? Math.min(line.from + mark.column - 1, line.to) : line.from + indent;
+  return {
+    from,
+    to: Math.max(from, line.to),
+    severity: mark.severity === 'note' ? 'info' : mark.severity,
+    message: mark.hint ? `${mark.message}\n${mark.hint}` : mark.message,
+  };
+}

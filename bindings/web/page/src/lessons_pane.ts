@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The lessons beside the editor: a list with their questions, and the text of the one that is open with a
+// place for the reader's own prediction. Edits of a lesson's script and predictions are kept by name in
+// the browser; reset brings the lesson's own script back.
+
+import type { Api, Lesson, LessonEntry } from './api';
+import { h } from './dom';
+import { calledOut, markdown } from './markdown';
+import { keep, kept } from './storage';
+
+export interface Opened {
+  key: string; // names the document in the browser's storage
+  title: string;
+  script: string; // as kept, or as given
+  original: string;
+}
+
+export class LessonsPane {
+  private entries: LessonEntry[] | undefined;
+  private readonly lessons = new Map<string, Lesson>();
+
+  constructor(
+    readonly element: HTMLElement,
+    private readonly api: Api,
+    private readonly open: (document: Opened) => void,
+    private readonly own: () => void,
+    private readonly failed: (error: unknown) => void,
+  ) {}
+
+  async list(focus = false): Promise<void> {
+    try {
+      this.entries ??= await this.api.lessons();
+    } catch (error) {
+      this.failed(error);
+    }
+    const entries = this.entries ?? [];
+    const list = h(
+      'ol',
+      { className: 'lessons' },
+      ...entries.map((e) =>
+        h(
+          'li',
+          {},
+          h(
+            'button',
+            { type: 'button', onclick: () => void this.show(e.name, true) },
+            h('strong', {}, e.title),
+            e.question ? h('span', {}, e.question) : null,
+            h(
+              'small',
+              {},
+              [e.minutes ? `${e.minutes} min` : '', kept(`script.lesson.${e.name}`) === null ? '' : 'edited here']
+                .filter(Boolean)
+                .join(' · '),
+            ),
+          ),
+        ),
+      ),
+    );
+    this.element.replaceChildren(
+      h('h2', { tabIndex: -1 }, 'Lessons'),
+      h(
+        'button',
+        { type: 'button', className: 'own', onclick: this.own },
+        h('strong', {}, 'Your own script'),
+        h('span', {}, 'Nothing but the editor: kept in this browser.'),
+      ),
+      entries.length
+        ? list
+        : h(
+            'p',
+            { className: 'empty' },
+            this.entries ? 'This installation has no lessons.' : 'The lessons could not be read.',
+          ),
+    );
+    if (focus) this.element.querySelector('h2')!.focus();
+  }
+
+  async show(name: string, focus: boolean): Promise<boolean> {
+    try {
+      const lesson = this.lessons.get(name) ?? (await this.api.lesson(name));
+      this.lessons.set(name, lesson);
+      const entry = this.entries?.find((e) => e.name === name);
+      const question = lesson.question ?? entry?.question;
+      const inText = (word: string): boolean => new RegExp(`^${word}`, 'm').test(lesson.text);
+      const prediction = h('textarea', {
+        rows: 3,
+        value: kept(`prediction.${name}`) ?? '',
+        oninput: () => keep(`prediction.${name}`, prediction.value || null),
+      });
+      this.element.replaceChildren(
+        h('button', { type: 'button', className: 'back', onclick: () => void this.list(true) }, '← All lessons'),
+        h('h2', { tabIndex: -1 }, lesson.title),
+        ...(question && !inText('Question:') ? [calledOut('Question', question)] : []),
+        h('div', { className: 'lesson' }, markdown(lesson.text)),
+        ...(lesson.predict && !inText('Predict') ? [calledOut('Predict', lesson.predict)] : []),
+        h('label', { className: 'prediction' }, h('span', {}, 'Your prediction, before you run it'), prediction),
+      );
+      this.element.scrollTop = 0;
+      if (focus) this.element.querySelector('h2')!.focus();
+      const key = `lesson.${name}`;
+      this.open({ key, title: lesson.title, script: kept(`script.${key}`) ?? lesson.script, original: lesson.script });
+      return true;
+    } catch (error) {
+      this.failed(error);
+      return false;
+    }
+  }
+}

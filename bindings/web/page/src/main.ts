@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page of `asperity serve`: lessons, the script, and what its run gives, side by side. This file
+// joins the panes; each of them knows only the run it draws and the server's interface.
+
+import { Api, ApiError, tokenHint, type About, type Mark } from './api';
+import { ChartPane } from './chart_pane';
+import { byId, h, prose, saveAs } from './dom';
+import { Editor } from './editor';
+import { FilesPane } from './files_pane';
+import { divider, goRound, Tabs } from './layout';
+import { LessonsPane, type Opened } from './lessons_pane';
+import { Messages } from './messages';
+import { OutputPane } from './output_pane';
+import { PicturePane } from './picture_pane';
+import { Run, statusText } from './run';
+import { savedRun } from './save';
+import { keep, kept } from './storage';
+import { TablePane } from './table_pane';
+import { bytes, duration } from './units';
+
+const newcomer = `local lab = require "asperity"
+
+-- A rough face, pressed by a rigid flat:
+-- how much of it touches?
+local face = lab.surface.self_affine{
+  cells=256, size="100 um", hurst=0.8,
+  ra="0.2 um", short_wave="3 um",
+  material=lab.material "Al-2011" }
+local contact = lab.contact{
+  lower=face, upper=lab.rigid,
+  boundary="periodic",
+  effects={ elasticity="half_space" } }
+
+local book = lab.notebook "area"
+for _, MPa in ipairs{ 10, 20, 50, 100 } do
+  local p = MPa * lab.units.MPa
+  local st = contact:press{ pressure=p }
+  local area = st.area_fraction
+  print(MPa, ("%.2f %%"):format(100 * area))
+  book:write{ ["pressure [Pa]"]=p, area=area }
+end
+`;
+
+const api = new Api();
+const messages = new Messages(() => void greet());
+const { say, failed } = messages;
+const status = byId('status');
+const bar = byId<HTMLProgressElement>('progress');
+const runButton = byId<HTMLButtonElement>('run');
+const stopButton = byId<HTMLButtonElement>('stop');
+const saveButton = byId<HTMLButtonElement>('save');
+let about: About | undefined;
+let run: Run | undefined;
+let listening: AbortController | undefined;
+const openBefore = kept('open') ?? '';
+let opened: Opened = {
+  key: 'own',
+  title: 'Your own script',
+  script: kept('script.own') ?? newcomer,
+  original: newcomer,
+};
+
+// Panes ------------------------------------------------------------------------------------------
+
+const editor = new Editor(byId('editor'), api, {
+  changed: (text) => {
+    if (!keep(`script.${opened.key}`, text === opened.original ? null : text))
+      say('This browser does not keep the script.');
+    showDocument();
+  },
+  checked: showProblems,
+  failed: (error) => failed(error),
+});
+const output = new OutputPane(byId('output'), (line) => editor.goTo(line));
+const table = new TablePane(byId('table'));
+const charts = new ChartPane(byId('chart'));
+const pictures = new PicturePane(byId('picture'), api, failed);
+const files = new FilesPane(byId('files'), api, failed);
+const tabs = new Tabs(byId('tabs'), () => draw());
+const lessons = new LessonsPane(
+  byId('lessons'),
+  api,
+  open,
+  () => {
+    open({ key: 'own', title: 'Your own script', script: kept('script.own') ?? newcomer, original: newcomer });
+    editor.focus();
+  },
+  failed,
+);
+
+function open(document: Opened): void {
+  opened = document;
+  keep('open', document.key);
+  editor.open(document.script);
+  const code = document.script.split('\n').findIndex((line) => line.trim() && !line.startsWith('--'));
+  if (code > 8) editor.showLine(code + 1);
+  showDocument();
+}
+
+function showDocument(): void {
+  byId('script-title').textContent = opened.title;
+  const edited = kept(`script.${opened.key}`) !== null;
+  byId('document').textContent = opened.key === 'own' ? '' : edited ? 'edited, kept in this browser' : '';
+  const reset = byId<HTMLButtonElement>('reset');
+  reset.hidden = opened.key === 'own' || !edited;
+}
+
+function showProblems(marks: Mark[]): void {
+  byId('problems').replaceChildren(
+    ...marks
+      .slice(0, 20)
+      .map((m) =>
+        h(
+          'li',
+          { className: m.severity },
+          h(
+            'button',
+            { type: 'button', className: 'line', onclick: () => editor.goTo(m.line, m.column) },
+            `Line ${m.line}`,
+          ),
+          prose(m.message),
+          m.hint ? h('span', { className: 'hint' }, prose(`\n${m.hint}`)) : null,
+        ),
+      ),
+  );
+}
+
+// The run ----------------------------------------------------------------------------------------
+
+let asked = false;
+
+function draw(): void {
+  if (asked) return;
+  asked = true;
+  requestAnimationFrame(() => {
+    asked = false;
+    const shown = tabs.selected;
+    if (shown === 'output') output.show(run);
+    if (shown === 'table') table.show(run);
+    if (shown === 'chart') charts.show(run);
+    if (shown === 'picture') pictures.appear();
+    if (shown === 'files') files.show(run);
+    tabs.count(
+      'table',
+      [...(run?.notebooks.values() ?? [])].reduce((sum, n) => sum + n.rows.length, 0),
+    );
+    tabs.count('picture', run?.views.length ?? 0);
+    tabs.count('files', run?.files.size ?? 0);
+    showStatus();
+  });
+}
+
+function showStatus(): void {
+  runButton.disabled = !api.hasToken || run?.active === true;
+  stopButton.disabled = run?.active !== true;
+  saveButton.disabled = !run || run.active;
+  bar.hidden = run?.active !== true;
+  status.className = `status ${run?.status ?? ''}`;
+  if (!run) {
+    status.textContent = api.hasToken ? 'Ready' : 'No token';
+    return;
+  }
+  const p = run.active ? run.progress : undefined;
+  if (p?.fraction === undefined) bar.removeAttribute('value');
+  else bar.value = p.fraction;
+  const parts = [statusText(run, duration)];
+  if (p) {
+    parts.push(p.task || p.text || '');
+    if (p.fraction !== undefined) parts.push(`${Math.floor(100 * p.fraction)} %`);
+    if (p.eta !== undefined && p.eta !== null && p.eta >= 1) parts.push(`about ${duration(p.eta)} left`);
+  }
+  status.textContent = parts.filter(Boolean).join(' · ');
+  status.title = status.textContent;
+}
+
+let announced = 0;
+
+function announce(): void {
+  const p = run?.progress;
+  if (p?.fraction === undefined || Date.now() - announced < 8000) return;
+  announced = Date.now();
+  say(`${Math.floor(100 * p.fraction)} per cent${p.eta && p.eta >= 1 ? `, about ${duration(p.eta)} left` : ''}`);
+}
+
+async function start(): Promise<void> {
+  if (!api.hasToken || run?.active) return;
+  const script = editor.text;
+  editor.showRunMarks([]);
+  runButton.disabled = true;
+  try {
+    const { id } = await api.start(script, opened.key === 'own' ? 'script' : opened.key.replace(/^lesson\./, ''));
+    messages.clear();
+    follow(new Run(id, opened.title, script), opened.key);
+    say('The script runs.');
+  } catch (error) {
+    failed(error);
+  }
+  showStatus();
+}
+
+function follow(next: Run, key: string): void {
+  listening?.abort();
+  const mine = (listening = new AbortController());
+  run = next;
+  announced = Date.now();
+  pictures.show(run);
+  sessionStorage.setItem('asperity.run', JSON.stringify({ id: run.id, name: run.name, script: run.script, key }));
+  draw();
+  api
+    .events(
+      next.id,
+      0,
+      (event) => {
+        next.take(event);
+        if (run !== next) return;
+        if (event.type === 'error') markError();
+        if (event.type === 'finished') ended(next);
+        announce();
+        draw();
+      },
+      (error) => (error ? failed(error) : messages.clear()),
+      mine.signal,
+    )
+    .catch((error) => {
+      if (mine.signal.aborted || run !== next) return;
+      next.status = 'lost';
+      failed(error);
+      draw();
+    });
+}
+
+function markError(): void {
+  if (!run || editor.text !== run.script) return;
+  editor.showRunMarks(
+    run.errors
+      .filter((e) => e.line !== undefined)
+      .map((e) => ({ line: e.line!, severity: 'error', message: e.message, hint: e.hint })),
+  );
+}
+
+function ended(done: Run): void {
+  if (done.errors.length > 0 || (done.status === 'limit' && done.notebooks.size === 0)) tabs.select('output');
+  const first = done.errors[0];
+  say(
+    `${statusText(done, duration)}${done.reason ? `: ${done.reason}` : ''}.${first ? ` ${first.line === undefined ? '' : `Line ${first.line}: `}${first.message}` : ''}`,
+  );
+}
+
+async function stop(): Promise<void> {
+  if (!run?.active) return;
+  stopButton.disabled = true;
+  say('Stopping.');
+  try {
+    await api.stop(run.id);
+  } catch (error) {
+    failed(error);
+    stopButton.disabled = false;
+  }
+}
+
+async function save(): Promise<void> {
+  if (!run || run.active) return;
+  saveButton.disabled = true;
+  saveButton.textContent = 'Saving …';
+  say('The run is being gathered.');
+  try {
+    const lesson = opened.key.startsWith('lesson.') ? opened.key.slice(7) : '';
+    const { html, missing } = await savedRun(run, {
+      api,
+      charts,
+      pictures,
+      version: about?.version ?? '',
+      title: run.name,
+      prediction: run.name === opened.title && lesson ? kept(`prediction.${lesson}`) : null,
+    });
+    const name =
+      run.name
+        .toLowerCase()
+        .replace(/[^\p{L}\p{N}]+/gu, '-')
+        .replace(/^-|-$/g, '') || 'run';
+    saveAs(`${name}.html`, new Blob([html], { type: 'text/html;charset=utf-8' }));
+    say(missing.length ? `Saved, without ${missing.join(', ')}.` : 'Saved.');
+  } catch (error) {
+    failed(error);
+  }
+  saveButton.textContent = 'Save run';
+  showStatus();
+}
+
+// The start --------------------------------------------------------------------------------------
+
+function showLessons(on: boolean): void {
+  byId('lessons').hidden = !on;
+  byId('lessons-divider').hidden = !on;
+  document.querySelector('.panes')!.classList.toggle('plain', !on);
+  byId('lessons-button').setAttribute('aria-expanded', String(on));
+  keep('lessons', on ? null : 'closed');
+}
+
+function limits(a: About): string {
+  const l = a.limits ?? {};
+  const parts = [
+    l.seconds ? duration(l.seconds) : '',
+    l.memory_bytes ? `${bytes(l.memory_bytes)} of memory` : '',
+    l.output_bytes ? `${bytes(l.output_bytes)} of output` : '',
+    l.runs ? `${l.runs} at once` : '',
+  ].filter(Boolean);
+  return `Asperity ${a.version}.` + (parts.length ? ` A run may take ${parts.join(', ')}.` : '');
+}
+
+/** First words with the server; again after it was gone. */
+async function greet(): Promise<void> {
+  if (!api.hasToken) {
+    messages.tell('This page was opened without its token.', tokenHint);
+    return;
+  }
+  try {
+    const again = about !== undefined || messages.watching;
+    about = await api.about();
+    messages.answered();
+    if (again) {
+      messages.clear();
+      editor.checkSoon(0);
+    }
+    byId('about').textContent = limits(about);
+    if (!lessons.element.querySelector('.lessons, .lesson')) await firstLessons();
+  } catch (error) {
+    if (!messages.watching || !(error instanceof ApiError) || error.failure !== 'gone') failed(error);
+  }
+}
+
+async function firstLessons(): Promise<void> {
+  await lessons.list();
+  if (openBefore.startsWith('lesson.')) await lessons.show(openBefore.slice(7), false);
+}
+
+/** A run that was going, or just done, when the page was loaded again. */
+function resume(): void {
+  try {
+    const last = JSON.parse(sessionStorage.getItem('asperity.run') ?? 'null') as {
+      id: string;
+      name: string;
+      script: string;
+      key: string;
+    } | null;
+    if (last && api.hasToken) follow(new Run(last.id, last.name, last.script), last.key);
+  } catch {
+    sessionStorage.removeItem('asperity.run');
+  }
+}
+
+runButton.addEventListener('click', () => void start());
+stopButton.addEventListener('click', () => void stop());
+saveButton.addEventListener('click', () => void save());
+byId('reset').addEventListener('click', () => {
+  editor.replace(opened.original);
+  editor.focus();
+  say('The lesson’s own script is back. Control Z brings your edits again.');
+});
+byId('save-script').addEventListener('click', () =>
+  saveAs(`${opened.key.replace(/^lesson\./, '')}.lua`, new Blob([editor.text], { type: 'text/plain;charset=utf-8' })),
+);
+const chooser = byId<HTMLInputElement>('file');
+byId('open-file').addEventListener('click', () => chooser.click());
+chooser.addEventListener('change', () => {
+  const file = chooser.files?.[0];
+  chooser.value = '';
+  if (!file) return;
+  if (file.size > 1_000_000)
+    return messages.tell(
+      'That file is no script.',
+      `${file.name} has ${bytes(file.size)}; a script of at most 1 MB is opened.`,
+    );
+  void file.text().then((text) => {
+    open({ key: 'own', title: 'Your own script', script: text, original: newcomer });
+    keep('script.own', text);
+    void lessons.list();
+    editor.focus();
+  });
+});
+byId('lessons-button').addEventListener('click', () => showLessons(byId('lessons').hidden));
+const keys = byId<HTMLDialogElement>('keys');
+byId('keys-close').addEventListener('click', () => keys.close());
+byId('keys-button').addEventListener('click', () => keys.showModal());
+document.addEventListener(
+  'keydown',
+  (event) => {
+    if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) {
+      event.preventDefault();
+      void start();
+    } else if (event.key === 'Escape' && run?.active && !keys.open && !editor.wantsEscape) {
+      void stop();
+    }
+  },
+  true,
+);
+divider(byId('lessons-divider'), 'lessons-width', 23, 15, 45);
+divider(byId('results-divider'), 'results-width', 37, 25, 65, true);
+goRound([
+  { element: byId('lessons'), enter: () => byId('lessons').querySelector<HTMLElement>('button')?.focus() },
+  { element: byId('script'), enter: () => editor.focus() },
+  { element: byId('results'), enter: () => tabs.focus() },
+]);
+showLessons(kept('lessons') !== 'closed');
+open(opened);
+showStatus();
+draw();
+resume();
+void greet();
+performance.mark('asperity-ready');

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run said: its errors with the line they are at, its output, and whether what it expected held.
+// A long output keeps its end, and says how much was dropped.
+
+import { h, prose } from './dom';
+import { duration } from './units';
+import { statusText, type Run } from './run';
+
+export class OutputPane {
+  private readonly text = h('pre', { className: 'output', tabIndex: 0, 'aria-label': 'Output of the script' });
+  private readonly errors = h('div', { className: 'errors' });
+  private readonly expectations = h('ul', { className: 'expectations' });
+  private readonly end = h('p', { className: 'end' });
+  private readonly empty = h('p', { className: 'empty' }, 'Run the script to see here what it prints.');
+  private drawn: { run: Run | undefined; errors: number; expectations: number } = {
+    run: undefined,
+    errors: -1,
+    expectations: -1,
+  };
+
+  constructor(
+    readonly element: HTMLElement,
+    private readonly goTo: (line: number) => void,
+  ) {
+    element.append(this.empty, this.errors, this.text, this.expectations, this.end);
+  }
+
+  show(run: Run | undefined): void {
+    this.empty.hidden = run !== undefined;
+    this.text.hidden = run === undefined || run.output.length === 0;
+    if (!run) return;
+    const fresh = this.drawn.run !== run;
+    if (fresh) this.drawn = { run, errors: -1, expectations: -1 };
+    if (this.drawn.errors !== run.errors.length) {
+      this.drawn.errors = run.errors.length;
+      this.errors.replaceChildren(...run.errors.map((e) => this.error(e)));
+    }
+    if (this.drawn.expectations !== run.expectations.length) {
+      this.drawn.expectations = run.expectations.length;
+      this.expectations.replaceChildren(
+        ...run.expectations.map((e) =>
+          h(
+            'li',
+            { className: e.held ? 'held' : 'failed' },
+            h('b', {}, e.held ? '✓ held: ' : '✗ not held: '),
+            prose(e.text),
+          ),
+        ),
+      );
+    }
+    const pane = this.element;
+    const atEnd = fresh || pane.scrollHeight - pane.scrollTop - pane.clientHeight < 40;
+    this.print(run);
+    const last = run.active
+      ? run.output.length
+        ? ''
+        : 'Nothing printed yet.'
+      : statusText(run, duration) + (run.reason ? `: ${run.reason}` : '') + '.';
+    this.end.textContent =
+      run.status === 'done' && run.output.length === 0 && run.errors.length === 0
+        ? `${last} The script printed nothing.`
+        : last;
+    this.end.className = `end ${run.status}`;
+    if (run.errors.length > 0 && !run.active) pane.scrollTop = 0;
+    else if (atEnd) pane.scrollTop = pane.scrollHeight;
+  }
+
+  private print(run: Run): void {
+    const parts = run.output.map((p) => (p.stream === 'err' ? h('span', { className: 'err' }, p.text) : p.text));
+    const dropped = run.outputDropped
+      ? h('span', { className: 'dropped' }, `… the first ${run.outputDropped} characters are not shown\n`)
+      : '';
+    this.text.replaceChildren(dropped, ...parts);
+  }
+
+  private error(e: Run['errors'][number]): HTMLElement {
+    const where =
+      e.line === undefined
+        ? null
+        : h('button', { type: 'button', className: 'line', onclick: () => this.goTo(e.line!) }, `Line ${e.line}`);
+    return h(
+      'div',
+      { className: 'failure' },
+      h('p', {}, where, where ? ' ' : null, h('span', { className: 'message' }, prose(e.message))),
+      e.hint ? h('p', { className: 'hint' }, prose(e.hint)) : null,
+      e.traceback
+        ? h('details', {}, h('summary', {}, 'Where it came from'), h('pre', { tabIndex: 0 }, e.traceback))
+        : null,
+    );
+  }
+}

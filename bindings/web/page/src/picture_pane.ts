@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pane of pictures: which view, what colours it, what makes its relief, how much that is exaggerated;
+// turned with mouse, finger or keys. Without WebGL the map is drawn flat, and the pane says so. Maps are
+// fetched when they are looked at and not before.
+
+import type { Api } from './api';
+import { coloursOf, legend, rangeOf } from './colour';
+import { Choice, h } from './dom';
+import { drawFlat, drawingsOf, type Drawing } from './drawings';
+import {
+  anchorText,
+  barFor,
+  captionOf,
+  describe,
+  exaggerations,
+  factorText,
+  fieldsOf,
+  fittingExaggeration,
+  heightsOf,
+  reliefFields,
+  resting,
+  spanOf,
+  type Attitude,
+  type Field,
+} from './pictures';
+import type { Run } from './run';
+import type { ReliefScene } from './scene';
+import { darkInk, lightInk } from './chart';
+
+const fetched = 24; // views kept in memory
+
+export class PicturePane {
+  private run: Run | undefined;
+  private readonly maps = new Map<string, Promise<Field[]>>();
+  private fields: Field[] = [];
+  private shown = '';
+  private followed = true;
+  private colour: Field | undefined;
+  private relief: Field | undefined;
+  private step = 0;
+  private attitude: Attitude = { ...resting };
+  private scene: ReliefScene | undefined;
+  private flat = false;
+  private pending = false;
+  private readonly which = new Choice('Picture', (name) => {
+    this.followed = name === this.run?.views[this.run.views.length - 1]?.name;
+    void this.look(name);
+  });
+  private readonly colourChoice = new Choice('Colour', (name) => this.pick(name, this.relief?.name ?? 'flat'));
+  private readonly reliefChoice = new Choice('Relief', (name) => this.pick(this.colour?.name ?? '', name));
+  private readonly slider = h('input', {
+    type: 'range',
+    min: '0',
+    max: String(exaggerations.length - 1),
+    step: '1',
+    oninput: () => {
+      this.step = Number(this.slider.value);
+      this.draw();
+    },
+  });
+  private readonly factor = h('output', { className: 'factor' });
+  private readonly canvas = h('canvas', { tabIndex: 0, role: 'img', className: 'relief' });
+  private readonly labels = h('div', { className: 'labels', 'aria-hidden': 'true' });
+  private readonly key = h('div', { className: 'key' });
+  private readonly caption = h('p', { className: 'caption', id: 'picture-caption' });
+  private readonly stage = h('div', { className: 'stage' }, this.canvas, this.labels);
+  private readonly body: HTMLElement;
+  private readonly empty = h('p', { className: 'empty' });
+
+  constructor(
+    readonly element: HTMLElement,
+    private readonly api: Api,
+    private readonly failed: (error: unknown) => void,
+  ) {
+    const exaggerate = h('label', { className: 'choice' }, h('span', {}, 'Heights'), this.slider, this.factor);
+    const reset = h('button', { type: 'button', onclick: () => this.turn({ ...resting }) }, 'Oblique');
+    const above = h('button', { type: 'button', onclick: () => this.turn({ turn: 0, tilt: 89.9, zoom: 1 }) }, 'Above');
+    this.body = h(
+      'div',
+      { className: 'pictures', hidden: true },
+      h(
+        'div',
+        { className: 'choices' },
+        this.which.element,
+        this.colourChoice.element,
+        this.reliefChoice.element,
+        exaggerate,
+      ),
+      h('div', { className: 'picture' }, this.stage, this.key),
+      this.caption,
+      h('div', { className: 'below' }, h('p', {}, 'Drag it, or use the arrow keys.'), reset, above),
+    );
+    element.append(this.empty, this.body);
+    this.listen();
+    new ResizeObserver(() => this.draw()).observe(this.stage);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
+  }
+
+  show(run: Run | undefined): void {
+    if (run !== this.run) {
+      this.run = run;
+      this.maps.clear();
+      this.shown = '';
+      this.followed = true;
+      this.body.hidden = true;
+    }
+    const views = run?.views ?? [];
+    this.empty.hidden = views.length > 0;
+    this.empty.textContent = run?.active
+      ? 'No surface or contact yet.'
+      : 'Surfaces and contacts that a script makes are drawn here: run one that presses or generates a surface.';
+    if (views.length === 0) return;
+    this.body.hidden = false;
+    const name = this.followed || !this.shown ? views[views.length - 1].name : this.shown;
+    this.which.choose(
+      views.map((v) => ({ value: v.name, text: v.title })),
+      name,
+    );
+    if (name !== this.shown && this.visible) void this.look(name);
+  }
+
+  /** The pane came into view. */
+  appear(): void {
+    this.show(this.run);
+    this.draw();
+  }
+
+  private get visible(): boolean {
+    return this.element.offsetParent !== null;
+  }
+
+  private fetch(name: string): Promise<Field[]> {
+    const known = this.maps.get(name);
+    if (known) return known;
+    const coming = this.api.view(this.run!.id, name).then(fieldsOf);
+    coming.catch(() => this.maps.delete(name));
+    this.maps.set(name, coming);
+    if (this.maps.size > fetched) this.maps.delete(this.maps.keys().next().value!);
+    return coming;
+  }
+
+  private async look(name: string): Promise<void> {
+    this.shown = name;
+    const run = this.run;
+    try {
+      const [fields] = await Promise.all([this.fetch(name), this.prepare()]);
+      if (this.run !== run || this.shown !== name || fields.length === 0) return;
+      const before = { colour: this.colour?.name, relief: this.relief?.name };
+      const same = this.fields.length > 0 && this.fields.map((f) => f.name).join() === fields.map((f) => f.name).join();
+      this.fields = fields;
+      this.colourChoice.choose(
+        fields.map((f) => ({ value: f.name, text: f.name })),
+        '',
+      );
+      this.reliefChoice.choose(
+        [...reliefFields(fields).map((f) => ({ value: f.name, text: f.name })), { value: 'flat', text: 'flat map' }],
+        '',
+      );
+      const colour = (same && before.colour) || (fields.find((f) => f.name === 'pressure') ?? fields[0]).name;
+      const relief = (same && (before.relief ?? 'flat')) || reliefFields(fields)[0]?.name || 'flat';
+      this.pick(colour, relief);
+    } catch (error) {
+      if (this.run === run) this.failed(error);
+    }
+  }
+
+  private pick(colour: string, relief: string): void {
+    const previous = this.relief;
+    this.colour = this.fields.find((f) => f.name === colour) ?? this.fields[0];
+    this.relief = reliefFields(this.fields).find(
+      (f) => f.name === relief && f.nx === this.colour!.nx && f.ny === this.colour!.ny,
+    );
+    this.colourChoice.select.value = this.colour.name;
+    this.reliefChoice.select.value = this.relief?.name ?? 'flat';
+    // A factor once chosen stays for pictures of the same kind, so that they compare.
+    if (this.relief && (!previous || previous.name !== this.relief.name)) {
+      this.step = fittingExaggeration(spanOf(this.relief.values), Math.max(this.relief.sizeX, this.relief.sizeY));
+    }
+    this.draw();
+  }
+
+  private async prepare(): Promise<void> {
+    if (this.scene || this.flat) return;
+    const { ReliefScene: Made } = await import('./scene');
+    if (this.scene) return;
+    try {
+      this.scene = new Made(this.canvas);
+    } catch {
+      this.flat = true; // no WebGL here
+      const fresh = this.canvas.cloneNode() as HTMLCanvasElement;
+      this.canvas.replaceWith(fresh);
+      Object.defineProperty(this, 'canvas', { value: fresh });
+    }
+  }
+
+  private turn(attitude: Attitude): void {
+    this.attitude = attitude;
+    this.drawSoon(false);
+  }
+
+  private draw(): void {
+    this.drawSoon(true);
+  }
+
+  private rebuilt = false;
+
+  private drawSoon(rebuild: boolean): void {
+    this.rebuilt ||= rebuild;
+    if (this.pending) return;
+    this.pending = true;
+    requestAnimationFrame(() => {
+      this.pending = false;
+      if (!this.colour || !this.visible) return;
+      if (this.rebuilt) this.build();
+      this.rebuilt = false;
+      this.render();
+    });
+  }
+
+  private build(): void {
+    const colour = this.colour!;
+    const dark = matchMedia('(prefers-color-scheme: dark)').matches;
+    const ink = dark ? darkInk : lightInk;
+    const range = rangeOf(colour.name, colour.values);
+    const factor = exaggerations[this.step];
+    this.slider.value = String(this.step);
+    this.slider.disabled = !this.relief;
+    this.factor.textContent = this.relief ? factorText(factor) : '';
+    this.slider.setAttribute('aria-valuetext', factorText(factor));
+    this.slider.setAttribute('aria-label', 'Exaggeration of heights');
+    this.caption.textContent =
+      captionOf(colour, this.flat ? undefined : this.relief, factor) +
+      (this.flat ? ' · this browser has no WebGL, so nothing can be turned' : '');
+    this.canvas.setAttribute(
+      'aria-label',
+      `${this.title()}: ${describe(colour)}. ${this.caption.textContent}. Arrow keys turn it.`,
+    );
+    const colours = coloursOf(colour.name, colour.values, range);
+    const { width, height } = this.room();
+    this.key.replaceChildren(legend(colour.name, colour.unit, range, Math.min(340, height), ink.text));
+    if (this.flat) {
+      drawFlat(this.canvas, colour, colours);
+      return;
+    }
+    this.scene!.setInk(ink.muted);
+    this.scene!.resize(width, height, Math.min(2, devicePixelRatio));
+    this.scene!.show(
+      {
+        nx: colour.nx,
+        ny: colour.ny,
+        sizeX: colour.sizeX,
+        sizeY: colour.sizeY,
+        colours,
+        heights: this.relief ? heightsOf(this.relief) : null,
+        exaggeration: factor,
+      },
+      this.relief ? barFor(spanOf(this.relief.values)) : 0,
+    );
+  }
+
+  private render(): void {
+    if (!this.scene) return;
+    this.scene.turnTo(this.attitude);
+    this.scene.render();
+    const { width, height } = this.room();
+    this.labels.replaceChildren(
+      ...this.scene.anchors(width, height).map((anchor) => {
+        const element = h('span', { className: 'tag' }, anchorText(anchor.name, this.colour!, this.relief));
+        // Never past the picture's own side, where it would be cut.
+        element.style.left = `${Math.min(width - (anchor.outward < 0 ? 0 : 80), Math.max(anchor.name === 'z' ? 34 : anchor.outward < 0 ? 80 : 0, anchor.left))}px`;
+        element.style.top = `${anchor.top}px`;
+        element.style.transform =
+          anchor.name === 'z' ? 'translate(-60%, 4px)' : `translate(${anchor.outward < 0 ? '-100%' : '0'}, 10px)`;
+        return element;
+      }),
+    );
+  }
+
+  private title(): string {
+    return this.run?.views.find((v) => v.name === this.shown)?.title ?? this.shown;
+  }
+
+  private room(): { width: number; height: number } {
+    return { width: Math.max(120, this.stage.clientWidth), height: Math.max(120, this.stage.clientHeight) };
+  }
+
+  private listen(): void {
+    let from: { x: number; y: number; at: Attitude } | undefined;
+    this.stage.addEventListener('pointerdown', (event) => {
+      from = { x: event.clientX, y: event.clientY, at: this.attitude };
+      this.stage.setPointerCapture(event.pointerId);
+    });
+    this.stage.addEventListener('pointermove', (event) => {
+      if (!from) return;
+      this.turn(
+        limited({
+          ...from.at,
+          turn: from.at.turn - (event.clientX - from.x) * 0.5,
+          tilt: from.at.tilt + (event.clientY - from.y) * 0.4,
+        }),
+      );
+    });
+    for (const end of ['pointerup', 'pointercancel'] as const)
+      this.stage.addEventListener(end, () => (from = undefined));
+    this.stage.addEventListener(
+      'wheel',
+      (event) => {
+        event.preventDefault();
+        this.turn(limited({ ...this.attitude, zoom: this.attitude.zoom * Math.exp(-event.deltaY * 0.001) }));
+      },
+      { passive: false },
+    );
+    this.stage.addEventListener('keydown', (event) => {
+      const a = this.attitude;
+      const moved: Record<string, Attitude> = {
+        ArrowLeft: { ...a, turn: a.turn + 10 },
+        ArrowRight: { ...a, turn: a.turn - 10 },
+        ArrowUp: { ...a, tilt: a.tilt + 8 },
+        ArrowDown: { ...a, tilt: a.tilt - 8 },
+        '+': { ...a, zoom: a.zoom * 1.15 },
+        '=': { ...a, zoom: a.zoom * 1.15 },
+        '-': { ...a, zoom: a.zoom / 1.15 },
+        Home: { ...resting },
+      };
+      if (!(event.key in moved) || event.ctrlKey || event.altKey || event.metaKey) return;
+      event.preventDefault();
+      this.turn(limited(moved[event.key]));
+    });
+  }
+
+  /** The last views of the run as drawings, seen as the pane sees them now where it shows that run. */
+  drawings(run: Run, most: number): Promise<Drawing[]> {
+    const mine = run === this.run;
+    const step = (relief: Field): number | undefined =>
+      mine && relief.name === this.relief?.name ? this.step : undefined;
+    const fields = (name: string): Promise<Field[]> =>
+      mine ? this.fetch(name) : this.api.view(run.id, name).then(fieldsOf);
+    return drawingsOf(run.views.slice(-most), fields, mine ? this.attitude : resting, step);
+  }
+}
+
+function limited(a: Attitude): Attitude {
+  return { turn: a.turn % 360, tilt: Math.min(89.9, Math.max(-20, a.tilt)), zoom: Math.min(8, Math.max(0.5, a.zoom)) };
+}

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run as the page knows it: what its events add up to. Taking an event changes this record and
+// nothing else; the panes draw from it, once a frame, so that ten thousand lines cost one drawing.
+
+import type { Cell, RunEvent } from './api';
+
+export type Status = 'starting' | 'running' | 'done' | 'failed' | 'stopped' | 'limit' | 'lost';
+
+export interface Notebook {
+  name: string;
+  columns: string[];
+  units: Record<string, string>;
+  rows: Record<string, Cell>[];
+}
+
+export interface OutputPart {
+  stream: 'out' | 'err';
+  text: string;
+}
+
+export interface RunError {
+  line?: number;
+  message: string;
+  hint?: string;
+  traceback?: string;
+}
+
+/** Characters of output that are kept; a script may print more than a page can show. */
+export const outputKept = 400_000;
+
+export class Run {
+  status: Status = 'starting';
+  reason = '';
+  seconds: number | undefined;
+  output: OutputPart[] = [];
+  outputDropped = 0;
+  progress: { task: string; fraction?: number; eta?: number; text?: string } | undefined;
+  readonly notebooks = new Map<string, Notebook>();
+  readonly files = new Map<string, { name: string; bytes: number; kind: string }>();
+  readonly views: { name: string; title: string }[] = [];
+  readonly expectations: { text: string; held: boolean }[] = [];
+  readonly errors: RunError[] = [];
+  readonly began = Date.now();
+  private characters = 0;
+
+  constructor(
+    readonly id: string,
+    readonly name: string,
+    readonly script: string,
+  ) {}
+
+  get active(): boolean {
+    return this.status === 'starting' || this.status === 'running';
+  }
+
+  take(event: RunEvent): void {
+    switch (event.type) {
+      case 'started':
+        this.status = 'running';
+        break;
+      case 'output':
+        this.print(event.stream, event.text);
+        break;
+      case 'progress':
+        this.progress = { task: event.task, fraction: event.fraction, eta: event.eta_s, text: event.text };
+        break;
+      case 'row':
+        this.write(event.notebook, event.row, event.units ?? {});
+        break;
+      case 'file':
+        this.files.set(event.name, { name: event.name, bytes: event.bytes, kind: event.kind ?? '' });
+        break;
+      case 'view':
+        if (!this.views.some((v) => v.name === event.name)) {
+          // Calls of the same name are told apart by their number.
+          const title = event.title ?? event.name;
+          const same = this.views.filter((v) => v.title === title || v.title.startsWith(`${title} (`)).length;
+          this.views.push({ name: event.name, title: same ? `${title} (${same + 1})` : title });
+        }
+        break;
+      case 'expectation':
+        this.expectations.push({ text: event.text, held: event.held });
+        break;
+      case 'error':
+        this.errors.push({ line: event.line, message: event.message, hint: event.hint, traceback: event.traceback });
+        break;
+      case 'finished':
+        this.status = event.status;
+        // An error says why by itself, and where.
+        this.reason =
+          event.status === 'failed' && this.errors.length > 0 ? '' : (event.reason ?? '').replace(/\.$/, '');
+        this.seconds = event.seconds;
+        this.progress = undefined;
+        break;
+    }
+  }
+
+  private print(stream: 'out' | 'err', text: string): void {
+    const last = this.output[this.output.length - 1];
+    if (last && last.stream === stream && last.text.length < 20_000) {
+      this.output[this.output.length - 1] = { stream, text: last.text + text };
+    } else {
+      this.output.push({ stream, text });
+    }
+    this.characters += text.length;
+    while (this.characters > outputKept && this.output.length > 1) {
+      const dropped = this.output.shift()!;
+      this.characters -= dropped.text.length;
+      this.outputDropped += dropped.text.length;
+    }
+  }
+
+  private write(name: string, row: Record<string, Cell>, units: Record<string, string>): void {
+    let notebook = this.notebooks.get(name);
+    if (!notebook) this.notebooks.set(name, (notebook = { name, columns: [], units: {}, rows: [] }));
+    for (const column of Object.keys(row)) {
+      if (!notebook.columns.includes(column)) notebook.columns.push(column);
+    }
+    Object.assign(notebook.units, units);
+    notebook.rows.push(row);
+  }
+}
+
+/** What became of a run, in words. */
+export function statusText(run: Run, seconds: (s: number) => string): string {
+  const took = run.seconds === undefined ? '' : ` ${seconds(run.seconds)}`;
+  switch (run.status) {
+    case 'starting':
+      return 'Waiting for its turn';
+    case 'running':
+      return 'Running';
+    case 'done':
+      return `Done in${took || ' no time'}`;
+    case 'failed':
+      return `Failed${took && ' after' + took}`;
+    case 'stopped':
+      return `Stopped${took && ' after' + took}`;
+    case 'limit':
+      return `Ended at a limit${took && ' after' + took}`;
+    case 'lost':
+      return 'Lost: the server forgot this run';
+  }
+}
+
+export function numericColumns(notebook: Notebook): string[] {
+  return notebook.columns.filter((c) => notebook.rows.some((r) => typeof r[c] === 'number'));
+}

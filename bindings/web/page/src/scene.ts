@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The relief: a grid of nodes drawn by WebGL, lit from one side, its lower rim and a bar of known height
+// beside it. Shading is worked into the nodes' colours and kept slight, so that a colour still reads off
+// its legend. Nothing is drawn but when something changed. This file alone needs three.js and is loaded
+// with the first picture.
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  ColorManagement,
+  DoubleSide,
+  LinearSRGBColorSpace,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
+import { resting, type Attitude } from './pictures';
+
+export interface Relief {
+  nx: number;
+  ny: number;
+  sizeX: number; // m
+  sizeY: number;
+  heights: Float32Array | null; // m, row j first; null is flat
+  colours: Uint8Array; // three bytes a node
+  exaggeration: number;
+}
+
+/** A place on the picture, in pixels from its top left, at which a label belongs. */
+export interface Anchor {
+  name: 'x' | 'y' | 'z';
+  left: number;
+  top: number;
+  outward: number; // which side of the picture's middle it is on: -1 or 1
+}
+
+export class ReliefScene {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(26, 1, 0.05, 30);
+  private mesh: Mesh<BufferGeometry, MeshBasicMaterial> | undefined;
+  private frame: LineSegments<BufferGeometry, LineBasicMaterial> | undefined;
+  private readonly corners: Record<'x' | 'y' | 'z', Vector3[]> = { x: [], y: [], z: [] };
+  private attitude: Attitude = resting;
+  private ink = 0x444444;
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    ColorManagement.enabled = false;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
+    this.renderer.setClearColor(0x000000, 0);
+    this.camera.up.set(0, 0, 1);
+  }
+
+  resize(width: number, height: number, ratio: number): void {
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+
+  setInk(colour: string): void {
+    this.ink = parseInt(colour.slice(1), 16);
+    this.frame?.material.color.setHex(this.ink);
+  }
+
+  /** `bar` is the height in metres of the bar at the corner; 0 for none. */
+  show(relief: Relief, bar: number): void {
+    this.clear();
+    const { nx, ny } = relief;
+    const side = Math.max(relief.sizeX, relief.sizeY);
+    const [width, depth] = [relief.sizeX / side, relief.sizeY / side];
+    const up = relief.exaggeration / side;
+    const z = new Float32Array(nx * ny);
+    let low = 0;
+    let high = 0;
+    if (relief.heights) {
+      low = Infinity;
+      high = -Infinity;
+      for (const v of relief.heights) {
+        if (!Number.isFinite(v)) continue;
+        low = Math.min(low, v);
+        high = Math.max(high, v);
+      }
+      if (low > high) [low, high] = [0, 0];
+      const middle = (low + high) / 2;
+      for (let k = 0; k < z.length; ++k)
+        z[k] = ((Number.isFinite(relief.heights[k]) ? relief.heights[k] : low) - middle) * up;
+    }
+    const positions = new Float32Array(3 * nx * ny);
+    for (let j = 0, k = 0; j < ny; ++j) {
+      for (let i = 0; i < nx; ++i, ++k) {
+        positions[3 * k] = nx > 1 ? (i / (nx - 1) - 0.5) * width : 0;
+        positions[3 * k + 1] = ny > 1 ? (j / (ny - 1) - 0.5) * depth : 0;
+        positions[3 * k + 2] = z[k];
+      }
+    }
+    const triangles = new Uint32Array(6 * Math.max(0, nx - 1) * Math.max(0, ny - 1));
+    for (let j = 0, t = 0; j + 1 < ny; ++j) {
+      for (let i = 0; i + 1 < nx; ++i, t += 6) {
+        const k = j * nx + i;
+        triangles.set([k, k + 1, k + nx, k + 1, k + nx + 1, k + nx], t);
+      }
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(positions, 3));
+    geometry.setAttribute('color', new BufferAttribute(shaded(relief.colours, z, nx, ny, width, depth), 3, true));
+    geometry.setIndex(new BufferAttribute(triangles, 1));
+    this.mesh = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide }));
+    this.scene.add(this.mesh);
+
+    const floor = (-(high - low) / 2) * up - 0.03;
+    const [a, b] = [width / 2, depth / 2];
+    const at = (x: number, y: number, h = floor): Vector3 => new Vector3(x, y, h);
+    const rim = [at(-a, -b), at(a, -b), at(a, b), at(-a, b)];
+    const lines = [rim[0], rim[1], rim[1], rim[2], rim[2], rim[3], rim[3], rim[0]];
+    this.corners.x = [at(0, -b), at(0, b)];
+    this.corners.y = [at(-a, 0), at(a, 0)];
+    this.corners.z = [];
+    if (bar > 0 && relief.heights) {
+      for (const corner of rim) {
+        const top = corner.clone();
+        top.z += bar * up;
+        this.corners.z.push(corner);
+        lines.push(corner, top);
+      }
+    }
+    this.frame = new LineSegments(
+      new BufferGeometry().setFromPoints(lines),
+      new LineBasicMaterial({ color: this.ink }),
+    );
+    this.scene.add(this.frame);
+  }
+
+  turnTo(attitude: Attitude): void {
+    this.attitude = attitude;
+  }
+
+  render(): void {
+    const { turn, tilt, zoom } = this.attitude;
+    const [t, p] = [(turn * Math.PI) / 180, (tilt * Math.PI) / 180];
+    // Far enough that the tile's diagonal fits, whichever of the picture's sides is the shorter one.
+    const distance = (3.0 / zoom) * Math.max(1, 1.15 / this.camera.aspect);
+    this.camera.position
+      .set(Math.sin(t) * Math.cos(p), -Math.cos(t) * Math.cos(p), Math.sin(p))
+      .multiplyScalar(distance);
+    this.camera.lookAt(0, 0, 0);
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Where the labels of the sides and of the bar belong: at the edges nearest the eye. */
+  anchors(width: number, height: number): Anchor[] {
+    this.camera.updateMatrixWorld();
+    const seen = (v: Vector3): { left: number; top: number; depth: number } => {
+      const p = v.clone().project(this.camera);
+      return {
+        left: ((p.x + 1) / 2) * width,
+        top: ((1 - p.y) / 2) * height,
+        depth: v.distanceTo(this.camera.position),
+      };
+    };
+    const result: Anchor[] = [];
+    for (const name of ['x', 'y', 'z'] as const) {
+      const places = this.corners[name].map(seen);
+      if (places.length === 0) continue;
+      // The bar stands at every corner; it is named where it is seen against nothing, at the side.
+      const best = places.reduce((p, q) => (name === 'z' ? (q.left < p.left ? q : p) : q.depth < p.depth ? q : p));
+      result.push({ name, left: best.left, top: best.top, outward: best.left < width / 2 ? -1 : 1 });
+    }
+    return result;
+  }
+
+  dispose(): void {
+    this.clear();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+
+  private clear(): void {
+    for (const thing of [this.mesh, this.frame]) {
+      if (!thing) continue;
+      this.scene.remove(thing);
+      thing.geometry.dispose();
+      thing.material.dispose();
+    }
+    this.mesh = undefined;
+    this.frame = undefined;
+  }
+}
+
+/** Colours times the light that falls on each node, from the north-west, of which a good part is everywhere. */
+function shaded(
+  colours: Uint8Array,
+  z: Float32Array,
+  nx: number,
+  ny: number,
+  width: number,
+  depth: number,
+): Uint8Array {
+  const out = new Uint8Array(colours.length);
+  const [dx, dy] = [width / Math.max(1, nx - 1), depth / Math.max(1, ny - 1)];
+  const light = [-0.5, 0.5, 0.7071];
+  for (let j = 0, k = 0; j < ny; ++j) {
+    for (let i = 0; i < nx; ++i, ++k) {
+      const [l, r] = [i > 0 ? 1 : 0, i + 1 < nx ? 1 : 0];
+      const [d, u] = [j > 0 ? nx : 0, j + 1 < ny ? nx : 0];
+      const sx = l + r ? (z[k + r] - z[k - l]) / ((l + r) * dx) : 0;
+      const sy = d + u ? (z[k + u] - z[k - d]) / (((d + u) / nx) * dy) : 0;
+      const dot = (-sx * light[0] - sy * light[1] + light[2]) / Math.sqrt(sx * sx + sy * sy + 1);
+      const factor = Math.min(1, 0.62 + 0.54 * Math.max(0, dot));
+      for (let c = 0; c < 3; ++c) out[3 * k + c] = colours[3 * k + c] * factor;
+    }
+  }
+  return out;
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The notebook's rows as they come. A column has one unit with one prefix; the value as it was written
+// is in the cell's title. Only the last rows of a long notebook are shown, and that is said.
+
+import { Choice, h } from './dom';
+import { numericColumns, type Notebook, type Run } from './run';
+import { label, numberText, scaleFor, type Scale } from './units';
+import type { Cell } from './api';
+
+const shownRows = 500;
+
+export function columnScales(notebook: Notebook): Map<string, Scale> {
+  const scales = new Map<string, Scale>();
+  for (const column of numericColumns(notebook)) {
+    const greatest = notebook.rows.reduce((most, row) => {
+      const v = row[column];
+      return typeof v === 'number' && Number.isFinite(v) ? Math.max(most, Math.abs(v)) : most;
+    }, 0);
+    scales.set(column, scaleFor(notebook.units[column], greatest));
+  }
+  return scales;
+}
+
+export function cellText(value: Cell | undefined, scale: Scale | undefined): string {
+  if (value === undefined || value === null) return '';
+  if (typeof value === 'number') return numberText(value / (scale?.factor ?? 1), 5);
+  if (typeof value === 'boolean') return value ? 'yes' : 'no';
+  return value;
+}
+
+/** The whole table, or its last `most` rows. */
+export function tableOf(notebook: Notebook, most = Infinity): HTMLTableElement {
+  const scales = columnScales(notebook);
+  const from = Math.max(0, notebook.rows.length - most);
+  return h(
+    'table',
+    {},
+    h(
+      'caption',
+      {},
+      from
+        ? `${notebook.name}: the last ${most} of ${notebook.rows.length} rows`
+        : `${notebook.name}: ${notebook.rows.length} ${notebook.rows.length === 1 ? 'row' : 'rows'}`,
+    ),
+    h(
+      'thead',
+      {},
+      h(
+        'tr',
+        {},
+        h('th', { scope: 'col', className: 'index' }, '#'),
+        ...notebook.columns.map((c) =>
+          h(
+            'th',
+            { scope: 'col', className: scales.has(c) ? 'number' : '' },
+            label(c, scales.get(c) ?? { factor: 1, unit: '' }),
+          ),
+        ),
+      ),
+    ),
+    h(
+      'tbody',
+      {},
+      ...notebook.rows.slice(from).map((row, k) =>
+        h(
+          'tr',
+          {},
+          h('td', { className: 'index' }, from + k + 1),
+          ...notebook.columns.map((c) =>
+            h(
+              'td',
+              {
+                className: scales.has(c) ? 'number' : '',
+                title: typeof row[c] === 'number' ? String(row[c]) : undefined,
+              },
+              cellText(row[c], scales.get(c)),
+            ),
+          ),
+        ),
+      ),
+    ),
+  );
+}
+
+/** Comma-separated, SI, units in brackets: what the run's own file holds. */
+export function csvOf(notebook: Notebook): string {
+  const quoted = (text: string): string => (/[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
+  const head = notebook.columns.map((c) => quoted(notebook.units[c] ? `${c} [${notebook.units[c]}]` : c)).join(',');
+  const rows = notebook.rows.map((row) =>
+    notebook.columns.map((c) => quoted(row[c] === undefined || row[c] === null ? '' : String(row[c]))).join(','),
+  );
+  return [head, ...rows, ''].join('\n');
+}
+
+export class TablePane {
+  private chosen = '';
+  private run: Run | undefined;
+  private drawn: { notebook: Notebook | undefined; rows: number } = { notebook: undefined, rows: -1 };
+  private readonly which = new Choice('Notebook', (name) => {
+    this.chosen = name;
+    this.show(this.run);
+  });
+  private readonly empty = h('p', { className: 'empty' });
+  private readonly table = h('div', {
+    className: 'scroll table',
+    tabIndex: 0,
+    role: 'region',
+    'aria-label': 'Rows of the notebook',
+  });
+
+  constructor(readonly element: HTMLElement) {
+    this.which.element.hidden = true;
+    element.append(this.empty, this.which.element, this.table);
+  }
+
+  show(run: Run | undefined): void {
+    this.run = run;
+    const names = [...(run?.notebooks.keys() ?? [])];
+    this.empty.hidden = names.length > 0;
+    this.empty.textContent = run?.active
+      ? 'No row yet.'
+      : 'Rows that a script writes into a notebook appear here, as they come.';
+    this.table.hidden = names.length === 0;
+    this.which.element.hidden = names.length < 2;
+    if (names.length === 0) return;
+    if (!names.includes(this.chosen)) this.chosen = names[0];
+    this.which.choose(
+      names.map((n) => ({ value: n, text: n })),
+      this.chosen,
+    );
+    const notebook = run!.notebooks.get(this.chosen)!;
+    if (this.drawn.notebook === notebook && this.drawn.rows === notebook.rows.length) return;
+    if (this.element.offsetParent === null) return;
+    const atEnd = this.table.scrollHeight - this.table.scrollTop - this.table.clientHeight < 40;
+    this.drawn = { notebook, rows: notebook.rows.length };
+    this.table.replaceChildren(tableOf(notebook, shownRows));
+    if (atEnd) this.table.scrollTop = this.table.scrollHeight;
+  }
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/run_follower.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstring>
+
+#include "bindings/web/drawing.hpp"
+#include "bindings/web/plain_files.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+constexpr auto look_every = std::chrono::milliseconds(300);
+constexpr auto patience = std::chrono::milliseconds(3000);  // after a polite request to end
+constexpr double grace_seconds = 4;                         // for the run's own watch of the clock
+constexpr std::size_t longest_event = std::size_t{1} << 20;
+
+std::string mebibytes(std::int64_t bytes) {
+  return format_short(static_cast<double>(bytes) / 0x1p20) + " MiB";
+}
+
+// Bytes at the end that begin a character of UTF-8 and do not finish it.
+std::size_t unfinished_bytes(const std::string& text) {
+  for (std::size_t back = 1; back <= std::min<std::size_t>(3, text.size()); ++back) {
+    const auto byte = static_cast<unsigned char>(text[text.size() - back]);
+    if ((byte & 0xC0) == 0x80) continue;
+    const std::size_t length = byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : byte >= 0xC0 ? 2 : 1;
+    return length > back ? back : 0;
+  }
+  return 0;
+}
+
+ConfinedRequest request_of(const PageRun& run, const RunLimits& limits,
+                           const std::vector<std::string>& barriers) {
+  ConfinedRequest request{.work = Work::run, .confinement = {}};
+  request.confinement.memory_bytes = limits.memory_bytes;
+  request.confinement.file_bytes = limits.directory_bytes;
+  request.confinement.processor_seconds =
+      static_cast<std::int64_t>(limits.seconds + grace_seconds) * std::max(1, limits.threads) + 1;
+  request.script = run.request.script;
+  request.name = "script.lua";
+  request.seed = run.request.seed;
+  request.seconds = limits.seconds;
+  request.threads = limits.threads;
+  request.views = run.request.views;
+  request.barriers = barriers;
+  return request;
+}
+
+}  // namespace
+
+RunFollower::RunFollower(PageRun& run, const RunLimits& limits, const std::vector<std::string>& barriers)
+    : run_(run),
+      limits_(limits),
+      barriers_(barriers),
+      process_(request_of(run, limits, barriers), run.directory.string()) {
+  drawer_ = std::thread([this] {
+    while (answer_drawing(process_.drawing.get(), barriers_)) {
+    }
+  });
+}
+
+RunFollower::~RunFollower() {
+  process_.send(SIGKILL);
+  ::shutdown(process_.drawing.get(), SHUT_RDWR);
+  drawer_.join();
+}
+
+void RunFollower::follow() {
+  for (;;) {
+    std::array<pollfd, 3> watched{{{process_.output.get(), POLLIN, 0},
+                                   {process_.error.get(), POLLIN, 0},
+                                   {process_.events.get(), POLLIN, 0}}};
+    ::poll(watched.data(), watched.size(), 50);
+    take_output(process_.output, out_tail_, "out");
+    take_output(process_.error, error_tail_, "err");
+    take_events();
+    const auto status = process_.ended();
+    watch_limits(Clock::now());
+    if (!status) continue;
+    // What it left in the pipes.
+    take_output(process_.output, out_tail_, "out");
+    take_output(process_.error, error_tail_, "err");
+    take_events();
+    judge(*status);
+    return;
+  }
+}
+
+void RunFollower::take_output(Descriptor& from, std::string& unfinished, const char* stream) {
+  char piece[65536];
+  while (from.get() >= 0) {
+    const ssize_t got = ::read(from.get(), piece, sizeof piece);
+    if (got == 0) from.reset();
+    if (got <= 0) return;
+    if (printed_ >= limits_.output_bytes) continue;  // taken and dropped, so that it can end
+    printed_ += got;
+    std::string text = std::move(unfinished);
+    text.append(piece, static_cast<std::size_t>(got));
+    const std::size_t whole = text.size() - unfinished_bytes(text);
+    unfinished = text.substr(whole);
+    text.resize(whole);
+    if (!text.empty()) run_.events.add("output", Json::object({{"stream", stream}, {"text", text}}));
+    if (printed_ >= limits_.output_bytes)
+      end(RunState::limit, "it printed more than " + mebibytes(limits_.output_bytes));
+    if (static_cast<std::size_t>(got) < sizeof piece) return;
+  }
+}
+
+void RunFollower::take_events() {
+  char piece[65536];
+  while (process_.events.get() >= 0) {
+    const ssize_t got = ::read(process_.events.get(), piece, sizeof piece);
+    if (got == 0) process_.events.reset();
+    if (got <= 0) return;
+    line_.append(piece, static_cast<std::size_t>(got));
+    std::size_t begin = 0;
+    for (std::size_t end; (end = line_.find('\n', begin)) != std::string::npos; begin = end + 1)
+      take_event(line_.substr(begin, end - begin));
+    line_.erase(0, begin);
+    if (line_.size() > longest_event) {
+      line_.clear();
+      end(RunState::limit, "one of its rows is longer than " + mebibytes(longest_event));
+    }
+    if (run_.events.bytes() > limits_.event_bytes) {
+      end(RunState::limit, "its rows take more than " + mebibytes(limits_.event_bytes));
+      process_.events.reset();
+    }
+  }
+}
+
+void RunFollower::take_event(const std::string& line) {
+  constexpr std::array<std::string_view, 5> told{"progress", "row", "view", "expectation", "error"};
+  try {
+    const Json event = Json::parse(line, "an event");
+    const Json* type = event.is_object() ? event.find("type") : nullptr;
+    if (type == nullptr) return;
+    if (type->string() == "ended") {
+      if (const Json* stopped = event.find("stopped")) stopped_ = stopped->string();
+      if (const Json* why = event.find("why")) why_ = why->string().substr(0, 2000);
+    } else if (std::ranges::find(told, type->string()) != told.end()) {
+      run_.events.add(type->string(), event);
+    }
+  } catch (const Error&) {
+    // No event of ours.
+  }
+}
+
+void RunFollower::watch_limits(Clock::time_point now) {
+  if (run_.stop_asked()) end(RunState::stopped, "it was stopped");
+  if (now - begun_ > std::chrono::duration<double>(limits_.seconds + grace_seconds))
+    end(RunState::limit,
+        "the time limit of " + format_quantity(limits_.seconds, dimension::time) + " was reached");
+  if (kill_at_ && now >= *kill_at_) process_.send(SIGKILL);
+  if (now - looked_ < look_every) return;
+  looked_ = now;
+  run_.tell_files(false);
+  const std::int64_t bytes = run_.directory_bytes_;
+  if (run_.files_.size() > limits_.files || bytes == too_many)
+    end(RunState::limit, "it wrote more than " + std::to_string(limits_.files) + " files");
+  if (bytes > limits_.directory_bytes)
+    end(RunState::limit, "its files take more than " + mebibytes(limits_.directory_bytes));
+  // One that goes on writing is not waited for.
+  if (bytes > limits_.directory_bytes + limits_.directory_bytes / 2) process_.send(SIGKILL);
+}
+
+void RunFollower::end(RunState as, const std::string& why) {
+  if (ending_) return;
+  ending_ = as;
+  reason = why;
+  process_.send(SIGTERM);
+  kill_at_ = Clock::now() + patience;
+}
+
+void RunFollower::judge(int status) {
+  exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (ending_) {
+    state = *ending_;
+  } else if (stopped_ == "time" || stopped_ == "memory") {
+    state = RunState::limit;
+    reason = why_;
+  } else if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    state = signal == SIGXCPU || signal == SIGKILL ? RunState::limit : RunState::failed;
+    reason = signal == SIGXCPU || signal == SIGKILL
+                 ? "the system ended it: it used more processor time or memory than there is for it"
+                 : std::string("it died of ") + ::strsignal(signal);
+  } else {
+    state = exit == 0 ? RunState::done : RunState::failed;
+    reason = why_;
+  }
+}
+
+}  // namespace asperity::web

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Follows the process of a run: takes what it prints and tells, has its pictures drawn, watches its limits,
+// and ends it, politely first.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bindings/web/page_run.hpp"
+#include "bindings/web/sandbox/confined_process.hpp"
+
+namespace asperity::web {
+
+class RunFollower {
+ public:
+  RunFollower(PageRun& run, const RunLimits& limits, const std::vector<std::string>& barriers);
+  ~RunFollower();
+  RunFollower(const RunFollower&) = delete;
+  RunFollower& operator=(const RunFollower&) = delete;
+
+  // Until the process has ended and all it said is taken.
+  void follow();
+
+  RunState state = RunState::failed;
+  int exit = 1;
+  std::string reason;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void take_output(Descriptor& from, std::string& unfinished, const char* stream);
+  void take_events();
+  void take_event(const std::string& line);
+  void watch_limits(Clock::time_point now);
+  void end(RunState as, const std::string& why);
+  void judge(int status);
+
+  PageRun& run_;
+  const RunLimits& limits_;
+  std::vector<std::string> barriers_;
+  ConfinedProcess process_;
+  std::thread drawer_;
+  std::string out_tail_, error_tail_, line_;
+  std::int64_t printed_ = 0;
+  Clock::time_point begun_ = Clock::now(), looked_{};
+  std::optional<Clock::time_point> kill_at_;
+  std::optional<RunState> ending_;  // why the server ended it
+  std::string stopped_, why_;       // what the process said of its own end
+};
+
+}  // namespace asperity::web

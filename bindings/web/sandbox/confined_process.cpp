@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/sandbox/confined_process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include "bindings/web/frames.hpp"
+#include "engine/core/error.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+struct Ends {
+  Descriptor here, there;
+};
+
+[[noreturn]] void throw_not_started(int reason) {
+  throw Error(ErrorCode::bad_state, std::string("a run cannot be started: ") + std::strerror(reason));
+}
+
+// Numbers of what goes to the child are kept clear of those they are to have there.
+Descriptor moved_up(int descriptor) {
+  const Descriptor low(descriptor);
+  if (descriptor < 0) throw_not_started(errno);
+  const int high = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 16);
+  if (high < 0) throw_not_started(errno);
+  return Descriptor(high);
+}
+
+Ends pipe_from_child() {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw_not_started(errno);
+  ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
+  return {Descriptor(ends[0]), moved_up(ends[1])};
+}
+
+Ends socket_to_child() {
+  int ends[2];
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw_not_started(errno);
+  // Neither side waits for ever for the other to take what it sends.
+  const timeval patience{20, 0};
+  for (const int end : ends) ::setsockopt(end, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+  return {Descriptor(ends[0]), moved_up(ends[1])};
+}
+
+// A file in memory, so that neither side waits for the other.
+Descriptor content(const std::string& text) {
+  Descriptor file = moved_up(::memfd_create("request", MFD_CLOEXEC));
+  if (!write_whole(file.get(), text)) throw_not_started(errno);
+  ::lseek(file.get(), 0, SEEK_SET);
+  return file;
+}
+
+pid_t start(const std::array<int, 5>& descriptors, const std::string& folder) {
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawnattr_init(&attributes);
+  for (std::size_t k = 0; k < descriptors.size(); ++k)
+    posix_spawn_file_actions_adddup2(&actions, descriptors[k], static_cast<int>(k));
+  posix_spawn_file_actions_addclosefrom_np(&actions, static_cast<int>(descriptors.size()));
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  // A session of its own: Ctrl-C is for the server, which decides what becomes of its runs.
+  sigset_t every, none;
+  sigfillset(&every);
+  sigemptyset(&none);
+  posix_spawnattr_setsigdefault(&attributes, &every);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+  char name[] = "asperity", confined[] = "--confined", language[] = "LC_ALL=C.UTF-8",
+       path[] = "PATH=/usr/bin:/bin";
+  char* const arguments[] = {name, confined, nullptr};
+  char* const environment[] = {language, path, nullptr};
+  pid_t child = -1;
+  const int reason = ::posix_spawn(&child, "/proc/self/exe", &actions, &attributes, arguments, environment);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (reason != 0) throw_not_started(reason);
+  return child;
+}
+
+}  // namespace
+
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  std::swap(number_, other.number_);
+  return *this;
+}
+
+void Descriptor::reset() {
+  if (number_ >= 0) ::close(std::exchange(number_, -1));
+}
+
+ConfinedProcess::ConfinedProcess(const ConfinedRequest& request, const std::string& folder) {
+  const Descriptor input = content(to_json(request).text());
+  Ends out = pipe_from_child(), err = pipe_from_child(), told = pipe_from_child(), drawn = socket_to_child();
+  process_ =
+      start({input.get(), out.there.get(), err.there.get(), told.there.get(), drawn.there.get()}, folder);
+  output = std::move(out.here);
+  error = std::move(err.here);
+  events = std::move(told.here);
+  drawing = std::move(drawn.here);
+}
+
+ConfinedProcess::~ConfinedProcess() {
+  if (status_) return;
+  send(SIGKILL);
+  int status = 0;
+  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+}
+
+void ConfinedProcess::send(int signal) const {
+  if (!status_) ::kill(process_, signal);
+}
+
+std::optional<int> ConfinedProcess::ended() {
+  int status = 0;
+  if (!status_ && ::waitpid(process_, &status, WNOHANG) == process_) status_ = status;
+  return status_;
+}
+
+Finished run_confined(const ConfinedRequest& request, const std::string& folder,
+                      std::chrono::milliseconds patience, std::size_t most_bytes) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + patience;
+  ConfinedProcess process(request, folder);
+  Finished done;
+  std::array<std::pair<Descriptor*, std::string*>, 3> pipes{
+      {{&process.output, &done.output}, {&process.error, &done.error}, {&process.events, &done.events}}};
+  for (bool open = true; open;) {
+    std::array<pollfd, 3> watched{};
+    for (std::size_t k = 0; k < 3; ++k) watched[k] = {pipes[k].first->get(), POLLIN, 0};
+    ::poll(watched.data(), watched.size(), 50);
+    open = false;
+    for (auto& [pipe, text] : pipes) {
+      char piece[16384];
+      const ssize_t got = pipe->get() < 0 ? 0 : ::read(pipe->get(), piece, sizeof piece);
+      if (got > 0 && text->size() < most_bytes) text->append(piece, static_cast<std::size_t>(got));
+      if (got == 0) pipe->reset();
+      open = open || pipe->get() >= 0;
+    }
+    if (Clock::now() >= end) {
+      done.late = true;
+      process.send(SIGKILL);
+      break;
+    }
+  }
+  std::optional<int> status;
+  while (!(status = process.ended())) {
+    if (!done.late && Clock::now() >= end) {
+      done.late = true;
+      process.send(SIGKILL);
+    }
+    ::poll(nullptr, 0, 1);
+  }
+  if (WIFEXITED(*status)) done.status = WEXITSTATUS(*status);
+  return done;
+}
+
+}  // namespace asperity::web

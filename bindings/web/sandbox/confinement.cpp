@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/sandbox/confinement.hpp"
+
+#include <linux/capability.h>
+#include <linux/securebits.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "bindings/web/sandbox/file_barrier.hpp"
+#include "bindings/web/sandbox/namespaces.hpp"
+#include "bindings/web/sandbox/system_calls.hpp"
+#include "engine/core/error.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+void limit(int what, std::int64_t most, const char* of) {
+  rlimit now{};
+  ::getrlimit(static_cast<__rlimit_resource_t>(what), &now);
+  const rlim_t value = std::min(static_cast<rlim_t>(most), now.rlim_max);
+  const rlimit wanted{value, value};
+  if (::setrlimit(static_cast<__rlimit_resource_t>(what), &wanted) != 0)
+    throw Error(ErrorCode::bad_state,
+                std::string("the limit of ") + of + " cannot be set: " + std::strerror(errno));
+}
+
+void set_limits(const Confinement& confinement) {
+  constexpr std::int64_t libraries = std::int64_t{512} << 20;
+  // Address space is reserved well before it is used: for each thread a stack and a heap of its own.
+  const std::int64_t reserved = (std::int64_t{1} << 30) + std::int64_t{160} *
+                                                              std::max(confinement.threads, 1) *
+                                                              (std::int64_t{1} << 20);
+  limit(RLIMIT_CORE, 0, "core dumps");
+  limit(RLIMIT_FSIZE, confinement.file_bytes, "the size of a file");
+  limit(RLIMIT_NOFILE, 64, "open files");
+  limit(RLIMIT_MEMLOCK, 0, "locked memory");
+  limit(RLIMIT_MSGQUEUE, 0, "message queues");
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  limit(RLIMIT_DATA, confinement.memory_bytes + libraries, "memory");
+  limit(RLIMIT_AS, confinement.memory_bytes + libraries + reserved, "address space");
+#else
+  (void)libraries, (void)reserved;
+#endif
+  // The first signal is taken as a wish, the second as an order.
+  const auto seconds = static_cast<rlim_t>(std::max<std::int64_t>(confinement.processor_seconds, 1));
+  const rlimit processor{seconds, seconds + 5};
+  if (::setrlimit(RLIMIT_CPU, &processor) != 0)
+    limit(RLIMIT_CPU, confinement.processor_seconds, "processor time");
+}
+
+// No right of the superuser is left, whoever started the program, nor comes back by running another.
+bool drop_capabilities() {
+  ::prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
+  for (unsigned long right = 0; right < 64; ++right) ::prctl(PR_CAPBSET_DROP, right, 0, 0, 0);
+  ::prctl(PR_SET_SECUREBITS, SECBIT_NOROOT | SECBIT_NOROOT_LOCKED | SECBIT_NO_SETUID_FIXUP, 0, 0, 0);
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct none[2] = {};
+  return ::syscall(SYS_capset, &header, none) == 0;
+}
+
+}  // namespace
+
+std::vector<std::string> confine(const Confinement& confinement, std::vector<std::string>& missing) {
+  std::vector<std::string> made;
+  const auto note = [&](const std::string& name, const std::string& problem) {
+    if (problem.empty())
+      made.push_back(name);
+    else
+      missing.push_back(name + " (" + problem + ")");
+  };
+  const pid_t parent = ::getppid();
+  set_limits(confinement);
+  const Namespaces own = enter_namespaces();
+  note("a network of its own", own.network);
+  if (own.user.empty()) limit(RLIMIT_NPROC, 256, "threads");
+  if (confinement.as == Confined::script)
+    note("a root of its own", own.mount.empty() ? enter_own_root() : own.mount);
+  note("no rights of the superuser", drop_capabilities() ? "" : std::strerror(errno));
+  ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
+  // It does not outlive the server, even one that was killed. Other rights would have made it forget this.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
+  if (::getppid() != parent) ::_exit(1);
+  note("no new rights", ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 ? "" : std::strerror(errno));
+  int version = 0;
+  const std::string landlock = confine_files(confinement.as, version);
+  note(landlock.empty() ? "Landlock " + std::to_string(version) : "Landlock", landlock);
+  note("a filter of system calls", confine_system_calls(confinement.as));
+  return made;
+}
+
+}  // namespace asperity::web

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/script_check.hpp"
+
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <sstream>
+
+#include "bindings/web/sandbox/confined_process.hpp"
+#include "engine/core/error.hpp"
+#include "engine/experiment/aside_file.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+constexpr double seconds = 3;
+
+// "to line 12: …" gives 12.
+std::optional<std::int64_t> line_in(const std::string& reached) {
+  const std::string lead = "to line ";
+  if (!reached.starts_with(lead)) return {};
+  const std::int64_t line = std::strtoll(reached.c_str() + lead.size(), nullptr, 10);
+  return line > 0 ? std::optional(line) : std::nullopt;
+}
+
+Json mark(const char* severity, const std::string& message, const Json* line) {
+  return Json::object(
+      {{"line", line == nullptr ? Json(1) : *line}, {"severity", severity}, {"message", message}});
+}
+
+}  // namespace
+
+Json check_script(const std::string& script, const std::filesystem::path& scratch,
+                  const std::vector<std::string>& barriers) {
+  std::string folder = (scratch / "check-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr) throw_file_error("make a folder in", scratch, errno);
+  struct Gone {
+    std::string folder;
+    ~Gone() {
+      std::error_code ignored;
+      std::filesystem::remove_all(folder, ignored);
+    }
+  } const gone{folder};
+
+  ConfinedRequest request{.work = Work::check, .confinement = {}};
+  request.confinement.memory_bytes = std::int64_t{512} << 20;
+  request.confinement.file_bytes = 1 << 16;
+  request.confinement.processor_seconds = static_cast<std::int64_t>(seconds) + 2;
+  request.script = script;
+  request.name = "script.lua";
+  request.seconds = seconds;
+  request.barriers = barriers;
+  const Finished done =
+      run_confined(request, folder, std::chrono::milliseconds(static_cast<int>(1000 * seconds) + 3000),
+                   std::size_t{1} << 20);
+
+  Json::List marks;
+  Json answer = Json::object();
+  bool ended = false;
+  std::istringstream lines(done.events);
+  for (std::string line; std::getline(lines, line);) {
+    try {
+      const Json event = Json::parse(line, "an event");
+      const Json *type = event.find("type"), *message = event.find("message"), *why = event.find("why");
+      if (type == nullptr) continue;
+      if (type->string() == "error" && message != nullptr)
+        marks.push_back(mark("error", message->string(), event.find("line")));
+      if (type->string() != "ended" || why == nullptr) continue;
+      ended = true;
+      if (const auto reached = line_in(why->string())) answer.set("checked_to", *reached);
+    } catch (const Error&) {
+      continue;
+    }
+  }
+  if (!ended && marks.empty()) {
+    if (done.status == 2) throw Error(ErrorCode::bad_state, "the script could not be checked: " + done.error);
+    marks.push_back(mark("note", "the check did not come to an end", nullptr));
+  }
+  answer.set("marks", std::move(marks));
+  return answer;
+}
+
+}  // namespace asperity::web

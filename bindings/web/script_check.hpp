@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `asperity check` for the page: a dry run in a confined process, and what it found as marks in the text.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/experiment/json.hpp"
+
+namespace asperity::web {
+
+// {marks: [{line, severity, message}], checked_to?}. `scratch`: a folder in which one for this is made.
+Json check_script(const std::string& script, const std::filesystem::path& scratch,
+                  const std::vector<std::string>& barriers);
+
+}  // namespace asperity::web

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/serve_command.hpp"
+
+#include <spawn.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "bindings/web/api.hpp"
+#include "bindings/web/barrier_report.hpp"
+#include "bindings/web/places.hpp"
+#include "bindings/web/serve_setup.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/loaded_part.hpp"
+#include "engine/core/text.hpp"
+
+extern char** environ;
+
+namespace asperity::web {
+
+namespace {
+
+constexpr int bad_usage = 2;
+constexpr int usual_port = 8137;  // the same each time: a browser keeps what was written by address and port
+
+// Asked before there is a port, answered after: what Host may say depends on it.
+class LateHandler final : public HttpHandler {
+ public:
+  std::unique_ptr<Api> api;
+  std::optional<HttpResponse> refuse(const HttpRequest& head) override { return api->refuse(head); }
+  HttpResponse answer(const HttpRequest& request) override { return api->answer(request); }
+};
+
+std::unique_ptr<HttpServer> listen(const ServeCommand& command, HttpHandler& handler) {
+  auto* const make = part_function<MakeHttpServer>({"serve", "pages are served", "libcpp-httplib0.11"},
+                                                   "asperity_http_server");
+  HttpSetup setup;
+  setup.address = command.classroom.empty() ? "127.0.0.1" : command.classroom;
+  setup.port = command.port == 0 ? usual_port : command.port;
+  setup.most_connections = command.classroom.empty() ? 400 : 800;
+  std::string problem;
+  std::unique_ptr<HttpServer> server(make(setup, handler, problem));
+  if (server == nullptr && command.port == 0) {
+    setup.port = 0;
+    server.reset(make(setup, handler, problem));
+  }
+  if (server == nullptr)
+    throw Error(
+        ErrorCode::bad_value,
+        "port " + std::to_string(setup.port) + " of " + setup.address + " cannot be listened on: " + problem,
+        command.classroom.empty() ? "give another with --port, or none"
+                                  : "give an address of this machine, and a port that is free");
+  return server;
+}
+
+void open_in_browser(const std::string& url) {
+  char program[] = "xdg-open";
+  std::string address = url;
+  char* const arguments[] = {program, address.data(), nullptr};
+  pid_t child = 0;
+  if (::posix_spawnp(&child, program, nullptr, nullptr, arguments, environ) != 0)
+    std::fprintf(stderr,
+                 "asperity: no browser could be opened (xdg-open is not there); open the address above\n");
+}
+
+// Each connection and each run takes a few.
+void allow_many_files() {
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = std::min<rlim_t>(files.rlim_max, 16384);
+  ::setrlimit(RLIMIT_NOFILE, &files);
+}
+
+void print_addresses(const ServeCommand& command, const Access& access, int port) {
+  const std::string begin = "http://" + shown_address(command) + ":" + std::to_string(port) + "/#";
+  std::size_t widest = 0;
+  for (const Person& person : access.people()) widest = std::max(widest, person.name.size());
+  if (command.classroom.empty()) {
+    std::printf("%s%s\n", begin.c_str(), access.people()[0].token.c_str());
+  } else {
+    std::printf(
+        "one address for each; it is a key, and what follows the # is not sent over the network by "
+        "itself\n\n");
+    for (const Person& person : access.people())
+      std::printf("%-*s  %s%s\n", static_cast<int>(widest), person.name.c_str(), begin.c_str(),
+                  person.token.c_str());
+    std::printf("\n");
+  }
+  std::fflush(stdout);
+}
+
+// Ctrl-C, or a request of the system to end.
+void wait_for_end(const sigset_t& signals) {
+  int signal = 0;
+  while (::sigwait(&signals, &signal) != 0) {
+  }
+}
+
+int serve_until_stopped(const ServeCommand& command) {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  sigaddset(&signals, SIGHUP);
+  // Before any thread, which all inherit it.
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+  allow_many_files();
+
+  const std::vector<Person> people = people_of(command);
+  QueueSetup queue = queue_of(command);
+  LateHandler handler;
+  const std::unique_ptr<HttpServer> server = listen(command, handler);
+  queue.folder = session_folder(command);
+  const std::filesystem::path scratch = queue.folder / "scratch", folder = queue.folder;
+  std::filesystem::create_directory(scratch);
+
+  const BarrierReport barriers = try_out_barriers(scratch.string());
+  if (!command.classroom.empty() && !barriers.all_hold()) {
+    std::filesystem::remove_all(folder);
+    throw Error(
+        ErrorCode::not_permitted,
+        "this machine does not keep the scripts of others in:\n" + barriers.text() + "a room is not served",
+        "a kernel with Landlock (Linux 5.13) or user namespaces, and the part asperity-sandbox.so, would");
+  }
+  queue.barriers = barriers.made;
+  const int at_once = queue.at_once;
+  const RunLimits limits = queue.limits;
+  const Access access(hosts_of(command, server->port()), people);
+  const auto pages = shared_folder("page", "page");
+  const PageFiles page(pages);
+  RunQueue runs(std::move(queue));
+  handler.api = std::make_unique<Api>(
+      ApiSetup{limits, at_once, !command.classroom.empty(), barriers.made, scratch}, access, runs, page);
+
+  std::thread answering([&] { server->serve(); });
+  print_addresses(command, access, server->port());
+  if (!page.built()) std::fprintf(stderr, "asperity: %s; until then /api is served alone\n", page_needs);
+  std::fprintf(stderr, "runs are kept in %s; %d at once, each at most %.0f s and %.0f MiB\n", folder.c_str(),
+               at_once, limits.seconds, static_cast<double>(limits.memory_bytes) / 0x1p20);
+  std::fprintf(stderr, "what a run cannot do here:\n%sCtrl-C ends it\n", barriers.text().c_str());
+  if (!barriers.all_hold())
+    std::fprintf(
+        stderr,
+        "asperity: run no script of others on this machine; your own are held by the language's limits\n");
+  if (command.open)
+    open_in_browser("http://" + shown_address(command) + ":" + std::to_string(server->port()) + "/#" +
+                    people[0].token);
+
+  wait_for_end(signals);
+  std::fprintf(stderr, "\nstopping\n");
+  runs.close();
+  server->stop();
+  answering.join();
+  std::error_code ignored;
+  std::filesystem::remove_all(scratch, ignored);
+  if (std::filesystem::is_empty(folder, ignored))
+    std::filesystem::remove(folder, ignored);
+  else
+    std::fprintf(stderr, "what the runs recorded is in %s\n", folder.c_str());
+  return 0;
+}
+
+}  // namespace
+
+int serve(const ServeCommand& command) {
+  try {
+    return serve_until_stopped(command);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return bad_usage;
+  }
+}
+
+}  // namespace asperity::web

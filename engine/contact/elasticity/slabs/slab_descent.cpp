@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/slabs/slab_descent.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "engine/contact/elasticity/slabs/slab_gradient.hpp"
+#include "engine/contact/elasticity/slabs/slab_preconditioner.hpp"
+#include "engine/contact/elasticity/slabs/slab_quality.hpp"
+
+namespace asperity {
+
+namespace {
+// As in half_space/set_descent.cpp.
+constexpr double richardson_step = 0.65;
+constexpr int steps_a_pass = 2;
+constexpr double enough_reduction = 0.1;
+constexpr int passes_without_gain = 4;
+constexpr double slow = 0.7;
+constexpr int slow_passes = 2;
+constexpr double jump = 10;
+constexpr int jumps_in_a_cycle = 2;
+constexpr int most_renewals = 50;
+
+class Descent {
+ public:
+  Descent(SlabLevel& level, SlabFields& fields, double tolerance, int most)
+      : level_(level),
+        f_(fields),
+        preconditioner_(level),
+        tolerance_(tolerance),
+        most_(level.applications + most) {}
+  bool run();
+
+ private:
+  void project(const SlabQuality& at, Array<double>& target);
+  std::optional<double> shift_to_load(const SlabQuality& at);
+  void mark_free(const SlabQuality& at);
+  void free_the_nearest(double offset);
+  double precondition();
+  void settle_step(const SlabQuality& at);
+  bool descend(int steps);
+  void balance();
+
+  SlabLevel& level_;
+  SlabFields& f_;
+  SlabPreconditioner preconditioner_;
+  double tolerance_;
+  int most_;
+  double free_count_ = 0;
+  bool changed_ = true;
+  double mean_gap_ = 0;  // of the free nodes
+  double surplus_ = 0;   // of load in what the preconditioner gave, a free node
+  bool have_direction_ = false;
+  double direction_rz_ = 0;
+};
+
+// target = p clipped, the interior shifted to the load; where it cannot carry it all nodes move, in the order
+// of their gaps. Spoils the marks of the pass before.
+void Descent::project(const SlabQuality& at, Array<double>& target) {
+  const double upper = level_.cap;
+  level_.each([=, p = f_.pressure.data(), to = target.data(), marks = f_.old_free.data()](std::size_t k) {
+    marks[k] = ((p[k] > 0) & (p[k] < upper)) ? 1 : 0;
+    to[k] = std::min(std::max(p[k], 0.0), upper);
+  });
+  if (project_slabs_to_load(level_, target, f_.old_free.data(), target)) return;
+  level_.each([=, g = f_.gap.data(), to = target.data(), stiffness = level_.short_wave_stiffness,
+               middle = at.interior_gap](std::size_t k) { to[k] -= stiffness * (g[k] - middle); });
+  project_slabs_to_load(level_, target, nullptr, target);
+}
+
+// Two Newton steps of that shift from none; nothing where what it misses of the load is not small.
+std::optional<double> Descent::shift_to_load(const SlabQuality& at) {
+  const double load = level_.total_load(), upper = level_.cap;
+  if (at.interior == 0) return {};
+  const double first = (load - at.load) / at.interior;
+  const auto found = level_.over<2>([=, p = f_.pressure.data()](std::size_t k, double* v) {
+    const double q = std::min(std::max(p[k], 0.0), upper);
+    const bool here = (p[k] > 0) & (p[k] < upper);
+    const double x = here ? q + first : q;
+    v[0] = std::min(std::max(x, 0.0), upper);
+    v[1] = (here & (x > 0) & (x < upper)) ? 1.0 : 0.0;
+  });
+  if (!(std::abs(found[0] - load) < 0.01 * load) || found[1] == 0) return {};
+  return first - (found[0] - load) / found[1];
+}
+
+// Those strictly between the bounds, and those at a bound whose gap says they should leave it; a node clipped
+// in this pass may not come back on its stale gap.
+void Descent::mark_free(const SlabQuality& at) {
+  const double upper = level_.cap, offset = at.interior_gap;
+  const auto sums = level_.over<3>([=, p = f_.pressure.data(), g = f_.gap.data(), before = f_.old_free.data(),
+                                    free = f_.free.data()](std::size_t k, double* v) {
+    const double pressure = p[k], gap = g[k], q = std::min(std::max(pressure, 0.0), upper);
+    const bool inside = (q > 0) & (q < upper);
+    const bool enters =
+        ((q <= 0) & (gap < offset) & (pressure >= 0)) | ((q > 0) & (gap > offset) & (pressure <= upper));
+    const std::uint8_t mark = (inside | enters) ? 1 : 0;
+    free[k] = mark;
+    v[0] = mark;
+    v[1] = mark != 0 ? gap : 0.0;
+    v[2] = mark != before[k] ? 1.0 : 0.0;
+  });
+  free_count_ = sums[0];
+  changed_ = sums[2] != 0;
+  mean_gap_ = free_count_ > 0 ? sums[1] / free_count_ : offset;
+  if (free_count_ < 2 && level_.shape.slab.all_nodes() >= 2) free_the_nearest(offset);
+  if (changed_) preconditioner_.set_free(f_.free);
+}
+
+// The few nodes nearest to leaving their bound.
+void Descent::free_the_nearest(double offset) {
+  constexpr std::size_t few = 9;
+  std::array<double, few> least;
+  least.fill(std::numeric_limits<double>::infinity());
+  for (const double g : f_.gap) {
+    const double distance = std::abs(g - offset);
+    if (!(distance < least.back())) continue;
+    least.back() = distance;
+    for (std::size_t i = few - 1; i > 0 && least[i] < least[i - 1]; --i) std::swap(least[i], least[i - 1]);
+  }
+  Array<double> all = level_.team.gather(least);
+  std::nth_element(all.begin(), all.begin() + (few - 1), all.end());
+  const double furthest = all[few - 1];
+  const auto sums = level_.over<2>([=, g = f_.gap.data(), free = f_.free.data()](std::size_t k, double* v) {
+    const double distance = std::abs(g[k] - offset);
+    if (distance <= furthest && std::isfinite(distance)) free[k] = 1;
+    v[0] = free[k];
+    v[1] = free[k] != 0 ? g[k] : 0.0;
+  });
+  changed_ = true;
+  free_count_ = sums[0];
+  if (free_count_ > 0) mean_gap_ = sums[1] / free_count_;
+}
+
+void Descent::balance() {
+  const auto sum = level_.over<1>([g = f_.gap.data(), free = f_.free.data()](std::size_t k, double* v) {
+    v[0] = free[k] != 0 ? g[k] : 0.0;
+  });
+  mean_gap_ = sum[0] / free_count_;
+}
+
+// r·(M r), r what the gaps of the free nodes lack of their mean.
+double Descent::precondition() {
+  preconditioner_.apply([g = f_.gap.data(), mean = mean_gap_](std::size_t k) { return mean - g[k]; });
+  const auto sums = level_.over<2>([z = preconditioner_.values(), g = f_.gap.data(), free = f_.free.data(),
+                                    mean = mean_gap_](std::size_t k, double* v) {
+    v[0] = free[k] != 0 ? z[k] : 0.0;
+    v[1] = free[k] != 0 ? z[k] * (mean - g[k]) : 0.0;
+  });
+  surplus_ = sums[0] / free_count_;
+  return sums[1];
+}
+
+// What clipping changes and a fixed step of the preconditioner, at the cost of one application.
+void Descent::settle_step(const SlabQuality& at) {
+  const double upper = level_.cap;
+  const std::optional<double> shift = shift_to_load(at);
+  if (!shift) project(at, f_.image);
+  precondition();
+  const bool by_shift = shift.has_value();
+  level_.apply(
+      [=, p = f_.pressure.data(), target = f_.image.data(), free = f_.free.data(),
+       z = preconditioner_.values(), surplus = surplus_, by = shift.value_or(0)](std::size_t k) {
+        double to = target[k];
+        if (by_shift) {
+          const double q = std::min(std::max(p[k], 0.0), upper);
+          const bool here = (p[k] > 0) & (p[k] < upper);
+          to = here ? std::min(std::max(q + by, 0.0), upper) : q;
+        }
+        const double x = (to - p[k]) + (free[k] != 0 ? richardson_step * (z[k] - surplus) : 0.0);
+        p[k] += x;
+        return x;
+      },
+      [g = f_.gap.data()](std::size_t k, double u) { g[k] += u; });
+  balance();
+}
+
+// Conjugate gradients on the free set, `steps` of the pass being taken already; false where no step could be.
+bool Descent::descend(int steps) {
+  const bool from_rest = steps == 0;
+  double start = 0;
+  while (steps < steps_a_pass) {
+    if (from_rest) {
+      const double norm = std::sqrt(level_.over<1>(
+          [g = f_.gap.data(), free = f_.free.data(), mean = mean_gap_](std::size_t k, double* v) {
+            v[0] = free[k] != 0 ? (mean - g[k]) * (mean - g[k]) : 0.0;
+          })[0]);
+      if (steps == 0)
+        start = norm;
+      else if (norm < enough_reduction * start)
+        break;
+    }
+    const double rz = precondition();
+    const double keep = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
+    direction_rz_ = rz;
+    have_direction_ = true;
+    level_.apply(
+        [keep, d = f_.direction.data(), free = f_.free.data(), z = preconditioner_.values(),
+         surplus = surplus_](std::size_t k) {
+          const double next = (z[k] - surplus) + (keep != 0 ? keep * d[k] : 0.0);
+          return d[k] = free[k] != 0 ? next : 0.0;
+        },
+        [image = f_.image.data()](std::size_t k, double u) { image[k] = u; });
+    const auto sums = level_.over<2>(
+        [d = f_.direction.data(), image = f_.image.data(), free = f_.free.data()](std::size_t k, double* v) {
+          v[0] = d[k] * image[k];
+          v[1] = free[k] != 0 ? image[k] : 0.0;
+        });
+    if (!(sums[0] > 0) || !(rz > 0)) {
+      have_direction_ = false;
+      break;
+    }
+    const double length = rz / sums[0];
+    mean_gap_ += length * (sums[1] / free_count_);
+    level_.each([length, p = f_.pressure.data(), g = f_.gap.data(), d = f_.direction.data(),
+                 image = f_.image.data()](std::size_t k) {
+      p[k] += length * d[k];
+      g[k] += length * image[k];
+    });
+    ++steps;
+  }
+  return steps > 0;
+}
+
+bool Descent::run() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  level_.gap(f_.pressure, f_.gap);
+  bool fresh = true, have_old = false;
+  double best = infinity, least = infinity, before = infinity;
+  int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
+  std::fill(f_.old_free.begin(), f_.old_free.end(), std::uint8_t{255});
+  for (;;) {
+    SlabQuality at = slab_quality(level_, f_.pressure, f_.gap);
+    level_.team.work([&] {
+      if (level_.report) level_.report(at.residual);
+    });
+    if (at.residual < tolerance_) {
+      const double load = level_.total_load();
+      if (at.within && fresh && std::abs(at.load - load) < tolerance_ * load) return true;
+      project(at, f_.pressure);
+      if (++renewals > most_renewals) return false;
+      level_.gap(f_.pressure, f_.gap);
+      fresh = true;
+      have_direction_ = false;
+      std::fill(f_.old_free.begin(), f_.old_free.end(), std::uint8_t{255});
+      continue;
+    }
+    without_gain = at.residual < 0.9 * best ? 0 : without_gain + 1;
+    if (without_gain == 0) best = at.residual;
+    slow_ones = at.residual > slow * least ? slow_ones + 1 : 0;
+    least = std::min(least, at.residual);
+    if (at.residual > jump * before) ++jumps;
+    before = at.residual;
+    if (without_gain > passes_without_gain || level_.applications > most_ || !std::isfinite(at.residual)) {
+      project(at, f_.pressure);
+      return false;
+    }
+    if ((slow_ones >= slow_passes || jumps >= jumps_in_a_cycle) && have_old) {
+      level_.each([p = f_.pressure.data(), g = f_.gap.data(), q = f_.old_pressure.data(),
+                   old = f_.old_gap.data()](std::size_t k) {
+        p[k] = 0.5 * (p[k] + q[k]);
+        g[k] = 0.5 * (g[k] + old[k]);
+      });
+      have_direction_ = have_old = fresh = false;
+      slow_ones = jumps = 0;
+      at = slab_quality(level_, f_.pressure, f_.gap);
+    } else if ((have_old = slow_ones + 1 >= slow_passes || jumps + 1 >= jumps_in_a_cycle)) {
+      level_.team.work([&] {
+        f_.old_pressure = f_.pressure;
+        f_.old_gap = f_.gap;
+      });
+    }
+    mark_free(at);
+    if (!at.within || changed_) have_direction_ = false;
+    fresh = false;
+    if (!at.within) settle_step(at);
+    if (!descend(at.within ? 0 : 1)) {  // the free nodes are in balance to the last bit
+      project(at, f_.pressure);
+      return false;
+    }
+    std::swap(f_.free, f_.old_free);
+  }
+}
+}  // namespace
+
+SlabFields::SlabFields(Team& team, std::size_t nodes) {
+  team.work([&] {
+    for (Array<double>* field : {&pressure, &gap, &direction, &image}) field->resize(nodes);
+    free.resize(nodes);
+    old_free.resize(nodes);
+  });
+  team.agree();
+}
+
+SlabEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, bool with_last_resort) {
+  constexpr int quick = 300, shake = 12, last_resort = 3000;
+  SlabEnd end;
+  for (int stage = 0; stage < (with_last_resort ? 5 : 3) && !end.converged; ++stage) {
+    if (stage % 2 == 0 && stage < 4) {
+      end.stage = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
+      end.converged = Descent(level, fields, tolerance, quick).run();
+    } else {
+      end.stage = "spectral projected gradients";
+      end.converged = slab_gradient(level, fields, tolerance, stage == 4 ? last_resort : shake);
+    }
+  }
+  return end;
+}
+
+}  // namespace asperity

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contact problem of a periodic half-space on one of the nested grids, in slabs of rows over a team of
+// processes: minimise ½ p·Kp − h·p over 0 <= p <= H with a given mean of p, K = 2/|q| and 0 for the mean. In
+// the cell units of half_space/contact_level.hpp: hx = 1, hy = aspect, E* = 1, heights over the rms. Every
+// member that is not const is work of all processes together.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <span>
+
+#include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/core/slabs/row_exchange.hpp"
+#include "engine/core/slabs/team.hpp"
+
+namespace asperity {
+
+struct SlabShape {
+  Slab slab;
+  double aspect = 1;
+  double weight = 1;  // of one transform, in transforms of the finest grid
+};
+
+class SlabLevel {
+ public:
+  // (heights − origin)·factor is in cell units; `cap` may be infinite.
+  SlabLevel(Team& level_team, const SlabShape& level_shape, std::span<const double> heights, double origin,
+            double factor, double cap, double mean_pressure);
+
+  Team& team;
+  const SlabShape shape;
+  const double cap, mean_pressure;
+  double length = 1;     // what gaps are measured by
+  int applications = 0;  // of K
+  // Pressure per gap of a short wave.
+  const double short_wave_stiffness;
+  // Told the residual after each pass, in this process; may throw.
+  std::function<void(double)> report;
+
+  std::size_t nodes() const { return shape.slab.nodes(); }  // of this process
+  double total_load() const { return mean_pressure * shape.slab.all_nodes(); }
+  double height(std::size_t k) const { return (heights_[k] - origin_) * factor_; }
+  void count_from(double origin) { origin_ = origin; }
+
+  // Over the nodes of this process, then over the processes, as over_nodes and for_nodes.
+  template <std::size_t sums, std::size_t minima = 0, class Term>
+  std::array<double, sums + minima> over(Term term) {
+    std::array<double, sums + minima> own{};
+    for (std::size_t i = sums; i < own.size(); ++i) own[i] = std::numeric_limits<double>::infinity();
+    team.work([&] { own = over_nodes<sums, minima>(nodes(), term); });
+    return team.reduce<sums, minima>(own);
+  }
+  template <class Body>
+  void each(Body body) {
+    team.work([&] { for_nodes(nodes(), body); });
+  }
+
+  // u = K p; `source` gives p of a node of this process, `sink` takes u there.
+  template <class Source, class Sink>
+  void apply(Source source, Sink sink) {
+    ++applications;
+    filter(source, sink, [](double q) { return 2 / q; });
+  }
+  // p = |q|/2 u.
+  template <class Source, class Sink>
+  void apply_inverse(Source source, Sink sink) {
+    filter(source, sink, [](double q) { return 0.5 * q; });
+  }
+  // g = K p − h.
+  void gap(std::span<const double> p, std::span<double> g) {
+    apply([p = p.data()](std::size_t k) { return p[k]; },
+          [this, g = g.data()](std::size_t k, double u) { g[k] = u - height(k); });
+  }
+
+ private:
+  template <class Source, class Sink, class Factor>
+  void filter(Source source, Sink sink, Factor factor) {
+    const Slab& slab = shape.slab;
+    const int rows = slab.rows(), nx = slab.nx;
+    team.work([&] {
+      parallel_for(rows, [&](std::int64_t j) {
+        double* const row = fourier_->row(static_cast<int>(j));
+        const std::size_t begin = static_cast<std::size_t>(j) * slab.width();
+        for (int i = 0; i < nx; ++i) row[i] = source(begin + static_cast<std::size_t>(i));
+      });
+    });
+    fourier_->forward();
+    team.work([&] { multiply(factor); });
+    fourier_->inverse();
+    team.work([&] {
+      parallel_for(rows, [&](std::int64_t j) {
+        const double* const row = fourier_->row(static_cast<int>(j));
+        const std::size_t begin = static_cast<std::size_t>(j) * slab.width();
+        for (int i = 0; i < nx; ++i) sink(begin + static_cast<std::size_t>(i), row[i]);
+      });
+    });
+    count();
+  }
+
+  template <class Factor>
+  void multiply(Factor factor) {
+    const Slab& slab = shape.slab;
+    const double per_x = 2 * std::numbers::pi / slab.nx,
+                 per_y = 2 * std::numbers::pi / (slab.ny * shape.aspect);
+    const double norm = 1 / slab.all_nodes();
+    const int first = fourier_->first_wave(), waves = fourier_->waves();
+    const auto wave = [&](int a, int b) {
+      const double qx = per_x * a, qy = per_y * std::min(b, slab.ny - b);
+      fourier_->bin(a, b) *= a == 0 && b == 0 ? 0.0 : norm * factor(std::sqrt(qx * qx + qy * qy));
+    };
+    if (fourier_->along_b_is_faster())
+      parallel_for(waves, [&](std::int64_t a) {
+        for (int b = 0; b < slab.ny; ++b) wave(first + static_cast<int>(a), b);
+      });
+    else
+      parallel_for(slab.ny, [&](std::int64_t b) {
+        for (int a = first; a < first + waves; ++a) wave(a, static_cast<int>(b));
+      });
+  }
+
+  void count() const;
+
+  std::span<const double> heights_;
+  double origin_, factor_;
+  std::unique_ptr<SlabFourier> fourier_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/slabs/slab_nest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/contact/elasticity/slabs/slab_descent.hpp"
+#include "engine/contact/elasticity/slabs/slab_light_contact.hpp"
+#include "engine/contact/elasticity/slabs/slab_quality.hpp"
+#include "engine/contact/elasticity/slabs/slab_transfer.hpp"
+
+namespace asperity {
+
+namespace {
+constexpr double coarse_tolerance = 1e-3;
+
+class Progress {
+ public:
+  explicit Progress(Monitor& monitor) : task_(monitor, "contact in slabs", total) {}
+  void report(double begin, double end, double residual, double tolerance) {
+    double gained = 0;
+    if (residual > 0 && tolerance < 1)
+      gained = std::clamp(std::log(std::min(residual, 1.0)) / std::log(tolerance), 0.0, 1.0);
+    const auto now = static_cast<std::int64_t>(total * (begin + (end - begin) * gained));
+    task_.advance(std::max<std::int64_t>(0, now - done_));
+    done_ = std::max(done_, now);
+  }
+
+ private:
+  static constexpr std::int64_t total = 1000;
+  Task task_;
+  std::int64_t done_ = 0;
+};
+
+struct Step {                       // one grid of the nest
+  std::optional<CoarserGrid> from;  // how it came from the finer one
+  SlabShape shape;
+  Array<double> heights;  // empty on the finest
+  double pitch = 1;       // hx in cells of the finest grid
+  double mean_pressure = 0;
+};
+
+double work_of(const Slab& slab) { return slab.all_nodes() * std::log(std::max(slab.all_nodes(), 2.0)); }
+
+std::vector<Step> nest(Team& team, const SlabCellProblem& problem, bool alone) {
+  std::vector<Step> steps(1);
+  steps[0].shape = problem.shape;
+  steps[0].mean_pressure = problem.mean_pressure;
+  while (!alone) {
+    const Step& fine = steps.back();
+    const Slab& slab = fine.shape.slab;
+    const auto next = coarser({slab.nx, slab.ny, fine.shape.aspect});
+    if (!next) break;
+    Step step;
+    step.from = next;
+    step.shape = {team.slab(next->shape.nx, next->shape.ny), next->shape.aspect};
+    step.shape.weight = work_of(step.shape.slab) / work_of(problem.shape.slab);
+    step.pitch = fine.pitch * next->pitch_x;
+    const double cells = step.shape.slab.all_nodes() * next->pitch_x * next->pitch_y;
+    step.mean_pressure = fine.mean_pressure * next->pitch_x * (slab.all_nodes() / cells);
+    step.heights = restrict_slabs(
+        team, slab, *next,
+        fine.heights.empty() && steps.size() == 1 ? problem.heights : std::span<const double>(fine.heights));
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+// In place of pressures at their bounds, how far their gaps are from leaving them.
+void to_level_set(SlabLevel& level, double offset, std::span<const double> gap, std::span<double> p) {
+  level.each([=, g = gap.data(), to = p.data(), upper = level.cap,
+              stiffness = level.short_wave_stiffness](std::size_t k) {
+    const double apart = stiffness * (g[k] - offset);
+    if (to[k] <= 0)
+      to[k] = std::min(0.0, -apart);
+    else if (to[k] >= upper)
+      to[k] = upper + std::max(0.0, -apart);
+  });
+}
+
+// A pressure within rounding of a bound is at the bound.
+void snap_to_bounds(SlabLevel& level, std::span<double> p) {
+  const double rounding =
+      std::max(1e-14, level.shape.slab.all_nodes() * std::numeric_limits<double>::epsilon());
+  const double greatest = -level.over<0, 1>([p = p.data()](std::size_t k, double* v) { v[0] = -p[k]; })[0];
+  const double upper = level.cap, least = rounding * std::min(upper, greatest);
+  level.each([=, p = p.data()](std::size_t k) {
+    if (p[k] < least)
+      p[k] = 0;
+    else if (p[k] > upper * (1 - rounding))
+      p[k] = upper;
+  });
+}
+
+}  // namespace
+
+SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& problem,
+                                       std::span<const double> start_pressure,
+                                       std::span<const double> start_gap, Monitor& monitor) {
+  // A process may have no rows, so that an empty start says nothing there.
+  const bool warm = team.reduce<1>({static_cast<double>(start_pressure.size())})[0] > 0;
+  std::vector<Step> steps = nest(team, problem, warm);
+  Progress progress(monitor);
+  SlabCellAnswer answer;
+  answer.levels = static_cast<int>(steps.size());
+  Array<double> carried;  // the level-set field of the grid below
+  double all_work = 0, work_done = 0;
+  for (const Step& step : steps) all_work += step.shape.weight;
+
+  for (std::size_t l = steps.size(); l-- > 0;) {
+    Step& step = steps[l];
+    const bool finest = l == 0;
+    SlabLevel level(team, step.shape, finest ? problem.heights : std::span<const double>(step.heights),
+                    problem.origin, problem.factor, problem.cap * step.pitch, step.mean_pressure);
+    level.length = problem.length;
+    const double tolerance = finest ? problem.tolerance : std::max(coarse_tolerance, problem.tolerance);
+    const double begin = work_done / all_work;
+    work_done += step.shape.weight;
+    level.report = [&](double residual) {
+      progress.report(begin, work_done / all_work, residual, tolerance);
+    };
+
+    SlabFields fields(team, level.nodes());
+    Array<double>& p = fields.pressure;
+    if (warm) {
+      std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
+      to_level_set(level, 0, start_gap, p);
+    } else if (l + 1 == steps.size()) {
+      std::fill(p.begin(), p.end(), step.mean_pressure);
+    } else {
+      const CoarserGrid& from = *steps[l + 1].from;
+      prolong_slabs(team, from, carried, 1 / from.pitch_x, step.shape.slab, p);
+      carried = Array<double>();
+    }
+    project_slabs_to_load(level, p, nullptr, p);
+
+    SlabEnd end = descend_in_slabs(level, fields, tolerance, finest);
+    if (!end.converged) level.gap(p, fields.gap);
+    if (finest) {
+      answer.from_peak = refine_light_contact_in_slabs(level, fields, problem, end);
+      if (std::isfinite(level.cap)) snap_to_bounds(level, p);
+    }
+    const SlabQuality at = slab_quality(level, p, fields.gap);
+    if (finest) {
+      answer.pressure = std::move(p);
+      answer.gap = std::move(fields.gap);
+      answer.offset = at.offset;
+      answer.converged = end.converged;
+      answer.applications = level.applications;
+      answer.stage = end.stage;
+    } else {
+      to_level_set(level, at.interior_gap, fields.gap, p);
+      carried = std::move(p);
+      step.heights = Array<double>();
+    }
+  }
+  return answer;
+}
+
+SlabCellAnswer full_contact_in_slabs(Team& team, const SlabCellProblem& problem, Monitor& monitor) {
+  Progress progress(monitor);
+  SlabLevel level(team, problem.shape, problem.heights, problem.origin, problem.factor, problem.cap,
+                  problem.mean_pressure);
+  level.length = problem.length;
+  SlabCellAnswer answer;
+  answer.stage = "exact filter (full contact)";
+  team.work([&] {
+    answer.pressure.resize(level.nodes());
+    answer.gap.resize(level.nodes());
+  });
+  team.agree();
+  double *const p = answer.pressure.data(), *const g = answer.gap.data();
+  level.apply_inverse([&](std::size_t k) { return level.height(k); },
+                      [=, mean = problem.mean_pressure](std::size_t k, double q) {
+                        g[k] = q;
+                        p[k] = q + mean;
+                      });
+  const auto found = level.over<1, 1>([=, cap = problem.cap](std::size_t k, double* v) {
+    v[0] = p[k] >= cap ? 1.0 : 0.0;
+    v[1] = p[k];
+  });
+  answer.applications = 1;
+  team.work([&] { progress.report(0, 1, 1, 0.5); });
+  if (!(found[0] == 0 && found[1] > 0)) return answer;
+  // Gaps from what pressures differ by: the mean, which moves nothing, may be so large as to hide it.
+  level.gap(answer.gap, answer.gap);
+  answer.applications = 2;
+  const SlabQuality at = slab_quality(level, answer.pressure, answer.gap);
+  answer.offset = at.offset;
+  answer.converged = at.residual <= problem.tolerance;
+  return answer;
+}
+
+}  // namespace asperity

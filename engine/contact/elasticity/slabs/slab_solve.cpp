@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/slabs/slab_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/contact/elasticity/slabs/slab_nest.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string pascals(double p) { return format_quantity(p, dimension::pressure); }
+
+void check(const SlabContactProblem& problem, double mean_pressure) {
+  if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
+    throw Error(ErrorCode::bad_value, "`pressure` is " + pascals(mean_pressure),
+                "a mean pressure is finite and not negative: nothing here pulls");
+  if (mean_pressure > 0 && mean_pressure < 1e-60 * problem.modulus)
+    throw Error(ErrorCode::bad_value,
+                "`pressure` is " + format_short(mean_pressure) +
+                    " Pa, less than 1e-60 of the contact modulus, which over ranks is no contact",
+                "give a larger pressure, or none");
+  if (mean_pressure >= problem.cap)
+    throw Error(ErrorCode::infeasible,
+                "a mean pressure of " + pascals(mean_pressure) + " cannot be carried: `hardness` is " +
+                    pascals(problem.cap) + ", and every node would have to carry as much or more",
+                "press with less than the hardness");
+}
+
+// Over the nodes of this process, then over the processes.
+template <std::size_t sums, std::size_t minima = 0, class Term>
+std::array<double, sums + minima> over(Team& team, std::size_t nodes, Term term) {
+  std::array<double, sums + minima> own{};
+  for (std::size_t i = sums; i < own.size(); ++i) own[i] = infinity;
+  team.work([&] { own = over_nodes<sums, minima>(nodes, term); });
+  return team.reduce<sums, minima>(own);
+}
+
+// As in half_space/half_space_solve.cpp.
+double punch_length(const SlabContactProblem& problem, double mean_pressure) {
+  return mean_pressure / problem.modulus * std::sqrt(problem.surface.grid.area());
+}
+
+bool rough(const SlabContactProblem& problem, double mean_pressure) {
+  const SlabSurface& surface = problem.surface;
+  return surface.rms > 0 && surface.peak > surface.valley &&
+         surface.rms > 1e-9 * punch_length(problem, mean_pressure);
+}
+
+// √mean(slope²) by differences, those from slab to slab left out.
+double rough_slope(Team& team, const SlabSurface& surface) {
+  const Slab& slab = surface.slab;
+  const std::size_t nx = slab.width(), nodes = slab.nodes();
+  const double* const h = surface.heights->data();
+  const auto sums = over<3>(team, nodes, [=](std::size_t k, double* v) {
+    const double x = h[k % nx + 1 < nx ? k + 1 : k + 1 - nx] - h[k];
+    const bool has_next = k + nx < nodes;
+    const double y = has_next ? h[k + nx] - h[k] : 0.0;
+    v[0] = x * x;
+    v[1] = y * y;
+    v[2] = has_next ? 1.0 : 0.0;
+  });
+  const double hx = surface.grid.hx(), hy = surface.grid.hy();
+  const double along_x = sums[0] / slab.all_nodes() / (hx * hx);
+  const double along_y = sums[2] > 0 ? sums[1] / sums[2] / (hy * hy) : along_x;
+  return std::sqrt(along_x + along_y);
+}
+
+// Counts, sums and certificate of the pressures and gaps that the answer holds.
+void certify(Team& team, const SlabContactProblem& problem, SlabContactAnswer& answer) {
+  const double cap = problem.cap, peak = problem.surface.peak, mean_pressure = answer.mean_pressure;
+  const double *const p = answer.pressure.data(), *const g = answer.gap.data();
+  const double* const h = problem.surface.heights->data();
+  const bool capped = std::isfinite(cap);
+  const auto found =
+      over<8, 4>(team, answer.pressure.size(), [=, approach = answer.approach](std::size_t k, double* v) {
+        const double displacement = g[k] + (approach - (peak - h[k]));
+        v[0] = p[k];
+        v[1] = p[k] > 0 ? 1.0 : 0.0;
+        v[2] = p[k] >= cap ? 1.0 : 0.0;
+        v[3] = p[k] * g[k];
+        v[4] = !capped ? 0.0 : g[k] > 0 ? p[k] * g[k] : (p[k] - cap) * g[k];
+        v[5] = std::max(0.0, g[k]);
+        v[6] = (p[k] - mean_pressure) * displacement;  // a uniform pressure moves nothing
+        v[7] = p[k] >= cap ? std::max(0.0, -g[k]) : 0.0;
+        v[8] = g[k];
+        v[9] = p[k] < cap ? g[k] : infinity;
+        v[10] = p[k];
+        v[11] = -p[k];
+      });
+  const double n = problem.surface.slab.all_nodes(), cell = problem.surface.grid.cell_area(),
+               total = found[0];
+  answer.contacts = static_cast<std::int64_t>(found[1]);
+  answer.yielded = static_cast<std::int64_t>(found[2]);
+  answer.peak_pressure = -found[11];
+  answer.mean_gap = found[5] / n;
+  answer.energy = std::max(0.0, 0.5 * found[6] * cell);
+  answer.plastic_volume = found[7] * cell;
+  Certificate& c = answer.certificate;
+  c = {};
+  const double length =
+      rough(problem, mean_pressure) ? problem.surface.rms : punch_length(problem, mean_pressure);
+  if (!(total > 0)) {
+    c.load = mean_pressure > 0 ? 1 : 0;
+  } else {
+    c.complementarity = (capped ? found[4] : found[3] - found[8] * total) / total;
+    c.load = std::abs(total / n - mean_pressure) / mean_pressure;
+    c.tension = std::max(0.0, -found[10]) / mean_pressure;
+    c.cap = capped ? std::max(0.0, answer.peak_pressure - cap) / cap : 0;
+  }
+  c.penetration = std::max(0.0, std::isfinite(found[9]) ? -found[9] : 0.0);
+  if (length > 0) {
+    c.complementarity = std::max(0.0, c.complementarity) / length;
+    c.penetration /= length;
+  }
+  answer.converged = c.worst() <= problem.tolerance;
+}
+
+// The same pressure everywhere: none before the first touch, or on a flat.
+SlabContactAnswer even(Team& team, const SlabContactProblem& problem, double pressure) {
+  SlabContactAnswer answer;
+  const double peak = problem.surface.peak;
+  team.work([&] {
+    answer.pressure.assign(problem.surface.slab.nodes(), pressure);
+    answer.gap.resize(problem.surface.slab.nodes());
+    std::transform(problem.surface.heights->begin(), problem.surface.heights->end(), answer.gap.begin(),
+                   [&](double h) { return peak - h; });
+  });
+  team.agree();
+  answer.offset = -peak;
+  answer.mean_pressure = pressure;
+  answer.solver = pressure > 0 ? "even pressure of a flat" : "first touch";
+  certify(team, problem, answer);
+  return answer;
+}
+
+}  // namespace
+
+SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& problem, double mean_pressure,
+                                          const SlabContactAnswer* start, Monitor& monitor) {
+  check(problem, mean_pressure);
+  const SlabSurface& surface = problem.surface;
+  const Grid& grid = surface.grid;
+  if (mean_pressure == 0 || surface.peak == surface.valley) return even(team, problem, mean_pressure);
+  const bool flat = !rough(problem, mean_pressure);
+  const double height = flat ? mean_pressure / problem.modulus * grid.hx() : surface.rms;
+  const double unit = problem.modulus * (height / grid.hx());  // of pressures, Pa
+
+  SlabCellProblem cell;
+  cell.shape = {surface.slab, grid.hy() / grid.hx(), 1};
+  cell.heights = *surface.heights;
+  cell.origin = surface.mean;
+  cell.factor = 1 / height;
+  cell.highest = surface.peak;
+  cell.cap = problem.cap / unit;
+  cell.mean_pressure = mean_pressure / unit;
+  if (flat) cell.length = std::sqrt(surface.slab.all_nodes() * cell.shape.aspect);
+  // A little less, so that what rounding adds on the way to pascals stays within it.
+  cell.tolerance = 0.99 * problem.tolerance;
+
+  SlabCellAnswer found;
+  if (flat || mean_pressure >= 0.5 * problem.modulus * rough_slope(team, surface))
+    found = full_contact_in_slabs(team, cell, monitor);
+  if (!found.converged) {
+    const int before = found.applications;
+    found = {};
+    Array<double> pressure, gap;
+    if (start != nullptr && start->mean_pressure > 0) {
+      team.work([&] {
+        pressure = start->pressure;
+        gap = start->gap;
+        for (double& p : pressure) p /= unit;
+        for (double& g : gap) g /= height;
+      });
+      team.agree();
+    }
+    found = nested_descent_in_slabs(team, cell, pressure, gap, monitor);
+    found.applications += before;
+  }
+
+  SlabContactAnswer answer;
+  answer.mean_pressure = mean_pressure;
+  for (double& p : found.pressure) p = p >= cell.cap ? problem.cap : std::min(p * unit, problem.cap);
+  for (double& g : found.gap) g = (g - found.offset) * height;
+  answer.pressure = std::move(found.pressure);
+  answer.gap = std::move(found.gap);
+  const double offset = found.offset * height;
+  answer.approach = found.from_peak ? offset : (surface.peak - surface.mean) + offset;
+  answer.offset = found.from_peak ? offset - surface.peak : offset - surface.mean;
+  answer.iterations = found.applications;
+  answer.solver = found.stage;
+  if (found.levels > 1) answer.solver += " on " + std::to_string(found.levels) + " nested grids";
+  certify(team, problem, answer);
+  if (!answer.converged && !problem.best_effort)
+    throw Error(ErrorCode::not_converged,
+                "the contact at " + pascals(mean_pressure) + " reached a residual of " +
+                    format_short(answer.certificate.worst(), 3) + " where `tolerance` asks for " +
+                    format_short(problem.tolerance, 3) + ", after " + std::to_string(answer.iterations) +
+                    " applications of the half-space",
+                "ask for a larger `tolerance`, a finer grid for the same surface, or accept the best reached "
+                "with `on_failure = \"best\"`");
+  return answer;
+}
+
+}  // namespace asperity

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Waiting for the disk. A file that was written and renamed survives a kill at once, a power cut only when
+// the disk has its content, and the folder its name.
+#pragma once
+
+#include <filesystem>
+
+namespace asperity {
+
+// Until the disk has what was written to this file, or the names in this folder. Milliseconds. Throws
+// Error{bad_file} where it cannot be opened or the disk fails.
+void wait_for_disk(const std::filesystem::path& file_or_folder);
+
+}  // namespace asperity

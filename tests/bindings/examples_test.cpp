@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every function and method of the language has an example, and every example runs: after the preamble that
+// the reference shows, in a run of its own, so that none leans on another.
+#include <vector>
+
+#include "bindings/lua/help.hpp"
+#include "bindings/lua/registry.hpp"
+#include "tests/bindings/lua_test.hpp"
+
+namespace asperity::lua {
+namespace {
+
+using Example = LuaTest;
+
+std::vector<const Function*> all_functions() {
+  std::vector<const Function*> found;
+  for (const Module* module : modules()) {
+    if (module->call) found.push_back(&*module->call);
+    for (const Function& function : module->functions) found.push_back(&function);
+  }
+  for (const Class* type : classes())
+    for (const Function& method : type->methods) found.push_back(&method);
+  return found;
+}
+
+TEST_F(Example, EveryFunctionHasOneThatNamesIt) {
+  for (const Function* function : all_functions()) {
+    EXPECT_NE(function->example, "") << qualified_name(*function);
+    EXPECT_NE(function->example.find(function->name), std::string::npos) << qualified_name(*function);
+  }
+}
+
+TEST_F(Example, ThePreambleRunsAndIsShown) {
+  EXPECT_EQ(run(example_preamble()), "");
+  EXPECT_NE(reference_page().find(example_preamble()), std::string::npos);
+}
+
+TEST_F(Example, EveryOneRunsAfterThePreambleAlone) {
+  for (const Function* function : all_functions()) {
+    TearDown();
+    SetUp();
+    EXPECT_EQ(run(example_preamble() + "do " + function->example + " end"), "")
+        << qualified_name(*function) << ": " << function->example;
+    ASSERT_NE(session.run, nullptr);
+    EXPECT_EQ(session.run->expectations().failed(), 0) << qualified_name(*function);
+  }
+}
+
+}  // namespace
+}  // namespace asperity::lua

@@ -1,0 +1,32 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The numbers of docs/teacher.md are those of the lessons: every line of a block under `<!-- lesson: NAME -->` is a
+# line that `asperity lesson NAME --run` prints.
+# usage: teacher.sh PROGRAM [the project's folder]
+set -eu
+program=$(readlink -f -- "$1")
+cd "${2:-$(dirname -- "$0")/../..}"
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+awk -v work="$work" '
+  /^<!-- lesson: / { name = $3; next }
+  name != "" && $0 == "```text" { on = 1; next }
+  on && /^```/ { on = 0; name = ""; next }
+  on { print > (work "/" name ".txt") }' docs/teacher.md
+stale=0 count=0
+for shown in "$work"/*.txt; do
+  name=$(basename "$shown" .txt)
+  "$program" lesson "$name" --run --out "$work/$name" >"$work/$name.out"
+  count=$((count + 1))
+  while IFS= read -r line; do
+    grep -qFx -- "$line" "$work/$name.out" || {
+      echo "docs/teacher.md says of the lesson $name, and it does not print: $line"
+      stale=1
+    }
+  done <"$shown"
+done
+lessons=$(find scripts/lessons -name '*.lua' | wc -l)
+[ "$count" = "$lessons" ] || { echo "docs/teacher.md has the numbers of $count lessons, and there are $lessons" && stale=1; }
+[ $stale = 0 ] || exit 1
+echo "the teacher's page shows what the lessons print"

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# From a clone to a first chart with the README alone, in a root that holds nothing but Debian: the commands of the
+# README, then a script of one's own. Writes docs/newcomer.md, the transcript. Needs root, mmdebstrap and ten minutes.
+#
+#   tests/package/newcomer.sh FOLDER
+set -euo pipefail
+cd "$(dirname -- "$0")/../.."
+folder=$1
+rm -rf "$folder"
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
+root=$folder/root
+page=$PWD/docs/newcomer.md
+fail() { echo "newcomer: $*" >&2; exit 1; }
+
+mmdebstrap --quiet --variant=apt bookworm "$root"
+mkdir "$root/root/asperity"
+git archive HEAD | tar -x -C "$root/root/asperity"
+
+cat > "$root/root/asperity/first.lua" <<'LUA'
+-- How does the area of contact grow with the load?
+local lab = require "asperity"
+local plate = lab.surface.self_affine{ cells=256, size="1 mm", hurst=0.8, rms_slope=0.1, short_wave="16 um",
+                                       material=lab.material "steel" }
+local c = lab.contact{ lower=plate, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
+local book = lab.notebook "area"
+for st in c:sweep{ pressure={ "100 MPa", "200 MPa", "400 MPa", "800 MPa", "1600 MPa" } } do
+  book:write{ ["pressure [Pa]"]=st.pressure, area=st.area_fraction }
+  print(("%5.0f MPa: %4.1f %% touches"):format(st.pressure / 1e6, 100 * st.area_fraction))
+end
+book:chart{ x="pressure", y="area" }
+LUA
+
+# The transcript: each command, and what it says without the noise of package tools and compilers.
+inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 sh -c "cd /root/asperity && $1"; }
+step() {
+  printf '\n```console\n$ %s\n' "$1"
+  inside "$1" > "$folder/step.log" 2>&1 || { cat "$folder/step.log" >&2; fail "$1"; }
+  grep -vE '^(Selecting|Preparing|Unpacking|Setting up|Processing|Get:|Fetched|Reading|Building|\(Reading|-- |debconf:|\[ *[0-9]+%\]|Preset|$)' "$folder/step.log" |
+    grep -vE '^ {2}[A-Z]+=|^Preconfig|^update-alternatives|^invoke-rc.d|^Extracting|^Created symlink|% done:|about .* left$' | tail -n "${2:-25}"
+  printf '```\n'
+}
+{
+  echo "# From a clone to a first chart"
+  echo
+  echo "A machine with nothing but Debian 12 on it, somebody who has read the README, and the commands it names. Made by"
+  echo "\`tests/package/newcomer.sh\`; what package tools and compilers say is left out."
+  step "./lab demo" 30
+  printf '\nA script of their own, `first.lua`:\n\n```lua\n'
+  cat "$root/root/asperity/first.lua"
+  printf '```\n'
+  step "./lab run first.lua"
+  step "ls runs/first-1"
+  printf '\nThe chart, `runs/first-1/%s`:\n\n![Area of contact against pressure](pictures/newcomer.svg)\n' \
+    "$(basename "$root"/root/asperity/runs/first-1/*.svg)"
+} > "$folder/newcomer.md"
+cp "$root"/root/asperity/runs/first-1/*.svg docs/pictures/newcomer.svg
+cp "$folder/newcomer.md" "$page"
+echo "newcomer: wrote docs/newcomer.md"

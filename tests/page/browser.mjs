@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the tests of the page share: a browser, pages that note every complaint of the console and of the
+// content policy, and hands that press keys and wait.
+
+import assert from 'node:assert/strict';
+import { createRequire } from 'node:module';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+export const build = process.env.ASPERITY_PAGE_BUILD;
+export const pageFolder = join(build, 'page');
+const require = createRequire(join(build, 'page-build', 'package.json'));
+const puppeteer = require('puppeteer-core');
+const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+
+export async function openBrowser() {
+  return (puppeteer.default ?? puppeteer).launch({
+    executablePath: process.env.CHROMIUM,
+    headless: true,
+    args: [
+      '--no-sandbox',
+      '--disable-dev-shm-usage',
+      '--use-gl=angle',
+      '--use-angle=swiftshader',
+      '--enable-unsafe-swiftshader',
+      '--hide-scrollbars=false',
+    ],
+  });
+}
+
+/** A page of 1280 x 720 without memory of others; `complaints` fills with what the console says. */
+export async function openPage(browser, url, { scheme = 'light', width = 1280, height = 720, downloads } = {}) {
+  const context = await browser.createBrowserContext(
+    downloads ? { downloadBehavior: { policy: 'allow', downloadPath: downloads } } : {},
+  );
+  const page = await context.newPage();
+  await page.setViewport({ width, height });
+  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
+  const complaints = [];
+  page.on(
+    'console',
+    (m) =>
+      ['error', 'warn'].includes(m.type()) &&
+      !/Failed to load resource|GPU stall|WebGL/.test(m.text()) &&
+      complaints.push(m.text()),
+  );
+  page.on('pageerror', (e) => complaints.push(e.message));
+  await page.evaluateOnNewDocument(() => {
+    window.violations = [];
+    document.addEventListener('securitypolicyviolation', (e) =>
+      window.violations.push(`${e.violatedDirective}: ${e.blockedURI} ${e.sample}`),
+    );
+  });
+  if (url) await page.goto(url);
+  return Object.assign(page, { complaints, done: () => context.close() });
+}
+
+export async function assertQuiet(page) {
+  assert.deepEqual(await page.evaluate(() => window.violations), []);
+  assert.deepEqual(page.complaints, []);
+}
+
+export const pause = (ms) => new Promise((r) => setTimeout(r, ms));
+
+/** Waits until `test` is true of the page. */
+export async function until(page, test, what, ...args) {
+  try {
+    await page.waitForFunction(test, { timeout: 20_000, polling: 50 }, ...args);
+  } catch {
+    const seen = await page.evaluate(() => document.body.innerText.slice(0, 1500));
+    assert.fail(`${what}; the page shows:\n${seen}`);
+  }
+}
+
+export const inEditor = (page, selector) =>
+  until(
+    page,
+    (s) => document.querySelector('#editor').shadowRoot.querySelector(s),
+    `the editor should have ${selector}`,
+    selector,
+  );
+
+export const text = (page, selector) => page.$eval(selector, (e) => e.textContent);
+
+export async function chord(page, ...keys) {
+  for (const key of keys.slice(0, -1)) await page.keyboard.down(key);
+  await page.keyboard.press(keys.at(-1));
+  for (const key of keys.slice(0, -1).reverse()) await page.keyboard.up(key);
+}
+
+export const editorText = (page) =>
+  page.evaluate(() =>
+    [...document.querySelector('#editor').shadowRoot.querySelectorAll('.cm-line')].map((l) => l.textContent).join('\n'),
+  );
+
+/** Puts a script into the editor as a paste does, which closes no brackets by itself. */
+export async function write(page, script) {
+  await (await page.$('>>> .cm-content')).focus();
+  await chord(page, 'Control', 'a');
+  await page.keyboard.press('Backspace');
+  await page.evaluate((t) => {
+    const data = new DataTransfer();
+    data.setData('text/plain', t);
+    document
+      .querySelector('#editor')
+      .shadowRoot.querySelector('.cm-content')
+      .dispatchEvent(new ClipboardEvent('paste', { clipboardData: data, bubbles: true, cancelable: true }));
+  }, script);
+}
+
+export async function run(page, script) {
+  await write(page, script);
+  await chord(page, 'Control', 'Enter');
+}
+
+export const finished = (page, status = 'Done') =>
+  until(
+    page,
+    (s) => document.querySelector('#status').textContent.startsWith(s),
+    `the run should end with ${status}`,
+    status,
+  );
+
+/** How much there is to see on the relief's canvas, and its pixels to compare. */
+export async function pixels(page) {
+  await pause(150);
+  const shot = await (await page.$('.stage')).screenshot({ encoding: 'base64' });
+  return page.evaluate(async (data) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${data}`;
+    await image.decode();
+    const canvas = document.createElement('canvas');
+    [canvas.width, canvas.height] = [image.width, image.height];
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    const bytes = context.getImageData(0, 0, canvas.width, canvas.height).data;
+    const colours = new Map();
+    for (let k = 0; k < bytes.length; k += 4) {
+      const key = (bytes[k] << 16) | (bytes[k + 1] << 8) | bytes[k + 2];
+      colours.set(key, (colours.get(key) ?? 0) + 1);
+    }
+    const most = Math.max(...colours.values());
+    return {
+      colours: colours.size,
+      drawn: 1 - most / (bytes.length / 4),
+      bytes: [...bytes.filter((_, k) => k % 16 === 1)],
+    };
+  }, shot);
+}
+
+export const differing = (a, b) => a.bytes.filter((v, k) => Math.abs(v - b.bytes[k]) > 12).length / a.bytes.length;
+
+/** Nothing is wider than the window, and no visible text is smaller than 13 px. */
+export async function assertFits(page, what) {
+  const found = await page.evaluate(() => {
+    const wide = [];
+    const root = document.scrollingElement;
+    if (root.scrollWidth > innerWidth || root.scrollHeight > innerHeight)
+      wide.push(`the page: ${root.scrollWidth} x ${root.scrollHeight}`);
+    for (const e of document.querySelectorAll(
+      '.bar > *, .pane > *, .panel > *, .toolbar > *, .choices > *, .tabs > *',
+    )) {
+      const box = e.getBoundingClientRect();
+      if (box.width === 0 || e.closest('[hidden], .unseen')) continue;
+      const pane = (e.closest('.pane') ?? document.body).getBoundingClientRect();
+      if (box.right > pane.right + 1 || box.left < pane.left - 1)
+        wide.push(`${e.tagName}.${e.className}#${e.id} ${Math.round(box.left)} to ${Math.round(box.right)}`);
+    }
+    const small = [];
+    for (const e of document.querySelectorAll('body *')) {
+      if (!e.checkVisibility?.() || ![...e.childNodes].some((n) => n.nodeType === 3 && n.data.trim())) continue;
+      const size = parseFloat(getComputedStyle(e).fontSize);
+      if (size < (e.tagName === 'KBD' ? 13 : e.classList.contains('count') || e.closest('svg') ? 14 : 15))
+        small.push(`${e.tagName} ${size}px: ${e.textContent.slice(0, 30)}`);
+    }
+    return { wide, small };
+  });
+  assert.deepEqual(found, { wide: [], small: [] }, what);
+}
+
+export async function assertAccessible(page, what) {
+  await page.evaluate(axe);
+  const found = await page.evaluate(async () => {
+    const result = await window.axe.run(document, {
+      runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'best-practice'],
+    });
+    return result.violations.flatMap((v) =>
+      v.nodes.map((n) => `${v.id}: ${n.target.join(' ')} – ${n.failureSummary.split('\n')[1]?.trim()}`),
+    );
+  });
+  assert.deepEqual(found, [], what);
+}
+
+/** What has the focus, inside shadow roots too. */
+export const focused = (page) =>
+  page.evaluate(() => {
+    let e = document.activeElement;
+    while (e?.shadowRoot?.activeElement) e = e.shadowRoot.activeElement;
+    return e?.id || e?.getAttribute('aria-label') || e?.textContent.trim().slice(0, 60) || e?.className || e?.tagName;
+  });

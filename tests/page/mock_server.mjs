@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A stand-in for `asperity serve`: the same interface and headers, made-up physics. Tests of the page use
+// it for what the real server does not do on demand: a long run, a limit, a connection that breaks.
+// By hand: node mock_server.mjs DIST [PORT]
+
+import { createServer } from 'node:http';
+import { readFile } from 'node:fs/promises';
+import { extname, join, normalize } from 'node:path';
+import { pathToFileURL } from 'node:url';
+
+export const policy =
+  "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'; " +
+  "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+const types = {
+  '.html': 'text/html; charset=utf-8',
+  '.js': 'text/javascript; charset=utf-8',
+  '.css': 'text/css; charset=utf-8',
+  '.svg': 'image/svg+xml',
+  '.txt': 'text/plain; charset=utf-8',
+};
+
+const lessons = [
+  {
+    name: '01_roughness',
+    title: 'What roughness is, and what a stylus misses',
+    minutes: 15,
+    question: 'Three faces have the same Ra. Are they equally rough, and can a stylus tell?',
+    text:
+      'Predict: A ball of 5 µm radius is drawn over the finest. What share of Ra does it find?\n\n**Ra** is how far heights lie from their mean. It does not say how *quickly* they change.\n\n' +
+      '- `swell` has waves of 25 µm\n- `fine` has waves of 1 µm\n\n| face | slope |\n|---|---|\n| swell | 0.1 |\n| fine | 1.2 |\n\n```lua\nlocal s = lab.surface.flat{ cells=8, size=1 }\n```\n\n' +
+      '<img src=x onerror="window.injected=1"> [a link](javascript:window.injected=1) & [another](https://example.org/)\n\n*Then try:* tips on the swell.',
+    script:
+      '-- What roughness is\nlocal lab = require "asperity"\n\nlocal book = lab.notebook "tips"\nfor N = 1, 8 do\n  book:write{ N=N, ["Ra [m]"]=2.9e-6 - N * 1e-7, mu=0.3 + N / 50 }\nend\nprint "three faces"\n',
+  },
+  {
+    name: '02_dimension',
+    title: 'Fractal dimension and its traps',
+    minutes: 10,
+    question: 'Do five methods agree?',
+    text: 'Plain text.',
+    script: '-- two\nlocal lab = require "asperity"\nprint(2)\n',
+  },
+];
+
+function wave(n, scale) {
+  const values = new Float32Array(n * n);
+  for (let j = 0; j < n; ++j) {
+    for (let i = 0; i < n; ++i) {
+      let z = 0;
+      for (let k = 1, a = 1; k < 40; k = k * 1.6 + 1, a *= 0.55) {
+        z += a * Math.sin((6.283 * k * (i * Math.cos(k * 7) + j * Math.sin(k * 7))) / n + k * k);
+      }
+      values[j * n + i] = z * scale;
+    }
+  }
+  return values;
+}
+
+const field = (name, unit, n, values, reduction = 'mean of 8 x 8 nodes', from = 8 * n) => ({
+  name,
+  unit,
+  nx: n,
+  ny: n,
+  size_x: 1e-3,
+  size_y: 1e-3,
+  from_nx: from,
+  from_ny: from,
+  reduction,
+  data: Buffer.from(values.buffer).toString('base64'),
+});
+
+function viewOf(name) {
+  const n = 128;
+  const z = wave(n, 1.2e-6);
+  if (name.startsWith('surface')) return { title: 'Surface 1', event: 1, fields: [field('height', 'm', n, z)] };
+  const top = 1.9e-6;
+  return {
+    title: 'Press 1',
+    event: 2,
+    fields: [
+      field(
+        'gap',
+        'm',
+        n,
+        z.map((v) => Math.max(0, top - v)),
+      ),
+      field(
+        'pressure',
+        'Pa',
+        n,
+        z.map((v) => Math.max(0, v - top) * 2e15),
+      ),
+      field(
+        'contact',
+        '',
+        n,
+        z.map((v) => (v > top ? 1 : 0)),
+      ),
+    ],
+  };
+}
+
+const chart =
+  '<svg xmlns="http://www.w3.org/2000/svg" width="400" height="200"><style>path{stroke:#0b4f7d}</style><rect width="400" height="200" fill="white"/><path d="M20 180L380 20" fill="none"/><text x="30" y="40">Ra against N</text></svg>';
+
+/** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`. */
+function* eventsOf(script) {
+  const lines = script.split('\n');
+  yield { type: 'started' };
+  yield { type: 'view', name: 'surface-1', title: 'Surface 1: weierstrass_mandelbrot' };
+  for (const [k, line] of lines.entries()) {
+    const failing = /^\s*error\s*"(.*)"/.exec(line);
+    if (failing) {
+      yield { type: 'output', stream: 'err', text: 'about to fail\n' };
+      yield {
+        type: 'error',
+        line: k + 1,
+        message: failing[1],
+        hint: 'mend that line',
+        traceback: `script.lua:${k + 1}: in main chunk`,
+      };
+      yield { type: 'finished', status: 'failed', exit: 1, seconds: 0.2 };
+      return;
+    }
+    const printed = /print\s*\(?"(.*)"/.exec(line);
+    if (printed) yield { type: 'output', stream: 'out', text: printed[1] + '\n' };
+    if (/mock\.flood/.test(line))
+      for (let m = 0; m < 30000; ++m)
+        yield { type: 'output', stream: 'out', text: `line ${m} of many, to fill the pane\n` };
+    if (/mock\.limit/.test(line)) {
+      yield { type: 'finished', status: 'limit', exit: 1, seconds: 30, reason: 'the run took longer than 30 s' };
+      return;
+    }
+    if (/while true/.test(line)) {
+      for (let m = 0; m < 600; ++m) {
+        yield 100;
+        yield {
+          type: 'progress',
+          task: 'half-space solve',
+          fraction: m / 600,
+          eta_s: (600 - m) / 10,
+          text: `solving, load ${1 + (m % 7)} of 7`,
+        };
+      }
+    }
+    if (/for N/.test(line)) {
+      for (let N = 1; N <= 8; ++N) {
+        yield 30;
+        yield { type: 'progress', task: 'events', fraction: N / 8, eta_s: 8 - N };
+        for (const face of ['swell', 'fine']) {
+          yield {
+            type: 'row',
+            notebook: 'tips',
+            row: {
+              N,
+              face,
+              Ra: (face === 'fine' ? 2.9e-6 : 2.2e-6) - N * 1e-7,
+              mu: 0.3 + N / 50 + (face === 'fine' ? 0.05 : 0),
+            },
+            units: { Ra: 'm' },
+          };
+        }
+        yield { type: 'output', stream: 'out', text: `event ${N}: Ra ${(2.9 - N / 10).toFixed(2)} um\n` };
+      }
+    }
+  }
+  yield { type: 'view', name: 'press-1', title: 'Press 1: 152.8 MPa' };
+  yield { type: 'file', name: 'tips.csv', bytes: 512, kind: 'table' };
+  yield { type: 'file', name: 'chart.svg', bytes: chart.length, kind: 'chart' };
+  yield { type: 'expectation', text: 'Ra falls with N', held: true };
+  yield { type: 'expectation', text: 'mu at most 0.4', held: false };
+  yield { type: 'finished', status: 'done', exit: 0, seconds: 1.23 };
+}
+
+export async function startMock(folder, { token = 'testtoken', port = 0, most = 2 } = {}) {
+  const runs = new Map();
+  let cut = 0; // how many event streams to break off
+  const start = (script, name) => {
+    const run = { id: String(runs.size + 1), name, events: [], waiters: new Set(), stopped: false };
+    const put = (event) => {
+      run.events.push({ n: run.events.length + 1, ...event });
+      run.waiters.forEach((w) => w());
+    };
+    runs.set(run.id, run);
+    (async () => {
+      for (const event of eventsOf(script)) {
+        if (run.stopped) return put({ type: 'finished', status: 'stopped', exit: 130, seconds: 0.5 });
+        if (typeof event === 'number') await new Promise((r) => setTimeout(r, event));
+        else put(event);
+      }
+    })();
+    return run;
+  };
+  const over = (run) => run.events.at(-1)?.type === 'finished';
+
+  const server = createServer(async (request, response) => {
+    const url = new URL(request.url, 'http://x');
+    const headers = {
+      'Content-Security-Policy': policy,
+      'X-Content-Type-Options': 'nosniff',
+      'Referrer-Policy': 'no-referrer',
+      'Cache-Control': 'no-store',
+    };
+    const send = (status, body, type = 'application/json') => {
+      response.writeHead(status, { ...headers, 'Content-Type': type });
+      response.end(type === 'application/json' ? JSON.stringify(body) : body);
+    };
+    try {
+      if (!url.pathname.startsWith('/api/')) {
+        const path = normalize(url.pathname === '/' ? '/index.html' : url.pathname);
+        return send(200, await readFile(join(folder, path)), types[extname(path)] ?? 'application/octet-stream');
+      }
+      if (request.headers.authorization !== `Bearer ${token}`)
+        return send(401, { error: 'the token is missing or not this server’s' });
+      let text = '';
+      for await (const piece of request) text += piece;
+      const body = text ? JSON.parse(text) : {};
+      const [, , what, id, part, ...rest] = url.pathname.split('/').map(decodeURIComponent);
+      if (what === 'about')
+        return send(200, {
+          version: '0.1.0',
+          limits: { memory_bytes: 1e9, seconds: 30, output_bytes: 1e6, runs: most },
+          classroom: false,
+        });
+      if (what === 'lessons') {
+        if (!id)
+          return send(
+            200,
+            lessons.map(({ text: _t, script: _s, ...entry }) => entry),
+          );
+        const lesson = lessons.find((l) => l.name === id);
+        return lesson ? send(200, lesson) : send(404, { error: 'no such lesson' });
+      }
+      if (what === 'check') {
+        const marks = [];
+        body.script.split('\n').forEach((line, k) => {
+          const column = line.indexOf('amplitud=');
+          if (column >= 0)
+            marks.push({
+              line: k + 1,
+              column: column + 1,
+              severity: 'error',
+              message: 'unknown key `amplitud`',
+              hint: 'did you mean `amplitude`?',
+            });
+        });
+        return send(200, { marks, checked_to: body.script.split('\n').length });
+      }
+      if (what === 'complete') {
+        const before = body.text.slice(0, body.position);
+        const word = /\w*$/.exec(before)[0];
+        const all = /surface\.\w*$/.test(before)
+          ? [
+              ['flat', 'module', '{ cells, size }', 'A flat at height zero.'],
+              ['sine', 'module', '{ cells, size, amplitude, … }', 'Waves along one way or two.'],
+              [
+                'self_affine',
+                'module',
+                '{ cells, size, hurst, … }',
+                'A self-affine surface: its spectrum falls as a power of the wave number between roll-off and the shortest wave.',
+              ],
+            ]
+          : [
+              ['lab', 'global', 'the laboratory', 'Everything there is.'],
+              ['local', 'keyword', '', ''],
+            ];
+        return send(200, {
+          from: body.position - word.length,
+          candidates: all
+            .filter(([t]) => t.startsWith(word))
+            .map(([t, kind, detail, help]) => ({ text: t, kind, detail, help })),
+        });
+      }
+      if (what === 'runs' && !id) {
+        if (request.method === 'GET')
+          return send(
+            200,
+            [...runs.values()].map((r) => ({ id: r.id, name: r.name, state: over(r) ? 'finished' : 'running' })),
+          );
+        if ([...runs.values()].filter((r) => !over(r)).length >= most)
+          return send(429, {
+            error: `${most} runs are going, as many as this server allows`,
+            hint: 'wait until one has ended, or stop one',
+          });
+        return send(201, { id: start(body.script, body.name).id });
+      }
+      const run = runs.get(id);
+      if (!run) return send(404, { error: `there is no run ${id}` });
+      if (request.method === 'DELETE') {
+        run.stopped = true;
+        return send(200, {});
+      }
+      if (part === 'events') {
+        response.writeHead(200, { ...headers, 'Content-Type': 'application/x-ndjson' });
+        let seen = Number(url.searchParams.get('after') ?? 0);
+        const broken = cut > 0 && cut--;
+        for (;;) {
+          const news = run.events.slice(seen);
+          seen += news.length;
+          if (news.length) response.write(news.map((e) => JSON.stringify(e) + '\n').join(''));
+          if (over(run) && seen === run.events.length) return response.end();
+          if (broken && seen > 4) return response.destroy();
+          await new Promise((r) => {
+            run.waiters.add(r);
+          });
+          if (response.destroyed) return undefined;
+        }
+      }
+      if (part === 'views') return send(200, viewOf(rest[0]));
+      if (part === 'files')
+        return rest[0] === 'chart.svg'
+          ? send(200, chart, 'image/svg+xml')
+          : send(200, 'N,Ra [m]\n1,2.8e-06\n', 'text/csv');
+      return send(404, { error: 'nothing is there' });
+    } catch (error) {
+      if (!response.headersSent) send(error.code === 'ENOENT' ? 404 : 500, { error: String(error) });
+      return undefined;
+    }
+  });
+  await new Promise((r) => server.listen(port, '127.0.0.1', r));
+  const address = `http://127.0.0.1:${server.address().port}`;
+  return {
+    address,
+    url: `${address}/#${token}`,
+    cut: (count) => (cut = count),
+    close: () => new Promise((r) => (server.closeAllConnections?.(), server.close(r))),
+  };
+}
+
+if (process.argv[1] && import.meta.url === pathToFileURL(process.argv[1]).href) {
+  const mock = await startMock(process.argv[2], { port: Number(process.argv[3] ?? 0) });
+  console.log(mock.url);
+}

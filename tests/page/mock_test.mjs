@@ -1,0 +1,486 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page in Chromium against the stand-in for the server: everything a person does, and everything that
+// can go wrong between page and server.
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test as register } from 'node:test';
+import * as on from './browser.mjs';
+import { startMock } from './mock_server.mjs';
+
+const test = (name, act) => register(name, { timeout: 90_000 }, act);
+
+let browser, mock;
+before(async () => {
+  browser = await on.openBrowser();
+  mock = await startMock(on.pageFolder);
+});
+after(async () => {
+  await browser?.close();
+  await mock?.close();
+});
+
+const ready = (page) =>
+  on.until(page, () => document.querySelector('.lessons button, .lesson'), 'the lessons should be listed');
+const tab = (page, name) => page.click(`#tab-${name}`);
+
+/** Opens the page, does, and sees that console and content policy had nothing to say. */
+async function visit(options, act) {
+  const page = await on.openPage(browser, mock.url, options);
+  try {
+    await ready(page);
+    await act(page);
+    await on.assertQuiet(page);
+  } finally {
+    await page.done();
+  }
+}
+
+test('Start, UnderOneSecond', async () => {
+  const times = [];
+  for (let k = 0; k < 5; ++k) {
+    const page = await on.openPage(browser, mock.url);
+    await ready(page);
+    times.push(await page.evaluate(() => performance.getEntriesByName('asperity-ready')[0].startTime));
+    await page.done();
+  }
+  console.log(`interactive after ${times.map((t) => `${Math.round(t)} ms`).join(', ')}`);
+  assert.ok(Math.min(...times) < 1000, times.join());
+});
+
+test('Token, LeavesTheAddressAndOutlivesAReload', () =>
+  visit({}, async (page) => {
+    assert.equal(page.url(), `${mock.address}/`);
+    await page.reload();
+    await ready(page);
+    assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
+  }));
+
+test('Lesson, OpenedEditedKeptReset', () =>
+  visit({}, async (page) => {
+    await page.click('.lessons button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    assert.match(await on.text(page, '#lessons'), /Three faces have the same Ra/);
+    assert.match(await on.text(page, '#lessons'), /A ball of 5 µm radius/);
+    assert.match(await on.editorText(page), /lab\.notebook "tips"/);
+    await on.write(page, 'print "mine"\n');
+    await page.type('.prediction textarea', 'about half');
+    await page.reload();
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should be open again');
+    assert.equal((await on.editorText(page)).trim(), 'print "mine"');
+    assert.equal(await page.$eval('.prediction textarea', (e) => e.value), 'about half');
+    await page.click('#reset');
+    assert.match(await on.editorText(page), /lab\.notebook "tips"/);
+    assert.equal(await page.$eval('#reset', (e) => e.hidden), true);
+  }));
+
+test('Lesson, MarkupInItsTextStaysText', () =>
+  visit({}, async (page) => {
+    await page.click('.lessons button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    assert.match(await on.text(page, '.lesson'), /<img src=x onerror="window.injected=1">/);
+    assert.equal(await page.$('.lesson img'), null);
+    assert.deepEqual(await page.$$eval('.lesson a', (links) => links.map((l) => l.href)), ['https://example.org/']);
+    assert.equal(await page.evaluate(() => window.injected), undefined);
+  }));
+
+test('Run, OutputRowsExpectationsAndFiles', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'print "before <b>"\nfor N = 1, 8 do end\n');
+    await on.finished(page);
+    assert.match(await on.text(page, '.output'), /^before <b>\nevent 1: Ra 2\.80 um\n/);
+    assert.match(await on.text(page, '.expectations'), /held: Ra falls with N.*not held: mu at most 0\.4/);
+    await tab(page, 'table');
+    await on.until(
+      page,
+      () => document.querySelectorAll('#table tbody tr').length === 16,
+      'a row of the table for every row of the notebooks',
+    );
+    assert.deepEqual(await page.$$eval('#table thead th', (h) => h.map((e) => e.textContent)), [
+      '#',
+      'N',
+      'face',
+      'Ra [µm]',
+      'mu',
+    ]);
+    assert.deepEqual(await page.$$eval('#table tbody tr:first-child td', (h) => h.map((e) => e.textContent)), [
+      '1',
+      '1',
+      'swell',
+      '2.1',
+      '0.32',
+    ]);
+    await tab(page, 'files');
+    await on.until(
+      page,
+      () => document.querySelector('.previews img')?.naturalWidth === 400,
+      'the chart should be shown',
+    );
+    assert.deepEqual(await page.$$eval('.files button', (b) => b.map((e) => e.textContent)), ['tips.csv', 'chart.svg']);
+    await page.click('.previews button');
+    assert.equal(await page.$eval('dialog.enlarged', (e) => e.open), true);
+    await page.keyboard.press('Escape');
+    await on.until(page, () => !document.querySelector('dialog.enlarged'), 'Escape should close it');
+  }));
+
+test('Run, ProgressAndStopByEscape', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'while true do end\n');
+    await on.until(
+      page,
+      () => /half-space solve · [1-9]\d* % · about \d+ s left/.test(document.querySelector('#status').textContent),
+      'progress should be told',
+    );
+    assert.ok((await page.$eval('#progress', (e) => e.value)) > 0);
+    assert.equal(await page.$eval('#run', (e) => e.disabled), true);
+    await page.keyboard.press('Escape');
+    await on.finished(page, 'Stopped');
+    assert.equal(await page.$eval('#run', (e) => e.disabled), false);
+  }));
+
+test('Run, StopByButton', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'while true do end\n');
+    await page.waitForSelector('#stop:not([disabled])');
+    await page.click('#stop');
+    await on.finished(page, 'Stopped');
+  }));
+
+test('Run, TakenUpAgainAfterAReload', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'print "early"\nwhile true do end\n');
+    await on.until(
+      page,
+      () => document.querySelector('.output').textContent.includes('early'),
+      'the output should come',
+    );
+    await page.reload();
+    await on.until(
+      page,
+      () =>
+        document.querySelector('.output')?.textContent.includes('early') && !document.querySelector('#stop').disabled,
+      'the run should go on',
+    );
+    await page.click('#stop');
+    await on.finished(page, 'Stopped');
+  }));
+
+test('Run, ABrokenConnectionIsTakenUpWhereItWas', () =>
+  visit({}, async (page) => {
+    mock.cut(2);
+    await on.run(page, 'for N = 1, 8 do end\n');
+    await on.finished(page);
+    assert.equal((await on.text(page, '.output')).match(/event \d/g).length, 8);
+  }));
+
+test('Run, LongOutputKeepsItsEndAndSaysSo', () =>
+  visit({}, async (page) => {
+    await on.run(page, '-- mock.flood\n');
+    await on.finished(page);
+    const shown = await on.text(page, '.output');
+    assert.match(shown, /^… the first \d+ characters are not shown/);
+    assert.ok(shown.endsWith('line 29999 of many, to fill the pane\n'));
+  }));
+
+test('Mistakes, MarkedAtTheirLine', () =>
+  visit({}, async (page) => {
+    await on.write(page, 'local lab = require "asperity"\nlab.surface.sine{ amplitud=1 }\n');
+    await on.until(page, () => document.querySelector('#problems li'), 'the check should find it');
+    assert.equal(await on.text(page, '#problems li'), 'Line 2unknown key amplitud\ndid you mean amplitude?');
+    assert.equal((await page.$$('>>> .cm-lintRange-error')).length, 1);
+    await on.run(page, 'local x = 1\nerror "no `such` load"\n');
+    await on.finished(page, 'Failed');
+    assert.match(await on.text(page, '#output .failure'), /^Line 2 no such loadmend that line/);
+    assert.equal(
+      (await page.$$eval('>>> .cm-lintRange-error', (parts) => parts.map((e) => e.textContent))).join(''),
+      'error "no `such` load"',
+    );
+    assert.match(await on.text(page, '#live'), /Line 2: no `such` load/);
+  }));
+
+test('Completion, ByTypingAndByKey', () =>
+  visit({}, async (page) => {
+    await on.write(page, '');
+    await page.keyboard.type('x = lab.surface.se');
+    await on.inEditor(page, '.cm-tooltip-autocomplete li');
+    await on.pause(150);
+    await page.keyboard.press('Enter');
+    assert.equal(await on.editorText(page), 'x = lab.surface.self_affine');
+    await on.write(page, 'lab.surface.');
+    await on.chord(page, 'Control', ' ');
+    await on.inEditor(page, '.cm-tooltip-autocomplete li');
+    assert.equal((await page.$$('>>> .cm-tooltip-autocomplete li')).length, 3);
+    await page.keyboard.press('Escape');
+  }));
+
+test('Chart, AnyColumnAgainstAnyOther', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'for N = 1, 8 do end\n');
+    await on.finished(page);
+    await tab(page, 'chart');
+    await page.waitForSelector('.chart svg circle');
+    const [x, y, per] = (await page.$$('.charts select')).slice(-3);
+    assert.match(await on.text(page, '.charts .caption'), /^Ra \[µm\] against N: 16 points, 2 lines, one per face\./);
+    await per.select('');
+    assert.match(await on.text(page, '.charts .caption'), /^Ra \[µm\] against N: 16 points\./);
+    await x.select('Ra');
+    await y.select('mu');
+    await per.select('face');
+    assert.match(await on.text(page, '.charts .caption'), /^mu against Ra \[µm\]: 16 points, 2 lines, one per face\./);
+    assert.deepEqual([(await page.$$('.chart svg circle')).length, (await page.$$('.chart svg rect')).length], [9, 9]);
+    for (const box of await page.$$('.charts input[type=checkbox]')) await box.click();
+    assert.match(await on.text(page, '.chart svg'), /0\.4/);
+    await on.assertFits(page, 'the chart');
+  }));
+
+test('Picture, DrawnTurnedExaggeratedAndHonest', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'for N = 1, 8 do end\n');
+    await on.finished(page);
+    await tab(page, 'picture');
+    await on.until(
+      page,
+      () => document.querySelector('.picture .caption, .pictures .caption').textContent,
+      'the picture should come',
+    );
+    assert.equal(
+      await on.text(page, '.pictures .caption'),
+      '1 × 1 mm · gap, drawn downwards, × 50 · shown: 128 × 128 means of 8 × 8 nodes of 1024 × 1024',
+    );
+    await page.focus('.relief');
+    await page.keyboard.press('Home');
+    const first = await on.pixels(page);
+    assert.ok(first.colours > 100 && first.drawn > 0.15, `blank: ${first.colours} colours, ${first.drawn}`);
+    for (let k = 0; k < 3; ++k) await page.keyboard.press('ArrowLeft');
+    const turned = await on.pixels(page);
+    assert.ok(on.differing(first, turned) > 0.02, 'arrow keys should turn it');
+    await page.keyboard.press('Home');
+    assert.ok(on.differing(first, await on.pixels(page)) < 0.002, 'Home should put it back');
+    const box = await (await page.$('.stage')).boundingBox();
+    await page.mouse.move(box.x + 100, box.y + 100);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 220, box.y + 140, { steps: 4 });
+    await page.mouse.up();
+    assert.ok(on.differing(first, await on.pixels(page)) > 0.02, 'the mouse should turn it');
+    await page.focus('.pictures input[type=range]');
+    await page.keyboard.press('ArrowRight');
+    await on.pause(100);
+    assert.match(await on.text(page, '.pictures .caption'), /× 100 ·/);
+    const [, colour] = await page.$$('.pictures select');
+    await colour.select('contact');
+    await on.pause(200);
+    assert.match(await on.text(page, '.key'), /contactshare/);
+    const [which] = await page.$$('.pictures select');
+    await which.select('surface-1');
+    await on.until(
+      page,
+      () => /heights × 50/.test(document.querySelector('.pictures .caption').textContent),
+      'the surface should come',
+    );
+    assert.match(await on.text(page, '.key'), /height\[µm\]/);
+  }));
+
+test('Keyboard, Alone', () =>
+  visit({}, async (page) => {
+    const seen = [];
+    for (let k = 0; k < 7; ++k) {
+      await page.keyboard.press('Tab');
+      seen.push(await on.focused(page));
+    }
+    assert.deepEqual(seen.slice(0, 3), ['lessons-button', 'run', 'keys-button']);
+    assert.ok(
+      await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle !== 'none'),
+      'the focus should be seen',
+    );
+    // A lesson, by Enter on its button.
+    await page.focus('#keys-button');
+    for (let k = 0; k < 20 && !(await on.focused(page)).includes('What roughness'); ++k)
+      await page.keyboard.press('Tab');
+    await page.keyboard.press('Enter');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    await page.keyboard.press('F6');
+    assert.match(await on.focused(page), /Script in Lua/);
+    await page.keyboard.press('Tab');
+    assert.match(await on.editorText(page), /^ {2}/, 'Tab indents');
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Tab');
+    assert.doesNotMatch(await on.focused(page), /Script in Lua/, 'Escape, then Tab, leaves');
+    await on.chord(page, 'Control', 'Enter');
+    await on.finished(page);
+    await page.keyboard.press('F6');
+    if (!(await on.focused(page)).startsWith('tab-')) await page.keyboard.press('F6');
+    assert.equal(await on.focused(page), 'tab-output');
+    for (const name of ['table', 'chart', 'picture', 'files']) {
+      await page.keyboard.press('ArrowRight');
+      assert.equal(await on.focused(page), `tab-${name}`);
+      assert.equal(await page.$eval(`#${name}`, (e) => e.hidden), false);
+    }
+    await page.waitForSelector('.previews img');
+    await page.keyboard.press('Tab');
+    assert.match(await on.focused(page), /Save tips\.csv|Enlarge chart\.svg/);
+    await on.chord(page, 'Shift', 'F6');
+    assert.match(await on.focused(page), /Script in Lua/);
+    // A divider, by its arrow keys.
+    await page.focus('#results-divider');
+    const width = () => page.$eval('#results', (e) => e.clientWidth);
+    const before = await width();
+    await page.keyboard.press('ArrowLeft');
+    assert.ok((await width()) > before);
+    // The list of keys opens, closes, and gives the focus back.
+    await page.focus('#keys-button');
+    await page.keyboard.press('Enter');
+    assert.equal(await page.$eval('#keys', (e) => e.open), true);
+    await page.keyboard.press('Escape');
+    assert.equal(await page.$eval('#keys', (e) => e.open), false);
+    assert.equal(await on.focused(page), 'keys-button');
+  }));
+
+for (const scheme of ['light', 'dark']) {
+  test(`Projector, Everything fits and is legible in ${scheme}`, () =>
+    visit({ scheme }, async (page) => {
+      await on.assertFits(page, 'at the start');
+      await on.assertAccessible(page, 'at the start');
+      await page.click('.lessons button');
+      await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+      await on.run(page, 'print "x"\nlab.surface.sine{ amplitud=1 }\nfor N = 1, 8 do end\n');
+      await on.finished(page);
+      for (const name of ['output', 'table', 'chart', 'picture', 'files']) {
+        await tab(page, name);
+        await on.pause(name === 'picture' ? 800 : 200);
+        await on.assertFits(page, name);
+        await on.assertAccessible(page, name);
+      }
+      await on.run(page, 'error "it must be legible too"\n');
+      await on.finished(page, 'Failed');
+      await on.assertFits(page, 'an error');
+      await on.assertAccessible(page, 'an error');
+      await page.click('#keys-button');
+      await on.assertAccessible(page, 'the keys');
+    }));
+}
+
+test('Save, OneFileThatOpensAnywhere', async () => {
+  const downloads = mkdtempSync(join(tmpdir(), 'asperity-page-'));
+  try {
+    await visit({ downloads }, async (page) => {
+      await page.click('.lessons button');
+      await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+      await page.type('.prediction textarea', 'it <i>halves</i>');
+      await on.run(
+        page,
+        '-- </script><script>window.injected=1</script> & "quoted"\nprint "</pre><b>bold</b>"\nfor N = 1, 8 do end\n',
+      );
+      await on.finished(page);
+      await page.click('#save');
+      await on.until(
+        page,
+        () => document.querySelector('#live').textContent.startsWith('Saved'),
+        'the run should be saved',
+      );
+      assert.equal(await on.text(page, '#live'), 'Saved.');
+      for (let k = 0; k < 100 && !readdirSync(downloads).some((f) => f.endsWith('.html')); ++k) await on.pause(50);
+    });
+    const [name] = readdirSync(downloads).filter((f) => f.endsWith('.html'));
+    assert.equal(name, 'what-roughness-is-and-what-a-stylus-misses.html');
+    const html = readFileSync(join(downloads, name), 'utf8');
+    assert.doesNotMatch(html, /<script|\bsrc="(?!data:)|href="(?!data:)|url\(/i);
+
+    const saved = await on.openPage(browser);
+    const asked = [];
+    saved.on('request', (r) => asked.push(r.url()));
+    await saved.goto(`file://${join(downloads, name)}`);
+    const shown = await saved.evaluate(() => document.body.innerText);
+    assert.match(shown, /<\/script><script>window\.injected=1<\/script> & "quoted"/);
+    assert.match(shown, /<\/pre><b>bold<\/b>/);
+    assert.match(shown, /it <i>halves<\/i>/);
+    assert.match(shown, /Ra \[µm\]/);
+    assert.match(shown, /held: Ra falls with N/);
+    assert.match(shown, /128 × 128 means of 8 × 8 nodes of 1024 × 1024/);
+    assert.equal(await saved.evaluate(() => window.injected), undefined);
+    const counts = await saved.evaluate(async () => {
+      const images = [...document.querySelectorAll('img')];
+      await Promise.all(images.map((i) => i.decode()));
+      return {
+        rows: document.querySelectorAll('tbody tr').length,
+        points: document.querySelectorAll('svg circle').length,
+        images: images.length,
+        reliefs: document.querySelectorAll('svg image').length,
+      };
+    });
+    assert.deepEqual(counts, { rows: 16, points: 9, images: 1, reliefs: 2 });
+    assert.deepEqual(
+      asked.filter((a) => !a.startsWith('data:') && !a.startsWith('file:')),
+      [],
+    );
+    await on.assertQuiet(saved);
+    await saved.done();
+  } finally {
+    rmSync(downloads, { recursive: true });
+  }
+});
+
+test('Messages, NoTokenAndAWrongOne', async () => {
+  const none = await on.openPage(browser, `${mock.address}/`);
+  await none.waitForSelector('#banner:not([hidden])');
+  assert.match(await on.text(none, '#banner'), /opened without its token.*Open the whole address/);
+  assert.equal(await none.$eval('#run', (e) => e.disabled), true);
+  await none.done();
+  const wrong = await on.openPage(browser, `${mock.address}/#other`);
+  await wrong.waitForSelector('#banner:not([hidden])');
+  assert.match(await on.text(wrong, '#banner'), /does not know this page’s token/);
+  await wrong.done();
+});
+
+test('Messages, RunsAtTheirLimitAndARunThatReachedOne', () =>
+  visit({}, async (page) => {
+    const others = [];
+    for (let k = 0; k < 2; ++k) {
+      others.push(
+        await page.evaluate(
+          async () =>
+            (
+              await (
+                await fetch('/api/runs', {
+                  method: 'POST',
+                  headers: { Authorization: 'Bearer testtoken' },
+                  body: JSON.stringify({ script: 'while true' }),
+                })
+              ).json()
+            ).id,
+        ),
+      );
+    }
+    await on.run(page, 'print "one more"\n');
+    await page.waitForSelector('#banner:not([hidden])');
+    assert.match(
+      await on.text(page, '#banner'),
+      /2 runs are going, as many as this server allows\. Wait until one has ended, or stop one/,
+    );
+    for (const id of others)
+      await page.evaluate(
+        (i) => fetch(`/api/runs/${i}`, { method: 'DELETE', headers: { Authorization: 'Bearer testtoken' } }),
+        id,
+      );
+    await on.pause(400);
+    await on.run(page, '-- mock.limit\n');
+    await on.finished(page, 'Ended at a limit');
+    assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
+    assert.match(await on.text(page, '.end'), /the run took longer than 30 s/);
+  }));
+
+test('Messages, TheServerIsGoneAndComesBack', async () => {
+  const other = await startMock(on.pageFolder);
+  const port = Number(new URL(other.address).port);
+  const page = await on.openPage(browser, other.url);
+  await ready(page);
+  await other.close();
+  await on.write(page, 'print "kept"\n');
+  await page.waitForSelector('#banner:not([hidden])');
+  assert.match(await on.text(page, '#banner'), /The server does not answer.*What you wrote is kept/);
+  const again = await startMock(on.pageFolder, { port });
+  await on.until(page, () => document.querySelector('#banner').hidden, 'the message should go when the server is back');
+  await page.done();
+  await again.close();
+});

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page in Chromium, served by the program: a lesson is opened, edited, run and stopped, its picture
+// looked at, a mistake marked, a name completed, and the run saved.
+
+import assert from 'node:assert/strict';
+import { spawn, spawnSync } from 'node:child_process';
+import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test as register } from 'node:test';
+import * as on from './browser.mjs';
+
+const program = process.env.ASPERITY_PROGRAM;
+const serves = spawnSync(program, ['serve', '--help']).status === 0;
+const test = (name, act) =>
+  register(name, { timeout: 120_000, skip: serves ? false : 'this program has no `asperity serve`' }, act);
+
+let browser, server, url, folder;
+before(async () => {
+  if (!serves) return;
+  folder = mkdtempSync(join(tmpdir(), 'asperity-served-'));
+  const port = 20000 + Math.floor(Math.random() * 20000);
+  server = spawn(program, ['serve', '--port', String(port), '--out', join(folder, 'runs'), '--limit-time', '60s']);
+  url = await new Promise((resolve, reject) => {
+    let said = '';
+    const hear = (data) => {
+      said += data;
+      const found = /http:\/\/\S+#\S+/.exec(said);
+      if (found) resolve(found[0]);
+    };
+    server.stdout.on('data', hear);
+    server.stderr.on('data', hear);
+    server.on('exit', (code) => reject(new Error(`asperity serve ended with ${code}: ${said}`)));
+  });
+  browser = await on.openBrowser();
+});
+after(async () => {
+  await browser?.close();
+  if (server) {
+    const ended = new Promise((r) => server.on('exit', r));
+    server.kill('SIGINT');
+    await ended;
+  }
+  if (folder) rmSync(folder, { recursive: true });
+});
+
+async function visit(options, act) {
+  const page = await on.openPage(browser, url, options);
+  try {
+    await on.until(page, () => document.querySelector('.lessons button'), 'the lessons should be listed');
+    await act(page);
+    await on.assertQuiet(page);
+  } finally {
+    await page.done();
+  }
+}
+
+test('Served, UnderOneSecond', () =>
+  visit({}, async (page) => {
+    const times = [];
+    for (let k = 0; k < 5; ++k) {
+      await page.reload();
+      await on.until(page, () => document.querySelector('.lessons button'), 'the lessons should be listed');
+      times.push(await page.evaluate(() => performance.getEntriesByName('asperity-ready')[0].startTime));
+    }
+    console.log(`interactive after ${times.map((t) => `${Math.round(t)} ms`).join(', ')}`);
+    assert.ok(Math.min(...times) < 1000, times.join());
+  }));
+
+test('Lesson, OpenedEditedRunLookedAtAndSaved', async () => {
+  const downloads = join(folder, 'saved');
+  await visit({ downloads }, async (page) => {
+    assert.ok((await page.$$('.lessons button')).length >= 8);
+    await page.click('.lessons li:nth-child(4) button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    assert.match(await on.text(page, '#lessons'), /Question.*Predict/s);
+    await on.until(page, () => !document.querySelector('#problems li.error'), 'the lesson should have no mistakes');
+    await (await page.$('>>> .cm-content')).focus();
+    await on.chord(page, 'Control', 'End');
+    await page.keyboard.type('\nprint "edited by a reader"');
+    await on.chord(page, 'Control', 'Enter');
+    await on.until(
+      page,
+      () => /^(Done|Failed|Ended)/.test(document.querySelector('#status').textContent),
+      'the lesson should end',
+    );
+    assert.match(await on.text(page, '#status'), /^Done/);
+    assert.match(await on.text(page, '.output'), /edited by a reader\n$/);
+    assert.ok(Number(await on.text(page, '#tab-table .count')) > 0);
+    await page.click('#tab-chart');
+    await page.waitForSelector('.chart svg path');
+    await page.click('#tab-picture');
+    await on.until(page, () => document.querySelector('.pictures .caption').textContent, 'the picture should come');
+    assert.match(
+      await on.text(page, '.pictures .caption'),
+      /· (shown: \d+ × \d+ means of \d+ × \d+ nodes of \d+ × \d+|all \d+ × \d+ nodes shown)/,
+    );
+    await page.focus('.relief');
+    await page.keyboard.press('Home');
+    const first = await on.pixels(page);
+    assert.ok(first.colours > 50 && first.drawn > 0.1, `blank: ${first.colours} colours, ${first.drawn}`);
+    await page.keyboard.press('ArrowLeft');
+    await page.keyboard.press('ArrowLeft');
+    assert.ok(on.differing(first, await on.pixels(page)) > 0.01, 'it should turn');
+    await page.click('#tab-files');
+    await page.waitForSelector('.files button');
+    await on.assertFits(page, 'the files');
+    await page.click('#save');
+    await on.until(
+      page,
+      () => document.querySelector('#live').textContent.startsWith('Saved'),
+      'the run should be saved',
+    );
+    assert.equal(await on.text(page, '#live'), 'Saved.');
+    for (let k = 0; k < 100 && !readdirSync(downloads).some((f) => f.endsWith('.html')); ++k) await on.pause(50);
+  });
+  const [name] = readdirSync(downloads).filter((f) => f.endsWith('.html'));
+  assert.match(readFileSync(join(downloads, name), 'utf8'), /edited by a reader/);
+  const saved = await on.openPage(browser, `file://${join(downloads, name)}`);
+  assert.ok(
+    await saved.evaluate(
+      () => document.querySelectorAll('svg image').length > 0 && document.querySelectorAll('tbody tr').length > 0,
+    ),
+  );
+  await on.assertQuiet(saved);
+  await saved.done();
+});
+
+test('Run, StoppedKeepsItsRows', () =>
+  visit({}, async (page) => {
+    await on.run(
+      page,
+      'local lab = require "asperity"\nlocal book = lab.notebook "kept"\nbook:write{ ["a [m]"]=2e-6 }\nprint "on"\nwhile true do end\n',
+    );
+    await on.until(page, () => document.querySelector('.output')?.textContent.includes('on'), 'it should run');
+    await page.keyboard.press('Escape');
+    await on.finished(page, 'Stopped');
+    await page.click('#tab-table');
+    await page.waitForSelector('#table tbody tr');
+    assert.deepEqual(await page.$$eval('#table th, #table td', (c) => c.map((e) => e.textContent)), [
+      '#',
+      'a [µm]',
+      '1',
+      '2',
+    ]);
+  }));
+
+test('Mistakes, MarkedWhileTypingAndAfterARun', () =>
+  visit({}, async (page) => {
+    await on.write(page, 'local lab = require "asperity"\nlocal s = lab.surface.sine{ cells=8, size=1, amplitud=1 }\n');
+    await on.until(page, () => document.querySelector('#problems li'), 'the check should find it');
+    assert.match(await on.text(page, '#problems li'), /^Line 2.*amplitud/s);
+    await on.run(page, 'local x = 1\n\nerror "this went wrong"\n');
+    await on.finished(page, 'Failed');
+    assert.match(await on.text(page, '#output .failure'), /^Line 3 ?this went wrong/);
+  }));
+
+test('Completion, OfTheLanguage', () =>
+  visit({}, async (page) => {
+    await on.write(page, 'local lab = require "asperity"\n');
+    await page.keyboard.type('local s = lab.surface.fla');
+    await on.inEditor(page, '.cm-tooltip-autocomplete li');
+    await on.pause(150);
+    await page.keyboard.press('Enter');
+    assert.match(await on.editorText(page), /lab\.surface\.flat/);
+  }));

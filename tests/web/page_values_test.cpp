@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Values that go between the server and the page: places in a text, fields made smaller, events.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "bindings/web/event_log.hpp"
+#include "bindings/web/frames.hpp"
+#include "bindings/web/plain_files.hpp"
+#include "bindings/web/positions.hpp"
+#include "bindings/web/views.hpp"
+
+namespace asperity::web {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "asperity-web-test-XXXXXX").string();
+    EXPECT_NE(::mkdtemp(pattern.data()), nullptr);
+    path = pattern;
+  }
+  ~Folder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+TEST(Positions, CountUnitsOfUtf16) {
+  const std::string text = "aµ€𝛼b";  // 1, 1, 1, 2 and 1 units; 1, 2, 3, 4 and 1 bytes
+  const std::size_t bytes[] = {0, 1, 3, 6, 6, 10, 11, 11};
+  for (std::size_t unit = 0; unit < 8; ++unit) EXPECT_EQ(byte_of_unit(text, unit), bytes[unit]) << unit;
+  const std::size_t units[] = {0, 1, 2, 2, 3, 3, 3, 5, 5, 5, 5, 6};
+  for (std::size_t byte : {0, 1, 3, 6, 10, 11}) EXPECT_EQ(unit_of_byte(text, byte), units[byte]) << byte;
+  EXPECT_EQ(byte_of_unit("", 5), 0U);
+}
+
+TEST(ReducedField, KeepsWhatIsSmallEnough) {
+  Field field(256, 3);
+  for (std::size_t k = 0; k < field.size(); ++k) field[k] = static_cast<double>(k);
+  const ReducedField same = reduced(field);
+  EXPECT_EQ(same.nx, 256);
+  EXPECT_EQ(same.ny, 3);
+  EXPECT_EQ(reduction_text(same, 256, 3), "none");
+  for (std::size_t k = 0; k < field.size(); ++k) ASSERT_EQ(same.values[k], static_cast<float>(k));
+}
+
+TEST(ReducedField, IsTheMeanOfEachBlockAndOfFewerAtTheRim) {
+  Field field(5, 3);
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 5; ++i) field(i, j) = i + 10 * j;
+  const ReducedField small = reduced(field, 3);
+  EXPECT_EQ(small.nx, 3);
+  EXPECT_EQ(small.ny, 3);
+  EXPECT_EQ(small.block_x, 2);
+  EXPECT_EQ(small.block_y, 1);
+  EXPECT_EQ(small.values, (std::vector<float>{0.5F, 2.5F, 4, 10.5F, 12.5F, 14, 20.5F, 22.5F, 24}));
+  EXPECT_EQ(reduction_text(small, 5, 3), "mean of 2 x 1 nodes, fewer at the far edges");
+}
+
+TEST(ReducedField, KeepsTheMeanOfAGridOfWholeBlocks) {
+  Field field(512, 768);
+  double sum = 0, mean_of_blocks = 0;
+  for (std::size_t k = 0; k < field.size(); ++k) sum += field[k] = std::sin(static_cast<double>(k));
+  const ReducedField small = reduced(field);
+  EXPECT_EQ(small.nx, 256);
+  EXPECT_EQ(small.ny, 256);
+  EXPECT_EQ(small.block_y, 3);
+  for (const float value : small.values) mean_of_blocks += value;
+  EXPECT_NEAR(mean_of_blocks / 65536, sum / static_cast<double>(field.size()), 1e-8);
+  EXPECT_EQ(reduction_text(small, 512, 768), "mean of 2 x 3 nodes");
+}
+
+TEST(ReducedField, SaysSoWhereTheLastBlockIsSmaller) {
+  const Field field(514, 512, 1.0);
+  const ReducedField small = reduced(field);
+  EXPECT_EQ(small.nx, 172);  // 171 blocks of 3 and one of 1
+  EXPECT_EQ(reduction_text(small, 514, 512), "mean of 3 x 2 nodes, fewer at the far edges");
+  for (const float value : small.values) ASSERT_EQ(value, 1.0F);
+}
+
+TEST(Base64, IsThatOfTheStandard) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xFF\xFE\xFD"), "//79");
+}
+
+TEST(PlainFile, IsFollowedThroughNoLink) {
+  const Folder folder;
+  fs::create_directories(folder.path / "in/side");
+  std::ofstream(folder.path / "in/side/a.csv") << "12345";
+  std::ofstream(folder.path / "outside") << "secret";
+  fs::create_symlink(folder.path / "outside", folder.path / "in/link");
+  fs::create_directory_symlink(folder.path, folder.path / "in/up");
+  ASSERT_EQ(::mkfifo((folder.path / "in/pipe").c_str(), 0600), 0);
+  EXPECT_EQ(read_plain_file(folder.path / "in", "side/a.csv", 5), "12345");
+  EXPECT_FALSE(read_plain_file(folder.path / "in", "side/a.csv", 4));
+  for (const char* name : {"", ".", "..", "../outside", "side/../../outside", "link", "up/outside", "pipe",
+                           "side", "side/", "/etc/passwd", "side//a.csv", "./side/a.csv", "nothing"})
+    EXPECT_FALSE(read_plain_file(folder.path / "in", name, 100)) << name;
+  std::int64_t bytes = 0;
+  const auto files = plain_files(folder.path / "in", 100, bytes);
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(files[0].name, "side/a.csv");
+  EXPECT_GE(bytes, 5);
+  plain_files(folder.path / "in", 2, bytes);
+  EXPECT_EQ(bytes, too_many);
+}
+
+TEST(EventLog, GivesWhatComesAfterANumber) {
+  const Folder folder;
+  EventLog log(folder.path / "events");
+  EXPECT_TRUE(log.add("output", Json::object({{"text", "one"}})));
+  EXPECT_TRUE(log.add("row", Json::object({{"n", 7}, {"type", "finished"}})));
+  std::int64_t after = 0;
+  bool more = false;
+  EXPECT_EQ(log.after(after, std::chrono::milliseconds(0), more),
+            "{\"n\":1,\"type\":\"output\",\"text\":\"one\"}\n{\"n\":2,\"type\":\"row\"}\n");
+  EXPECT_EQ(after, 2);
+  EXPECT_TRUE(more);
+  EXPECT_EQ(log.after(after, std::chrono::milliseconds(1), more), "");
+  log.finish(Json::object());
+  EXPECT_FALSE(log.add("output", Json::object()));
+  EXPECT_EQ(log.after(after, std::chrono::milliseconds(0), more), "{\"n\":3,\"type\":\"finished\"}\n");
+  EXPECT_FALSE(more);
+  after = 99;
+  EXPECT_EQ(log.after(after, std::chrono::milliseconds(0), more), "");
+  EXPECT_FALSE(more);
+}
+
+TEST(Frame, ComesAsItWentAndNotLonger) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  const std::string zero("a\0b", 3);
+  const std::string_view texts[] = {"", zero};
+  ASSERT_TRUE(send_frame(ends[1], texts));
+  const auto back = receive_frame(ends[0], 3);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(*back, (std::vector<std::string>{"", zero}));
+  ASSERT_TRUE(send_frame(ends[1], texts));
+  EXPECT_FALSE(receive_frame(ends[0], 2));
+  ::close(ends[1]);
+  while (receive_frame(ends[0], 100)) {
+  }
+  ::close(ends[0]);
+}
+
+}  // namespace
+}  // namespace asperity::web

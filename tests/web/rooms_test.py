@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A room of students, and the end of the server.
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import time
+
+import runner
+from client import Server, alive, chart, children_of, finished
+
+
+def test_students_find_their_own_runs_only():
+    with tempfile.NamedTemporaryFile("w", suffix=".txt") as names:
+        names.write("Ada Lovelace\nÉmilie\n")
+        names.flush()
+        with Server(runner.program, "--classroom", "127.0.0.1", "--names", names.name) as server:
+            assert list(server.tokens) == ["teacher", "Ada Lovelace", "Émilie"], list(server.tokens)
+            ada, emilie = server.tokens["Ada Lovelace"], server.tokens["Émilie"]
+            assert len(set(server.tokens.values())) == 3 and all(len(token) == 43 for token in server.tokens.values())
+            run = server.begin(chart, token=ada, views=True)
+            server.events(run, token=ada)
+            for path in (f"/api/runs/{run}", f"/api/runs/{run}/events", f"/api/runs/{run}/files/line.csv",
+                         f"/api/runs/{run}/views/surface-1"):
+                assert server.ask("GET", path, token=emilie).status == 404, path
+            assert server.ask("DELETE", f"/api/runs/{run}", token=emilie).status == 404
+            assert server.ask("GET", "/api/runs", token=emilie).json() == []
+            assert server.ask("GET", f"/api/runs/{run}/files/line.csv", token=ada).status == 200
+            assert server.ask("GET", "/api/about", token=ada).json()["classroom"] is True
+
+
+def test_one_student_cannot_take_every_answer():
+    with Server(runner.program, "--classroom", "127.0.0.1", "--students", "2") as server:
+        one, two = server.tokens["student 1"], server.tokens["student 2"]
+        run = server.begin("while true do end", token=one)
+        streams = []
+        for _ in range(24):
+            stream = server.connect()
+            stream.sendall(f"GET /api/runs/{run}/events HTTP/1.1\r\nHost: {server.host}\r\n"
+                           f"Authorization: Bearer {one}\r\n\r\n".encode())
+            assert b" 200 " in stream.recv(4096)
+            streams.append(stream)
+        assert server.ask("GET", f"/api/runs/{run}/events", token=one).status == 429
+        assert finished(server.events(server.begin("print(1)", token=two), token=two))["status"] == "done"
+        for stream in streams:
+            stream.close()
+        for _ in range(50):
+            answer = server.ask("GET", f"/api/runs/{run}/files/none", token=one)
+            if answer.status == 404:
+                break
+            time.sleep(0.1)
+        assert answer.status == 404, "what was closed is not given back"
+        assert server.ask("DELETE", f"/api/runs/{run}", token=one).status == 200
+
+
+def test_a_room_is_served_only_by_name():
+    def refused(*options):
+        done = subprocess.run([runner.program, "serve", *options], capture_output=True, text=True, timeout=30)
+        assert done.returncode == 2, (options, done)
+        return done.stderr
+    assert "every network" in refused("--classroom", "0.0.0.0", "--students", "2")
+    assert "no address" in refused("--classroom", "everywhere", "--students", "2")
+    assert "students" in refused("--classroom", "127.0.0.1")
+    assert "--classroom" in refused("--students", "2")
+    assert "cannot be listened on" in refused("--classroom", "203.0.113.7", "--students", "2")
+
+
+def test_the_end_stops_the_runs_and_keeps_their_records():
+    script = """local book = require("asperity").notebook "kept"
+    book:write{ k=1 } while true do end"""
+    with Server(runner.program) as server:
+        run = server.begin(script)
+        csv = f"{server.folder}/runs/{run}/run/kept.csv"
+        for _ in range(200):
+            if os.path.exists(csv):
+                break
+            time.sleep(0.05)
+        children = children_of(server.process.pid)
+        assert children
+        begun = time.monotonic()
+        server.process.send_signal(signal.SIGINT)
+        assert server.process.wait(15) == 0
+        print(f"ended in {time.monotonic() - begun:.2f} s")
+        assert not any(alive(child) for child in children)
+        manifest = json.load(open(f"{server.folder}/runs/{run}/run/manifest.json"))
+        assert manifest["status"] == "interrupted", manifest["status"]
+        assert open(csv).read() == "k\n1\n"
+        assert server.folder in server.said() and not os.path.exists(server.folder + "/runs/scratch")
+
+
+def test_the_runs_of_a_server_that_was_killed_end_with_it():
+    with Server(runner.program) as server:
+        server.begin("while true do end")
+        for _ in range(200):
+            children = children_of(server.process.pid)
+            if children:
+                break
+            time.sleep(0.05)
+        time.sleep(0.5)
+        server.process.kill()
+        server.process.wait()
+        for _ in range(100):
+            if not any(alive(child) for child in children):
+                return
+            time.sleep(0.05)
+        raise AssertionError("a run outlives its server")
+
+
+def test_nobody_can_serve_too():
+    if os.geteuid() != 0 or not os.access(runner.program, os.X_OK):
+        return
+    try:
+        server = Server(runner.program, as_nobody=True)
+    except AssertionError as problem:
+        if "ermission" in str(problem):
+            print("skipped: the program lies where nobody may not read")
+            return
+        raise
+    with server:
+        events = server.run(chart)
+        assert finished(events)["status"] == "done", events
+        assert "NOT SHUT" not in server.said(), server.said()
+
+
+if __name__ == "__main__":
+    runner.main(globals())
