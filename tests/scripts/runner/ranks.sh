@@ -9,18 +9,11 @@ set -eu
 . "$(dirname "$0")/saying.sh"
 program=$1
 folder=$2
-command -v mpirun > /dev/null 2>&1 || { echo "ranks: there is no mpirun here: skipped"; exit 77; }
-[ -f "$(dirname "$program")/asperity-mpi.so" ] || { echo "ranks: built without MPI: skipped"; exit 77; }
 rm -rf "$folder"
 mkdir -p "$folder"
+here=$(cd "$(dirname "$0")" && pwd)
 cd "$folder"
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-export TMPDIR=$folder
-# Open MPI looks for a way to other machines first, though there are none here.
-command -v ssh > /dev/null 2>&1 || export OMPI_MCA_plm_rsh_agent=true
-# And it kills a second after an interrupt, which is short on a machine that builds something meanwhile.
-export OMPI_MCA_odls_base_sigkill_timeout=20
-ranks() { count=$1; shift; timeout -k 5 100 mpirun --oversubscribe --bind-to none -n "$count" "$@"; }
+. "$here/mpi_ranks.sh"
 
 cat > study.lua <<'LUA'
 local lab = require "asperity"
@@ -105,30 +98,9 @@ lab.ensemble{ over = { k = { 1, 2, 3, 4 } }, run = function(case)
   return { k = case.k }
 end }
 LUA
+both_began() { [ -f $how/journal.jsonl ] && [ "$(ls -d asperity-rank-*/run 2> /dev/null | wc -l)" -ge 1 ] && sleep 1; }
 for how in interrupt kill; do
-  mpirun --oversubscribe --bind-to none -n 2 "$program" run long.lua --threads 1 --out $how > $how.txt 2>&1 &
-  launcher=$!
-  tries=0
-  until [ -f $how/journal.jsonl ] && [ "$(ls -d asperity-rank-*/run 2> /dev/null | wc -l)" -ge 1 ]; do
-    sleep 0.1
-    tries=$((tries + 1))
-    [ $tries -lt 900 ] || { cat $how.txt; fail "$how: did not begin"; }
-  done
-  sleep 1
-  began=$(date +%s)
-  if [ $how = interrupt ]; then
-    kill -INT $launcher
-  else
-    # The rank that is not the first: the one whose folder is the temporary one.
-    for process in /proc/[0-9]*; do
-      if tr '\0' '\n' 2> /dev/null < $process/environ | grep -q '^OMPI_COMM_WORLD_RANK=1$' &&
-        tr '\0' ' ' 2> /dev/null < $process/cmdline | grep -q "long.lua.*--out kill"; then
-        kill -9 "${process#/proc/}"
-      fi
-    done
-  fi
-  wait $launcher && fail "$how: the run ended well" || true
-  [ $(($(date +%s) - began)) -le 30 ] || fail "$how: the end took long"
+  ends_soon $how both_began
   rm -rf asperity-rank-*
 done
 grep -q '"status": *"interrupted"' interrupt/manifest.json || { cat interrupt.txt; fail "interrupt: no record"; }

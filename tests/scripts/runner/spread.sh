@@ -10,20 +10,12 @@ set -eu
 program=$1
 folder=$2
 script=$3
-command -v mpirun > /dev/null 2>&1 || { echo "spread: there is no mpirun here: skipped"; exit 77; }
-part=$(dirname "$program")/asperity-mpi.so
-[ -f "$part" ] || { echo "spread: built without MPI: skipped"; exit 77; }
-grep -q libfftw3_mpi "$part" || { echo "spread: built without FFTW's MPI transforms: skipped"; exit 77; }
 rm -rf "$folder"
 mkdir -p "$folder"
+here=$(cd "$(dirname "$0")" && pwd)
 cd "$folder"
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-export TMPDIR=$folder
-# Open MPI looks for a way to other machines first, though there are none here.
-command -v ssh > /dev/null 2>&1 || export OMPI_MCA_plm_rsh_agent=true
-# And it kills a second after an interrupt, which is short on a machine that builds something meanwhile.
-export OMPI_MCA_odls_base_sigkill_timeout=20
-ranks() { count=$1; shift; timeout -k 5 200 mpirun --oversubscribe --bind-to none -n "$count" "$@"; }
+. "$here/mpi_ranks.sh"
+grep -q libfftw3_mpi "$(dirname "$program")/asperity-mpi.so" || skip "built without FFTW's MPI transforms"
 
 for k in 2 3 5; do
   ranks $k "$program" run "$script" --threads 1 --out all-$k > all-$k.txt 2>&1 ||
@@ -155,29 +147,7 @@ local c = lab.spread.contact{ lower = s, upper = lab.rigid, boundary = "periodic
   effects = { elasticity = "half_space" } }
 while true do c:press{ pressure = "300 MPa" } end
 LUA
-for how in interrupt kill; do
-  mpirun --oversubscribe --bind-to none -n 2 "$program" run long.lua --threads 1 --out $how > $how.txt 2>&1 &
-  launcher=$!
-  tries=0
-  until [ -f $how/journal.jsonl ] && grep -q press $how/journal.jsonl; do
-    sleep 0.1
-    tries=$((tries + 1))
-    [ $tries -lt 900 ] || { cat $how.txt; fail "$how: did not begin"; }
-  done
-  began=$(date +%s)
-  if [ $how = interrupt ]; then
-    kill -INT $launcher
-  else
-    # The rank that is not the first.
-    for process in /proc/[0-9]*; do
-      if tr '\0' '\n' 2> /dev/null < $process/environ | grep -q '^OMPI_COMM_WORLD_RANK=1$' &&
-        tr '\0' ' ' 2> /dev/null < $process/cmdline | grep -q "long.lua.*--out kill"; then
-        kill -9 "${process#/proc/}"
-      fi
-    done
-  fi
-  wait $launcher && fail "$how: the run ended well" || true
-  [ $(($(date +%s) - began)) -le 30 ] || fail "$how: the end took long"
-done
+presses() { [ -f $how/journal.jsonl ] && grep -q press $how/journal.jsonl; }
+for how in interrupt kill; do ends_soon $how presses; done
 grep -q '"status": *"interrupted"' interrupt/manifest.json || { cat interrupt.txt; fail "interrupt: no record"; }
 echo "spread: all is well"

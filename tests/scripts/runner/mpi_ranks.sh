@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What the tests over mpirun share: `. mpi_ranks.sh` from a script beside it, after saying.sh and a `cd` to the folder
+# that the test may fill; $program is the program. Exits with 77, skipped, where there is no mpirun or no asperity-mpi.so.
+
+skip() { echo "$(basename "$0" .sh): $*: skipped"; exit 77; }
+
+command -v mpirun > /dev/null 2>&1 || skip "there is no mpirun here"
+[ -f "$(dirname "$program")/asperity-mpi.so" ] || skip "built without MPI"
+
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export TMPDIR="$PWD"
+# Open MPI looks for a way to other machines first, though there are none here.
+command -v ssh > /dev/null 2>&1 || export OMPI_MCA_plm_rsh_agent=true
+# After an interrupt it waits this long before SIGTERM and as long again before SIGKILL; its one second is short on a
+# machine that builds something meanwhile.
+export OMPI_MCA_odls_base_sigkill_timeout=5
+
+# ranks count command...
+ranks() { count=$1; shift; timeout -k 5 200 mpirun --oversubscribe --bind-to none -n "$count" "$@"; }
+
+# ends_soon how command...: two ranks of a run of long.lua, written to the directory `how`, are interrupted
+# ("interrupt") or one of them is killed ("kill") once the command succeeds; the run ends, and not well. What they say is
+# in how.txt.
+ends_soon() {
+  how=$1
+  shift
+  mpirun --oversubscribe --bind-to none -n 2 "$program" run long.lua --threads 1 --out "$how" > "$how.txt" 2>&1 &
+  launcher=$!
+  tries=0
+  until "$@"; do
+    sleep 0.1
+    tries=$((tries + 1))
+    [ $tries -lt 900 ] || { cat "$how.txt"; fail "$how: did not begin"; }
+  done
+  began=$(date +%s)
+  if [ "$how" = interrupt ]; then
+    kill -INT $launcher
+  else
+    # The rank that is not the first.
+    for process in /proc/[0-9]*; do
+      if tr '\0' '\n' 2> /dev/null < "$process/environ" | grep -q '^OMPI_COMM_WORLD_RANK=1$' &&
+        tr '\0' ' ' 2> /dev/null < "$process/cmdline" | grep -q "long.lua.*--out kill"; then
+        kill -9 "${process#/proc/}"
+      fi
+    done
+  fi
+  wait $launcher && fail "$how: the run ended well" || true
+  [ $(($(date +%s) - began)) -le 60 ] || { cat "$how.txt"; fail "$how: the end took $(($(date +%s) - began)) s"; }
+}
