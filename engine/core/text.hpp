@@ -19,8 +19,9 @@ std::string format_short(double value, int digits = 6);
 std::string format_bytes(std::int64_t bytes);
 // "`name`".
 std::string quoted(std::string_view name);
-// The same; without it std::quoted would be found for a std::string wherever <iomanip> is included.
+// The same; without these std::quoted would be found for a std::string wherever <iomanip> is included.
 std::string quoted(const std::string& name);
+inline std::string quoted(std::string& name) { return quoted(std::string_view(name)); }
 inline std::string quoted(const char* name) { return quoted(std::string_view(name)); }
 // "a", "a or b", "a, b or c".
 std::string joined(std::span<const std::string> items, std::string_view last = " or ");
