@@ -37,7 +37,11 @@ std::int64_t Explanation::Planned::solves() const {
 }
 
 std::string Explanation::text() const {
-  if (planned_.empty()) return "no contact is pressed\n";
+  std::string unplanned;
+  for (const auto& [what, count] : unplanned_)
+    unplanned += what + ": " + std::to_string(count) + (count == 1 ? " time" : " times") +
+                 ", of a contact that is not known before the run or lies over ranks: no plan\n";
+  if (planned_.empty()) return unplanned.empty() ? "no contact is pressed\n" : unplanned;
   std::string result;
   double transforms = 0, seconds = 0;
   std::int64_t bytes = 0, solves = 0;
@@ -52,9 +56,10 @@ std::string Explanation::text() const {
     bytes = std::max(bytes, planned.plan.bytes_peak());
     solves += planned.solves();
   }
-  return result + "together: " + std::to_string(solves) + (solves == 1 ? " press" : " presses") + ", about " +
-         format_short(transforms, 3) + " transforms and " + format_quantity(seconds, dimension::time, 3) +
-         ", " + format_bytes(bytes) + " at most in one contact\n";
+  return result + unplanned + "together: " + std::to_string(solves) + (solves == 1 ? " press" : " presses") +
+         ", about " + format_short(transforms, 3) + " transforms and " +
+         format_quantity(seconds, dimension::time, 3) + ", " + format_bytes(bytes) +
+         " at most in one contact\n";
 }
 
 Json Explanation::json() const {
@@ -64,7 +69,9 @@ Json Explanation::json() const {
     for (const auto& [what, times] : planned.calls) calls.set(what, times);
     contacts.push_back(Json::object({{"plan", to_json(planned.plan)}, {"calls", calls}}));
   }
-  return Json::object({{"contacts", contacts}});
+  Json unplanned = Json::object();
+  for (const auto& [what, count] : unplanned_) unplanned.set(what, count);
+  return Json::object({{"contacts", contacts}, {"unplanned", unplanned}});
 }
 
 }  // namespace asperity::lua

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,9 @@ class Explanation {
  public:
   // A call that solves this plan; in `what`'s words, "contact:press".
   void note(const Plan& plan, const std::string& what, std::int64_t solves = 1);
+
+  // A press of a contact of which nothing is known before it is made, or that lies over ranks.
+  void note_unplanned(const std::string& what) { unplanned_[what] += times_; }
 
   // What is noted while it lives is done so many times.
   class Repeating {
@@ -43,6 +47,7 @@ class Explanation {
     std::int64_t solves() const;
   };
   std::vector<Planned> planned_;
+  std::map<std::string, std::int64_t> unplanned_;
   std::int64_t times_ = 1;
 };
 

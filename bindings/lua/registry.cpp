@@ -135,9 +135,12 @@ std::int64_t presses_of(const Call& call) {
 
 // A dry run reads the arguments and gives placeholders.
 Values dry_call(const Call& call, const Function& function) {
-  if (call.session().explanation != nullptr)
+  if (Explanation* explanation = call.session().explanation.get(); explanation != nullptr && function.heavy) {
     if (const SpecimenPair* pair = pressed_by(call, function))
-      call.session().explanation->note(pair->plan(), call.function_name(), presses_of(call));
+      explanation->note(pair->plan(), call.function_name(), presses_of(call));
+    else if (function.returns.find("State") != std::string::npos)
+      explanation->note_unplanned(call.function_name());
+  }
   if (function.options != nullptr) {
     const int k = static_cast<int>(function.parameters.size()) + 1;
     const Argument table = call.argument(k);

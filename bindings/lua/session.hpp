@@ -77,6 +77,7 @@ class Session {
   // What this state's calls cost; the states of cases write into that of their ensemble.
   std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
   std::function<void(int)> exit_hook;      // what os.exit(code) does before the process ends
+  bool with_other_ranks = false;           // in a function that other ranks wait for: os.exit is an error
   std::FILE* output = stdout;              // where print goes; a buffer in a case
   std::map<std::string, int> studies;      // names given to studies of work and precision, and how often
   std::shared_ptr<Refinement> refinement;  // of a script that a study of accuracy runs again; may be null

@@ -49,6 +49,20 @@ Values flat_body(Call& call) {
   return result(slab_flat(team_of(call), keys.make(), call.session().monitor()), keys.body_material);
 }
 
+// While a function of the script is called that other ranks wait for.
+class WaitedFor {
+ public:
+  explicit WaitedFor(Session& session) : session_(session) {
+    session_.with_other_ranks = session_.ranks != nullptr;
+  }
+  ~WaitedFor() { session_.with_other_ranks = false; }
+  WaitedFor(const WaitedFor&) = delete;
+  WaitedFor& operator=(const WaitedFor&) = delete;
+
+ private:
+  Session& session_;
+};
+
 const Block<GridKeys>& from_function_block() {
   static const Block<GridKeys> block{"lab.spread.from_function", from_function_keys()};
   return block;
@@ -59,6 +73,7 @@ Values from_function_body(Call& call) {
   Team& team = team_of(call);
   return with_key(call.argument(1), "height", [&](const Argument& function) {
     const Callback height(function);
+    const WaitedFor waited_for(call.session());
     const auto row = [&](int j, double* to) {
       for (int i = 0; i < grid.nx; ++i) to[i] = height({i * grid.hx(), j * grid.hy()}, "height");
     };

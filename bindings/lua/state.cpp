@@ -117,10 +117,12 @@ int unknown_global_body(lua_State* L) {
 
 int unknown_global(lua_State* L) { return unknown_global_body(L) < 0 ? lua_error(L) : 1; }
 
-// Ends the process, unless the state is a case of an ensemble.
-void exit_body(lua_State* L, int code) {
+// Ends the process; where it must not, why.
+const char* exit_body(lua_State* L, int code) {
   const Session& session = Session::of(L);
-  if (session.is_case) return;
+  if (session.is_case) return "a case of an ensemble cannot end the run";
+  if (session.with_other_ranks)
+    return "this function cannot end the run: other ranks wait for what it gives; raise an error in it";
   try {
     if (session.exit_hook) session.exit_hook(code);
   } catch (const std::exception& error) {
@@ -138,8 +140,7 @@ int exit_run(lua_State* L) {
     code = lua_toboolean(L, 1) != 0 ? 0 : 1;
   else if (!Argument(L, 1).is_unknown())
     code = static_cast<int>(luaL_optinteger(L, 1, 0));
-  exit_body(L, code);
-  return luaL_error(L, "a case of an ensemble cannot end the run");
+  return luaL_error(L, "%s", exit_body(L, code));
 }
 
 struct Setup {

@@ -19,7 +19,7 @@ namespace asperity::web {
 
 namespace {
 
-constexpr int most_views = 200;
+constexpr int most_views = 200, first_views = 20;
 
 const char* stop_name(StopReason reason) {
   switch (reason) {
@@ -97,30 +97,58 @@ void EventChannel::recorded(std::string_view event, const Json& fields) {
 }
 
 void EventChannel::found(const std::string& call, std::int64_t line, const lua::Values& results) {
-  if (views_.empty() || views_in_all_ >= most_views) return;
   for (const lua::Value& value : results) {
-    if (const auto surface = as<Surface>(value))
-      keep_view("surface", view_of(*surface, call, line));
-    else if (const auto state = as<asperity::State>(value))
-      keep_view(
-          "press",
-          view_of(*state, call + " at " + format_quantity(state->pressure(), dimension::pressure), line));
+    if (auto surface = as<Surface>(value))
+      see({std::move(surface), nullptr, call, line});
+    else if (auto state = as<asperity::State>(value))
+      see({nullptr, std::move(state), call, line});
   }
 }
 
-void EventChannel::keep_view(const std::string& kind, const Json& view) {
-  ++views_in_all_;
+bool EventChannel::has_time_for_views() const {
+  return views_in_all_ < first_views ||
+         (views_in_all_ < most_views - 1 && spent_ * 10 < Clock::now() - begun_);
+}
+
+void EventChannel::see(Seen seen) {
+  if (views_.empty()) return;
+  if (has_time_for_views()) {
+    keep_view(seen);
+    last_ = {};
+  } else {
+    ++left_out_;
+    last_ = std::move(seen);
+  }
+}
+
+void EventChannel::keep_view(const Seen& seen) {
+  const Clock::time_point begun = Clock::now();
+  const std::string kind = seen.surface ? "surface" : "press";
   const std::string name = kind + "-" + std::to_string(++kept_[kind]);
+  ++views_in_all_;
   try {
+    const Json view =
+        seen.surface
+            ? view_of(*seen.surface, seen.call, seen.line)
+            : view_of(*seen.state,
+                      seen.call + " at " + format_quantity(seen.state->pressure(), dimension::pressure),
+                      seen.line);
     std::filesystem::create_directories(views_);
     write_aside(std::filesystem::path(views_) / (name + ".json"), view.text());
     send("view", Json::object({{"name", name}, {"title", member(view, "title")}}));
   } catch (const std::exception&) {
     views_.clear();  // a full disk must not end the run
   }
+  spent_ += Clock::now() - begun;
 }
 
 void EventChannel::ended(int status, StopReason stopped, const std::string& why) {
+  if (last_.surface || last_.state) {
+    --left_out_;
+    keep_view(last_);
+    last_ = {};
+  }
+  if (left_out_ > 0) send("views_left_out", Json::object({{"count", left_out_}}));
   const bool asked = stopped == StopReason::interrupt || why.starts_with("os.exit(");
   if (!why.empty() && status != 0 && !asked) send("error", error_parts(why));
   send("ended",

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a run of the page tells the server: one line of JSON an event, through a pipe. Beside rows,
-// expectations and progress it makes the views, where they were asked for.
+// expectations and progress it makes the views, where they were asked for: of the first surfaces and presses
+// all, then as many as a tenth of the run's time allows, and the last.
 #pragma once
 
+#include <chrono>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 
 #include "bindings/cli/run_observer.hpp"
+#include "engine/contact/state.hpp"
+#include "engine/surface/surface.hpp"
 
 namespace asperity::web {
 
@@ -25,13 +30,28 @@ class EventChannel final : public cli::RunObserver {
   void ended(int status, StopReason stopped, const std::string& why) override;
 
  private:
-  void keep_view(const std::string& kind, const Json& view);
+  using Clock = std::chrono::steady_clock;
+
+  // What a view shows: a surface or a press.
+  struct Seen {
+    std::shared_ptr<const Surface> surface;
+    std::shared_ptr<const State> state;
+    std::string call;
+    std::int64_t line = 0;
+  };
+
+  bool has_time_for_views() const;
+  void see(Seen seen);
+  void keep_view(const Seen& seen);
 
   std::mutex mutex_;
   int descriptor_;
   std::string views_;
   std::map<std::string, int> kept_;  // views of each kind
-  int views_in_all_ = 0;
+  int views_in_all_ = 0, left_out_ = 0;
+  Clock::time_point begun_ = Clock::now();
+  Clock::duration spent_{};  // on views
+  Seen last_;                // left out so far; the run may end with it
 };
 
 // An error message of a script in its parts: {line?, message, traceback?}.

@@ -141,7 +141,8 @@ void RunFollower::take_events() {
 }
 
 void RunFollower::take_event(const std::string& line) {
-  constexpr std::array<std::string_view, 5> told{"progress", "row", "view", "expectation", "error"};
+  constexpr std::array<std::string_view, 6> told{"progress",       "row",         "view",
+                                                 "views_left_out", "expectation", "error"};
   try {
     const Json event = Json::parse(line, "an event");
     const Json* type = event.is_object() ? event.find("type") : nullptr;

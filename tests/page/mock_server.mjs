@@ -166,6 +166,7 @@ function* eventsOf(script) {
     }
   }
   yield { type: 'view', name: 'press-1', title: 'Press 1: 152.8 MPa' };
+  yield { type: 'views_left_out', count: 7 };
   yield { type: 'file', name: 'tips.csv', bytes: 512, kind: 'table' };
   yield { type: 'file', name: 'chart.svg', bytes: chart.length, kind: 'chart' };
   yield { type: 'expectation', text: 'Ra falls with N', held: true };

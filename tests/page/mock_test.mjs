@@ -249,6 +249,10 @@ test('Picture, DrawnTurnedExaggeratedAndHonest', () =>
       await on.text(page, '.pictures .caption'),
       '1 × 1 mm · gap, drawn downwards, × 50 · shown: 128 × 128 means of 8 × 8 nodes of 1024 × 1024',
     );
+    assert.equal(
+      await on.text(page, '.pictures .left-out'),
+      '7 more were made and not drawn, so as not to hold up the run.',
+    );
     await page.focus('.relief');
     await page.keyboard.press('Home');
     const first = await on.pixels(page);

@@ -114,6 +114,21 @@ def test_views_are_block_means_and_say_so():
         assert any(0 < part < 1 for part in shares)
 
 
+def test_views_do_not_hold_up_a_run():
+    with Server(runner.program) as server:
+        events = server.run(
+            """local lab = require "asperity"
+local s = lab.surface.sine{ cells=256, size="1 mm", wavelength="1 mm", amplitude="1 um", material=lab.material "steel" }
+local c = lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity={ model="box", stiffness="1 GPa/um" } } }
+for k = 1, 400 do c:press{ pressure=k * 1e6 } end
+""", views=True)
+        assert finished(events)["status"] == "done", events
+        titles = [event["title"] for event in of_type(events, "view")]
+        left_out = of_type(events, "views_left_out")[0]["count"]
+        assert 20 < len(titles) <= 200 and len(titles) + left_out == 401, (len(titles), left_out)
+        assert titles[19].endswith("19 MPa") and titles[-1].endswith("400 MPa"), (titles[19], titles[-1])
+
+
 def test_views_are_not_made_unless_asked_for():
     with Server(runner.program) as server:
         events = server.run(press)

@@ -18,6 +18,16 @@ export OMPI_MCA_odls_base_sigkill_timeout=5
 # ranks count command...
 ranks() { count=$1; shift; timeout -k 5 200 mpirun --oversubscribe --bind-to none -n "$count" "$@"; }
 
+# processes_of RANK TEXT: those that run as this rank (a pattern) with the text in their command.
+processes_of() {
+  for process in /proc/[0-9]*; do
+    if tr '\0' '\n' 2> /dev/null < "$process/environ" | grep -q "^OMPI_COMM_WORLD_RANK=$1\$" &&
+      tr '\0' ' ' 2> /dev/null < "$process/cmdline" | grep -q -- "$2"; then
+      echo "${process#/proc/}"
+    fi
+  done
+}
+
 # ends_soon how command...: two ranks of a run of long.lua, written to the directory `how`, are interrupted
 # ("interrupt") or one of them is killed ("kill") once the command succeeds; the run ends, and not well. What they say is
 # in how.txt.
@@ -36,13 +46,7 @@ ends_soon() {
   if [ "$how" = interrupt ]; then
     kill -INT $launcher
   else
-    # The rank that is not the first.
-    for process in /proc/[0-9]*; do
-      if tr '\0' '\n' 2> /dev/null < "$process/environ" | grep -q '^OMPI_COMM_WORLD_RANK=1$' &&
-        tr '\0' ' ' 2> /dev/null < "$process/cmdline" | grep -q "long.lua.*--out kill"; then
-        kill -9 "${process#/proc/}"
-      fi
-    done
+    kill -9 $(processes_of 1 "long.lua.*--out kill")
   fi
   wait $launcher && fail "$how: the run ended well" || true
   [ $(($(date +%s) - began)) -le 60 ] || { cat "$how.txt"; fail "$how: the end took $(($(date +%s) - began)) s"; }

@@ -91,6 +91,7 @@ local rank = os.getenv "OMPI_COMM_WORLD_RANK"
 local al = lab.material{ young = "70 GPa", poisson = 0.33 }
 local s = lab.spread.from_function{ cells = 32, size = "100 um", material = al, height = function(x, y)
   if how == "height" and y > 90e-6 then error "no ground here" end
+  if how == "exit" and y > 90e-6 then os.exit(0) end
   return 1e-6 * math.cos(x * 6.3e4)
 end }
 local c = lab.spread.contact{ lower = s, upper = lab.rigid, boundary = "periodic",
@@ -115,6 +116,7 @@ ends() {
   grep -q '"status": *"done"' ends-$how/manifest.json && fail "$how: the manifest says that it is done" || true
 }
 ends height "no ground here (in rank 1 of 2)"
+ends exit "this function cannot end the run"
 ends rank-0 "this one alone"
 ends rank-1 "is done by all ranks together, and rank 1 failed"
 ends other "rank 1 came to spreadContact:press"
@@ -137,6 +139,42 @@ ranks 2 "$program" run again.lua --threads 1 --reuse again --out again-2 > again
 says "1 result was taken from the store" again-2.err
 cmp again-1.txt again-2.txt || fail "what was taken from the store is not what was found"
 cmp again/pressure.npy again-2/pressure.npy || fail "the fields are not those of the press that was taken up"
+
+# So does one that was killed in the middle, and it ends as the run that nobody disturbed.
+cat > six.lua <<'LUA'
+local lab = require "asperity"
+local s = lab.spread.self_affine{ cells = 512, size = 1e-4, hurst = 0.7, rms_height = 1e-6, short_wave = 1e-6,
+  material = lab.material{ young = "70 GPa", poisson = 0.33 } }
+local c = lab.spread.contact{ lower = s, upper = lab.rigid, boundary = "periodic",
+  effects = { elasticity = "half_space" } }
+local book = lab.notebook "areas"
+for k = 1, 6 do
+  local st = c:press{ pressure = k * 1e8 }
+  book:write{ k = k, area = st.area_fraction, digest = st.digest }
+end
+LUA
+ranks 2 "$program" run six.lua --threads 1 --out whole > whole.txt 2>&1 || { cat whole.txt; fail "six presses"; }
+mpirun --oversubscribe --bind-to none -n 2 "$program" run six.lua --threads 1 --out broken > broken.txt 2>&1 &
+launcher=$!
+tries=0
+until [ -f broken/areas.csv ] && [ "$(wc -l < broken/areas.csv)" -ge 3 ]; do
+  sleep 0.05
+  tries=$((tries + 1))
+  [ $tries -lt 1800 ] || { cat broken.txt; fail "the run to be killed did not begin"; }
+done
+kill -9 $launcher
+wait $launcher && fail "a killed run ended well" || true
+tries=0
+while [ -n "$(processes_of "." "six.lua.*--out broken")" ]; do # its ranks see that their launcher is gone
+  sleep 0.5
+  tries=$((tries + 1))
+  [ $tries -lt 100 ] || fail "ranks outlive their launcher"
+done
+ranks 2 "$program" run --resume broken --threads 1 > resumed.txt 2>&1 || { cat resumed.txt; fail "taking up what was killed"; }
+grep -qE "^[2-5] results were taken from the store" resumed.txt || { cat resumed.txt; fail "the presses were repeated"; }
+for run in whole broken; do sed 's/,"unhashed":.*//' $run/journal.jsonl > $run.journal; done
+cmp whole.journal broken.journal || fail "the resumed run has another journal"
+cmp whole/areas.csv broken/areas.csv || fail "the resumed run has other rows"
 
 cat > long.lua <<'LUA'
 local lab = require "asperity"

@@ -68,6 +68,7 @@ export type RunEvent = { n: number } & (
   | { type: 'row'; notebook: string; row: Record<string, Cell>; units?: Record<string, string> }
   | { type: 'file'; name: string; bytes: number; kind?: string }
   | { type: 'view'; name: string; title?: string }
+  | { type: 'views_left_out'; count: number }
   | { type: 'expectation'; text: string; held: boolean }
   | { type: 'error'; line?: number; message: string; hint?: string; traceback?: string }
   | {

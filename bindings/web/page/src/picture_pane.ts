@@ -63,6 +63,7 @@ export class PicturePane {
   private readonly labels = h('div', { className: 'labels', 'aria-hidden': 'true' });
   private readonly key = h('div', { className: 'key' });
   private readonly caption = h('p', { className: 'caption', id: 'picture-caption' });
+  private readonly leftOut = h('p', { className: 'caption left-out', hidden: true });
   private readonly stage = h('div', { className: 'stage' }, this.canvas, this.labels);
   private readonly body: HTMLElement;
   private readonly empty = h('p', { className: 'empty' });
@@ -88,6 +89,7 @@ export class PicturePane {
       ),
       h('div', { className: 'picture' }, this.stage, this.key),
       this.caption,
+      this.leftOut,
       h('div', { className: 'below' }, h('p', {}, 'Drag it, or use the arrow keys.'), reset, above),
     );
     element.append(this.empty, this.body);
@@ -111,6 +113,9 @@ export class PicturePane {
       : 'Surfaces and contacts that a script makes are drawn here: run one that presses or generates a surface.';
     if (views.length === 0) return;
     this.body.hidden = false;
+    const more = run?.viewsLeftOut ?? 0;
+    this.leftOut.hidden = more === 0;
+    this.leftOut.textContent = `${more} more were made and not drawn, so as not to hold up the run.`;
     const name = this.followed || !this.shown ? views[views.length - 1].name : this.shown;
     this.which.choose(
       views.map((v) => ({ value: v.name, text: v.title })),

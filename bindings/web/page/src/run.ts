@@ -38,6 +38,7 @@ export class Run {
   readonly notebooks = new Map<string, Notebook>();
   readonly files = new Map<string, { name: string; bytes: number; kind: string }>();
   readonly views: { name: string; title: string }[] = [];
+  viewsLeftOut = 0; // surfaces and presses that have no view, so that the run was not held up
   readonly expectations: { text: string; held: boolean }[] = [];
   readonly errors: RunError[] = [];
   readonly began = Date.now();
@@ -77,6 +78,9 @@ export class Run {
           const same = this.views.filter((v) => v.title === title || v.title.startsWith(`${title} (`)).length;
           this.views.push({ name: event.name, title: same ? `${title} (${same + 1})` : title });
         }
+        break;
+      case 'views_left_out':
+        this.viewsLeftOut = event.count;
         break;
       case 'expectation':
         this.expectations.push({ text: event.text, held: event.held });

@@ -9,6 +9,7 @@
 
 #include "engine/contact/elasticity/half_space/nested_descent.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/unconverged.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -284,13 +285,7 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   }
   HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, found);
   if (!answer.converged && !problem.best_effort)
-    throw Error(ErrorCode::not_converged,
-                "the contact at " + pascals(mean_pressure) + " reached a residual of " +
-                    format_short(answer.certificate.worst(), 3) + " where `tolerance` asks for " +
-                    format_short(problem.tolerance, 3) + ", after " + std::to_string(answer.iterations) +
-                    " applications of the half-space",
-                "ask for a larger `tolerance`, a finer grid for the same surface, or accept the best reached "
-                "with `on_failure = \"best\"`");
+    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations);
   return answer;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/contact/elasticity/half_space/unconverged.hpp"
 #include "engine/contact/elasticity/slabs/slab_nest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -198,13 +199,7 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
   if (found.levels > 1) answer.solver += " on " + std::to_string(found.levels) + " nested grids";
   certify(team, problem, answer);
   if (!answer.converged && !problem.best_effort)
-    throw Error(ErrorCode::not_converged,
-                "the contact at " + pascals(mean_pressure) + " reached a residual of " +
-                    format_short(answer.certificate.worst(), 3) + " where `tolerance` asks for " +
-                    format_short(problem.tolerance, 3) + ", after " + std::to_string(answer.iterations) +
-                    " applications of the half-space",
-                "ask for a larger `tolerance`, a finer grid for the same surface, or accept the best reached "
-                "with `on_failure = \"best\"`");
+    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations);
   return answer;
 }
 
