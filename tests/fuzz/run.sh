@@ -7,7 +7,7 @@
 set -eu
 cd "$(dirname -- "$0")/../.."
 
-seconds=10 build=build/fuzz jobs=$(nproc) targets=
+seconds=10 build=build/sanitize jobs=$(nproc) targets=
 while [ $# -gt 0 ]; do
   case $1 in
     --seconds) seconds=$2; shift 2 ;;
@@ -18,8 +18,7 @@ while [ $# -gt 0 ]; do
   esac
 done
 
-[ -f "$build/CMakeCache.txt" ] || cmake -S . -B "$build" -DCMAKE_CXX_COMPILER=clang++ -DASPERITY_FUZZ=ON \
-  -DASPERITY_BENCH=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" >/dev/null
+[ -f "$build/CMakeCache.txt" ] || cmake --preset sanitize -B "$build" >/dev/null
 [ -n "$targets" ] || targets=$(ls tests/fuzz/corpus)
 cmake --build "$build" --parallel "$jobs" --target $(printf 'fuzz_%s ' $targets)
 

@@ -17,6 +17,8 @@
 
 // Called by libFuzzer, or by replay.cpp for every file of a corpus.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+// Called once before by libFuzzer, where a target has it.
+extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments);
 
 namespace asperity::fuzz {
 

@@ -10,20 +10,25 @@ namespace asperity::edge_rows {
 
 namespace {
 
-typedef float Eight __attribute__((vector_size(32), aligned(4), may_alias));
-typedef double EightDoubles __attribute__((vector_size(64), aligned(8), may_alias));
-typedef std::uint16_t EightPairs __attribute__((vector_size(16), aligned(1), may_alias));
+typedef float Eight __attribute__((vector_size(32)));
 typedef std::int32_t EightMarks __attribute__((vector_size(32)));
 typedef std::uint32_t EightWords __attribute__((vector_size(32)));
+// The same anywhere in memory. Only what is read or written through a pointer to such a type is taken not to
+// be aligned: references and arguments of templates lose that, with Clang, and so do values bound to a
+// reference.
+typedef float EightAnywhere __attribute__((vector_size(32), aligned(4), may_alias));
+typedef double EightDoublesAnywhere __attribute__((vector_size(64), aligned(8), may_alias));
+typedef std::uint16_t EightPairs __attribute__((vector_size(16), aligned(1), may_alias));
 
-// Plain functions: as an argument of a template a type would lose its alignment. Vectors are passed and
-// returned by reference alone.
-inline __attribute__((always_inline)) const Eight& eight(const float* at) {
-  return *reinterpret_cast<const Eight*>(at);
+// Vectors are passed and returned by reference or pointer alone.
+inline __attribute__((always_inline)) const EightAnywhere* eight(const float* at) {
+  return reinterpret_cast<const EightAnywhere*>(at);
 }
-inline __attribute__((always_inline)) Eight& eight(float* at) { return *reinterpret_cast<Eight*>(at); }
-inline __attribute__((always_inline)) const EightDoubles& eight(const double* at) {
-  return *reinterpret_cast<const EightDoubles*>(at);
+inline __attribute__((always_inline)) EightAnywhere* eight(float* at) {
+  return reinterpret_cast<EightAnywhere*>(at);
+}
+inline __attribute__((always_inline)) const EightDoublesAnywhere* eight(const double* at) {
+  return reinterpret_cast<const EightDoublesAnywhere*>(at);
 }
 
 // Not 0 where the even, and the odd, of sixteen bytes are not.
@@ -43,8 +48,8 @@ inline __attribute__((always_inline)) void take_apart(const Eight& low, const Ei
 }
 
 inline __attribute__((always_inline)) void merge(const Eight& even, const Eight& odd, float* to) {
-  eight(to) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
-  eight(to + group) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
+  *eight(to) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
+  *eight(to + group) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
 }
 
 }  // namespace
@@ -124,16 +129,16 @@ void start_free(const std::uint8_t* __restrict free, const double* __restrict va
   };
   while (k < n && (place + k) % columns != 0) one();
   for (; k + columns <= n; k += columns) {
-    const Eight low = __builtin_convertvector(offset + slope * eight(values + k), Eight);
-    const Eight high = __builtin_convertvector(offset + slope * eight(values + k + group), Eight);
+    const Eight low = __builtin_convertvector(offset + slope * *eight(values + k), Eight);
+    const Eight high = __builtin_convertvector(offset + slope * *eight(values + k + group), Eight);
     Eight even, odd;
     take_apart(low, high, even, odd);
     EightMarks free_even, free_odd;
     read_marks(free + k, free_even, free_odd);
     const Eight none = {};
     float* const to = now + (place + k) / 2;
-    eight(to) = free_even != 0 ? even : none;
-    eight(to + half) = free_odd != 0 ? odd : none;
+    *eight(to) = free_even != 0 ? even : none;
+    *eight(to + half) = free_odd != 0 ? odd : none;
   }
   while (k < n) one();
 }
@@ -151,11 +156,12 @@ void start_bound(const float* __restrict values, std::size_t n, std::size_t plac
   for (; k + columns <= n; k += columns) {
     const std::size_t to = (place + k) / 2;
     Eight even, odd;
-    take_apart(eight(values + k), eight(values + k + group), even, odd);
+    const Eight low = *eight(values + k), high = *eight(values + k + group);
+    take_apart(low, high, even, odd);
     const Eight none = {};
-    eight(given + to) = even;
-    eight(given + to + half) = odd;
-    eight(now + to) = eight(now + to + half) = none;
+    *eight(given + to) = even;
+    *eight(given + to + half) = odd;
+    *eight(now + to) = *eight(now + to + half) = none;
   }
   while (k < n) one();
 }
@@ -183,7 +189,7 @@ inline __attribute__((always_inline)) void read_bound(Group one, EightMarks& bou
 template <bool odd>
 inline __attribute__((always_inline)) void add_up(const float* here, std::ptrdiff_t half, Eight& sum) {
   const float* const aside = here + (odd ? -half : half - 1);
-  sum = (eight(aside) + eight(aside + 1)) + (eight(here - 2 * half) + eight(here + 2 * half));
+  sum = (*eight(aside) + *eight(aside + 1)) + (*eight(here - 2 * half) + *eight(here + 2 * half));
 }
 
 template <bool odd>
@@ -194,8 +200,8 @@ void sweep(std::span<const Group> groups, std::ptrdiff_t half, float share, floa
     add_up<odd>(at, half, sum);
     EightMarks bound;
     read_bound(one, bound);
-    const Eight here = eight(at);
-    eight(at) = bound != 0 ? share * sum : here;
+    const Eight here = *eight(at);
+    *eight(at) = bound != 0 ? share * sum : here;
   }
 }
 
@@ -209,7 +215,7 @@ void sweep_back(std::span<const Group> groups, std::ptrdiff_t half, float share,
     EightMarks bound;
     read_bound(one, bound);
     const Eight none = {};
-    eight(at) = bound != 0 ? share * (eight(given + start_of(one)) + sum) : none;
+    *eight(at) = bound != 0 ? share * (*eight(given + start_of(one)) + sum) : none;
   }
 }
 }  // namespace
@@ -226,7 +232,10 @@ void sweep_back_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t h
 
 void merge(const float* __restrict row, std::ptrdiff_t half, std::size_t n, float* __restrict to) {
   std::size_t k = 0;
-  for (; k + columns <= n; k += columns) merge(eight(row + k / 2), eight(row + half + k / 2), to + k);
+  for (; k + columns <= n; k += columns) {
+    const Eight even = *eight(row + k / 2), odd = *eight(row + half + k / 2);
+    merge(even, odd, to + k);
+  }
   for (; k < n; ++k) to[k] = row[split(k, static_cast<std::size_t>(half))];
 }
 
@@ -238,7 +247,8 @@ void add_neighbours(const std::uint8_t* __restrict free, const float* __restrict
     add_up<false>(row + k / 2, half, even);
     add_up<true>(row + half + k / 2, half, odd);
     Eight even_value, odd_value;
-    take_apart(eight(values + k), eight(values + k + group), even_value, odd_value);
+    const Eight low = *eight(values + k), high = *eight(values + k + group);
+    take_apart(low, high, even_value, odd_value);
     EightMarks free_even, free_odd;
     read_marks(free + k, free_even, free_odd);
     const Eight none = {};
