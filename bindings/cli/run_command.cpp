@@ -26,6 +26,7 @@
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/sanitizers.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/result_files.hpp"
 #include "engine/experiment/run_directory.hpp"
@@ -38,15 +39,12 @@ constexpr int done = 0, failed = 1, bad_usage = 2;
 
 // A limit that the counters cannot see (a library's own heap) still ends in bad_alloc.
 void limit_address_space(std::int64_t bytes) {
-#if !defined(__SANITIZE_ADDRESS__)
+  if (sanitized) return;
   constexpr std::int64_t headroom = std::int64_t{512} << 20;  // code, stacks, libraries
   rlimit limit{};
   if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
   limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, static_cast<rlim_t>(bytes + headroom));
   setrlimit(RLIMIT_DATA, &limit);
-#else
-  (void)bytes;
-#endif
 }
 
 std::string reason_text(StopReason reason, const RunCommand& command) {

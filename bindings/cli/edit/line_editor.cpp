@@ -119,6 +119,8 @@ __attribute__((visibility("default"))) int asperity_edit_read(void* pointer, con
   editor.prompt = prompt;
   editor.given_up = false;
   int count = 0;
+  // Before the prompt is shown: who types Ctrl-D at its sight does not mean the end of a line.
+  el_set(editor.line, EL_PREP_TERM, 1);
   const char* got = el_gets(editor.line, &count);
   if (editor.given_up) {
     std::printf("\n");

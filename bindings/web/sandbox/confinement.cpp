@@ -17,6 +17,7 @@
 #include "bindings/web/sandbox/namespaces.hpp"
 #include "bindings/web/sandbox/system_calls.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/sanitizers.hpp"
 
 namespace asperity::web {
 
@@ -43,12 +44,10 @@ void set_limits(const Confinement& confinement) {
   limit(RLIMIT_NOFILE, 64, "open files");
   limit(RLIMIT_MEMLOCK, 0, "locked memory");
   limit(RLIMIT_MSGQUEUE, 0, "message queues");
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  limit(RLIMIT_DATA, confinement.memory_bytes + libraries, "memory");
-  limit(RLIMIT_AS, confinement.memory_bytes + libraries + reserved, "address space");
-#else
-  (void)libraries, (void)reserved;
-#endif
+  if (!sanitized) {
+    limit(RLIMIT_DATA, confinement.memory_bytes + libraries, "memory");
+    limit(RLIMIT_AS, confinement.memory_bytes + libraries + reserved, "address space");
+  }
   // The first signal is taken as a wish, the second as an order.
   const auto seconds = static_cast<rlim_t>(std::max<std::int64_t>(confinement.processor_seconds, 1));
   const rlimit processor{seconds, seconds + 5};

@@ -60,18 +60,9 @@ class Terminal:
         self.type(line.encode() + enter)
         return self.expect(pattern, what)
 
-    # `again` is typed every few seconds: a terminal forgets a Ctrl-D that comes between the prompt's being shown and
-    # the line's being read.
-    def end(self, what, status=0, again=b""):
+    def end(self, what, status=0):
         until = time.monotonic() + patience
-        typed = time.monotonic()
         while time.monotonic() < until:
-            if again and time.monotonic() > typed + 3:
-                try:
-                    self.type(again)
-                except OSError:
-                    again = b""  # it has just ended
-                typed = time.monotonic()
             while self.read(0.05):
                 pass
             pid, ended = os.waitpid(self.pid, os.WNOHANG)
@@ -157,7 +148,7 @@ check(os.path.getsize(os.path.join(folder, "runs/prompt-1/plate.png")) > 1000, "
 os.kill(t.pid, signal.SIGINT)
 t.expect(r"\n> $", "SIGINT at the prompt")
 t.type(ctrl_d)
-t.end("Ctrl-D", again=ctrl_d)
+t.end("Ctrl-D")
 script = open(os.path.join(folder, "runs/prompt-1/script.lua")).read()
 check("plate = lab.surface.sine{" in script and "while true" not in script and "local" not in script,
       f"script.lua is not what was said:\n{script}")
