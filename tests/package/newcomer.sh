@@ -7,6 +7,7 @@
 set -euo pipefail
 cd "$(dirname -- "$0")/../.."
 folder=$1
+! mountpoint --quiet "$folder/root/proc" || umount "$folder/root/proc"
 rm -rf "$folder"
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
@@ -15,6 +16,8 @@ page=$PWD/docs/newcomer.md
 fail() { echo "newcomer: $*" >&2; exit 1; }
 
 mmdebstrap --quiet --variant=apt bookworm "$root"
+mount --bind /proc "$root/proc"
+trap 'umount "$root/proc"' EXIT
 mkdir "$root/root/asperity"
 git archive HEAD | tar -x -C "$root/root/asperity"
 
@@ -46,11 +49,11 @@ step() {
   echo
   echo "A machine with nothing but Debian 12 on it, somebody who has read the README, and the commands it names. Made by"
   echo "\`tests/package/newcomer.sh\`; what package tools and compilers say is left out."
-  step "./lab demo" 30
+  step "./lab demo" 3
   printf '\nA script of their own, `first.lua`:\n\n```lua\n'
   cat "$root/root/asperity/first.lua"
   printf '```\n'
-  step "./lab run first.lua"
+  step "./lab run first.lua" 6
   step "ls runs/first-1"
   printf '\nThe chart, `runs/first-1/%s`:\n\n![Area of contact against pressure](pictures/newcomer.svg)\n' \
     "$(basename "$root"/root/asperity/runs/first-1/*.svg)"
