@@ -346,7 +346,8 @@ class EventMaker {
           if (span.kind == Span::Kind::peak && options_.overshoot == DetectionOptions::Overshoot::ignore &&
               !is_pulse(span))
             break;
-          const double error = std::max(0.1 * span.load_error, 1e-9 * found_.highest);
+          // Never so coarse that nothing is left of it.
+          const double error = std::min(std::max(0.1 * span.load_error, 1e-9 * found_.highest), span.load);
           push(
               PressRequest{recording_.by, rounded(span.load, error), rounded(span.end - span.begin, instant)},
               span.begin, span);
