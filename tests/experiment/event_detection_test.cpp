@@ -4,8 +4,11 @@
 // noise is too much.
 #include "engine/experiment/event_detection.hpp"
 
+#include <filesystem>
 #include <numbers>
 
+#include "engine/experiment/press_recording.hpp"
+#include "engine/surface/io/source_file.hpp"
 #include "tests/experiment/run_fixture.hpp"
 #include "tests/experiment/synthetic_recording.hpp"
 
@@ -347,6 +350,20 @@ TEST(EventDetection, AMillionSamplesTakeNoLonger) {
   const PressRecording recording = play(press, 3, truth);
   EXPECT_GT(recording.time.size(), 990'000U);
   EXPECT_EQ(difference(press, truth, detect_events(recording)), "");
+}
+
+// Loads are rounded to digits that mean something, which one wild sample must not take from all others.
+TEST(EventDetection, OneSampleFarTooHighLeavesEveryPressItsLoad) {
+  const std::filesystem::path file =
+      std::filesystem::path(ASPERITY_TEST_DATA) / "../fuzz/corpus/press_recording/one_sample_too_high.csv";
+  const Protocol found = detect_events(read_press_recording(SourceFile(file.string(), Monitor::silent())));
+  int presses = 0;
+  for (const Protocol::Event& event : found.events())
+    if (const auto* press = std::get_if<PressRequest>(&event.step)) {
+      ++presses;
+      EXPECT_GT(press->value, 0);
+    }
+  EXPECT_GT(presses, 1);
 }
 
 }  // namespace
