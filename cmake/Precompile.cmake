@@ -1,5 +1,5 @@
 # Headers of the language's library and of GoogleTest, read once for all sources of a kind. Builds from scratch take
-# half the time and no longer notice an #include that is missing, so that this is for builds made beside an
+# less time and no longer notice an #include that is missing, so that this is for builds made beside an
 # ordinary one: CI's second compiler and its sanitizers.
 option(ASPERITY_PRECOMPILE "Precompile the headers of libraries" OFF)
 
