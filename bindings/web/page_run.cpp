@@ -84,8 +84,9 @@ void PageRun::finish(RunState state, int exit, const std::string& reason) {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun_;
   Json fields = Json::object({{"status", name(state)}, {"exit", exit}, {"seconds", seconds.count()}});
   if (!reason.empty()) fields.set("reason", reason);
-  events.finish(fields);
+  // Whoever hears of the end finds the run ended.
   state_.store(state);
+  events.finish(fields);
 }
 
 void PageRun::tell_files(bool last) {

@@ -7,9 +7,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <thread>
 
 #include "bindings/web/event_log.hpp"
 #include "bindings/web/frames.hpp"
+#include "bindings/web/page_run.hpp"
 #include "bindings/web/plain_files.hpp"
 #include "bindings/web/positions.hpp"
 #include "bindings/web/views.hpp"
@@ -132,6 +135,21 @@ TEST(EventLog, GivesWhatComesAfterANumber) {
   after = 99;
   EXPECT_EQ(log.after(after, std::chrono::milliseconds(0), more), "");
   EXPECT_FALSE(more);
+}
+
+// The list of runs once called one "running" whose end its reader had just been told.
+TEST(PageRun, HasEndedForWhomeverHearsOfItsEnd) {
+  const Folder folder;
+  for (int repeat = 0; repeat < 200; ++repeat) {
+    PageRun run(std::to_string(repeat), 0, {}, folder.path / std::to_string(repeat));
+    std::thread ends([&] { run.give_up(RunState::stopped, "it was stopped before it began"); });
+    std::string told;
+    std::int64_t after = 0;
+    for (bool more = true; more;) told += run.events.after(after, std::chrono::seconds(10), more);
+    EXPECT_EQ(run.state(), RunState::stopped) << repeat;
+    ends.join();
+    EXPECT_NE(told.find("\"finished\""), std::string::npos);
+  }
 }
 
 TEST(Frame, ComesAsItWentAndNotLonger) {
