@@ -12,13 +12,14 @@ rm -rf "$folder"
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 fail() { echo "clean root: $*" >&2; exit 1; }
+. tests/package/debian_root.sh
 
 cmake --preset package > /dev/null
 cmake --build --preset package --parallel "$(nproc)"
 cpack --preset package > "$folder/cpack.log" 2>&1 || { cat "$folder/cpack.log"; fail "the packages were not made"; }
 
 root=$folder/root
-mmdebstrap --quiet --variant=apt bookworm "$root"
+debian_root "$root"
 cp build/package/packages/asperity_*.deb "$root/tmp/"
 inside() { chroot "$root" "$@"; }
 export LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # From a clone to a first chart with the README alone, in a root that holds nothing but Debian: the commands of the
-# README, then a script of one's own. Writes docs/newcomer.md, the transcript. Needs root, mmdebstrap and ten minutes.
+# README, then a script of one's own. The transcript must be the one in docs/newcomer.md, which --write puts there.
+# Needs root, mmdebstrap and ten minutes; ends with 77 where no root can be made.
 #
-#   tests/package/newcomer.sh FOLDER
+#   tests/package/newcomer.sh FOLDER [--write]
 set -euo pipefail
 cd "$(dirname -- "$0")/../.."
 folder=$1
@@ -12,14 +13,14 @@ rm -rf "$folder"
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 root=$folder/root
-page=$PWD/docs/newcomer.md
 fail() { echo "newcomer: $*" >&2; exit 1; }
+. tests/package/debian_root.sh
 
-mmdebstrap --quiet --variant=apt bookworm "$root"
-mount --bind /proc "$root/proc"
-trap 'umount "$root/proc"' EXIT
+debian_root "$root" mounted
 mkdir "$root/root/asperity"
-git archive HEAD | tar -x -C "$root/root/asperity"
+# A copy without its history does as well.
+git archive --output="$folder/clone.tar" HEAD || tar -c -f "$folder/clone.tar" --exclude=./build --exclude=./runs .
+tar -x -C "$root/root/asperity" -f "$folder/clone.tar"
 
 cat > "$root/root/asperity/first.lua" <<'LUA'
 -- How does the area of contact grow with the load?
@@ -58,6 +59,13 @@ step() {
   printf '\nThe chart, `runs/first-1/%s`:\n\n![Area of contact against pressure](pictures/newcomer.svg)\n' \
     "$(basename "$root"/root/asperity/runs/first-1/*.svg)"
 } > "$folder/newcomer.md"
-cp "$root"/root/asperity/runs/first-1/*.svg docs/pictures/newcomer.svg
-cp "$folder/newcomer.md" "$page"
-echo "newcomer: wrote docs/newcomer.md"
+cp "$root"/root/asperity/runs/first-1/*.svg "$folder/newcomer.svg"
+
+if [ "${2:-}" = --write ]; then
+  cp "$folder/newcomer.svg" docs/pictures/newcomer.svg
+  cp "$folder/newcomer.md" docs/newcomer.md
+  echo "newcomer: wrote docs/newcomer.md"
+else
+  diff -u docs/newcomer.md "$folder/newcomer.md" || fail "docs/newcomer.md tells another story; --write renews it"
+  echo "newcomer: a first chart was drawn, as docs/newcomer.md tells"
+fi

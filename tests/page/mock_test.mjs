@@ -270,12 +270,18 @@ test('Picture, DrawnTurnedExaggeratedAndHonest', () =>
     assert.ok(on.differing(first, await on.pixels(page)) > 0.02, 'the mouse should turn it');
     await page.focus('.pictures input[type=range]');
     await page.keyboard.press('ArrowRight');
-    await on.pause(100);
-    assert.match(await on.text(page, '.pictures .caption'), /× 100 ·/);
+    await on.until(
+      page,
+      () => /× 100 ·/.test(document.querySelector('.pictures .caption').textContent),
+      'the heights should be taken larger',
+    );
     const [, colour] = await page.$$('.pictures select');
     await colour.select('contact');
-    await on.pause(200);
-    assert.match(await on.text(page, '.key'), /contactshare/);
+    await on.until(
+      page,
+      () => /contactshare/.test(document.querySelector('.key').textContent),
+      'the contact should be shown',
+    );
     const [which] = await page.$$('.pictures select');
     await which.select('surface-1');
     await on.until(

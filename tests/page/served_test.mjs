@@ -4,7 +4,7 @@
 
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
-import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test as register } from 'node:test';
@@ -19,8 +19,7 @@ let browser, server, url, folder;
 before(async () => {
   if (!serves) return;
   folder = mkdtempSync(join(tmpdir(), 'asperity-served-'));
-  const port = 20000 + Math.floor(Math.random() * 20000);
-  server = spawn(program, ['serve', '--port', String(port), '--out', join(folder, 'runs'), '--limit-time', '60s']);
+  server = spawn(program, ['serve', '--out', join(folder, 'runs'), '--limit-time', '60s']);
   url = await new Promise((resolve, reject) => {
     let said = '';
     const hear = (data) => {
@@ -69,6 +68,7 @@ test('Served, UnderOneSecond', () =>
 
 test('Lesson, OpenedEditedRunLookedAtAndSaved', async () => {
   const downloads = join(folder, 'saved');
+  mkdirSync(downloads);
   await visit({ downloads }, async (page) => {
     assert.ok((await page.$$('.lessons button')).length >= 8);
     await page.click('.lessons li:nth-child(4) button');
