@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Turns, events and sentences out of what recording_marks.hpp marked.
+// Spans, events and sentences out of what recording_marks.hpp marked.
 #include "engine/experiment/event_detection.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/recorded_turns.hpp"
 #include "engine/experiment/recording_marks.hpp"
 
 namespace asperity {
@@ -19,22 +18,12 @@ namespace {
 using Mark = RecordingMarks::Mark;
 using Span = RecordedSpan;
 
-// A value without the digits that its error makes meaningless.
-double rounded(double value, double error) {
-  if (!(error > 0) || !std::isfinite(value)) return value;
-  const int power = static_cast<int>(std::floor(std::log10(error)));
-  if (power < -300 || power > 300) return value;
-  return power < 0 ? std::round(value * std::pow(10.0, -power)) / std::pow(10.0, -power)
-                   : std::round(value / std::pow(10.0, power)) * std::pow(10.0, power);
-}
-
 std::string lines(std::size_t first, std::size_t last) {
   return first == last ? "line " + std::to_string(first)
                        : "lines " + std::to_string(first) + " to " + std::to_string(last);
 }
 
 std::string seconds(double value) { return format_quantity(value, dimension::time, 4); }
-std::string degrees(double value) { return format_quantity(value, dimension::angle, 4); }
 
 class EventMaker {
  public:
@@ -44,7 +33,7 @@ class EventMaker {
   Protocol make() {
     look_at_missing();
     describe();
-    find_turns();
+    turns_ = recorded_turns(recording_, options_, marks_, found_.highest);
     make_spans();
     warn();
     std::vector<Protocol::Event> events = make_events();
@@ -59,16 +48,10 @@ class EventMaker {
   }
 
  private:
-  struct Turn {
-    double time, angle;
-    std::size_t line;
-  };
-
   std::string at(std::size_t first, std::size_t last) const {
     return recording_.name + " " + lines(first, last);
   }
   void warn(const std::string& sentence) { monitor_.warn("\"" + recording_.name + "\": " + sentence); }
-  static bool loaded(const Mark& mark) { return mark.kind != Mark::Kind::rest; }
   static double load_of(const Mark& mark) { return mark.line.y; }
 
   void describe() {
@@ -86,11 +69,11 @@ class EventMaker {
     found_.least_load = std::max(found_.zero_drift, found_.noise * std::sqrt(2 * found_.evidence / fewest));
     double lowest = INFINITY;
     for (const Mark& mark : marks_.marks())
-      if (loaded(mark)) lowest = std::min(lowest, load_of(mark));
+      if (mark.loaded()) lowest = std::min(lowest, load_of(mark));
     found_.least_step = std::max(std::isinf(lowest) ? 0 : options_.same_load * lowest,
                                  found_.noise * std::sqrt(2 * found_.evidence / fewest));
     for (const Mark& mark : marks_.marks()) {
-      if (loaded(mark)) {
+      if (mark.loaded()) {
         found_.highest = std::max(found_.highest, load_of(mark));
       } else {
         found_.rested = true;
@@ -148,136 +131,6 @@ class EventMaker {
            "; it is taken to have changed steadily");
   }
 
-  // --- turns
-
-  struct Heading {
-    std::size_t first, last;  // rows
-    std::optional<double> angle;
-  };
-
-  double angle_noise() const {
-    std::vector<double> steps;
-    double last = NAN;
-    for (const double angle : recording_.angle) {
-      if (std::isnan(angle)) continue;
-      if (!std::isnan(last)) steps.push_back(std::abs(angle - last));
-      last = angle;
-    }
-    if (steps.empty()) return 0;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle / (0.6745 * std::sqrt(2.0));
-  }
-
-  // The mean angle of these rows, which must not change.
-  Heading heading(std::size_t first, std::size_t last) const {
-    double sum = 0, start = NAN;
-    std::size_t count = 0;
-    for (std::size_t k = first; k <= last; ++k) {
-      const double angle = recording_.angle[k];
-      if (std::isnan(angle)) continue;
-      if (std::isnan(start)) start = angle;
-      if (std::abs(angle - start) > tolerance_)
-        marks_.refuse("turns under load: the angle leaves " + degrees(start) + " in line " +
-                          std::to_string(recording_.line[k]) + ", where it is " + degrees(angle) +
-                          ", while a load is on from line " + std::to_string(recording_.line[first]) +
-                          " to line " + std::to_string(recording_.line[last]),
-                      "a body is turned after it is released; `least_turn` says what counts as a turn, and "
-                      "`zero_drift` what as no load");
-      sum += angle;
-      ++count;
-    }
-    return {first, last, count > 0 ? std::optional<double>(sum / static_cast<double>(count)) : std::nullopt};
-  }
-  // Of some rows at the start or end of the recording.
-  std::optional<Heading> heading_at_rim(std::size_t from, std::size_t to) const {
-    constexpr int enough = 5;
-    double sum = 0;
-    int count = 0;
-    std::size_t last = from;
-    for (std::size_t k = from; count < enough; from < to ? ++k : --k) {
-      if (const double angle = recording_.angle[k]; !std::isnan(angle)) {
-        if (count > 0 && std::abs(angle - sum / count) > tolerance_) break;
-        sum += angle;
-        ++count;
-        last = k;
-      }
-      if (k == to) break;
-    }
-    if (count == 0) return {};
-    return Heading{std::min(from, last), std::max(from, last), sum / count};
-  }
-
-  void find_turns() {
-    if (recording_.angle.empty()) return;
-    tolerance_ = std::max(options_.least_turn, 8 * angle_noise());
-    const auto row = marks_.row();
-    std::vector<Heading> headings;
-    const std::vector<Mark>& marks = marks_.marks();
-    for (std::size_t k = 0; k < marks.size();) {
-      if (!loaded(marks[k])) {
-        ++k;
-        continue;
-      }
-      std::size_t end = k;
-      while (end + 1 < marks.size() && loaded(marks[end + 1])) ++end;
-      headings.push_back(heading(row[marks[k].first], row[marks[end].last]));
-      k = end + 1;
-    }
-    const std::size_t rows = recording_.time.size();
-    const std::size_t first = headings.empty() ? rows - 1 : headings.front().first;
-    if (first > 0)
-      if (auto start = heading_at_rim(0, first - 1)) headings.insert(headings.begin(), *start);
-    if (const std::size_t last = headings.empty() ? 0 : headings.back().last; last + 1 < rows)
-      if (auto end = heading_at_rim(rows - 1, last + 1)) headings.push_back(*end);
-    const Heading* before = nullptr;
-    bool unknown = false;
-    for (const Heading& now : headings) {
-      if (!now.angle) {
-        unknown = true;
-        continue;
-      }
-      if (before != nullptr) take_turn(*before, now, unknown);
-      before = &now;
-      unknown = false;
-    }
-  }
-
-  void take_turn(const Heading& before, const Heading& now, bool unknown) {
-    double angle = *now.angle - *before.angle;
-    if (std::abs(angle) <= tolerance_) return;
-    std::size_t k = before.last;
-    while (k < now.first && !(std::abs(recording_.angle[k] - *before.angle) > 0.5 * std::abs(angle))) ++k;
-    const std::string where =
-        "turns by " + degrees(angle) + " about line " + std::to_string(recording_.line[k]);
-    if (unknown)
-      marks_.refuse(where + ", but lacks the angle while a load was on between line " +
-                        std::to_string(recording_.line[before.last]) + " and line " +
-                        std::to_string(recording_.line[now.first]) + ": before or after it is not recorded",
-                    "fill the angle in by hand");
-    // Without load, as far as samples near it tell.
-    const auto row = marks_.row();
-    auto sample = static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), k) - row.begin());
-    sample = std::min(sample, row.size() - 1);
-    const double load = marks_.load()[sample];
-    if (load > std::max({2 * marks_.drift(), 6 * marks_.effective_noise(), 0.1 * found_.highest}))
-      marks_.refuse(where + " under a load of " + marks_.quantity(load),
-                    "a body is turned after it is released");
-    if (options_.turn_step) {
-      const double steps = std::round(angle / *options_.turn_step);
-      const double off = angle - steps * *options_.turn_step;
-      if (std::abs(off) > 0.2 * *options_.turn_step)
-        marks_.refuse(where + ", which is no multiple of " + degrees(*options_.turn_step),
-                      "give another `turn_step`, or none to take turns as they were read");
-      angle = steps * *options_.turn_step;
-      if (angle == 0) return;
-    } else {
-      constexpr double degree = std::numbers::pi / 180;
-      angle = rounded(angle / degree, std::max(0.05 * tolerance_ / degree, 1e-9)) * degree;
-    }
-    turns_.push_back({recording_.time[k], angle, recording_.line[k]});
-  }
-
   // --- spans
 
   void add(Span span) { found_.spans.push_back(span); }
@@ -289,7 +142,7 @@ class EventMaker {
       const Mark& mark = marks[k];
       const Mark* before = k > 0 ? &marks[k - 1] : nullptr;
       const std::size_t first = marks_.line(mark.first), last = marks_.line(mark.last);
-      const bool on = loaded(mark), was_on = before != nullptr && loaded(*before);
+      const bool on = mark.loaded(), was_on = before != nullptr && before->loaded();
       if (before != nullptr && (on || was_on)) {
         Span way{Span::Kind::rise, before->end, mark.begin};
         way.load = on ? load_of(mark) : 0;
@@ -324,9 +177,9 @@ class EventMaker {
   const Mark* nearest_rest(std::size_t k) const {
     const std::vector<Mark>& marks = marks_.marks();
     for (std::size_t i = k + 1; i-- > 0;)
-      if (!loaded(marks[i])) return &marks[i];
+      if (!marks[i].loaded()) return &marks[i];
     for (std::size_t i = k; i < marks.size(); ++i)
-      if (!loaded(marks[i])) return &marks[i];
+      if (!marks[i].loaded()) return &marks[i];
     return nullptr;
   }
 
@@ -385,10 +238,10 @@ class EventMaker {
            marks_.share(found_.noise / found_.highest) + " of the highest load: a hold of " +
            seconds(found_.shortest_hold) + " below " + marks_.quantity(found_.least_load) +
            " would not be told from it");
-    if (!marks.empty() && loaded(marks.back()))
+    if (!marks.empty() && marks.back().loaded())
       warn("it ends under load, in line " + std::to_string(marks_.line(marks.back().last)) +
            ": the last dwell goes to the last sample, and no release follows");
-    if (!marks.empty() && loaded(marks.front()))
+    if (!marks.empty() && marks.front().loaded())
       warn("it begins under load: the first dwell is counted from the first sample");
     if (!found_.rested && !options_.zero)
       warn("it never comes to rest without load, so the sensor is taken to read zero there");
@@ -477,65 +330,10 @@ class EventMaker {
   Monitor& monitor_;
   RecordingMarks marks_;
   Detection found_;
-  double tolerance_ = 0;  // of angles
-  std::vector<Turn> turns_;
+  std::vector<RecordedTurn> turns_;
 };
 
 }  // namespace
-
-std::string_view name(Span::Kind kind) {
-  switch (kind) {
-    case Span::Kind::rest:
-      return "rest";
-    case Span::Kind::rise:
-      return "rise";
-    case Span::Kind::hold:
-      return "hold";
-    case Span::Kind::peak:
-      return "peak";
-    case Span::Kind::fall:
-      return "fall";
-    case Span::Kind::release:
-      return "release";
-    case Span::Kind::turn:
-      break;
-  }
-  return "turn";
-}
-
-std::string RecordingMarks::quantity(double value) const {
-  return format_quantity(value, recording_.by == PressBy::load ? dimension::force : dimension::pressure, 4);
-}
-std::string RecordingMarks::share(double value) { return format_short(100 * value, 2) + " %"; }
-
-std::string Detection::text() const {
-  const Dimension unit = by == PressBy::load ? dimension::force : dimension::pressure;
-  const auto quantity = [unit](double value) { return format_quantity(value, unit, 4); };
-  std::string all = "recording " + name + ": " + std::to_string(samples) + " samples, every " +
-                    seconds(interval) + " or so";
-  if (missing > 0) all += ", " + std::to_string(missing) + " more without a load";
-  all += "\n  noise          " + quantity(noise) + " a sample";
-  if (highest > 0) all += ", " + format_short(100 * noise / highest, 2) + " % of the highest load";
-  all += "\n  without load   " +
-         (!rested ? std::string("never")
-                  : quantity(zero_low) + (zero_low < zero_high ? " to " + quantity(zero_high) : "") +
-                        " is read, and taken off");
-  all += "\n  seen           holds of " + seconds(shortest_hold) + " and more above " + quantity(least_load);
-  all += "\n  one hold       are loads next to each other within " + quantity(least_step) + " or so";
-  all += "\n  cut            where it saves " + format_short(evidence, 3) + " squares of the noise";
-  std::size_t holds = 0, peaks = 0, releases = 0, turns = 0;
-  for (const Span& span : spans) {
-    holds += span.kind == Span::Kind::hold ? 1 : 0;
-    peaks += span.kind == Span::Kind::peak ? 1 : 0;
-    releases += span.kind == Span::Kind::release ? 1 : 0;
-    turns += span.kind == Span::Kind::turn ? 1 : 0;
-  }
-  const auto count = [](std::size_t n, const char* what) {
-    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-  };
-  return all + "\n  found          " + count(holds, "hold") + ", " + count(peaks, "peak") + ", " +
-         count(releases, "release") + ", " + count(turns, "turn");
-}
 
 Protocol detect_events(const PressRecording& recording, const DetectionOptions& options, Monitor& monitor) {
   return EventMaker(recording, options, monitor).make();

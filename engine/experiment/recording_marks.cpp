@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -335,6 +336,19 @@ void RecordingMarks::look_for_peak(std::vector<Mark>& all, std::size_t first, st
   peak.dwell_error = interval_ / std::sqrt(6.0);
   peak.pulse = pulse;
   all.push_back(peak);
+}
+
+std::string RecordingMarks::quantity(double value) const {
+  return format_quantity(value, recording_.by == PressBy::load ? dimension::force : dimension::pressure, 4);
+}
+std::string RecordingMarks::share(double value) { return format_short(100 * value, 2) + " %"; }
+
+double rounded(double value, double error) {
+  if (!(error > 0) || !std::isfinite(value)) return value;
+  const int power = static_cast<int>(std::floor(std::log10(error)));
+  if (power < -300 || power > 300) return value;
+  return power < 0 ? std::round(value * std::pow(10.0, -power)) / std::pow(10.0, -power)
+                   : std::round(value / std::pow(10.0, power)) * std::pow(10.0, power);
 }
 
 }  // namespace asperity

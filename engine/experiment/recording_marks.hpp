@@ -15,6 +15,9 @@
 
 namespace asperity {
 
+// A value without the digits that its error makes meaningless.
+double rounded(double value, double error);
+
 class RecordingMarks {
  public:
   // A sample counts as noise within so many standard deviations: a million Gaussian ones stay within 4.9.
@@ -28,6 +31,8 @@ class RecordingMarks {
     double begin = 0, end = 0, dwell_error = 0;
     double begin_error = 0, end_error = 0;
     bool pulse = false;  // a peak between rests
+
+    bool loaded() const { return kind != Kind::rest; }
   };
   // A sample or two out of line that were left out.
   struct Disturbance {

@@ -100,9 +100,7 @@ bool RecordingMarks::drop_doubtful() {
   const std::size_t before = marks_.size();
   for (std::size_t k = 0; k < marks_.size(); ++k) {
     Mark& mark = marks_[k];
-    const auto loaded = [this](std::size_t i) {
-      return i < marks_.size() && marks_[i].kind != Mark::Kind::rest;
-    };
+    const auto loaded = [this](std::size_t i) { return i < marks_.size() && marks_[i].loaded(); };
     if (mark.kind != Mark::Kind::hold || mark.end - mark.begin > 3 * mark.dwell_error) continue;
     if (!loaded(k - 1) && !loaded(k + 1)) continue;
     const double top = *std::max_element(y_.begin() + static_cast<std::ptrdiff_t>(mark.first),
