@@ -11,6 +11,8 @@
 
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/kept_blocks.hpp"
+#include "engine/core/sanitizers.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::memory {
@@ -24,11 +26,24 @@ constexpr std::size_t alignment = 64;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 constexpr double mebibyte = 1024.0 * 1024.0;
 
+// Enough for the fields of a solve on 1024². Nothing is kept from a sanitizer, which is to see what is used
+// after it was released. Never destroyed: arrays of static lifetime are released after all else.
+KeptBlocks& kept() {
+  static KeptBlocks& blocks = *new KeptBlocks(sanitized ? 0 : std::size_t{128} << 20);
+  return blocks;
+}
+
 // A grid spread over pages of 4 KiB costs a walk of the page table for nearly every row of a column.
 void ask_for_huge_pages([[maybe_unused]] void* pointer, [[maybe_unused]] std::size_t bytes) {
 #if defined(MADV_HUGEPAGE)
   madvise(pointer, bytes / huge_page * huge_page, MADV_HUGEPAGE);
 #endif
+}
+
+std::size_t boundary_of(std::size_t bytes) { return bytes >= huge_page ? huge_page : alignment; }
+std::size_t rounded_up(std::size_t bytes) {
+  const std::size_t boundary = boundary_of(bytes);
+  return (bytes + boundary - 1) / boundary * boundary;
 }
 
 [[noreturn]] void refuse(std::size_t bytes) {
@@ -65,22 +80,29 @@ bool account(std::int64_t change) noexcept {
 void* acquire(std::size_t bytes) {
   constexpr std::size_t largest = std::size_t{1} << 62;
   if (bytes > largest) refuse(bytes);
-  const std::size_t boundary = bytes >= huge_page ? huge_page : alignment;
-  const std::size_t rounded = (bytes + boundary - 1) / boundary * boundary;
+  const std::size_t boundary = boundary_of(bytes), rounded = rounded_up(bytes);
   if (!account(static_cast<std::int64_t>(bytes))) refuse(bytes);
-  void* pointer = std::aligned_alloc(boundary, rounded == 0 ? boundary : rounded);
+  void* pointer = kept().take(rounded);
   if (pointer == nullptr) {
-    account(-static_cast<std::int64_t>(bytes));
-    refuse(bytes);
+    const auto fresh = [&] { return std::aligned_alloc(boundary, rounded == 0 ? boundary : rounded); };
+    pointer = fresh();
+    if (pointer == nullptr) {
+      kept().drop();
+      pointer = fresh();
+    }
+    if (pointer == nullptr) {
+      account(-static_cast<std::int64_t>(bytes));
+      refuse(bytes);
+    }
+    if (boundary == huge_page) ask_for_huge_pages(pointer, bytes);
   }
-  if (boundary == huge_page) ask_for_huge_pages(pointer, bytes);
   cost::count_bytes(static_cast<std::int64_t>(bytes));
   return pointer;
 }
 
 void release(void* pointer, std::size_t bytes) noexcept {
   if (pointer == nullptr) return;
-  std::free(pointer);
+  if (!kept().give(pointer, rounded_up(bytes))) std::free(pointer);
   account(-static_cast<std::int64_t>(bytes));
   cost::count_bytes(-static_cast<std::int64_t>(bytes));
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -57,6 +58,16 @@ TEST_F(Memory, LimitIsKeptToTheByte) {
     EXPECT_NE(error.sentence().find("of a limit of "), std::string::npos) << error.sentence();
   }
   EXPECT_EQ(memory::held(), before);
+}
+
+// What the last holder left in a block is not what the next one finds.
+TEST_F(Memory, ArraysAreZeroWhoeverHadTheirBlock) {
+  constexpr std::size_t count = 40000;
+  for (int turn = 0; turn < 3; ++turn) {
+    Array<double> field(count);
+    for (const double value : field) ASSERT_EQ(value, 0);
+    std::fill(field.begin(), field.end(), 7.0);
+  }
 }
 
 TEST_F(Memory, AbsurdSizesAreRefusedNotWrapped) {
