@@ -23,7 +23,6 @@ debian_root "$root"
 cp build/package/packages/asperity_*.deb "$root/tmp/"
 inside() { chroot "$root" "$@"; }
 export LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive
-inside apt-get update -qq
 inside sh -c 'apt-get install -qq -y --no-install-recommends /tmp/asperity_*.deb lua5.4' > "$folder/install.log" 2>&1 ||
   { tail -n 40 "$folder/install.log"; fail "the package does not install"; }
 
