@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bindings/cli/accuracy_command.hpp"
+#include "bindings/cli/check_command.hpp"
 #include "bindings/cli/command_pages.hpp"
 #include "bindings/cli/lesson_command.hpp"
 #include "bindings/cli/repl_command.hpp"

@@ -17,8 +17,6 @@
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/argument.hpp"
-#include "bindings/lua/explanation.hpp"
-#include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/state.hpp"
 #include "bindings/lua/version.hpp"
 #include "engine/core/cost.hpp"
@@ -366,98 +364,6 @@ int run(const RunCommand& asked) {
     command.limit_time.reset();  // rank 0 watches it for all
   }
   return ranks->leave(in_run_directory(command, work));
-}
-
-namespace {
-
-// A run without its heavy calls. `report` tells what was found, and how far the script could be followed: ""
-// to its end, otherwise why no further.
-int dry_run(const RunCommand& command, const std::string& verb, lua::Session& session,
-            const std::function<void(const std::string& reached)>& report) {
-  std::string text;
-  try {
-    text = command.text ? *command.text : read_script(command.script);
-  } catch (const Error& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
-  }
-  RunObserver* const observer = command.observer;
-  Watchdog watchdog(command.limit_time ? *command.limit_time : 60.0, [&](StopReason reason) {
-    if (observer != nullptr)
-      return observer->ended(failed, reason, "the " + verb + " did not come to an end");
-    std::fprintf(stderr, "asperity: %s: the %s did not come to an end\n", command.script.c_str(),
-                 verb.c_str());
-  });
-  session.dry_run = true;
-  session.run = std::make_shared<RunDirectory>(RunDirectory::Without::dry);
-  session.exit_hook = [&](int) {
-    report("to its os.exit");
-    std::fflush(nullptr);
-    std::_Exit(done);
-  };
-  try {
-    RunCommand unlimited = command;  // a dry run has a time limit of its own
-    unlimited.limit_time.reset();
-    const lua::State state = make_state(session, unlimited);
-    const Watchdog::Watching watching(watchdog, state.get());
-    const int result = execute(state.get(), command, text, 0);
-    if (result == LUA_OK) {
-      report("");
-      return done;
-    }
-    const std::string message = lua::error_text(state.get(), -1);
-    if (observer != nullptr && stop_flag().reason() != StopReason::none) {
-      observer->ended(failed, stop_flag().reason(), "the " + verb + " was stopped");
-      return failed;
-    }
-    if (stop_flag().reason() != StopReason::none) {
-      std::fprintf(stderr, "asperity: %s: the %s was stopped\n", command.script.c_str(), verb.c_str());
-      return exit_status(stop_flag().reason());
-    }
-    if (lua::stopped_at_placeholder(message) || (session.gave_placeholders && lua::met_nothing(message))) {
-      report("to line " + lua::line_of(message) + ": " + lua::cannot_follow);
-      return done;
-    }
-    if (observer != nullptr)
-      observer->ended(failed, StopReason::none, message);
-    else
-      std::fprintf(stderr, "asperity: %s\n", message.c_str());
-  } catch (const std::exception& error) {
-    if (observer != nullptr)
-      observer->ended(failed, StopReason::none, error.what());
-    else
-      std::fprintf(stderr, "asperity: %s\n", error.what());
-  }
-  return failed;
-}
-
-}  // namespace
-
-int check(const RunCommand& command) {
-  TerminalMonitor monitor;
-  lua::Session session(monitor);
-  return dry_run(command, "check", session, [&](const std::string& reached) {
-    if (command.observer != nullptr) return command.observer->ended(done, StopReason::none, reached);
-    std::printf("%s: no problem found%s%s\n", command.script.c_str(), reached.empty() ? "" : "; checked ",
-                reached.c_str());
-  });
-}
-
-int explain(const RunCommand& command, bool json) {
-  TerminalMonitor monitor;
-  lua::Session session(monitor);
-  session.explanation = std::make_shared<lua::Explanation>();
-  return dry_run(command, "explanation", session, [&](const std::string& reached) {
-    monitor.clear();
-    if (json) {
-      Json all = session.explanation->json();
-      all.set("reached", reached.empty() ? "the end" : reached);
-      std::printf("%s\n", all.text(2).c_str());
-      return;
-    }
-    std::fputs(session.explanation->text().c_str(), stdout);
-    if (!reached.empty()) std::printf("explained %s\n", reached.c_str());
-  });
 }
 
 }  // namespace asperity::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity run`, `asperity check` and `asperity explain`: a script from file to exit status; and what other
-// commands that keep a run directory share with them.
+// `asperity run`: a script from file to exit status; and what other commands that follow a script, or keep a
+// run directory, share with it.
 #pragma once
 
 #include <cstdint>
@@ -51,9 +51,6 @@ struct RunCommand {
 
 // Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage, 130 interrupted.
 int run(const RunCommand& command);
-int check(const RunCommand& command);
-// What the script will compute and at what cost: surfaces are made, contacts planned, nothing is pressed.
-int explain(const RunCommand& command, bool json);
 
 // What the work of a run has at hand.
 struct RunContext {

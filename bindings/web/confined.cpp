@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "bindings/cli/check_command.hpp"
 #include "bindings/cli/run_command.hpp"
 #include "bindings/web/drawing.hpp"
 #include "bindings/web/event_channel.hpp"

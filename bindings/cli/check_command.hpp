@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `asperity check` and `asperity explain`: a script followed without its heavy calls.
+#pragma once
+
+#include "bindings/cli/run_command.hpp"
+
+namespace asperity::cli {
+
+// Exit statuses are those of run().
+int check(const RunCommand& command);
+// What the script will compute and at what cost: surfaces are made, contacts planned, nothing is pressed.
+int explain(const RunCommand& command, bool json);
+
+}  // namespace asperity::cli
