@@ -2,13 +2,15 @@
 // The helpers are threads that live as long as the process and sleep between loops: a loop over a
 // small grid lasts less than starting a thread would. One loop at a time has them; a loop that another
 // thread calls meanwhile runs on that thread alone. A loop never waits for a helper that has not yet
-// begun to help.
+// begun to help. Each thread begins with a share of the blocks that is the same in every loop of as many,
+// since it finds in its cache what it left there; whoever is done takes what is left of the others' shares.
 #include "engine/core/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -26,28 +28,21 @@ thread_local bool single_threaded = false;
 // One call of parallel_for.
 class Loop {
  public:
-  Loop(std::int64_t blocks, const std::function<void(std::int64_t)>& block)
-      : blocks_(blocks), block_(block) {}
+  Loop(std::int64_t blocks, int threads, const std::function<void(std::int64_t)>& block)
+      : block_(block), shares_(static_cast<std::size_t>(threads)) {
+    for (int t = 0; t < threads; ++t) {
+      shares_[static_cast<std::size_t>(t)].next = blocks * t / threads;
+      shares_[static_cast<std::size_t>(t)].end = blocks * (t + 1) / threads;
+    }
+  }
 
-  void work(bool helper) {
+  // Seat 0 is the caller's.
+  void work(int seat) {
     const SingleThreaded nested;
     const double before = cost::transforms();
-    for (;;) {
-      const std::int64_t k = next_.fetch_add(1);
-      if (k >= blocks_) break;
-      try {
-        stop_flag().check();
-        block_(k);
-      } catch (const std::exception&) {
-        const std::lock_guard lock(mutex_);
-        if (!failure_ || k < failed_block_) {
-          failed_block_ = k;
-          failure_ = std::current_exception();
-        }
-        next_.store(blocks_);
-      }
-    }
-    if (helper) {
+    const std::size_t own = static_cast<std::size_t>(seat) % shares_.size();
+    for (std::size_t i = 0; i < shares_.size(); ++i) take(shares_[(own + i) % shares_.size()]);
+    if (seat > 0) {
       const std::lock_guard lock(mutex_);
       helper_transforms_ += cost::transforms() - before;
     }
@@ -60,12 +55,33 @@ class Loop {
   }
 
  private:
-  const std::int64_t blocks_;
+  struct alignas(64) Share {
+    std::atomic<std::int64_t> next{0};
+    std::int64_t end = 0;
+  };
+  // Blocks below one that failed are still done, so that which failure is told does not depend on chance.
+  void take(Share& share) {
+    while (share.next.load(std::memory_order_relaxed) < share.end) {
+      const std::int64_t k = share.next.fetch_add(1);
+      if (k >= share.end || k > failed_block_.load(std::memory_order_relaxed)) break;
+      try {
+        stop_flag().check();
+        block_(k);
+      } catch (const std::exception&) {
+        const std::lock_guard lock(mutex_);
+        if (k < failed_block_.load()) {
+          failed_block_.store(k);
+          failure_ = std::current_exception();
+        }
+      }
+    }
+  }
+
   const std::function<void(std::int64_t)>& block_;
-  std::atomic<std::int64_t> next_{0};
+  std::vector<Share> shares_;
   std::mutex mutex_;
   std::exception_ptr failure_;
-  std::int64_t failed_block_ = 0;
+  std::atomic<std::int64_t> failed_block_{std::numeric_limits<std::int64_t>::max()};
   double helper_transforms_ = 0;
 };
 
@@ -95,7 +111,8 @@ class Pool {
   bool run(Loop& loop, int helpers) {
     const std::unique_lock taken(taken_, std::try_to_lock);
     if (!taken) return false;
-    while (static_cast<int>(helpers_.size()) < helpers) helpers_.emplace_back([this] { help(); });
+    while (static_cast<int>(helpers_.size()) < helpers)
+      helpers_.emplace_back([this, seat = static_cast<int>(helpers_.size()) + 1] { help(seat); });
     {
       const std::lock_guard lock(mutex_);
       loop_ = &loop;
@@ -107,7 +124,7 @@ class Pool {
     else
       wake_.notify_all();
     const Recall recall{*this};
-    loop.work(false);
+    loop.work(0);
     return true;
   }
 
@@ -128,7 +145,7 @@ class Pool {
     left_.wait(lock, [this] { return helping_.load() == 0; });
   }
 
-  void help() {
+  void help(int seat) {
     std::int64_t seen = 0;
     for (;;) {
       for (int turn = 0; turn < turns_before_sleep && calls_.load() == seen; ++turn) pause();
@@ -141,7 +158,7 @@ class Pool {
       --seats_;
       ++helping_;
       lock.unlock();
-      loop.work(true);
+      loop.work(seat);
       lock.lock();
       if (--helping_ == 0) left_.notify_one();
     }
@@ -179,7 +196,7 @@ SingleThreaded::~SingleThreaded() { single_threaded = outer_; }
 void parallel_for(std::int64_t blocks, const std::function<void(std::int64_t)>& block) {
   const std::int64_t threads = std::min<std::int64_t>(thread_count(), blocks);
   if (threads > 1) {
-    Loop loop(blocks, block);
+    Loop loop(blocks, static_cast<int>(threads), block);
     if (pool().run(loop, static_cast<int>(threads - 1))) return loop.finish();
   }
   for (std::int64_t k = 0; k < blocks; ++k) {
