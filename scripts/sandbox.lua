@@ -47,8 +47,18 @@ if not trusted then
   -- Whatever is read is found, and known to have been read, in the same way.
   local function source(path) return type(path) == "string" and host.input_path(path) or path end
   local lines, input = io.lines, io.input
-  function io.lines(path, ...) return lines(source(path), ...) end
-  function io.input(file, ...) return input(source(file), ...) end
+  -- One that cannot be opened is the script's error, at its line.
+  local function readable(path)
+    local place = source(path)
+    if type(place) == "string" then
+      local file, message = open(place)
+      if not file then error(message, 3) end
+      file:close()
+    end
+    return place
+  end
+  function io.lines(path, ...) return lines(readable(path), ...) end
+  function io.input(file, ...) return input(readable(file), ...) end
   local output = io.output
   function io.output(file)
     if type(file) == "string" then

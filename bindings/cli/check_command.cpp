@@ -68,8 +68,14 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
       std::fprintf(stderr, "asperity: %s: the %s was stopped\n", command.script.c_str(), verb.c_str());
       return exit_status(stop_flag().reason());
     }
-    if (lua::stopped_at_placeholder(message) || (session.gave_placeholders && lua::met_nothing(message))) {
+    if (lua::stopped_at_placeholder(message)) {
       report("to line " + lua::line_of(message) + ": " + lua::cannot_follow);
+      return done;
+    }
+    // What a result would have set is not set here; or the script forgot to.
+    if (session.gave_placeholders && lua::met_nothing(message)) {
+      report("to line " + lua::line_of(message) + ", " + lua::without_place(message) +
+             ": a mistake, unless a result that is not known before the run sets it");
       return done;
     }
     if (observer != nullptr)

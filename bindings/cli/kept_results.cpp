@@ -28,7 +28,12 @@ std::filesystem::path results_of(const std::string& named) {
 
 }  // namespace
 
-void require_same_trust(const RunCommand& command, const RecordedRun& recorded, const char* purpose) {
+void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose) {
+  if (recorded.manifest.find("prompt") != nullptr)
+    throw Error(ErrorCode::bad_value,
+                asperity::quoted(recorded.root.string()) +
+                    " is a session of the prompt, whose journal begins with its first file",
+                "its lines run again by `asperity run " + (recorded.root / "script.lua").string() + "`");
   if (command.trust == recorded.trusted) return;
   if (recorded.trusted)
     throw Error(
@@ -82,7 +87,7 @@ std::optional<RunCommand> taken_up(RunCommand command) {
   command.anew = !changed.empty();
   if (command.anew) return command;
   if (recorded.status == "done") return {};
-  require_same_trust(command, recorded, "go on with");
+  require_repeatable(command, recorded, "go on with");
   command.script = recorded.script_path;
   command.text = recorded.script_text;
   command.arguments = recorded.arguments;

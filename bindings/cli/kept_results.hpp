@@ -19,9 +19,10 @@ namespace asperity::cli {
 // and for a directory that is no run.
 std::optional<RunCommand> taken_up(RunCommand command);
 
-// Throws Error{bad_value} unless the command trusts its script as the recorded run did: a directory from
-// elsewhere shall not give itself the whole of Lua. `purpose` as in "go on with".
-void require_same_trust(const RunCommand& command, const RecordedRun& recorded, const char* purpose);
+// Throws Error{bad_value} for a session of the prompt, and unless the command trusts its script as the
+// recorded run did: a directory from elsewhere shall not give itself the whole of Lua. `purpose` as in "go on
+// with".
+void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose);
 
 // How results of a run are kept, and where else they are looked for; the folder is left open. Throws
 // Error{bad_value} for a `reuse` that is no folder.

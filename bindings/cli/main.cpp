@@ -298,11 +298,15 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     auto seconds = [](const std::string& text) -> std::optional<double> {
       if (text.empty()) return {};
-      const Quantity q = parse_quantity(text);
-      if ((q.dimension != dimension::time && q.dimension != dimension::number) || !(q.value > 0))
-        throw Error(ErrorCode::bad_value, "a time limit is " + quoted(text),
-                    "give a time such as 60s or \"2 min\"");
-      return q.value;
+      try {
+        const Quantity q = parse_quantity(text);
+        if ((q.dimension == dimension::time || q.dimension == dimension::number) && q.value > 0)
+          return q.value;
+      } catch (const Error&) {
+        // Whatever it is, it is no time.
+      }
+      throw Error(ErrorCode::bad_value, "a time limit is " + quoted(text),
+                  "give a time such as 60s or \"2 min\"");
     };
     run.seed_given = run_command.count("--seed") > 0;
     run.limit_time = seconds(run_time);

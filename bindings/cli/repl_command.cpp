@@ -46,6 +46,7 @@ class Conversation {
     setup.versions = version_json();
     run_ = std::make_shared<RunDirectory>(std::move(setup),
                                           [this] { return prompt_ ? prompt_->script() : std::string(); });
+    run_->note("prompt", true);
     monitor_.keep_warnings_in(run_.get());
     session_.seed = command.seed;
     session_.trusted = command.trust;

@@ -50,14 +50,16 @@ void show_variation(const RecordedRun& recorded, const std::filesystem::path& pl
   print_differences(found, "recorded", "varied");
 }
 
-// Prints how the two compare; the exit status.
-int compare(const RecordedRun& recorded, const std::filesystem::path& place) {
+// Prints how the two compare; the exit status. `altered`: files of the record are not what the run wrote.
+int compare(const RecordedRun& recorded, const std::filesystem::path& place, bool altered) {
   const RecordedRun again = read_run(place);
   const std::vector<Difference> found = differences(recorded, again);
   if (found.empty()) {
     std::printf("%s: the same again, %zu lines of the journal%s\n", recorded.root.c_str(),
                 recorded.ended() ? recorded.journal.size() : again.journal.size(),
-                recorded.ended() ? " and every file" : ", as far as it had come");
+                !recorded.ended() ? ", as far as it had come"
+                : altered         ? " and every file as the run wrote it"
+                                  : " and every file");
     return equal;
   }
   std::printf("%s: %s\n", recorded.root.c_str(),
@@ -73,7 +75,7 @@ int replay(const ReplayCommand& command) {
   std::optional<RecordedRun> recorded;
   try {
     recorded = read_run(command.recorded);
-    require_same_trust(command.run, *recorded, "replay");
+    require_repeatable(command.run, *recorded, "replay");
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;
@@ -110,11 +112,11 @@ int replay(const ReplayCommand& command) {
   const auto verdict = [&](int ended) {
     try {
       if (variation) {
-        show_variation(*recorded, place, variation->text());
         variation->check_all_met();
+        show_variation(*recorded, place, variation->text());
         return ended;
       }
-      const int status = compare(*recorded, place);
+      const int status = compare(*recorded, place, !altered.empty());
       return altered.empty() ? status : different;
     } catch (const Error& error) {
       std::fprintf(stderr, "asperity: %s\n", error.what());

@@ -46,7 +46,7 @@ const Block<CreepOptions>& creep_block() {
   using O = CreepOptions;
   static const Block<O> block{
       "creep",
-      {number("rate", &O::rate, at_least(0), "fall of the hardness per unit of ln(1 + dwell/onset)"),
+      {number("rate", &O::rate, at_least(0), "b of the law H = hardness (1 + b ln(1 + reference/onset)) / (1 + b ln(1 + dwell/onset))"),
        quantity("onset", &O::onset, dimension::time, above(0), "time from which creep counts"),
        quantity("reference", &O::reference, dimension::time, above(0),
                 "dwell at which the hardness is the stated one, and of a press that names no dwell")}};
@@ -65,7 +65,7 @@ const Block<CapillarityOptions>& capillarity_block() {
                 "of the liquid; that of water unless given"),
        quantity("contact_angle", &O::contact_angle, dimension::angle, at_least(0),
                 "of the liquid on both bodies, below 90 deg"),
-       number("temperature", &O::temperature, above(0), "in kelvins; of `humidity`"),
+       number("temperature", &O::temperature, above(100), "in kelvins, 293.15 in a room; of `humidity`"),
        number("molar_volume", &O::molar_volume, above(0), "of the liquid in m^3/mol; of `humidity`")}};
   return block;
 }

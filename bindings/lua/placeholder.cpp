@@ -169,13 +169,31 @@ bool met_nothing(const std::string& message) {
   return first.find("attempt to ") != std::string::npos && first.find("a nil value") != std::string::npos;
 }
 
-std::string line_of(const std::string& message) {
+namespace {
+// The digits of ":12:"; empty at the end where there are none.
+std::string_view line_number(std::string_view message) {
   for (std::size_t at = message.find(':'); at != std::string::npos; at = message.find(':', at + 1)) {
     const std::size_t end = message.find_first_not_of("0123456789", at + 1);
     if (end != std::string::npos && end > at + 1 && message[end] == ':')
       return message.substr(at + 1, end - at - 1);
   }
-  return "?";
+  return message.substr(message.size());
+}
+}  // namespace
+
+std::string line_of(const std::string& message) {
+  const std::string_view number = line_number(message);
+  return number.empty() ? "?" : std::string(number);
+}
+
+std::string without_place(const std::string& message) {
+  const std::string_view number = line_number(message);
+  std::size_t begin = 0;
+  if (!number.empty())
+    begin = message.find_first_not_of(
+        ": ", static_cast<std::size_t>(number.data() - message.data()) + number.size());
+  begin = std::min(begin, message.size());
+  return message.substr(begin, message.find('\n', begin) - begin);
 }
 
 void open_dry_run_library(lua_State* L) {

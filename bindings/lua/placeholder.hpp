@@ -29,6 +29,8 @@ bool stopped_at_placeholder(const std::string& message);
 bool met_nothing(const std::string& message);
 // The line number of "script.lua:12: …", "?" if there is none.
 std::string line_of(const std::string& message);
+// What follows that place, to the end of the line.
+std::string without_place(const std::string& message);
 
 // Replaces the parts of Lua's library that would trip over placeholders. Raises on lack of memory.
 void open_dry_run_library(lua_State* L);

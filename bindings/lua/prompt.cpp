@@ -93,6 +93,16 @@ std::string field_at_end(const std::string& text) {
   return text.substr(tokens.back().begin, tokens.back().end - tokens.back().begin);
 }
 
+// `return x` is x: in the script that the session becomes, nothing could follow it.
+std::string without_return(std::string text) {
+  const std::vector<Token> tokens = read_tokens(text).list;
+  constexpr std::string_view word = "return";
+  if (!tokens.empty() &&
+      std::string_view(text).substr(tokens[0].begin, tokens[0].end - tokens[0].begin) == word)
+    text.replace(tokens[0].begin, word.size(), word.size(), ' ');
+  return text;
+}
+
 std::string one_line(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\n"), last = text.find_last_not_of(" \t\n;");
   return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
@@ -152,7 +162,8 @@ bool Prompt::load(const std::string& text) {
 
 Prompt::Outcome Prompt::take(std::string_view line, int number) {
   if (waiting_.empty()) first_line_ = number;
-  const std::string text = waiting_.empty() ? std::string(line) : waiting_ + "\n" + std::string(line);
+  const std::string text =
+      without_return(waiting_.empty() ? std::string(line) : waiting_ + "\n" + std::string(line));
   const Argument::StackGuard guard(L);
   const std::string before(static_cast<std::size_t>(first_line_ - 1), '\n');
   if (one_line(text).empty()) {

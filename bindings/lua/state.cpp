@@ -101,7 +101,9 @@ int unknown_global_body(lua_State* L) {
       if (key.is_text()) names.emplace_back(key.text());
     });
     const std::string shown(name.is_text() ? name.text().substr(0, 60) : std::string_view("?"));
-    message = "the global " + quoted(shown) + " was never set" + did_you_mean(shown, names);
+    message = "the global " + quoted(shown) + " was never set";
+    message += shown == "lab" ? "; a script begins with local lab = require \"asperity\""
+                              : did_you_mean(shown, names);
     if (const auto* stayed = Session::of(L).left_behind; stayed != nullptr && stayed->contains(shown))
       message = "the global " + quoted(shown) + " stays with the script: " + stayed->at(shown) +
                 "; make it inside `run`, or use it on the rows that come back";

@@ -52,7 +52,7 @@ void Variation::set(const std::string& text) {
 bool Variation::replaces(lua_State* L, std::string_view caller, std::string_view key, bool given) {
   if (!in_force()) return false;
   const std::lock_guard lock(mutex_);
-  if (given) keys_.emplace(key);
+  if (given) keys_[std::string(key)].emplace(caller);
   for (Setting& setting : settings_) {
     if (setting.key != key || !is_of(caller, setting.caller)) continue;
     if (!given && setting.caller.empty()) continue;
@@ -65,14 +65,30 @@ bool Variation::replaces(lua_State* L, std::string_view caller, std::string_view
 
 void Variation::check_all_met() const {
   const std::lock_guard lock(mutex_);
-  const std::vector<std::string> names(keys_.begin(), keys_.end());
-  for (const Setting& setting : settings_)
-    if (!setting.met)
-      throw Error(
-          ErrorCode::unknown_name,
-          "no call " + (setting.caller.empty() ? "" : "of " + quoted(setting.caller) + " ") +
-              "gives the key " + quoted(setting.key) + did_you_mean(setting.key, names),
-          names.empty() ? "no call was made with keys" : "keys that were given: " + joined(names, " and "));
+  for (const Setting& setting : settings_) {
+    if (setting.met) continue;
+    // The keys of the calls that are meant, or of all where there is none.
+    std::vector<std::string> meant, all;
+    for (const auto& [key, callers] : keys_) {
+      all.push_back(key);
+      if (std::ranges::any_of(callers,
+                              [&](const std::string& caller) { return is_of(caller, setting.caller); }))
+        meant.push_back(key);
+    }
+    std::string sentence = "no call " + (setting.caller.empty() ? "" : "of " + quoted(setting.caller) + " ") +
+                           "gives the key " + quoted(setting.key);
+    if (const auto others = keys_.find(setting.key); others != keys_.end()) {
+      std::vector<std::string> callers;
+      for (const std::string& caller : others->second) callers.push_back(quoted(caller));
+      sentence += ", which " + joined(callers, " and ") + (callers.size() == 1 ? " gives" : " give");
+    } else {
+      sentence += did_you_mean(setting.key, meant.empty() ? all : meant);
+    }
+    throw Error(ErrorCode::unknown_name, sentence,
+                all.empty()                               ? "no call was made with keys"
+                : meant.empty() || setting.caller.empty() ? "keys that were given: " + joined(all, " and ")
+                                                          : "keys that it gives: " + joined(meant, " and "));
+  }
 }
 
 std::string Variation::text() const {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <set>
 #include <string>
@@ -43,7 +44,8 @@ class Variation {
   };
   std::vector<Setting> settings_;
   mutable std::mutex mutex_;  // of what was met
-  std::set<std::string, std::less<>> keys_;
+  std::map<std::string, std::set<std::string>, std::less<>>
+      keys_;  // that were given, and the calls that gave them
 };
 
 // That of the state's session; null where there is none.

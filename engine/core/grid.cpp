@@ -51,6 +51,11 @@ double pairwise(const double* v, std::size_t n) {
 }
 }  // namespace
 
+Field::Field(int nx, int ny, Array<double>&& values) : nx_(nx), ny_(ny), values_(std::move(values)) {
+  if (values_.size() != static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny))
+    throw Error(ErrorCode::internal, "a field's values are not on its grid");
+}
+
 double block_sum(std::span<const double> values) { return pairwise(values.data(), values.size()); }
 
 double mean(std::span<const double> values) {
@@ -59,8 +64,23 @@ double mean(std::span<const double> values) {
 
 Range range(std::span<const double> values) {
   if (values.empty()) return {};
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return {*low, *high};
+  // By lanes: one least and one greatest value would be waited for at every step.
+  constexpr std::size_t lanes = 16;
+  double low[lanes], high[lanes];
+  std::fill_n(low, lanes, values.front());
+  std::fill_n(high, lanes, values.front());
+  const double* const from = values.data();
+  const std::size_t whole = values.size() / lanes * lanes;
+  for (std::size_t k = 0; k < whole; k += lanes)
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const double value = from[k + lane];
+      low[lane] = value < low[lane] ? value : low[lane];
+      high[lane] = value > high[lane] ? value : high[lane];
+    }
+  const auto rest = std::minmax_element(values.begin() + static_cast<std::ptrdiff_t>(whole), values.end());
+  Range range{*std::min_element(low, low + lanes), *std::max_element(high, high + lanes)};
+  if (whole < values.size()) range = {std::min(range.min, *rest.first), std::max(range.max, *rest.second)};
+  return range;
 }
 
 }  // namespace asperity

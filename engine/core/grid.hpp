@@ -37,6 +37,8 @@ class Field {
   // Every value starts as `value`.
   Field(int nx, int ny, double value = 0.0)
       : nx_(nx), ny_(ny), values_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), value) {}
+  // Takes over nx·ny values. Throws Error{internal} if they are not as many.
+  Field(int nx, int ny, Array<double>&& values);
 
   int nx() const { return nx_; }
   int ny() const { return ny_; }

@@ -73,7 +73,7 @@ bool Journal::repeats(const Json& line) {
   const Json& recorded = recorded_[at];
   const Json now = without_unhashed(Json::parse(line.text(), "a line of the journal"));
   if (now == recorded) return true;
-  const DifferingMember differs = first_difference(&recorded, &now);
+  const DifferingMember differs = differing_members(&recorded, &now).front();
   const std::string where = "line " + std::to_string(count_ + 1) + " of the journal";
   const std::string what =
       quoted(differs.path) + " was " + brief(differs.one) + " and is now " + brief(differs.other);
@@ -151,17 +151,20 @@ std::string brief(const Json* value) {
   return text;
 }
 
-DifferingMember first_difference(const Json* one, const Json* other, const std::string& path) {
-  if (one != nullptr && other != nullptr && one->is_object() && other->is_object()) {
-    const auto under = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
-    for (const auto& [name, value] : one->members()) {
-      const Json* same = other->find(name);
-      if (same == nullptr || !(*same == value)) return first_difference(&value, same, under(name));
-    }
-    for (const auto& [name, value] : other->members())
-      if (one->find(name) == nullptr) return {under(name), nullptr, &value};
+std::vector<DifferingMember> differing_members(const Json* one, const Json* other, const std::string& path) {
+  std::vector<DifferingMember> all;
+  if (one == nullptr || other == nullptr || !one->is_object() || !other->is_object())
+    return {{path, one, other}};
+  const auto under = [&](const std::string& name) { return path.empty() ? name : path + "." + name; };
+  for (const auto& [name, value] : one->members()) {
+    const Json* same = other->find(name);
+    if (same != nullptr && *same == value) continue;
+    for (DifferingMember& member : differing_members(&value, same, under(name)))
+      all.push_back(std::move(member));
   }
-  return {path, one, other};
+  for (const auto& [name, value] : other->members())
+    if (one->find(name) == nullptr) all.push_back({under(name), nullptr, &value});
+  return all;
 }
 
 }  // namespace asperity

@@ -86,12 +86,14 @@ JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn);
 // A record without its member "unhashed".
 Json without_unhashed(const Json& record);
 
-// The first member, however deep, in which two records differ; null where one has none.
+// The members, however deep, in which two records differ; null where one has none. One of an empty path where
+// they are not both objects.
 struct DifferingMember {
   std::string path;  // "row.area"
   const Json *one, *other;
 };
-DifferingMember first_difference(const Json* one, const Json* other, const std::string& path = {});
+std::vector<DifferingMember> differing_members(const Json* one, const Json* other,
+                                               const std::string& path = {});
 // As JSON, cut after 120 bytes; "nothing" for null.
 std::string brief(const Json* value);
 

@@ -321,8 +321,10 @@ PictureScript picture_script(const Grid& grid, const Field& field, const Picture
 
 void draw(const Grid& grid, const Field& field, const PictureOptions& options,
           const std::filesystem::path& file) {
-  if (picture_format(file) != PictureFormat::png)
-    throw Error(ErrorCode::bad_value, "the picture " + asperity::quoted(file.string()) + " ends in .svg",
+  if (const std::string ending = file.extension().string(); ending != ".png")
+    throw Error(ErrorCode::bad_value,
+                "the picture " + asperity::quoted(file.string()) +
+                    (ending.empty() ? " has no ending" : " ends in " + ending),
                 "pictures of surfaces are .png");
   const PictureScript picture = picture_script(grid, field, options);
   const GnuplotData cells{"cells", picture.cells};

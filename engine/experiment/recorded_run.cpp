@@ -42,6 +42,21 @@ std::string described(const Json& line) {
   return "";
 }
 
+// One member by its value, several by their names and values.
+Difference difference_of(std::string where, const std::vector<DifferingMember>& members) {
+  const auto join_path = [&](const std::string& path) { return path.empty() ? where : where + ", " + path; };
+  if (members.size() == 1)
+    return {join_path(members[0].path), brief(members[0].one), brief(members[0].other)};
+  const auto list = [&](const Json* DifferingMember::*side) {
+    constexpr std::size_t most = 6;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(members.size(), most); ++k)
+      text += (k > 0 ? ", " : "") + members[k].path + " " + brief(members[k].*side);
+    return members.size() > most ? text + " …" : text;
+  };
+  return {std::move(where), list(&DifferingMember::one), list(&DifferingMember::other)};
+}
+
 void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::vector<Difference>& found) {
   std::size_t compared = std::max(recorded.journal.size(), again.journal.size());
   if (!recorded.ended()) {
@@ -53,10 +68,9 @@ void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::v
     const Json* one = k < recorded.journal.size() ? &recorded.journal[k] : nullptr;
     const Json* other = k < again.journal.size() ? &again.journal[k] : nullptr;
     if (one != nullptr && other != nullptr && *one == *other) continue;
-    const DifferingMember place = first_difference(one, other);
-    std::string where = "line " + std::to_string(k + 1) + ", " + described(one != nullptr ? *one : *other);
-    if (!place.path.empty()) where += ", " + place.path;
-    found.push_back({where, brief(place.one), brief(place.other)});
+    found.push_back(
+        difference_of("line " + std::to_string(k + 1) + ", " + described(one != nullptr ? *one : *other),
+                      differing_members(one, other)));
   }
 }
 

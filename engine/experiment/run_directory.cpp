@@ -232,9 +232,15 @@ fs::path RunDirectory::path_for(std::string_view file) {
 fs::path RunDirectory::place_to_read(std::string_view file) const {
   const fs::path given{std::string(file)};
   std::error_code ignored;
-  if (given.is_absolute() || root_.empty() || fs::exists(given, ignored)) return given;
-  const fs::path written = root_ / given;
-  return fs::exists(written, ignored) ? written : given;
+  if (given.is_absolute() || root_.empty()) return given;
+  const fs::path in_run = root_ / given;
+  const auto is_given = [name = given.lexically_normal()](const std::string& output) {
+    return fs::path(output).lexically_normal() == name;
+  };
+  const std::lock_guard lock(mutex_);
+  const bool written = std::ranges::any_of(outputs_, is_given) && fs::exists(in_run, ignored);
+  if (!written && fs::exists(given, ignored)) return given;
+  return fs::exists(in_run, ignored) ? in_run : given;
 }
 
 std::shared_ptr<Notebook> RunDirectory::notebook(std::string_view name) {

@@ -83,8 +83,8 @@ class RunDirectory {
   // The file is listed among the outputs if it is there when the run ends.
   std::filesystem::path path_for(std::string_view file);
 
-  // Where a file that the script is about to read lies: as named, from the working directory; if there
-  // is none, the one the run itself wrote under that name.
+  // Where a file that the script is about to read lies: the one that the run itself wrote under that name,
+  // else as named, from the working directory.
   std::filesystem::path place_to_read(std::string_view file) const;
 
   Journal& journal() { return *journal_; }

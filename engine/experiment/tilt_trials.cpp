@@ -15,6 +15,9 @@ namespace asperity {
 
 namespace {
 
+// With fewer nodes in contact, area and friction change with the grid.
+constexpr std::int64_t enough_contacts = 50;
+
 void check_trials(const TiltTrialOptions& options) {
   check(options.stage);
   if (options.specimen_area && !(*options.specimen_area > 0 && std::isfinite(*options.specimen_area)))
@@ -36,11 +39,10 @@ void check_trials(const TiltTrialOptions& options) {
 // A half-space contact at a pressure that the grid resolves.
 TiltProbe probe(const Solver& contact, const JunctionLaw& law, double pressure,
                 const TiltTrialOptions& options, Monitor& monitor) {
-  constexpr std::int64_t enough = 50;
   const auto nodes = static_cast<std::int64_t>(contact.geometry().grid().nodes());
   for (;; pressure *= 2) {
     const State state = contact.press({PressBy::pressure, pressure, {}}, monitor);
-    if (state.contacts() < std::min(enough, nodes)) continue;
+    if (state.contacts() < std::min(enough_contacts, nodes)) continue;
     const FrictionResult friction = law.on(state, options.rest);
     const double corrected = state.corrected_area_fraction() / state.area_fraction();
     return {pressure,
@@ -148,6 +150,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
   Task task(monitor, "tilt stage", options.repeats);
   const bool half_space = std::holds_alternative<HalfSpaceOptions>(bench.scene().elasticity);
   std::vector<TiltProbe> probes;
+  std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
   for (int trial = 0; trial < options.repeats; ++trial) {
     const auto k = static_cast<std::uint64_t>(trial);
     if (!flat) bench.place(tilt_placement(options, trial));
@@ -159,12 +162,15 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
       result.probes.insert(result.probes.end(), probes.begin(), probes.end());
     }
     const double mu = half_space ? std::max(0.0, mean_of(probes, &TiltProbe::mu)) : 0;
+    std::int64_t contacts = 0;  // under the greatest load of the trial
     const auto friction = [&](double normal_force) {
       if (half_space) return factor * mu * normal_force;
       const State state = solver->press({PressBy::load, normal_force * tile_share, {}}, monitor);
+      contacts = std::max(contacts, state.contacts());
       return factor * std::max(0.0, law.on(state, options.rest).force) / tile_share;
     };
     result.trials.push_back(slip_angle(friction, options.stage));
+    if (!half_space) fewest = std::min(fewest, contacts);
     task.advance();
   }
 
@@ -184,6 +190,10 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
   if (half_space) result.area_per_load = mean_of(result.probes, &TiltProbe::area_per_load);
   result.spread = standard_deviation(coefficients);
   result.note = note_on(result, options, flat);
+  if (fewest < std::min(enough_contacts, static_cast<std::int64_t>(bench.lower().grid().nodes())))
+    add_sentence(result.note, "the weight rests on " + std::to_string(fewest) +
+                                  (fewest == 1 ? " node" : " nodes") +
+                                  " only: mu is that of their areas and changes with the grid");
   if (options.rest)
     add_sentence(result.note, "at rest for " + format_quantity(*options.rest, dimension::time) +
                                   ", tau0 grew by a factor of " +

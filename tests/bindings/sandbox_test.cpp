@@ -157,6 +157,10 @@ TEST_F(Sandbox, FilesAreReadFromAnywhere) {
   EXPECT_EQ(value("io.open('" + path + "'):read('l')"), "1 2");
   EXPECT_EQ(run("local n = 0 for line in io.lines('" + path + "') do n = n + 1 end assert(n == 2)"), "");
   EXPECT_EQ(value("io.open('/nowhere/at/all')"), "nil");
+  for (const char* function : {"io.lines", "io.input"}) {
+    const std::string message = run(std::string("local n = 1\n") + function + "('/nowhere/at/all')");
+    EXPECT_NE(message.find(":2: /nowhere/at/all: No such file"), std::string::npos) << message;
+  }
 }
 
 TEST_F(Sandbox, ReplacingGlobalsOpensNoDoor) {

@@ -74,5 +74,20 @@ TEST_F(VariationTest, OneThatNoCallMeetsIsAnErrorWithTheNearestKey) {
   EXPECT_THROW(variation().set("press.=3"), Error);
 }
 
+TEST_F(VariationTest, OneThatOtherCallsMeetSaysWhichTheyAre) {
+  variation().set("read.cells=6");
+  EXPECT_EQ(run("lab.surface.flat{ cells=4, size=1 } lab.surface.sine{ cells=4, size=1, amplitude=0 }"), "");
+  try {
+    variation().check_all_met();
+    FAIL() << "it was passed over";
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("no call of `read` gives the key `cells`, which `lab.surface.flat` and "
+                           "`lab.surface.sine` give; keys that were given: "),
+              std::string::npos)
+        << message;
+  }
+}
+
 }  // namespace
 }  // namespace asperity::lua

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/error.hpp"
@@ -78,6 +79,15 @@ TEST(Field, StoresRowByRow) {
   EXPECT_TRUE(Field().empty());
 }
 
+TEST(Field, TakesValuesOver) {
+  Array<double> values(6, 3.0);
+  const double* const at = values.data();
+  const Field field(3, 2, std::move(values));
+  EXPECT_EQ(field.data(), at);
+  EXPECT_EQ(field(2, 1), 3.0);
+  EXPECT_THROW(Field(2, 2, Array<double>(3)), Error);
+}
+
 TEST(BlockSum, OfKnownSeries) {
   for (const int n : {0, 1, 7, 8, 9, 1023, 1024, 1025, 2048, 5000, 100001}) {
     std::vector<double> values(static_cast<std::size_t>(n));
@@ -105,6 +115,17 @@ TEST(BlockSum, MeanAndRange) {
   EXPECT_EQ(range(values).span(), 5.0);
   EXPECT_EQ(mean({}), 0.0);
   EXPECT_EQ(range({}).span(), 0.0);
+}
+
+TEST(BlockSum, RangeIsFoundWhereverItLies) {
+  for (const std::size_t n : {1u, 15u, 16u, 17u, 40u, 100u})
+    for (std::size_t at = 0; at < n; ++at) {
+      std::vector<double> values(n, 1.0);
+      values[at] = -2;
+      values[(at + n / 2) % n] += 5;
+      EXPECT_EQ(range(values).min, n / 2 == 0 ? 3.0 : -2.0) << n << " " << at;
+      EXPECT_EQ(range(values).max, n / 2 == 0 ? 3.0 : 6.0) << n << " " << at;
+    }
 }
 
 }  // namespace

@@ -212,6 +212,10 @@ TEST(Expectation, RefusesToSayNothing) {
   e.within.reset();
   e.relative = -0.1;
   EXPECT_EQ(error_of([&] { check(e); }), "bad_value: `rel` is -0.1; give a finite number, zero or above");
+  e.near = 0;
+  e.relative = 0.1;
+  EXPECT_EQ(error_of([&] { check(e); }),
+            "bad_value: `near` is 0, of which `rel` leaves no width; give `within`");
   e = about("mu");
   e.within = 1;
   e.at_least = 0;

@@ -107,6 +107,26 @@ TEST_F(RunDirectoryTest, FilesGoUnderIt) {
   EXPECT_EQ(run.path_for("./c.png"), run.path() / "c.png");
 }
 
+// A script that writes press.csv and reads it back once got the one beside it.
+TEST_F(RunDirectoryTest, WhatTheRunWroteIsReadBeforeWhatLiesBeside) {
+  const fs::path beside = fs::current_path();
+  fs::current_path(folder);
+  {
+    RunDirectory run(setup());
+    std::ofstream("press.csv") << "beside";
+    std::ofstream("other.csv") << "beside";
+    EXPECT_EQ(run.place_to_read("press.csv"), "press.csv");
+    std::ofstream(run.path_for("./press.csv")) << "of the run";
+    EXPECT_EQ(content_of(run.place_to_read("press.csv")), "of the run");
+    EXPECT_EQ(content_of(run.place_to_read("maps/../press.csv")), "of the run");
+    EXPECT_EQ(run.place_to_read("other.csv"), "other.csv");
+    run.path_for("other.csv");  // not yet written
+    EXPECT_EQ(run.place_to_read("other.csv"), "other.csv");
+    EXPECT_EQ(run.place_to_read((folder / "press.csv").string()), folder / "press.csv");
+  }
+  fs::current_path(beside);
+}
+
 TEST_F(RunDirectoryTest, RefusesEveryWayOut) {
   RunDirectory run(setup());
   const auto refused = [](std::string_view file) {

@@ -90,6 +90,22 @@ TEST(Xyz, ThreeColumnsOfHeightsAreAMatrix) {
   EXPECT_EQ(surface.grid().ny, 5);
 }
 
+TEST(Xyz, ScatteredPointsAreNoMapOfThreeColumns) {
+  const Scratch scratch;
+  std::string text;
+  for (int k = 0; k < 150; ++k)
+    text += std::to_string(std::sin(k)) + " " + std::to_string(std::cos(1.7 * k)) + " 0.5\n";
+  ReadOptions options = in_micrometres();
+  options.size_x = options.size_y = 1e-3;
+  const auto answer = [&](const std::string& name) {
+    return message_of([&] { read_surface(scratch.write(name, text), options); });
+  };
+  EXPECT_NE(answer("cloud.xyz").find("is not on a regular grid"), std::string::npos) << answer("cloud.xyz");
+  EXPECT_NE(answer("cloud.txt").find("three columns and a hundred lines or more"), std::string::npos);
+  options.format = "text";
+  EXPECT_EQ(read_surface(scratch.write("map.txt", text), options).grid().nx, 3);
+}
+
 // A lattice of nx x ny points whose point k is given copies(k) times.
 template <class Copies>
 std::string lattice(int nx, int ny, Copies&& copies) {

@@ -48,7 +48,7 @@ void require(std::string_view name, std::span<const EffectEntry> entries, const 
   if (entry == entries.end()) {
     const std::vector<std::string> all = names(entries, false);
     throw Error(ErrorCode::unknown_name, "there is no " + kind + " " + quoted(name) + did_you_mean(name, all),
-                "known are " + joined(all, " and "));
+                "known are " + joined(ready, " and "));
   }
   if (entry->availability == Availability::computed) return;
   const std::string why = entry->availability == Availability::not_yet ? " is not computed by this version"

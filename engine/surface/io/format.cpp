@@ -21,13 +21,25 @@ std::span<const Format* const> formats() {
 
 namespace {
 
+bool has_extension_of(const Format& format, const SourceFile& file) {
+  return std::ranges::find(format.extensions, file.extension()) != format.extensions.end();
+}
+
 const Format& if_certain(const Format& format, const SourceFile& file) {
-  if (&format == &text_format() && almost_triples(file))
+  if (&format != &text_format()) return format;
+  if (has_extension_of(xyz_format(), file)) return xyz_format();
+  if (almost_triples(file))
     refuse_file(
         file,
         "has three columns, of which the first two hold almost all points of a lattice: it may be x y z "
         "triples, some missing or given twice, or a matrix of heights",
         "say which: `format` = \"xyz\" or `format` = \"text\"");
+  if (many_triples(file))
+    refuse_file(
+        file,
+        "has three columns and a hundred lines or more: it may be x y z points that are not on a lattice, or "
+        "a matrix of heights",
+        "grid the points first, or say `format` = \"text\"");
   return format;
 }
 
@@ -51,11 +63,8 @@ const Format& choose_format(const SourceFile& file, const std::string& forced) {
   }
   for (const Format* format : formats())
     if (format->recognises(file)) return if_certain(*format, file);
-  for (const Format* format : formats()) {
-    const auto& endings = format->extensions;
-    if (std::find(endings.begin(), endings.end(), file.extension()) != endings.end())
-      return if_certain(*format, file);
-  }
+  for (const Format* format : formats())
+    if (has_extension_of(*format, file)) return if_certain(*format, file);
   refuse_file(file, "is of no known format; looked for " + joined(marks, " and "),
               "if it is one of them, name it with `format`");
 }

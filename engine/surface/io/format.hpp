@@ -54,12 +54,16 @@ const Format& text_format();
 // points missing or given more than once, which a matrix of three columns could be as well.
 bool almost_triples(const SourceFile& file);
 
+// Whether such a text is so long that points are likelier than a map three columns wide.
+bool many_triples(const SourceFile& file);
+
 // All of them, in the order in which they are tried: the most particular marks first.
 std::span<const Format* const> formats();
 
 // The format called `forced`, or else the first that recognises the content, or else the one of the
-// extension. Throws Error{unknown_name} for a `format` that does not exist and Error{bad_file} when
-// nothing fits, naming what was looked for, or when a table may be a matrix or almost_triples().
+// extension, which decides for x y z where the content is a table. Throws Error{unknown_name} for a `format`
+// that does not exist and Error{bad_file} when nothing fits, naming what was looked for, or when a table may be
+// a matrix or almost_triples() or many_triples().
 const Format& choose_format(const SourceFile& file, const std::string& forced);
 
 }  // namespace asperity

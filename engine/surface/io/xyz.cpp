@@ -217,6 +217,12 @@ bool almost_triples(const SourceFile& file) {
   return coverage.points >= (coverage.places <= 1.5 * rows ? 0.8 : 0.9) * rows;
 }
 
+bool many_triples(const SourceFile& file) {
+  constexpr int many = 100;
+  const std::optional<TextTable> table = triples_of(file);
+  return table && table->rows >= many && !names_a_width(file);
+}
+
 const Format& xyz_format() {
   static constexpr std::array<std::string_view, 1> endings{"xyz"};
   static const Format format{"xyz", "x y z triples on a lattice", endings, recognises, read};

@@ -25,6 +25,7 @@ for k = 1, 2 do
 end
 local function twice(x) return 2 * x end
 twice(21)
+return 7
 nil
 c = lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box" } }
 st = c:press{ pressure="1 MPa" }
@@ -43,6 +44,7 @@ cat > wanted <<'TEXT'
 turn 1
 turn 2
 42
+7
 nil
 1 MPa (1000000 Pa)
 function contact:press, which help explains
@@ -106,6 +108,7 @@ status=0
 "$program" run runs/prompt-1/script.lua --out again > output 2>&1 || status=$?
 [ "$status" = 1 ] && cmp runs/prompt-1/flat.npy again/flat.npy && cmp runs/prompt-1/rows.csv again/rows.csv ||
   { cat output; fail "the session does not run again as a script"; }
+ends 2 'is a session of the prompt' "$program" replay runs/prompt-1
 printf '%s\n' 'lab.surface.flat{ cells=8, size=1 }:write "a.csv"' > lines
 ends 0 'results in' "$program" repl --out here < lines
 [ -s here/a.csv ] || fail "--out was not heard"

@@ -202,20 +202,19 @@ HalfSpaceAnswer even_load(const HalfSpaceProblem& problem, double mean_pressure)
 }
 
 HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, double mean_pressure,
-                      const CellAnswer& cell) {
+                      CellAnswer cell) {
   HalfSpaceAnswer answer;
   const int nx = problem.grid.nx, ny = problem.grid.ny;
-  answer.pressure = Field(nx, ny);
-  answer.gap = Field(nx, ny);
+  answer.pressure = Field(nx, ny, std::move(cell.pressure));
+  answer.gap = Field(nx, ny, std::move(cell.gap));
   const double cap = problem.yield.caps() ? problem.yield.cap : infinity;
   const double cell_cap = problem.yield.caps() ? cap / units.pressure : infinity;
-  for_nodes(cell.pressure.size(),
-            [=, from = cell.pressure.data(), gap = cell.gap.data(), offset = cell.offset,
-             pressure = answer.pressure.values().data(), to = answer.gap.values().data()](std::size_t k) {
-              const double p = from[k], scaled = p * units.pressure, within = scaled < cap ? scaled : cap;
-              pressure[k] = p >= cell_cap ? cap : within;
-              to[k] = (gap[k] - offset) * units.height;
-            });
+  for_nodes(answer.pressure.size(), [=, offset = cell.offset, pressure = answer.pressure.data(),
+                                     gap = answer.gap.data()](std::size_t k) {
+    const double p = pressure[k], scaled = p * units.pressure, within = scaled < cap ? scaled : cap;
+    pressure[k] = p >= cell_cap ? cap : within;
+    gap[k] = (gap[k] - offset) * units.height;
+  });
   answer.mean_pressure = mean_pressure;
   const double offset = cell.offset * units.height;
   const double peak = range(problem.heights->values()).max;
@@ -283,7 +282,7 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
       found.applications += before;
     }
   }
-  HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, found);
+  HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, std::move(found));
   if (!answer.converged && !problem.best_effort)
     throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations);
   return answer;
