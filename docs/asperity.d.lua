@@ -17,7 +17,7 @@ local Material = {}
 ---@field bins? integer shells of equal ratio; 0: one a multiple of the fundamental (integer at least 0, default 0)
 
 ---@class asperity.options.surface.fractal_dimension
----@field method? "length"|"psd"|"structure"|"box"|"madogram" profile length (the paper's eq. 3), spectrum, structure function, box counting or madogram ("length"|"psd"|"structure"|"box"|"madogram", default "length")
+---@field method? "length"|"psd"|"structure"|"box"|"madogram" profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure function, box counting or madogram ("length"|"psd"|"structure"|"box"|"madogram", default "length")
 ---@field steps? integer[] steps in samples, e.g. {1, 2, 4, 8, 16} (integer[], default {1, 2, 4, 8, 16})
 ---@field offsets? boolean method length: average over all starting points (boolean, default false)
 ---@field pooled? boolean one line through the average over profiles instead of the mean of each one's D (boolean, default false)
@@ -189,7 +189,7 @@ function Surface:profiles(options) end
 ---@field bins? integer shells of equal ratio; 0: one a multiple of the fundamental (integer at least 0, default 0)
 
 ---@class asperity.options.profile.fractal_dimension
----@field method? "length"|"psd"|"structure"|"box"|"madogram" profile length (the paper's eq. 3), spectrum, structure function, box counting or madogram ("length"|"psd"|"structure"|"box"|"madogram", default "length")
+---@field method? "length"|"psd"|"structure"|"box"|"madogram" profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure function, box counting or madogram ("length"|"psd"|"structure"|"box"|"madogram", default "length")
 ---@field steps? integer[] steps in samples, e.g. {1, 2, 4, 8, 16} (integer[], default {1, 2, 4, 8, 16})
 ---@field offsets? boolean method length: average over all starting points (boolean, default false)
 ---@field pooled? boolean one line through the average over profiles instead of the mean of each one's D (boolean, default false)

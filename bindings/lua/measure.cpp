@@ -85,7 +85,8 @@ const Block<FractalDimensionOptions>& fractal_dimension_block(bool surface) {
                 {"structure", DimensionMethod::structure},
                 {"box", DimensionMethod::box},
                 {"madogram", DimensionMethod::madogram}},
-               "profile length (the paper's eq. 3), spectrum, structure function, box counting or madogram"),
+               "profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure "
+               "function, box counting or madogram"),
         custom<O>("steps", "integer[]", "steps in samples, e.g. {1, 2, 4, 8, 16}",
                   [](const Argument& value, const OptionInfo& info, O& o, Problems& problems) {
                     if (!value.is_table() || value.length() < 2)

@@ -12,6 +12,7 @@
 #include "engine/metrology/length_ratio.hpp"
 #include "engine/metrology/line_fit.hpp"
 #include "engine/metrology/profile_statistics.hpp"
+#include "engine/metrology/spectral_bands.hpp"
 
 namespace asperity {
 
@@ -122,6 +123,7 @@ double reported(DimensionMethod method, double statistic, double unit) {
 struct Fitted {
   bool any = false;
   double D = 1, error = 0, r_squared = 0;
+  LineFit line;
 };
 
 Fitted fit_dimension(DimensionMethod method, std::span<const double> log_steps,
@@ -140,6 +142,7 @@ Fitted fit_dimension(DimensionMethod method, std::span<const double> log_steps,
   result.D = at_zero + per_slope * line.slope;
   result.error = std::abs(per_slope) * line.slope_error;
   result.r_squared = line.r_squared;
+  result.line = line;
   return result;
 }
 
@@ -213,6 +216,20 @@ std::string too_flat(std::span<const double> mean_square_slopes, std::span<const
          std::to_string(steps[static_cast<std::size_t>(longest)]) + ", where a Gaussian profile shows " +
          format_short(100 * share, 2) +
          " % of D - 1; slopes above about 5 are needed, or the method `structure`";
+}
+
+// Why a line through the spectrum is not to be believed; empty where it may be.
+std::string gap_in_spectrum(int samples, bool wrap, std::span<const double> log_wavelengths,
+                            std::span<const double> log_powers, const LineFit& line) {
+  std::vector<double> above_line(log_powers.begin(), log_powers.end());
+  for (std::size_t k = 0; k < above_line.size(); ++k)
+    above_line[k] -= line.intercept + line.slope * log_wavelengths[k];
+  const std::optional<std::size_t> empty = empty_band(samples, wrap, above_line);
+  if (!empty) return {};
+  return "waves of about " + format_short(std::exp(log_wavelengths[*empty]), 2) + " samples hold " +
+         format_short(std::exp(above_line[*empty]), 2) +
+         " of the power that the line gives them: the spectrum is one of lines with gaps between them, or it "
+         "ends or bends; draw `spectrum`, or use the method `structure`";
 }
 
 FractalDimension unresolved(std::string reason) {
@@ -289,6 +306,8 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
   if (result.reason.empty() && (result.D < 1 - result.error || result.D > 2 + result.error))
     result.reason = "D = " + format_short(result.D, 4) +
                     " is outside 1 … 2: the heights do not scale over these " + (is_psd ? "bands" : "steps");
+  if (result.reason.empty() && is_psd)
+    result.reason = gap_in_spectrum(set.shortest, wrap, log_steps, statistics, pooled.line);
   result.resolved = result.reason.empty();
   return result;
 }

@@ -8,7 +8,8 @@
 //   structure  M = mean Δz² over the lag s ~ s^2H, all offsets
 //   madogram   M = mean |Δz| over the lag s ~ s^H, all offsets (Gneiting, Ševčíková & Percival 2012)
 //   psd        M = periodogram at the wavelength s ~ s^(5-2D): Hann window (none if it wraps),
-//              geometric means over bands of ratio √2 from half the length to 3 samples
+//              mean powers of bands of ratio √2 from half the length to 3 samples
+//              (spectral_bands.hpp)
 //   box        M = boxes of side s/(n-1) that the profile enters ~ s^-D, after both its length and
 //              its height are scaled to 1
 //
@@ -47,7 +48,7 @@ struct FractalDimensionOptions {
 struct FractalDimension {
   double D = 1;
   double error = 0;  // standard deviation of D over profiles; of one profile, standard error of the fit
-  // The statistic at every step, averaged over profiles (psd: geometric mean), and the steps
+  // The statistic at every step, averaged over profiles (psd: by its logarithm), and the steps
   // (psd: wavelengths) in samples. structure and psd in m², madogram in m, the others plain.
   std::vector<double> lengths, steps;
   double r_squared = 0;   // of the line through `lengths`
@@ -58,8 +59,8 @@ struct FractalDimension {
 
 // `resolved` is false, with a reason, where heights are equal to rounding, fewer than three steps
 // (psd: three bands) fit, some profiles are flat, heights repeat, D falls outside 1 … 2 by more than its
-// error, or, for `length`, where the profile is so flat that a Gaussian one of the same slopes would show
-// less than this share of D - 1.
+// error, for `psd`, where a band is empty (spectral_bands.hpp), or, for `length`, where the profile is so
+// flat that a Gaussian one of the same slopes would show less than this share of D - 1.
 inline constexpr double length_share_wanted = 0.9;
 
 // Cost O(nodes · steps) (psd: n log n). Memory: steps doubles a profile. Same bits for any number of

@@ -3,10 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-
-#include "engine/core/fourier.hpp"
 
 namespace asperity {
 
@@ -75,25 +71,6 @@ double boxes_at(std::span<const double> z, double unit, int s, bool wrap) {
   return count * (per_box / static_cast<double>(columns));
 }
 
-// Ordinates first … last of a periodogram.
-struct Band {
-  int first, last;
-};
-
-// From half the length, as the Hann window leaks the mean into the ordinate before (a periodic profile
-// needs none and starts at its length), down to three samples, as what aliases fills up the rest.
-std::vector<Band> bands(int n, bool wrap) {
-  std::vector<Band> result;
-  if (n < 16) return result;
-  const int end = (n + 2) / 3;
-  for (double low = wrap ? 1 : 2; low < end; low *= std::numbers::sqrt2) {
-    const int first = static_cast<int>(std::ceil(low));
-    const int last = std::min(static_cast<int>(std::ceil(low * std::numbers::sqrt2)), end) - 1;
-    if (first <= last) result.push_back({first, last});
-  }
-  return result;
-}
-
 }  // namespace
 
 void step_statistics(std::span<const double> heights, double spacing, double unit, const Stepping& stepping,
@@ -119,39 +96,6 @@ void step_statistics(std::span<const double> heights, double spacing, double uni
       case DimensionMethod::psd:
         break;
     }
-  }
-}
-
-std::vector<double> band_wavelengths(int n, bool wrap) {
-  std::vector<double> result;
-  for (const Band& band : bands(n, wrap)) {
-    double sum = 0;
-    for (int k = band.first; k <= band.last; ++k) sum += std::log(static_cast<double>(k));
-    result.push_back(n / std::exp(sum / (band.last - band.first + 1)));
-  }
-  return result;
-}
-
-void band_log_powers(std::span<const double> heights, double unit, bool wrap, std::span<double> log_powers) {
-  const auto n = static_cast<int>(heights.size());
-  Array<double> samples(heights.begin(), heights.end());
-  const double centre = mean(samples);
-  double total = 0;
-  for (int i = 0; i < n; ++i) {
-    double& value = samples[static_cast<std::size_t>(i)];
-    const double s = std::sin(std::numbers::pi * (i + 0.5) / n);
-    value = (value - centre) / unit * (wrap ? 1 : s * s);
-    total += value * value;
-  }
-  const Array<std::complex<double>> waves = fourier_forward(samples);
-  // What rounding leaves of an ordinate that is zero.
-  const double floor = 1e-32 * total * n;
-  const std::vector<Band> all = bands(n, wrap);
-  for (std::size_t b = 0; b < all.size(); ++b) {
-    double sum = 0;
-    for (int k = all[b].first; k <= all[b].last; ++k)
-      sum += std::log(std::max(std::norm(waves[static_cast<std::size_t>(k)]), floor));
-    log_powers[b] = sum / (all[b].last - all[b].first + 1);
   }
 }
 

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/metrology/spectral_bands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/core/fourier.hpp"
+#include "engine/core/memory.hpp"
+
+namespace asperity {
+
+namespace {
+
+// Digamma and trigamma are summed up to here by their recurrences; their series are exact to 1e-14 beyond.
+constexpr double far_out = 16;
+
+// Of empty bands, see the header.
+constexpr double least_gap = 1, standard_deviations = 3.5;
+
+}  // namespace
+
+// From half the length, as the Hann window leaks the mean into the ordinate before (a periodic profile
+// needs none and starts at its length), down to three samples, as what aliases fills up the rest.
+std::vector<SpectralBand> spectral_bands(int n, bool wrap) {
+  std::vector<SpectralBand> result;
+  if (n < 16) return result;
+  const int end = (n + 2) / 3;
+  for (double low = wrap ? 1 : 2; low < end; low *= std::numbers::sqrt2) {
+    const int first = static_cast<int>(std::ceil(low));
+    const int last = std::min(static_cast<int>(std::ceil(low * std::numbers::sqrt2)), end) - 1;
+    if (first <= last) result.push_back({first, last});
+  }
+  return result;
+}
+
+std::vector<double> band_wavelengths(int n, bool wrap) {
+  std::vector<double> result;
+  for (const SpectralBand& band : spectral_bands(n, wrap)) {
+    double sum = 0;
+    for (int k = band.first; k <= band.last; ++k) sum += std::log(static_cast<double>(k));
+    result.push_back(n / std::exp(sum / band.ordinates()));
+  }
+  return result;
+}
+
+void band_log_powers(std::span<const double> heights, double unit, bool wrap, std::span<double> log_powers) {
+  const auto n = static_cast<int>(heights.size());
+  Array<double> samples(heights.begin(), heights.end());
+  const double centre = mean(samples);
+  double total = 0;
+  for (int i = 0; i < n; ++i) {
+    double& value = samples[static_cast<std::size_t>(i)];
+    const double s = std::sin(std::numbers::pi * (i + 0.5) / n);
+    value = (value - centre) / unit * (wrap ? 1 : s * s);
+    total += value * value;
+  }
+  const Array<std::complex<double>> waves = fourier_forward(samples);
+  // What rounding leaves of an ordinate that is zero.
+  const double floor = 1e-32 * total * n;
+  const std::vector<SpectralBand> bands = spectral_bands(n, wrap);
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    double sum = 0;
+    for (int k = bands[b].first; k <= bands[b].last; ++k)
+      sum += std::norm(waves[static_cast<std::size_t>(k)]);
+    const int ordinates = bands[b].ordinates();
+    log_powers[b] = std::log(std::max(sum / ordinates, floor)) +
+                    log_mean_deficit(independent_ordinates(ordinates, !wrap));
+  }
+}
+
+double independent_ordinates(int ordinates, bool hann) {
+  const double n = ordinates;
+  if (!hann) return n;
+  return n * n / (n + 2 * (4.0 / 9 * (n - 1) + 1.0 / 36 * std::max(n - 2, 0.0)));
+}
+
+// Abramowitz and Stegun (1964), 6.3.5 and 6.3.18.
+double log_mean_deficit(double independent) {
+  double below = 0, v = independent;
+  for (; v < far_out; v += 1) below += 1 / v;
+  const double r = 1 / (v * v);
+  const double digamma =
+      std::log(v) - 0.5 / v - r * (1.0 / 12 - r * (1.0 / 120 - r * (1.0 / 252 - r / 240))) - below;
+  return std::log(independent) - digamma;
+}
+
+// The same, 6.4.6 and 6.4.12.
+double log_mean_scatter(double independent) {
+  double below = 0, v = independent;
+  for (; v < far_out; v += 1) below += 1 / (v * v);
+  const double r = 1 / (v * v);
+  return std::sqrt(below + 0.5 * r + (1 + r * (1.0 / 6 - r * (1.0 / 30 - r * (1.0 / 42 - r / 30)))) / v);
+}
+
+std::optional<std::size_t> empty_band(int n, bool wrap, std::span<const double> above_line) {
+  const std::vector<SpectralBand> bands = spectral_bands(n, wrap);
+  std::optional<std::size_t> emptiest;
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const double chance = log_mean_scatter(independent_ordinates(bands[b].ordinates(), !wrap));
+    if (above_line[b] < -least_gap - standard_deviations * chance &&
+        (!emptiest || above_line[b] < above_line[*emptiest]))
+      emptiest = b;
+  }
+  return emptiest;
+}
+
+}  // namespace asperity
