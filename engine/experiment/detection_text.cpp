@@ -32,6 +32,7 @@ std::string Detection::text() const {
   std::string all = "recording " + name + ": " + std::to_string(samples) + " samples, every " +
                     format_quantity(interval, dimension::time, 4) + " or so";
   if (missing > 0) all += ", " + std::to_string(missing) + " more without a load";
+  if (absent > 0) all += ", some " + std::to_string(absent) + " more absent";
   all += "\n  noise          " + quantity(noise) + " a sample";
   if (highest > 0) all += ", " + format_short(100 * noise / highest, 2) + " % of the highest load";
   all += "\n  without load   " +

@@ -9,6 +9,7 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/recorded_turns.hpp"
+#include "engine/experiment/recording_holes.hpp"
 #include "engine/experiment/recording_marks.hpp"
 
 namespace asperity {
@@ -18,9 +19,9 @@ namespace {
 using Mark = RecordingMarks::Mark;
 using Span = RecordedSpan;
 
-std::string lines(std::size_t first, std::size_t last) {
+std::string lines(std::size_t first, std::size_t last, const char* to = " to ") {
   return first == last ? "line " + std::to_string(first)
-                       : "lines " + std::to_string(first) + " to " + std::to_string(last);
+                       : "lines " + std::to_string(first) + to + std::to_string(last);
 }
 
 std::string seconds(double value) { return format_quantity(value, dimension::time, 4); }
@@ -86,20 +87,27 @@ class EventMaker {
     }
   }
 
+  // Where the load of a hole would stand: lines of empty cells, or lines between which rows are absent.
+  std::string place(const RecordedHole& hole) const {
+    const std::size_t before = marks_.row()[hole.sample], after = marks_.row()[hole.sample + 1];
+    if (hole.absent == 0) return lines(recording_.line[before + 1], recording_.line[after - 1]);
+    return "the time between " + lines(recording_.line[before], recording_.line[after], " and ");
+  }
+
   // A hole in the load may hide whatever does not go on at both its sides.
   void look_at_missing() {
-    const auto row = marks_.row();
     const auto time = marks_.time();
+    const RecordedHoles recorded = recorded_holes(recording_, marks_.row());
     std::vector<std::string> lost;
     std::string short_ones;
     std::size_t short_count = 0;
+    bool rows_lost = false;
     constexpr std::size_t enough = 12;
     const std::vector<Mark>& marks = marks_.marks();
     std::size_t next = 0;
-    for (std::size_t k = 0; k + 1 < row.size(); ++k) {
-      const std::size_t missing = row[k + 1] - row[k] - 1;
-      if (missing == 0) continue;
-      const std::size_t first = recording_.line[row[k] + 1], last = recording_.line[row[k + 1] - 1];
+    for (const RecordedHole& hole : recorded.holes) {
+      const std::size_t k = hole.sample;
+      found_.absent += hole.absent;
       while (next < marks.size() && marks[next].last < k + 1) ++next;
       const bool goes_on =
           next < marks.size() && marks[next].kind != Mark::Kind::peak && marks[next].first <= k;
@@ -108,13 +116,14 @@ class EventMaker {
       constexpr std::size_t few = 2;
       if (within != nullptr) {
         if (span > 20 * marks_.interval() && span > 0.2 * (time[within->last] - time[within->first]))
-          warn("no load was recorded for " + seconds(span) + " in " + lines(first, last) +
+          warn("no load was recorded for " + seconds(span) + " in " + place(hole) +
                ", and it is taken to have stayed at " + marks_.quantity(within->line.y));
-      } else if (missing <= few) {
-        if (short_count < enough) short_ones += (short_ones.empty() ? "" : ", ") + lines(first, last);
+      } else if (hole.missing() <= few) {
+        if (short_count < enough) short_ones += (short_ones.empty() ? "" : ", ") + place(hole);
         ++short_count;
       } else {
-        lost.push_back(lines(first, last));
+        lost.push_back(place(hole));
+        rows_lost = rows_lost || hole.absent > 0;
       }
     }
     if (!lost.empty()) {
@@ -123,12 +132,18 @@ class EventMaker {
       marks_.refuse("lacks the load in " + joined(lost, " and ") +
                         (more > 0 ? " and in " + std::to_string(more) + " more places" : "") +
                         ", where it neither was held nor rested: what was done there is not recorded",
-                    "fill the cells in by hand, or cut the recording there");
+                    std::string("fill the ") + (rows_lost ? "rows" : "cells") +
+                        " in by hand, or cut the recording there");
     }
     if (!short_ones.empty())
       warn("the load is missing while it changes, in " + short_ones +
            (short_count > enough ? " and in " + std::to_string(short_count - enough) + " more places" : "") +
            "; it is taken to have changed steadily");
+    constexpr double uneven = 5;
+    if (recorded.long_step > uneven * recorded.median_step)
+      warn("one step of time in twenty is " + seconds(recorded.long_step) + " or longer, where half are " +
+           seconds(recorded.median_step) + " or shorter: it is taken to be sampled so, and what was done " +
+           "within such a step is not seen");
   }
 
   // --- spans

@@ -59,6 +59,7 @@ struct Detection {
   std::string name;  // of the file
   PressBy by = PressBy::load;
   std::size_t samples = 0, missing = 0;                    // missing: rows without a load
+  std::size_t absent = 0;                                  // rows that gaps in time leave out, about
   double interval = 0;                                     // s, the median
   double noise = 0;                                        // N or Pa
   double highest = 0;                                      // load above zero
@@ -75,8 +76,9 @@ struct Detection {
 };
 
 // The protocol of the recording, with recording() to show what was found. Events carry times and lines.
-// Throws Error{bad_file} naming lines: no load above the noise, fewer than ten samples, loads missing where
-// more than a hold or a rest goes on, a turn under load or one that is no multiple of `turn_step`.
+// Throws Error{bad_file} naming lines: no load above the noise, fewer than ten samples, loads or whole rows
+// missing where more than a hold or a rest goes on, a turn under load or one that is no multiple of
+// `turn_step`.
 Protocol detect_events(const PressRecording& recording, const DetectionOptions& options = {},
                        Monitor& monitor = Monitor::silent());
 

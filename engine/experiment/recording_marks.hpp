@@ -30,7 +30,8 @@ class RecordingMarks {
     LineMoments line{};               // its mean is the level, the zero taken off
     double begin = 0, end = 0, dwell_error = 0;
     double begin_error = 0, end_error = 0;
-    bool pulse = false;  // a peak between rests
+    double begin_doubt = 0, end_doubt = 0;  // s, of the errors, by which it may have been shorter
+    bool pulse = false;                     // a peak between rests
 
     bool loaded() const { return kind != Kind::rest; }
   };
@@ -73,7 +74,7 @@ class RecordingMarks {
  private:
   double zero_at(double time) const;
   struct Corner {
-    double time, error;
+    double time, error, doubt;  // doubt: of the error, what lies within the level
     std::size_t sample;
   };
   void take_samples();

@@ -17,7 +17,7 @@ const StraightPiece& RecordingMarks::piece_at(std::size_t sample) const {
 // Where the level of a mark begins (step -1) or ends (step 1): where the straight piece beside it meets it.
 RecordingMarks::Corner RecordingMarks::corner(const Mark& mark, int step) const {
   const std::size_t rim = step < 0 ? mark.first : mark.last;
-  if (step < 0 ? rim == 0 : rim + 1 == t_.size()) return {t_[rim], 0, rim};
+  if (step < 0 ? rim == 0 : rim + 1 == t_.size()) return {t_[rim], 0, 0, rim};
   const auto beside = [step](std::size_t k) { return step < 0 ? k - 1 : k + 1; };
   // A hold that drifts for certain has another level here than in its middle.
   const bool slopes = std::abs(mark.line.slope()) * std::sqrt(mark.line.tt) > 4 * effective_noise_;
@@ -34,14 +34,15 @@ RecordingMarks::Corner RecordingMarks::corner(const Mark& mark, int step) const 
         std::abs(slope);
     const double low = step < 0 ? t_[piece.first] : t_[mark.first];
     const double high = step < 0 ? t_[mark.last] : t_[piece.last];
-    return {std::clamp(meets, low, high), error, rim};
+    return {std::clamp(meets, low, high), error, error, rim};
   }
   const double band = std::max(4 * effective_noise_, 0.005 * std::abs(level));
   std::size_t k = rim;
   const auto has_more = [&] { return step < 0 ? k > 0 : k + 1 < t_.size(); };
   while (has_more() && std::abs(y_[beside(k)] - level) <= band) k = beside(k);
   const double gap = has_more() ? std::abs(t_[beside(k)] - t_[k]) : 0;
-  return {t_[k], gap / std::sqrt(12.0), k};
+  // However long the step is: the load stayed as far as it was recorded.
+  return {t_[k], gap / std::sqrt(12.0), std::min(gap, interval_) / std::sqrt(12.0), k};
 }
 
 // The samples in which a change between neighbouring holds may lie that the noise hides: a ramp of m samples
@@ -101,7 +102,8 @@ bool RecordingMarks::drop_doubtful() {
   for (std::size_t k = 0; k < marks_.size(); ++k) {
     Mark& mark = marks_[k];
     const auto loaded = [this](std::size_t i) { return i < marks_.size() && marks_[i].loaded(); };
-    if (mark.kind != Mark::Kind::hold || mark.end - mark.begin > 3 * mark.dwell_error) continue;
+    const double doubt = std::hypot(mark.begin_doubt, mark.end_doubt);
+    if (mark.kind != Mark::Kind::hold || mark.end - mark.begin > 3 * doubt) continue;
     if (!loaded(k - 1) && !loaded(k + 1)) continue;
     const double top = *std::max_element(y_.begin() + static_cast<std::ptrdiff_t>(mark.first),
                                          y_.begin() + static_cast<std::ptrdiff_t>(mark.last) + 1);
@@ -127,6 +129,8 @@ void RecordingMarks::time_each() {
     mark.end = end.time;
     mark.begin_error = begin.error;
     mark.end_error = end.error;
+    mark.begin_doubt = begin.doubt;
+    mark.end_doubt = end.doubt;
   }
   constexpr double plain = 30;  // times the noise: such a change is well met by the straight pieces
   for (std::size_t k = 0; k + 1 < marks_.size(); ++k) {
@@ -145,7 +149,8 @@ void RecordingMarks::time_each() {
     a.end = ramp.begin;
     b.begin = ramp.end;
     const double samples = (ramp.end - ramp.begin) / interval_;
-    a.end_error = b.begin_error = interval_ * std::max(0.3, 3.5 * std::sqrt(samples + 2) / change);
+    a.end_error = b.begin_error = a.end_doubt = b.begin_doubt =
+        interval_ * std::max(0.3, 3.5 * std::sqrt(samples + 2) / change);
   }
   double last = t_.front();
   for (Mark& mark : marks_) {
