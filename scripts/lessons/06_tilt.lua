@@ -12,6 +12,9 @@
 -- Nothing else enters. So the question is what roughness and load do to A/F, real area over load. You know that from
 -- lesson 4.
 --
+-- *Your prediction:* on the page, the box under this text keeps it. Put its numbers into `my_guess` in the script as
+-- well, and the last lines compare them with what was found.
+--
 -- *Then try:* `alpha = 0`. Which part of friction is left, and what does it go with?
 
 -- SPDX-License-Identifier: GPL-3.0-or-later
