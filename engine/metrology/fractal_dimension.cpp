@@ -215,7 +215,7 @@ std::string too_flat(std::span<const double> mean_square_slopes, std::span<const
          std::to_string(steps[static_cast<std::size_t>(shortest)]) + " to " + slope(longest) + " at step " +
          std::to_string(steps[static_cast<std::size_t>(longest)]) + ", where a Gaussian profile shows " +
          format_short(100 * share, 2) +
-         " % of D - 1; slopes above about 5 are needed, or the method `structure`";
+         " % of D - 1; a slope of 2 to 3.5 at the longest step is needed, or the method `structure`";
 }
 
 // Why a line through the spectrum is not to be believed; empty where it may be.

@@ -127,7 +127,8 @@ TEST(LengthMethod, SaysWhenHeightsAreTooSmall) {
   EXPECT_FALSE(flat.resolved);
   EXPECT_EQ(flat.reason.substr(0, 84),
             "heights are too small for the length method: rms slopes run from 0.0984 at step 1 to");
-  EXPECT_NE(flat.reason.find("% of D - 1; slopes above about 5 are needed, or the method `structure`"),
+  EXPECT_NE(flat.reason.find(
+                "% of D - 1; a slope of 2 to 3.5 at the longest step is needed, or the method `structure`"),
             std::string::npos);
   const FractalDimension steep = fractal_dimension(scaled(z, 100));
   EXPECT_TRUE(steep.resolved) << steep.reason;
