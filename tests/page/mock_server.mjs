@@ -101,8 +101,9 @@ function viewOf(name) {
   };
 }
 
+// With a viewBox and no size of its own, as gnuplot writes it.
 const chart =
-  '<svg xmlns="http://www.w3.org/2000/svg" width="400" height="200"><style>path{stroke:#0b4f7d}</style><rect width="400" height="200" fill="white"/><path d="M20 180L380 20" fill="none"/><text x="30" y="40">Ra against N</text></svg>';
+  '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 200"><style>path{stroke:#0b4f7d}</style><rect width="400" height="200" fill="white"/><path d="M20 180L380 20" fill="none"/><text x="30" y="40">Ra against N</text></svg>';
 
 /** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`. */
 function* eventsOf(script) {

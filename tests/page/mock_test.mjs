@@ -115,9 +115,13 @@ test('Run, OutputRowsExpectationsAndFiles', () =>
     await tab(page, 'files');
     await on.until(
       page,
-      () => document.querySelector('.previews img')?.naturalWidth === 400,
+      () => document.querySelector('.previews img')?.complete,
       'the chart should be shown',
     );
+    const preview = await (await page.$('.previews img')).boundingBox();
+    const room = await page.$eval('.previews', (e) => e.clientWidth);
+    assert.ok(room > 300 && Math.abs(preview.width - room) < 2, `as wide as its place: ${preview.width} of ${room}`);
+    assert.ok(Math.abs(preview.height - room / 2) < 4, `in its own shape: ${preview.height}`);
     assert.deepEqual(await page.$$eval('.files button', (b) => b.map((e) => e.textContent)), ['tips.csv', 'chart.svg']);
     await page.click('.previews button');
     assert.equal(await page.$eval('dialog.enlarged', (e) => e.open), true);

@@ -104,6 +104,11 @@ test('Lesson, OpenedEditedRunLookedAtAndSaved', async () => {
     assert.ok(on.differing(first, await on.pixels(page)) > 0.01, 'it should turn');
     await page.click('#tab-files');
     await page.waitForSelector('.files button');
+    await on.until(
+      page,
+      () => [...document.querySelectorAll('.previews img.drawn')].some((i) => i.complete && i.clientWidth > 300),
+      'the charts of the script should be seen',
+    );
     await on.assertFits(page, 'the files');
     await page.click('#save');
     await on.until(

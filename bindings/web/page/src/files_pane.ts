@@ -13,6 +13,11 @@ export function pictureType(name: string): string | undefined {
   return types[name.slice(name.lastIndexOf('.') + 1).toLowerCase()];
 }
 
+/** A drawing in lines may have no size of its own: it is as wide as its place. */
+export function pictureClass(name: string): string {
+  return pictureType(name) === types.svg ? 'drawn' : '';
+}
+
 /** A picture over the whole page, until Escape or its button. */
 function enlarged(name: string, address: string): void {
   const dialog = h('dialog', { className: 'enlarged', 'aria-label': name, onclose: () => dialog.remove() });
@@ -95,7 +100,11 @@ export class FilesPane {
       if (run !== this.run) return;
       const address = URL.createObjectURL(blob);
       this.addresses.set(key, address);
-      const image = h('img', { src: address, alt: `The picture ${name} of the run` });
+      const image = h('img', {
+        src: address,
+        alt: `The picture ${name} of the run`,
+        className: pictureClass(name),
+      });
       const enlarge = h(
         'button',
         { type: 'button', 'aria-label': `Enlarge ${name}`, onclick: () => enlarged(name, address) },

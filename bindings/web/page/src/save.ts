@@ -7,7 +7,7 @@ import type { Api } from './api';
 import { drawChart, lightInk } from './chart';
 import type { ChartPane } from './chart_pane';
 import { h, prose } from './dom';
-import { pictureType } from './files_pane';
+import { pictureClass, pictureType } from './files_pane';
 import type { PicturePane } from './picture_pane';
 import { statusText, type Run } from './run';
 import { csvOf, tableOf } from './table_pane';
@@ -26,7 +26,7 @@ pre.script span.wrong { background: #fbe3e0; }
 code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: .95em; } .err { color: #4d5963; } .held b { color: #00663f; } .failed b { color: #b3261e; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; } caption { text-align: left; color: #4d5963; padding: .3rem 0; }
 th, td { padding: .2rem .8rem; border-bottom: 1px solid #dfe3e6; text-align: left; } .number, .index { text-align: right; } .index { color: #5f6b75; }
-.scroll { overflow-x: auto; } figure { margin: 1rem 0; } figure svg, figure img { max-width: 100%; height: auto; } figcaption { color: #4d5963; }
+.scroll { overflow-x: auto; } figure { margin: 1rem 0; } figure svg, figure img { max-width: 100%; height: auto; } figure img.drawn { width: 100%; } figcaption { color: #4d5963; }
 @media print { body { margin: 0; max-width: none; } figure, tr { break-inside: avoid; } }
 `;
 
@@ -155,7 +155,12 @@ async function addPictures(body: HTMLElement, run: Run, from: Sources, missing: 
     try {
       const blob = new Blob([await from.api.file(run.id, f.name)], { type: pictureType(f.name) });
       body.append(
-        h('figure', {}, h('img', { src: await dataAddress(blob), alt: f.name }), h('figcaption', {}, f.name)),
+        h(
+          'figure',
+          {},
+          h('img', { src: await dataAddress(blob), alt: f.name, className: pictureClass(f.name) }),
+          h('figcaption', {}, f.name),
+        ),
       );
     } catch {
       missing.push(`the file ${f.name}, which the server did not give`);
