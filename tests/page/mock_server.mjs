@@ -26,12 +26,13 @@ const lessons = [
     title: 'What roughness is, and what a stylus misses',
     minutes: 15,
     question: 'Three faces have the same Ra. Are they equally rough, and can a stylus tell?',
+    predict: 'A ball of 5 µm radius is drawn over the finest. What share of `Ra` does it find?',
     text:
-      'Predict: A ball of 5 µm radius is drawn over the finest. What share of Ra does it find?\n\n**Ra** is how far heights lie from their mean. It does not say how *quickly* they change.\n\n' +
+      '**Ra** is how far heights lie from their mean. It does not say how *quickly* they change.\n\n' +
       '- `swell` has waves of 25 µm\n- `fine` has waves of 1 µm\n\n| face | slope |\n|---|---|\n| swell | 0.1 |\n| fine | 1.2 |\n\n```lua\nlocal s = lab.surface.flat{ cells=8, size=1 }\n```\n\n' +
       '<img src=x onerror="window.injected=1"> [a link](javascript:window.injected=1) & [another](https://example.org/)\n\n*Then try:* tips on the swell.',
     script:
-      '-- What roughness is\nlocal lab = require "asperity"\n\nlocal book = lab.notebook "tips"\nfor N = 1, 8 do\n  book:write{ N=N, ["Ra [m]"]=2.9e-6 - N * 1e-7, mu=0.3 + N / 50 }\nend\nprint "three faces"\n',
+      '-- What roughness is\nlocal lab = require "asperity"\nlocal my_guess = nil\n\nlocal book = lab.notebook "tips"\nfor N = 1, 8 do\n  book:write{ N=N, ["Ra [m]"]=2.9e-6 - N * 1e-7, mu=0.3 + N / 50 }\nend\nprint "three faces"\n',
   },
   {
     name: '02_dimension',

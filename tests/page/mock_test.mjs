@@ -76,6 +76,31 @@ test('Lesson, OpenedEditedKeptReset', () =>
     assert.equal(await page.$eval('#reset', (e) => e.hidden), true);
   }));
 
+test('Lesson, PredictedBeforeItsTextIsRead', () =>
+  visit({}, async (page) => {
+    await page.click('.lessons button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    assert.match(
+      await on.text(page, '#lessons'),
+      /Question.*Three faces.*Predict.*A ball of 5 µm.*Your prediction.*my_guess.*Ra is how far.*Then try:/s,
+    );
+    const box = await (await page.$('.prediction textarea')).boundingBox();
+    assert.ok(box.y + box.height < 720, 'the box is seen without scrolling');
+    assert.equal(
+      await page.$eval(
+        '.prediction textarea',
+        (e) => document.getElementById(e.getAttribute('aria-describedby')).textContent,
+      ),
+      'Kept here and with a saved run. To have it compared, write its numbers into my_guess in the script too.',
+    );
+    // A lesson whose script compares nothing promises nothing.
+    await page.click('.back');
+    await page.waitForSelector('.lessons li:nth-child(2) button');
+    await page.click('.lessons li:nth-child(2) button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the other lesson should open');
+    assert.equal(await on.text(page, '#prediction-hint'), 'Kept here and with a saved run.');
+  }));
+
 test('Lesson, MarkupInItsTextStaysText', () =>
   visit({}, async (page) => {
     await page.click('.lessons button');

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lessons beside the editor: a list with their questions, and the text of the one that is open with a
-// place for the reader's own prediction. Edits of a lesson's script and predictions are kept by name in
+// The lessons beside the editor: a list with their questions, and the one that is open. Its question comes
+// first, then what to predict with a place for the reader's own prediction, and only then the text that
+// begins to answer. Edits of a lesson's script and predictions are kept by name in
 // the browser; reset brings the lesson's own script back.
 
 import type { Api, Lesson, LessonEntry } from './api';
-import { h } from './dom';
+import { h, prose } from './dom';
 import { calledOut, markdown } from './markdown';
 import { keep, kept } from './storage';
 
@@ -82,19 +83,29 @@ export class LessonsPane {
       this.lessons.set(name, lesson);
       const entry = this.entries?.find((e) => e.name === name);
       const question = lesson.question ?? entry?.question;
-      const inText = (word: string): boolean => new RegExp(`^${word}`, 'm').test(lesson.text);
       const prediction = h('textarea', {
         rows: 3,
         value: kept(`prediction.${name}`) ?? '',
         oninput: () => keep(`prediction.${name}`, prediction.value || null),
+        'aria-describedby': 'prediction-hint',
       });
       this.element.replaceChildren(
         h('button', { type: 'button', className: 'back', onclick: () => void this.list(true) }, '← All lessons'),
         h('h2', { tabIndex: -1 }, lesson.title),
-        ...(question && !inText('Question:') ? [calledOut('Question', question)] : []),
-        h('div', { className: 'lesson' }, markdown(lesson.text)),
-        ...(lesson.predict && !inText('Predict') ? [calledOut('Predict', lesson.predict)] : []),
+        ...(question ? [calledOut('Question', question)] : []),
+        ...(lesson.predict ? [calledOut('Predict', lesson.predict)] : []),
         h('label', { className: 'prediction' }, h('span', {}, 'Your prediction, before you run it'), prediction),
+        h(
+          'p',
+          { className: 'hint', id: 'prediction-hint' },
+          prose(
+            'Kept here and with a saved run.' +
+              (/\bmy_guess\b/.test(lesson.script)
+                ? ' To have it compared, write its numbers into `my_guess` in the script too.'
+                : ''),
+          ),
+        ),
+        h('div', { className: 'lesson' }, markdown(lesson.text)),
       );
       this.element.scrollTop = 0;
       if (focus) this.element.querySelector('h2')!.focus();
