@@ -154,6 +154,45 @@ test('Run, OutputRowsExpectationsAndFiles', () =>
     await on.until(page, () => !document.querySelector('dialog.enlarged'), 'Escape should close it');
   }));
 
+test('Run, TablesAreNotWrappedAndScrollByKeys', () =>
+  visit({}, async (page) => {
+    const wide = 'pressure   touching   in the spots   '.repeat(6);
+    await on.run(page, `print "${wide}|"\nprint "elastic"\n`);
+    await on.finished(page);
+    const sizes = await page.$eval('.output', (e) => ({
+      lines: Math.round(e.clientHeight / parseFloat(getComputedStyle(e).lineHeight)),
+      scrolls: e.scrollWidth > e.clientWidth,
+      inside: document.querySelector('#output').scrollWidth <= document.querySelector('#output').clientWidth,
+    }));
+    assert.deepEqual(sizes, { lines: 2, scrolls: true, inside: true });
+    await page.focus('.output');
+    const left = () => page.$eval('.output', (e) => e.scrollLeft);
+    for (let k = 0; k < 20 && (await left()) === 0; ++k) {
+      await page.keyboard.press('ArrowRight');
+      await on.pause(100);
+    }
+    assert.ok((await left()) > 0, 'arrow keys should scroll it');
+    await on.assertFits(page, 'a wide table');
+    await on.assertAccessible(page, 'a wide table');
+    // Sentences after an empty line are read without scrolling.
+    const sentence = 'And that is why friction is a coefficient. '.repeat(4);
+    await on.run(page, `print "${wide}|"\nprint ""\nprint "${sentence}"\n`);
+    await on.until(
+      page,
+      () => /friction.*\n$/.test(document.querySelector('.output .prose')?.textContent),
+      'the sentence should be told apart',
+    );
+    assert.equal(await on.text(page, '.output'), `${wide}|\n\n${sentence}\n`);
+    assert.equal(
+      await page.$eval('.output .prose', (e) => {
+        // A space at a line's end hangs over the edge.
+        const lines = [...e.getClientRects()];
+        return lines.length > 3 && lines.every((l) => l.width < e.parentElement.clientWidth + 12);
+      }),
+      true,
+    );
+  }));
+
 test('Run, ProgressAndStopByEscape', () =>
   visit({}, async (page) => {
     await on.run(page, 'while true do end\n');

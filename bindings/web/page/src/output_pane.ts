@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a run said: its errors with the line they are at, its output, and whether what it expected held.
-// A long output keeps its end, and says how much was dropped.
+// A long output keeps its end, and says how much was dropped. Columns are not wrapped, which would break
+// them, but scroll sideways; sentences are wrapped.
 
 import { h, prose } from './dom';
 import { duration } from './units';
 import { statusText, type Run } from './run';
+
+/** The text, cut where empty lines part its blocks: one in which no line has columns is a span of prose. */
+function laidOut(text: string): (string | HTMLElement)[] {
+  const parts: { text: string; columns: boolean }[] = [];
+  for (const block of text.split(/(?<=\n)(?=\n)/)) {
+    const columns = /\S(?: {2,}|\t)[ \t]*\S/.test(block);
+    const last = parts[parts.length - 1];
+    if (last?.columns === columns) last.text += block;
+    else parts.push({ text: block, columns });
+  }
+  return parts.map((p) => (p.columns ? p.text : h('span', { className: 'prose' }, p.text)));
+}
 
 export class OutputPane {
   private readonly text = h('pre', { className: 'output', tabIndex: 0, 'aria-label': 'Output of the script' });
@@ -66,7 +79,9 @@ export class OutputPane {
   }
 
   private print(run: Run): void {
-    const parts = run.output.map((p) => (p.stream === 'err' ? h('span', { className: 'err' }, p.text) : p.text));
+    const parts = run.output.flatMap((p) =>
+      p.stream === 'err' ? [h('span', { className: 'err' }, ...laidOut(p.text))] : laidOut(p.text),
+    );
     const dropped = run.outputDropped
       ? h('span', { className: 'dropped' }, `… the first ${run.outputDropped} characters are not shown\n`)
       : '';
