@@ -121,11 +121,11 @@ export const finished = (page, status = 'Done') =>
     status,
   );
 
-/** How much there is to see on the relief's canvas, and its pixels to compare. */
-export async function pixels(page) {
+/** Takes what an element looks like now into the page, as `shot`. */
+async function shoot(page, selector) {
   await pause(150);
-  const shot = await (await page.$('.stage')).screenshot({ encoding: 'base64' });
-  return page.evaluate(async (data) => {
+  const shot = await (await page.$(selector)).screenshot({ encoding: 'base64' });
+  await page.evaluate(async (data) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;
     await image.decode();
@@ -133,7 +133,15 @@ export async function pixels(page) {
     [canvas.width, canvas.height] = [image.width, image.height];
     const context = canvas.getContext('2d');
     context.drawImage(image, 0, 0);
-    const bytes = context.getImageData(0, 0, canvas.width, canvas.height).data;
+    window.shot = context.getImageData(0, 0, canvas.width, canvas.height);
+  }, shot);
+}
+
+/** How much there is to see on the relief's canvas, and its pixels to compare. */
+export async function pixels(page) {
+  await shoot(page, '.stage');
+  return page.evaluate(() => {
+    const bytes = window.shot.data;
     const colours = new Map();
     for (let k = 0; k < bytes.length; k += 4) {
       const key = (bytes[k] << 16) | (bytes[k + 1] << 8) | bytes[k + 2];
@@ -145,7 +153,21 @@ export async function pixels(page) {
       drawn: 1 - most / (bytes.length / 4),
       bytes: [...bytes.filter((_, k) => k % 16 === 1)],
     };
-  }, shot);
+  });
+}
+
+/** The share of an element's width over which this colour, [red, green, blue], is seen in full. */
+export async function inked(page, selector, colour) {
+  await shoot(page, selector);
+  return page.evaluate((wanted) => {
+    const { width, height, data } = window.shot;
+    const has = (x) => {
+      for (let y = 0; y < height; ++y)
+        if (wanted.every((c, k) => Math.abs(c - data[4 * (y * width + x) + k]) < 12)) return true;
+      return false;
+    };
+    return [...Array(width).keys()].filter(has).length / width;
+  }, colour);
 }
 
 export const differing = (a, b) => a.bytes.filter((v, k) => Math.abs(v - b.bytes[k]) > 12).length / a.bytes.length;

@@ -106,7 +106,8 @@ function viewOf(name) {
 const chart =
   '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 200"><style>path{stroke:#0b4f7d}</style><rect width="400" height="200" fill="white"/><path d="M20 180L380 20" fill="none"/><text x="30" y="40">Ra against N</text></svg>';
 
-/** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`. */
+/** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`,
+    `mock.file NAME`. */
 function* eventsOf(script) {
   const lines = script.split('\n');
   yield { type: 'started' };

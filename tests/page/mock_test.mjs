@@ -303,6 +303,45 @@ test('Chart, AnyColumnAgainstAnyOther', () =>
     await on.assertFits(page, 'the chart');
   }));
 
+test('Chart, ManyPointsDoNotHideTheirLine', async () => {
+  const downloads = mkdtempSync(join(tmpdir(), 'asperity-page-'));
+  const blue = [11, 95, 165];
+  try {
+    await visit({ downloads }, async (page) => {
+      await tab(page, 'chart');
+      for (const rows of [20, 60, 300, 5000]) {
+        await on.run(page, `-- mock.rows ${rows}\n`);
+        await on.until(
+          page,
+          (n) => document.querySelector('.charts .caption').textContent.includes(`${n} points`),
+          'the rows should be drawn',
+          rows,
+        );
+        await on.finished(page);
+        const share = await on.inked(page, '.chart svg', blue);
+        assert.ok(share > 0.65, `the curve of ${rows} rows is seen over ${share} of the width`);
+      }
+      assert.match(await on.text(page, '.charts .caption'), /: 5000 points, too close together to be marked/);
+      assert.equal((await page.$$('.chart svg circle')).length, 0);
+      await page.click('#save');
+      await on.until(
+        page,
+        () => document.querySelector('#live').textContent.startsWith('Saved'),
+        'the run should be saved',
+      );
+      for (let k = 0; k < 100 && !readdirSync(downloads).some((f) => f.endsWith('.html')); ++k) await on.pause(50);
+    });
+    const [name] = readdirSync(downloads).filter((f) => f.endsWith('.html'));
+    const saved = await on.openPage(browser, `file://${join(downloads, name)}`);
+    assert.ok((await on.inked(saved, 'figure svg', blue)) > 0.65, 'and in the saved run');
+    const picture = await (await saved.$('figure img')).boundingBox();
+    assert.ok(picture.width > 500, `the script's chart in the saved run is ${picture.width} px wide`);
+    await saved.done();
+  } finally {
+    rmSync(downloads, { recursive: true });
+  }
+});
+
 test('Picture, DrawnTurnedExaggeratedAndHonest', () =>
   visit({}, async (page) => {
     await on.run(page, 'for N = 1, 8 do end\n');

@@ -5,8 +5,9 @@
 
 import { scaleLinear, scaleLog } from 'd3-scale';
 import { svg } from './dom';
+import { drawMarks, markAt, marksFor, type Place } from './marks';
 import type { Notebook } from './run';
-import { label, numberText, raised, scaleFor, type Scale } from './units';
+import { label, numberText, raised, sameToRounding, scaleFor, type Scale } from './units';
 
 export interface ChartChoice {
   x: string;
@@ -57,13 +58,6 @@ export interface Drawn {
   /** Rows that a logarithmic axis or a missing number leaves out. */
   left: number;
 }
-
-const shapes = [
-  (r: number) => svg('circle', { r }),
-  (r: number) => svg('rect', { x: -r * 0.9, y: -r * 0.9, width: r * 1.8, height: r * 1.8 }),
-  (r: number) => svg('path', { d: `M0 ${-1.25 * r}L${1.15 * r} ${0.85 * r}H${-1.15 * r}Z` }),
-  (r: number) => svg('path', { d: `M0 ${-1.3 * r}L${1.3 * r} 0L0 ${1.3 * r}L${-1.3 * r} 0Z` }),
-];
 
 export function drawChart(notebook: Notebook, choice: ChartChoice, width: number, height: number, ink: Ink): Drawn {
   const { lines, left } = linesOf(notebook, choice);
@@ -142,39 +136,32 @@ export function drawChart(notebook: Notebook, choice: ChartChoice, width: number
       label(choice.y, scaleY),
     ),
   );
+  const placed = (p: Point): Place => ({ x: x.place(p.x / scaleX.factor), y: y.place(p.y / scaleY.factor) });
+  const places = lines.map((line) => line.points.map(placed));
+  const marks = lines.map((line, k) => marksFor(places[k], line.means.length === line.points.length));
   lines.forEach((line, index) => {
     const colour = ink.series[index % ink.series.length];
     const path = line.means
-      .map(
-        (p, i) =>
-          `${i ? 'L' : 'M'}${x.place(p.x / scaleX.factor).toFixed(1)} ${y.place(p.y / scaleY.factor).toFixed(1)}`,
-      )
+      .map(placed)
+      .map((p, i) => `${i ? 'L' : 'M'}${p.x.toFixed(1)} ${p.y.toFixed(1)}`)
       .join('');
     root.append(svg('path', { d: path, fill: 'none', stroke: colour, 'stroke-width': 2, 'stroke-linejoin': 'round' }));
-    const radius = line.points.length > 200 ? 2 : 4;
-    for (const p of line.points) {
-      const mark = shapes[index % shapes.length](radius);
-      mark.setAttribute(
-        'transform',
-        `translate(${x.place(p.x / scaleX.factor).toFixed(1)} ${y.place(p.y / scaleY.factor).toFixed(1)})`,
-      );
-      mark.setAttribute('fill', colour);
-      mark.setAttribute('stroke', ink.paper);
-      mark.append(svg('title', {}, pointText(line, p, choice, scaleX, scaleY)));
-      root.append(mark);
-    }
+    // Points of one chart have one size.
+    const kind = marks[index] === 'large' && marks.some((m) => m !== 'large') ? 'small' : marks[index];
+    const words = (k: number): string => pointText(line, line.points[k], choice, scaleX, scaleY);
+    for (const mark of drawMarks(places[index], kind, index, { colour, paper: ink.paper }, words)) root.append(mark);
   });
   for (const [row, entries] of legendRows.entries()) {
     for (const entry of entries) {
-      const mark = shapes[entry.index % shapes.length](5);
-      mark.setAttribute('transform', `translate(${margin.left + entry.at + 6} ${14 + row * 24})`);
-      mark.setAttribute('fill', ink.series[entry.index % ink.series.length]);
+      const place = { x: margin.left + entry.at + 6, y: 14 + row * 24 };
+      const mark = markAt(entry.index, place, 5, ink.series[entry.index % ink.series.length]);
       root.append(mark, svg('text', { x: margin.left + entry.at + 18, y: 19 + row * 24 }, entry.text));
     }
   }
   const summary =
     `${label(choice.y, scaleY)} against ${label(choice.x, scaleX)}: ${count(all.length, 'point')}` +
-    (lines.length > 1 ? `, ${count(lines.length, 'line')}, one per ${choice.per}` : '');
+    (lines.length > 1 ? `, ${count(lines.length, 'line')}, one per ${choice.per}` : '') +
+    (marks.includes('none') ? ', too close together to be marked one by one' : '');
   root.setAttribute('aria-label', summary);
   return { element: root, summary, left };
 }
@@ -197,7 +184,9 @@ function linesOf(notebook: Notebook, choice: ChartChoice): { lines: Line[]; left
       continue;
     }
     const key = choice.per ? keyText(row[choice.per]) : '';
-    groups.set(key, [...(groups.get(key) ?? []), { x, y }]);
+    const points = groups.get(key);
+    if (points) points.push({ x, y });
+    else groups.set(key, [{ x, y }]);
   }
   const lines = [...groups].map(([name, points]) => ({ name, points, means: meansOf(points) }));
   return { lines, left };
@@ -227,9 +216,9 @@ interface Axis {
 }
 
 function axis(values: number[], log: boolean, range: [number, number], wanted: number): Axis {
-  let low = Math.min(...values);
-  let high = Math.max(...values);
-  if (low === high) {
+  let low = values.reduce((least, v) => Math.min(least, v), Infinity);
+  let high = values.reduce((most, v) => Math.max(most, v), -Infinity);
+  if (sameToRounding(low, high)) {
     const half = log ? 0 : Math.abs(low) / 10 || 1;
     [low, high] = log ? [low / 2, high * 2] : [low - half, high + half];
   }

@@ -57,6 +57,11 @@ export function numberText(value: number, digits = 4): string {
   return text.replace(/^-/, '−');
 }
 
+/** Whether two numbers differ by no more than rounding may have made of one. */
+export function sameToRounding(low: number, high: number): boolean {
+  return high - low <= 1e-9 * Math.max(Math.abs(low), Math.abs(high));
+}
+
 export function raised(exponent: number): string {
   return String(exponent).replace(/./g, (c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)]));
 }
