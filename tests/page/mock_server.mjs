@@ -131,6 +131,11 @@ function* eventsOf(script) {
     if (/mock\.flood/.test(line))
       for (let m = 0; m < 30000; ++m)
         yield { type: 'output', stream: 'out', text: `line ${m} of many, to fill the pane\n` };
+    const rows = Number(/mock\.rows (\d+)/.exec(line)?.[1] ?? 0);
+    for (let i = 1; i <= rows; ++i)
+      yield { type: 'row', notebook: 'big', row: { level: 0.3 + i * 1e-14, i, v: i * i * 1e-6 }, units: { v: 'm' } };
+    const named = /mock\.file (\S+)/.exec(line);
+    if (named) yield { type: 'file', name: named[1], bytes: chart.length, kind: 'chart' };
     if (/mock\.limit/.test(line)) {
       yield { type: 'finished', status: 'limit', exit: 1, seconds: 30, reason: 'the run took longer than 30 s' };
       return;
@@ -313,7 +318,7 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
       }
       if (part === 'views') return send(200, viewOf(rest[0]));
       if (part === 'files')
-        return rest[0] === 'chart.svg'
+        return rest[0].endsWith('.svg')
           ? send(200, chart, 'image/svg+xml')
           : send(200, 'N,Ra [m]\n1,2.8e-06\n', 'text/csv');
       return send(404, { error: 'nothing is there' });

@@ -303,6 +303,51 @@ test('Chart, AnyColumnAgainstAnyOther', () =>
     await on.assertFits(page, 'the chart');
   }));
 
+test('Chart, BeginsWithWhatTheScriptCharts', () =>
+  visit({}, async (page) => {
+    const shown = async (script) => {
+      const before = await page.evaluate(() => sessionStorage.getItem('asperity.run'));
+      await on.run(page, script);
+      await on.until(page, (b) => sessionStorage.getItem('asperity.run') !== b, 'it should begin', before);
+      await on.pause(100);
+      await on.finished(page);
+      await on.pause(100);
+      const [logX, logY] = await page.$$eval('.charts input[type=checkbox]', (boxes) => boxes.map((b) => b.checked));
+      return { caption: await on.text(page, '.charts .caption'), logX, logY };
+    };
+    await on.run(page, 'for N = 1, 8 do end\n');
+    await on.finished(page);
+    await tab(page, 'chart');
+    // The second notebook of the run, a list of columns of which the first is constant to rounding.
+    assert.deepEqual(
+      await shown(
+        'local none, book = 1, lab.notebook "big"\nfor N = 1, 8 do end -- mock.rows 9\n' +
+          '-- book:chart{ x="v", y="i" }\n' +
+          'book:chart{ x="i", y={ "level", "v" }, where={ x={ 1 } }, log_x=true,\n  title="a: book:chart{ x=1 }" }\n',
+      ),
+      { caption: 'v [µm] against i: 9 points.', logX: true, logY: false },
+    );
+    assert.deepEqual(
+      await shown(
+        'local book = lab.notebook("tips")\nfor N = 1, 8 do end\n' +
+          'book:chart{ x=\'Ra\', y=[[mu]], one_line_per="face", log_x=true, log_y=true }\n',
+      ),
+      { caption: 'mu against Ra [µm]: 16 points, 2 lines, one per face.', logX: true, logY: true },
+    );
+    // Columns that the text does not tell, by the name of the file; without it, columns that vary.
+    const loop = 'for _, y in ipairs(all) do book:chart{ x=x, y=y } end -- mock.rows 9\n';
+    assert.equal((await shown(`${loop}-- mock.file big-i-v.svg\n`)).caption, 'i against v [µm]: 9 points.');
+    assert.equal((await shown(loop)).caption, 'v [µm] against i: 9 points.');
+    assert.equal(
+      (await shown('book:write{ level=0, ["v [m]"]=v, i=i } -- mock.rows 9\n')).caption,
+      'i against v [µm]: 9 points.',
+    );
+    // What a person chose stays.
+    const [, y] = (await page.$$('.charts select')).slice(-3);
+    await y.select('level');
+    assert.equal((await shown(loop)).caption, 'level against v [µm]: 9 points.');
+  }));
+
 test('Chart, ManyPointsDoNotHideTheirLine', async () => {
   const downloads = mkdtempSync(join(tmpdir(), 'asperity-page-'));
   const blue = [11, 95, 165];

@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any column of a notebook against any other: which axes, a line for each value of which column, axes
-// linear or logarithmic. The choice stays with the notebook's name from run to run.
+// linear or logarithmic. It begins with what the script charts; a choice that is made stays with the
+// notebook's name from run to run.
 
 import { darkInk, drawChart, lightInk, type ChartChoice } from './chart';
 import { Choice, h, saveAs } from './dom';
+import { firstChoice, firstNotebook } from './first_chart';
 import { numericColumns, type Notebook, type Run } from './run';
-
-/** What was varied has few values or rises from row to row; a column of names parts the lines. */
-function firstChoice(notebook: Notebook, columns: string[]): ChartChoice {
-  const values = (c: string): unknown[] => notebook.rows.map((r) => r[c]).filter((v) => v !== undefined && v !== null);
-  const distinct = (c: string): number => new Set(values(c)).size;
-  const rising = (c: string): boolean =>
-    values(c).every((v, k, all) => k === 0 || (v as number) > (all[k - 1] as number));
-  const varied = columns.filter((c) => distinct(c) > 1);
-  const fewest = Math.min(...varied.map(distinct));
-  const few = varied.filter((c) => distinct(c) === fewest);
-  const x = few.find(rising) ?? few[0] ?? columns[0];
-  const y = varied.find((c) => c !== x) ?? columns.find((c) => c !== x)!;
-  const per = notebook.columns.find((c) => !columns.includes(c) && distinct(c) > 1 && distinct(c) <= 8) ?? '';
-  return { x, y, per, logX: false, logY: false };
-}
 
 export class ChartPane {
   private run: Run | undefined;
-  private chosen = '';
+  private asked = ''; // the notebook that was chosen by hand
   private readonly choices = new Map<string, ChartChoice>();
   private readonly which = new Choice('Notebook', (name) => {
-    this.chosen = name;
+    this.asked = name;
     this.draw();
   });
   private readonly x = new Choice('x', (x) => this.set({ x }));
@@ -71,37 +58,44 @@ export class ChartPane {
   }
 
   /** The chart of a notebook as it is chosen, or as it would be at first. */
-  choiceFor(notebook: Notebook): ChartChoice | undefined {
+  choiceFor(run: Run, notebook: Notebook): ChartChoice | undefined {
     const columns = numericColumns(notebook);
     if (columns.length < 2) return undefined;
     const known = this.choices.get(notebook.name);
     if (known && columns.includes(known.x) && columns.includes(known.y)) {
       return notebook.columns.includes(known.per) ? known : { ...known, per: '' };
     }
-    return firstChoice(notebook, columns);
+    return firstChoice(run, notebook);
   }
 
   private names(): string[] {
     return [...(this.run?.notebooks.values() ?? [])].filter((n) => numericColumns(n).length >= 2).map((n) => n.name);
   }
 
+  /** The notebook that is shown, and how. */
+  private shown(): { notebook: Notebook; choice: ChartChoice } | undefined {
+    const names = this.names();
+    if (!this.run || names.length === 0) return undefined;
+    const name = names.includes(this.asked) ? this.asked : firstNotebook(this.run, names);
+    const notebook = this.run.notebooks.get(name)!;
+    return { notebook, choice: this.choiceFor(this.run, notebook)! };
+  }
+
   private set(change: Partial<ChartChoice>): void {
-    const notebook = this.run?.notebooks.get(this.chosen);
-    const present = notebook && this.choiceFor(notebook);
-    if (present) this.choices.set(this.chosen, { ...present, ...change });
+    const present = this.shown();
+    if (present) this.choices.set(present.notebook.name, { ...present.choice, ...change });
     this.draw();
   }
 
   private draw(): void {
+    const shown = this.shown();
+    if (!shown || this.element.offsetParent === null) return;
+    const { notebook, choice } = shown;
     const names = this.names();
-    if (names.length === 0 || this.element.offsetParent === null) return;
-    if (!names.includes(this.chosen)) this.chosen = names[0];
-    const notebook = this.run!.notebooks.get(this.chosen)!;
-    const choice = this.choiceFor(notebook)!;
     const options = (columns: string[]): { value: string; text: string }[] =>
       columns.map((c) => ({ value: c, text: c }));
     this.which.element.hidden = names.length < 2;
-    this.which.choose(options(names), this.chosen);
+    this.which.choose(options(names), notebook.name);
     this.x.choose(options(numericColumns(notebook)), choice.x);
     this.y.choose(options(numericColumns(notebook)), choice.y);
     this.per.choose(
@@ -127,12 +121,12 @@ export class ChartPane {
   }
 
   private save(): void {
-    const notebook = this.run?.notebooks.get(this.chosen);
-    const choice = notebook && this.choiceFor(notebook);
-    if (!choice) return;
+    const shown = this.shown();
+    if (!shown) return;
+    const { notebook, choice } = shown;
     const drawn = drawChart(notebook, choice, 900, 560, lightInk).element;
     saveAs(
-      `${this.chosen} ${choice.y} against ${choice.x}.svg`.replace(/[^\w .-]/g, '_'),
+      `${notebook.name} ${choice.y} against ${choice.x}.svg`.replace(/[^\w .-]/g, '_'),
       new Blob([new XMLSerializer().serializeToString(drawn)], { type: 'image/svg+xml' }),
     );
   }

@@ -3,6 +3,7 @@
 // nothing else; the panes draw from it, once a frame, so that ten thousand lines cost one drawing.
 
 import type { Cell, RunEvent } from './api';
+import { chartedIn, keysIn, type Charted } from './charted';
 
 export type Status = 'starting' | 'running' | 'done' | 'failed' | 'stopped' | 'limit' | 'lost';
 
@@ -41,6 +42,8 @@ export class Run {
   viewsLeftOut = 0; // surfaces and presses that have no view, so that the run was not held up
   readonly expectations: { text: string; held: boolean }[] = [];
   readonly errors: RunError[] = [];
+  readonly keys: string[]; // of its script's tables, columns among them, as first written
+  readonly charted: Charted[]; // what its script charts, as far as the script's text tells
   readonly began = Date.now();
   private characters = 0;
 
@@ -48,7 +51,10 @@ export class Run {
     readonly id: string,
     readonly name: string,
     readonly script: string,
-  ) {}
+  ) {
+    this.charted = chartedIn(script);
+    this.keys = keysIn(script);
+  }
 
   get active(): boolean {
     return this.status === 'starting' || this.status === 'running';

@@ -107,7 +107,7 @@ export async function savedRun(run: Run, from: Sources): Promise<{ html: string;
   }
   for (const notebook of run.notebooks.values()) {
     body.append(h('h2', {}, `Notebook: ${notebook.name}`));
-    const choice = from.charts.choiceFor(notebook);
+    const choice = from.charts.choiceFor(run, notebook);
     if (choice) {
       const drawn = drawChart(notebook, choice, 860, 500, lightInk);
       body.append(h('figure', {}, drawn.element, h('figcaption', {}, `${drawn.summary}.`)));

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The charts that a script asks for, read from its text: `book:chart{ x="N", y="Ra", log_x=true }`. Only
+// what is written out is known; a column named by a variable is not, and such a call is passed over. And
+// the order in which it names its columns, which a row does not keep.
+
+export interface Charted {
+  /** Empty where the text does not tell which notebook it is. */
+  notebook: string;
+  x: string;
+  y: string[];
+  per: string;
+  logX: boolean;
+  logY: boolean;
+}
+
+interface Token {
+  kind: 'text' | 'word' | 'sign';
+  value: string;
+}
+
+type Field = string | boolean | string[];
+
+export function chartedIn(script: string): Charted[] {
+  const tokens = tokensOf(script);
+  const books = new Map<string, string>(); // names of notebooks by the variables that hold them
+  const found: Charted[] = [];
+  const is = (at: number, value: string): boolean => tokens[at]?.kind !== 'text' && tokens[at]?.value === value;
+  tokens.forEach((token, at) => {
+    if (token.kind !== 'word') return;
+    const past = is(at + 1, '(') ? at + 2 : at + 1;
+    if (token.value === 'notebook' && is(at - 1, '.') && tokens[past]?.kind === 'text') {
+      const variable = assignedTo(tokens, at);
+      if (variable) books.set(variable, tokens[past].value);
+    }
+    if (token.value === 'chart' && is(at - 1, ':') && is(past, '{')) {
+      const { x, y, one_line_per: per, log_x, log_y } = fieldsOf(tokens, past);
+      if (typeof x !== 'string' || (typeof y !== 'string' && !Array.isArray(y))) return;
+      found.push({
+        notebook: books.get(tokens[at - 2]?.value ?? '') ?? '',
+        x,
+        y: [y].flat(),
+        per: typeof per === 'string' ? per : '',
+        logX: log_x === true,
+        logY: log_y === true,
+      });
+    }
+  });
+  return found;
+}
+
+/** Keys of tables in the order in which the text first has them, units left out: `N`, `["Ra [m]"]`. */
+export function keysIn(script: string): string[] {
+  const tokens = tokensOf(script);
+  const open: string[] = [];
+  const keys = new Set<string>();
+  tokens.forEach(({ kind, value }, at) => {
+    if (kind === 'sign' && '([{'.includes(value)) open.push(value);
+    else if (kind === 'sign' && ')]}'.includes(value)) open.pop();
+    const bracketed = kind === 'text' && tokens[at + 1]?.value === ']';
+    if (tokens[at + (bracketed ? 2 : 1)]?.value !== '=') return;
+    if (bracketed || (kind === 'word' && open[open.length - 1] === '{')) keys.add(value.replace(/ *\[.*\]$/, ''));
+  });
+  return [...keys];
+}
+
+/** Comments and spaces are left out. */
+function tokensOf(script: string): Token[] {
+  const pattern =
+    /--\[(=*)\[[^]*?\]\1\]|--[^\n]*|\[(=*)\[\n?([^]*?)\]\2\]|"((?:\\[^]|[^"\\\n])*)"|'((?:\\[^]|[^'\\\n])*)'|([A-Za-z_]\w*)|\d[\w.]*|[=~<>]=|\.\.+|[^\s]/g;
+  const tokens: Token[] = [];
+  for (const part of script.matchAll(pattern)) {
+    if (part[0].startsWith('--')) continue;
+    const text = part[3] ?? (part[4] ?? part[5])?.replace(/\\(["'\\])/g, '$1');
+    if (text !== undefined) tokens.push({ kind: 'text', value: text });
+    else tokens.push({ kind: part[6] ? 'word' : 'sign', value: part[0] });
+  }
+  return tokens;
+}
+
+/** The variable that gets the expression at `at`: `b` in `local a, b = 1, lab.notebook "b"`. */
+function assignedTo(tokens: Token[], at: number): string | undefined {
+  let depth = 0;
+  let before = 0;
+  let k = at - 1;
+  for (; k >= 0; --k) {
+    const { kind, value } = tokens[k];
+    if (kind === 'text') continue;
+    if (')]}'.includes(value)) ++depth;
+    else if ('([{'.includes(value) && --depth < 0) return undefined;
+    else if (depth === 0 && value === ',') ++before;
+    else if (depth === 0 && value === '=') break;
+  }
+  const names: string[] = [];
+  for (--k; tokens[k]?.kind === 'word'; k -= 2) {
+    names.unshift(tokens[k].value);
+    if (tokens[k - 1]?.value !== ',') break;
+  }
+  return names[before];
+}
+
+/** Fields of the table that opens at `at`, as far as they are plain: "text", true, { "texts" }. */
+function fieldsOf(tokens: Token[], at: number): Record<string, Field | undefined> {
+  const fields: Record<string, Field | undefined> = {};
+  const sign = (k: number): string => (tokens[k]?.kind === 'sign' ? tokens[k].value : '');
+  const ends = (k: number): boolean => [',', ';', '}'].includes(sign(k));
+  let depth = 0;
+  for (let k = at; k < tokens.length; ++k) {
+    if (['{', '(', '['].includes(sign(k))) ++depth;
+    if (['}', ')', ']'].includes(sign(k)) && --depth === 0) break;
+    if (depth !== 1 || tokens[k].kind !== 'word' || sign(k + 1) !== '=') continue;
+    const value = tokens[k + 2];
+    if (value?.kind === 'text' && ends(k + 3)) fields[tokens[k].value] = value.value;
+    if (value?.kind === 'word' && value.value === 'true' && ends(k + 3)) fields[tokens[k].value] = true;
+    if (sign(k + 2) === '{') fields[tokens[k].value] = textsOf(tokens, k + 3);
+  }
+  return fields;
+}
+
+function textsOf(tokens: Token[], from: number): string[] | undefined {
+  const texts: string[] = [];
+  for (let k = from; k < tokens.length; ++k) {
+    const { kind, value } = tokens[k];
+    if (kind === 'text') texts.push(value);
+    else if (kind === 'sign' && value === '}') return texts;
+    else if (kind !== 'sign' || (value !== ',' && value !== ';')) return undefined;
+  }
+  return undefined;
+}
