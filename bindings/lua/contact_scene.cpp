@@ -46,7 +46,8 @@ const Block<CreepOptions>& creep_block() {
   using O = CreepOptions;
   static const Block<O> block{
       "creep",
-      {number("rate", &O::rate, at_least(0), "b of the law H = hardness (1 + b ln(1 + reference/onset)) / (1 + b ln(1 + dwell/onset))"),
+      {number("rate", &O::rate, at_least(0),
+              "b of the law H = hardness (1 + b ln(1 + reference/onset)) / (1 + b ln(1 + dwell/onset))"),
        quantity("onset", &O::onset, dimension::time, above(0), "time from which creep counts"),
        quantity("reference", &O::reference, dimension::time, above(0),
                 "dwell at which the hardness is the stated one, and of a press that names no dwell")}};

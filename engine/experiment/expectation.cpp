@@ -195,8 +195,7 @@ void check(const Expectation& e) {
   if (e.near && e.within.has_value() == e.relative.has_value())
     refuse(e.within ? "`near` is given both `within` and `rel`" : "`near` needs a width",
            "give `within` (absolute) or `rel` (a fraction of `near`)");
-  if (e.near == 0.0 && e.relative)
-    refuse("`near` is 0, of which `rel` leaves no width", "give `within`");
+  if (e.near == 0.0 && e.relative) refuse("`near` is 0, of which `rel` leaves no width", "give `within`");
   if (!e.near && (e.within || e.relative))
     refuse(std::string(e.within ? "`within`" : "`rel`") + " needs `near`",
            "say what the value should be near");

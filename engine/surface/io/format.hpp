@@ -62,8 +62,8 @@ std::span<const Format* const> formats();
 
 // The format called `forced`, or else the first that recognises the content, or else the one of the
 // extension, which decides for x y z where the content is a table. Throws Error{unknown_name} for a `format`
-// that does not exist and Error{bad_file} when nothing fits, naming what was looked for, or when a table may be
-// a matrix or almost_triples() or many_triples().
+// that does not exist and Error{bad_file} when nothing fits, naming what was looked for, or when a table may
+// be a matrix or almost_triples() or many_triples().
 const Format& choose_format(const SourceFile& file, const std::string& forced);
 
 }  // namespace asperity
