@@ -233,7 +233,7 @@ fs::path RunDirectory::place_to_read(std::string_view file) const {
   const fs::path given{std::string(file)};
   std::error_code ignored;
   if (given.is_absolute() || root_.empty()) return given;
-  const fs::path in_run = root_ / given;
+  const fs::path in_run = (root_ / given).lexically_normal();
   const auto is_given = [name = given.lexically_normal()](const std::string& output) {
     return fs::path(output).lexically_normal() == name;
   };

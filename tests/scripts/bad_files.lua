@@ -64,5 +64,5 @@ refused(function() s:write "../x.npy" end, "lies outside the run directory")
 refused(function() s:write(("x"):rep(300) .. ".npy") end, "a file name is 304 bytes long; give at most 255")
 refused(function() s:write "a\0b.npy" end, "surface:write: ")
 refused(function() s:write "" end, "is not the name of a file")
-refused(function() s:picture "x.jpg" end, "pictures are .svg or .png")
+refused(function() s:picture "x.jpg" end, "pictures of surfaces are .png")
 print "all refused"

@@ -54,7 +54,8 @@ const Format& text_format();
 // points missing or given more than once, which a matrix of three columns could be as well.
 bool almost_triples(const SourceFile& file);
 
-// Whether such a text is so long that points are likelier than a map three columns wide.
+// Whether such a text is so long, and its first two columns so rarely say the same again, that points are
+// likelier than a map three columns wide.
 bool many_triples(const SourceFile& file);
 
 // All of them, in the order in which they are tried: the most particular marks first.

@@ -220,7 +220,8 @@ bool almost_triples(const SourceFile& file) {
 bool many_triples(const SourceFile& file) {
   constexpr int many = 100;
   const std::optional<TextTable> table = triples_of(file);
-  return table && table->rows >= many && !names_a_width(file);
+  if (!table || table->rows < many || names_a_width(file)) return false;
+  return 2 * axis_of(*table, 0).lines >= table->rows && 2 * axis_of(*table, 1).lines >= table->rows;
 }
 
 const Format& xyz_format() {
