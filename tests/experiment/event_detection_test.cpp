@@ -17,18 +17,6 @@ namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
 
-class Listener final : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
-  bool told(std::string_view part) const {
-    for (const std::string& warning : warnings)
-      if (warning.find(part) != std::string::npos) return true;
-    return false;
-  }
-  std::vector<std::string> warnings;
-};
-
 std::string kinds(const Protocol& protocol) {
   std::string all;
   for (const Protocol::Event& event : protocol.events()) all += std::string(kind(event.step)).substr(0, 2);

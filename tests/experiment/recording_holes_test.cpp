@@ -14,18 +14,6 @@
 namespace asperity {
 namespace {
 
-class Listener final : public Monitor {
- public:
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
-  bool told(std::string_view part) const {
-    for (const std::string& warning : warnings)
-      if (warning.find(part) != std::string::npos) return true;
-    return false;
-  }
-  std::vector<std::string> warnings;
-};
-
 PressRecording recorded(const std::vector<double>& times, const std::function<double(double)>& load,
                         double noise = 0.05) {
   std::mt19937_64 random(5);
