@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Blocks of memory that were given back, kept for whoever next asks for as many bytes: one contact after the
-// other asks for the same grids, and a fresh page costs a trap and its zeroing, a sixth of a solve on 256².
+// other asks for the same grids, and a fresh page costs a trap and its zeroing.
 // Holds no more than a fixed number of bytes, the oldest going first. Thread-safe.
 #pragma once
 

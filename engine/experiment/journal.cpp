@@ -164,6 +164,7 @@ std::vector<DifferingMember> differing_members(const Json* one, const Json* othe
   }
   for (const auto& [name, value] : other->members())
     if (one->find(name) == nullptr) all.push_back({under(name), nullptr, &value});
+  if (all.empty()) all.push_back({path, one, other});  // but for their order
   return all;
 }
 

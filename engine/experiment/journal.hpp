@@ -86,8 +86,8 @@ JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn);
 // A record without its member "unhashed".
 Json without_unhashed(const Json& record);
 
-// The members, however deep, in which two records differ; null where one has none. One of an empty path where
-// they are not both objects.
+// The members, however deep, in which two records differ; null where one has none: at least one, of an
+// empty path where they are not both objects or differ in order alone.
 struct DifferingMember {
   std::string path;  // "row.area"
   const Json *one, *other;

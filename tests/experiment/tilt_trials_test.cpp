@@ -82,6 +82,15 @@ TEST(TiltTrials, ARoughCounterBodyIsPutDownAfresh) {
   EXPECT_EQ(pair.placement(), home);
 }
 
+TEST(TiltTrials, AWeightOnFewNodesIsToldOf) {
+  TiltTrialOptions options = light();
+  options.stage.mass *= 1e-9;
+  const TiltResult t = raise(on_rough(), JunctionLaw({.tau0 = 0, .alpha = 0.2}), options);
+  EXPECT_EQ(t.note.find("the weight rests on "), 0U) << t.note;
+  EXPECT_NE(t.note.find(" only: mu is that of their areas and changes with the grid"), std::string::npos)
+      << t.note;
+}
+
 TEST(TiltTrials, MoreTrialsKeepTheFirstOnes) {
   TiltTrialOptions options = light();
   const JunctionLaw law({.tau0 = 2, .alpha = 0.2});

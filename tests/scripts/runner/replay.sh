@@ -76,6 +76,12 @@ LUA
 "$program" run clock.lua --out clock --trust > printed 2>&1
 sleep 1
 ends 1 "times, row.seconds" "$program" replay clock --out clock-again --trust
+sed 's/{ /{ twice = 2 * os.time(), same = 1, /' clock.lua > columns.lua
+"$program" run columns.lua --out columns --trust > printed 2>&1
+sleep 1
+ends 1 "recorded  row.seconds" "$program" replay columns --out columns-again --trust
+says ", row.twice" output
+if grep -q "row.same" output; then fail "a column that is the same is told"; fi
 
 # Trust is given on the command line, never by the directory of a run.
 ends 2 'add `--trust` to replay it so' "$program" replay clock --out untrusted
