@@ -69,9 +69,65 @@ Field applied(ContactPreconditioner& preconditioner, const Field& r) {
   return z;
 }
 
+// The smooth field C r: hats about 32 nodes apart, on a free boundary from rim to rim, each times what a
+// residual comes to beneath it, divided by the free nodes beneath it and 3 % of all; and its transpose.
+class SmoothField {
+ public:
+  SmoothField(int nx, int ny, Boundary boundary, const Mask& free)
+      : x_(hats(nx, boundary)), y_(hats(ny, boundary)), nx_(nx), free_(free) {
+    for (const auto& along : x_)
+      for (const auto& across : y_) {
+        double here = 0, all = 0;
+        for (int k = 0; k < nx * ny; ++k) {
+          all += value(along, across, k);
+          here += free[static_cast<std::size_t>(k)] != 0 ? value(along, across, k) : 0;
+        }
+        divisors_.push_back(here + 0.03 * all);
+      }
+  }
+  // to += Σ hats · (from beneath them)/divisor.
+  void add(const Field& from, bool from_free, bool to_free, Field& to) const {
+    std::size_t hat = 0;
+    for (const auto& along : x_)
+      for (const auto& across : y_) {
+        double sum = 0;
+        for (std::size_t k = 0; k < from.size(); ++k)
+          sum += !from_free || free_[k] != 0 ? value(along, across, static_cast<int>(k)) * from[k] : 0;
+        sum /= divisors_[hat++];
+        for (std::size_t k = 0; k < to.size(); ++k)
+          to[k] += !to_free || free_[k] != 0 ? value(along, across, static_cast<int>(k)) * sum : 0;
+      }
+  }
+
+ private:
+  using Hat = std::vector<double>;  // its values at the nodes of one side
+  static std::vector<Hat> hats(int n, Boundary boundary) {
+    const bool wraps = boundary == Boundary::periodic;
+    const int steps = std::max(1, n / 32);
+    std::vector<Hat> all;
+    for (int i = 0; i < (wraps ? steps : steps + 1); ++i) {
+      Hat hat;
+      for (int k = 0; k < n; ++k) {
+        double apart = std::abs((wraps ? k : k + 0.5) * steps / n - i);
+        if (wraps) apart = std::min(apart, steps - apart);
+        hat.push_back(wraps && steps == 1 ? 1 : std::max(0.0, 1 - apart));
+      }
+      all.push_back(hat);
+    }
+    return all;
+  }
+  double value(const Hat& along, const Hat& across, int k) const {
+    return along[static_cast<std::size_t>(k % nx_)] * across[static_cast<std::size_t>(k / nx_)];
+  }
+  std::vector<Hat> x_, y_;
+  int nx_;
+  const Mask& free_;
+  std::vector<double> divisors_;
+};
+
 // The definition: every sweep over every node, in double precision. A sweep makes nodes of one colour of the
 // chessboard the mean of their neighbours, two on a line; where a periodic side is odd, two nodes of one
-// colour meet and are no neighbours.
+// colour meet and are no neighbours. What is swept is what the residual differs from its smooth field by.
 Field defined(const Field& r, const Mask& free, double aspect, Boundary boundary, int sweeps) {
   const int nx = r.nx(), ny = r.ny();
   const bool wraps_x = boundary == Boundary::periodic && nx % 2 == 0;
@@ -93,26 +149,35 @@ Field defined(const Field& r, const Mask& free, double aspect, Boundary boundary
                 0)
           call(i, j);
   };
-  Field e(nx, ny), z(nx, ny);
-  for (std::size_t k = 0; k < e.size(); ++k) e[k] = free[k] != 0 ? r[k] : 0;
+  const SmoothField smooth(nx, ny, boundary, free);
+  Field c(nx, ny), e(nx, ny), z(nx, ny);
+  smooth.add(r, true, false, c);
+  for (std::size_t k = 0; k < e.size(); ++k) e[k] = free[k] != 0 ? r[k] - c[k] : 0;
   for (int s = 1; s <= sweeps; ++s)
     bound_of_colour(s % 2, [&](int i, int j) {
       double sum = 0;
       neighbours(i, j, [&](int x, int y) { sum += e(x, y); });
       e(i, j) = share * sum;
     });
+  for (std::size_t k = 0; k < e.size(); ++k) e[k] += c[k];
   HalfOrderPyramid pyramid(nx, ny, aspect, boundary);
   std::transform(e.values().begin(), e.values().end(), pyramid.input().begin(),
                  [](double v) { return static_cast<float>(v); });
   const auto product = pyramid.apply();
   Field y(nx, ny);
   std::copy(product.begin(), product.end(), y.values().begin());
+  const Field before = y;
   for (int s = sweeps; s >= 1; --s)
     bound_of_colour(s % 2, [&](int i, int j) {
       neighbours(i, j, [&](int x, int other) { y(x, other) += share * y(i, j); });
       y(i, j) = 0;
     });
-  for (std::size_t k = 0; k < y.size(); ++k) z[k] = free[k] != 0 ? y[k] : 0;
+  Field left = before;
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    z[k] = free[k] != 0 ? y[k] : 0;
+    left[k] -= z[k];
+  }
+  smooth.add(left, false, true, z);
   return z;
 }
 
@@ -132,7 +197,7 @@ class Preconditioner : public ::testing::TestWithParam<std::tuple<Boundary, Case
   Boundary boundary = std::get<0>(GetParam());
   Case tested = std::get<1>(GetParam());
   Mask free = patches(tested.nx, tested.ny, tested.share);
-  ContactPreconditioner preconditioner{tested.nx, tested.ny, tested.aspect, boundary, tested.sweeps};
+  ContactPreconditioner preconditioner{tested.nx, tested.ny, tested.aspect, boundary, 1, tested.sweeps};
   void SetUp() override { preconditioner.set_free(free); }
 };
 
@@ -234,7 +299,7 @@ TEST(ContactPreconditioner, ATileTakesNothingFromTheTileBefore) {
     };
     stripe(height, height + sweeps, 1000);
     stripe(ny - 4, ny, 1);
-    ContactPreconditioner preconditioner(nx, ny, 1, Boundary::periodic, sweeps);
+    ContactPreconditioner preconditioner(nx, ny, 1, Boundary::periodic, 1, sweeps);
     preconditioner.set_free(free);
     const Field z = applied(preconditioner, r), expected = defined(r, free, 1, Boundary::periodic, sweeps);
     for (std::size_t k = z.size() - 4 * nx; k < z.size(); ++k)
@@ -263,7 +328,7 @@ TEST(ContactPreconditioner, OneFreeNodeAnywhere) {
 // mean needs no care.
 int iterations(const Mask& free, int nx, int ny, double aspect, int sweeps) {
   HalfSpaceCompliance compliance(nx, ny, aspect, Boundary::free);
-  ContactPreconditioner preconditioner(nx, ny, aspect, Boundary::free, std::max(sweeps, 0));
+  ContactPreconditioner preconditioner(nx, ny, aspect, Boundary::free, 1, std::max(sweeps, 0));
   preconditioner.set_free(free);
   Field r = noise(nx, ny, 5), p(nx, ny), q(nx, ny), d(nx, ny);
   for (std::size_t k = 0; k < r.size(); ++k)
@@ -289,12 +354,37 @@ int iterations(const Mask& free, int nx, int ny, double aspect, int sweeps) {
 
 TEST(ContactPreconditioner, HalvesTheDigitsInAFewIterations) {
   const Mask free = patches(150, 131, 0.3);
-  const int plain = iterations(free, 150, 131, 1, -1), zero = iterations(free, 150, 131, 1, 0),
-            extended = iterations(free, 150, 131, 1, 8);
-  EXPECT_LT(extended, 25);
-  EXPECT_LT(extended, zero);
+  const int plain = iterations(free, 150, 131, 1, -1), extended = iterations(free, 150, 131, 1, 4);
+  EXPECT_LT(extended, 20);
   EXPECT_LT(3 * extended, plain);
-  EXPECT_LT(iterations(free, 150, 131, 4, 8), 45);
+  EXPECT_LT(iterations(free, 150, 131, 4, 4), 45);
+}
+
+// z·K z/z·r of z = M r, for a residual as long as the tile on many small contacts: how much too stiff they
+// are taken to be. If the residual ended a few nodes from each of them it would be 2.6, 4.6 and 8.6.
+TEST(ContactPreconditioner, ALongResidualIsCarriedOverTheGroundBetweenContacts) {
+  for (const int n : {160, 320, 640}) {
+    Mask free(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        free[static_cast<std::size_t>(j * n + i)] = std::hypot(i % 20 - 10, j % 20 - 10) < 6 ? 1 : 0;
+    ContactPreconditioner preconditioner(n, n, 1, Boundary::periodic);
+    HalfSpaceCompliance compliance(n, n, 1, Boundary::periodic);
+    preconditioner.set_free(free);
+    Field r(n, n), image(n, n);
+    double sum = 0, count = 0;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        if (free[static_cast<std::size_t>(j * n + i)] != 0) {
+          r(i, j) = std::cos(2 * std::numbers::pi * i / n);
+          sum += r(i, j), count += 1;
+        }
+    for (std::size_t k = 0; k < r.size(); ++k)
+      if (free[k] != 0) r[k] -= sum / count;
+    const Field z = applied(preconditioner, r);
+    compliance.apply(z.values(), image.values());
+    EXPECT_LT(dot(z, image) / dot(z, r), 1.3) << n;
+  }
 }
 
 TEST(ContactPreconditioner, RefusesAnotherGrid) {

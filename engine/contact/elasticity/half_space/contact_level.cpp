@@ -7,12 +7,6 @@
 
 namespace asperity {
 
-namespace {
-// Of the preconditioner. More of them save some applications; they cost time as long as the fields fit the
-// caches, and next to none beside the fields' way from memory.
-int sweeps_on(std::size_t nodes) { return nodes > (std::size_t{1} << 19) ? 12 : 8; }
-}  // namespace
-
 ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double> raw_heights,
                            double height_origin, double height_factor, PressureLimit pressure_limit,
                            double mean)
@@ -20,8 +14,7 @@ ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double
       limit(std::move(pressure_limit)),
       mean_pressure(mean),
       compliance(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, shape.single),
-      preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, sweeps_on(shape.nodes()),
-                     shape.weight),
+      preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight),
       short_wave_stiffness(std::numbers::pi / 4 / std::sqrt(shape.aspect)),
       heights_(raw_heights),
       origin_(height_origin),

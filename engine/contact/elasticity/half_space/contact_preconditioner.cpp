@@ -15,6 +15,7 @@
 
 #include "engine/contact/elasticity/half_space/edge_rows.hpp"
 #include "engine/contact/elasticity/half_space/half_order_pyramid.hpp"
+#include "engine/contact/elasticity/half_space/smooth_extension.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
@@ -33,7 +34,11 @@ class ContactPreconditioner::Parts {
  public:
   Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps, double weight);
   void set_free(std::span<const std::uint8_t> free);
-  void apply(const Residual& r, const Keep& keep);
+  double spread(const Residual& r);
+  void gather(const Keep& keep);
+  double smooth(std::size_t first, std::size_t n, float* values) const;
+  double smooth_sum() const { return grow_ * rest_sum_; }
+  void add_smooth(std::span<double> z) const;
   std::size_t tiles() const { return tiles_.size(); }
   std::size_t nodes() const { return free_.size(); }
 
@@ -48,10 +53,11 @@ class ContactPreconditioner::Parts {
   };
   struct Tile {
     int x, y, width, height;
-    bool stale = true;          // the marks of the tile or its margin are new
-    bool holds_free = false;    // a free node in the tile
-    bool reaches_free = false;  // or in its margin
-    bool swept = false;         // or near enough to one that is not free
+    SmoothExtension::Sums free_hats, hats;  // of the free nodes, and of what is passed on
+    bool stale = true;                      // the marks of the tile or its margin are new
+    bool holds_free = false;                // a free node in the tile
+    bool reaches_free = false;              // or in its margin
+    bool swept = false;                     // or one that is not
     // By colour, and by even and odd columns.
     Groups groups[2][2] = {};
   };
@@ -60,8 +66,17 @@ class ContactPreconditioner::Parts {
     Array<float> given, now;
     // One bit a node: free, on the grid but not free, within some steps of free.
     Array<std::uint64_t> free, bound, near, nearer, found;
-    Patch(std::size_t nodes, std::size_t words)
-        : given(nodes), now(nodes), free(words), bound(words), near(words), nearer(words), found(words) {}
+    Array<float> row;  // of it
+    float sums[2 * tile_width];
+    Patch(std::size_t nodes, std::size_t words, std::size_t width)
+        : given(nodes),
+          now(nodes),
+          free(words),
+          bound(words),
+          near(words),
+          nearer(words),
+          found(words),
+          row(width) {}
   };
 
   int patch_height(const Tile& tile) const { return tile.height + 2 * sweeps_; }
@@ -76,7 +91,8 @@ class ContactPreconditioner::Parts {
     return patches_.borrow([this] {
       const int rows = tile_height + 2 * sweeps_;
       return std::make_unique<Patch>(patch_row(rows + 1) + group,
-                                     static_cast<std::size_t>(rows) * row_words());
+                                     static_cast<std::size_t>(rows) * row_words(),
+                                     static_cast<std::size_t>(tile_width + 2 * margin_));
     });
   }
   template <class Run>
@@ -88,8 +104,11 @@ class ContactPreconditioner::Parts {
   template <class Put>
   void load(Patch& patch, const Tile& tile, const Put& put) const;
   void extend(const Tile& tile, const Residual& scaled);
-  void gather_back(std::size_t number, std::span<const float> y, double scale, const Keep& keep);
+  void gather_back(std::size_t number, Patch& patch, std::span<const float> y, const Keep& keep);
   double greatest(const Residual& r) const;
+  template <class Add>
+  void add_up_hats(const Add& add, Array<double>& total);
+  void divide(const Array<double>& sums, Array<float>& field) const;
   std::size_t node(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(i);
   }
@@ -100,6 +119,12 @@ class ContactPreconditioner::Parts {
   int half_;     // from the even columns of a row of a patch to the odd ones
   float share_;  // of a neighbour in the mean of them
   HalfOrderPyramid pyramid_;
+  SmoothExtension smooth_;
+  Array<double> free_hats_, sums_;  // sums of hats over the free set, and of what is passed on
+  Array<float> level_, rest_;       // of the residual, and of what is gathered, at the hats' points
+  double rest_sum_ = 0;             // of the field of rest_ over the free set
+  std::span<const float> spread_;   // B Ext r/grow_; empty where r is 0
+  double grow_ = 1;                 // a power of two
   Array<std::uint8_t> free_;
   std::vector<Tile> tiles_;
   ScratchPool<Patch> patches_;
@@ -117,10 +142,18 @@ ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boun
       half_(tile_width / 2 + margin_ + group),
       share_(nx == 1 || ny == 1 ? 0.5f : 0.25f),
       pyramid_(nx, ny, aspect, boundary, weight),
+      smooth_(nx, ny, boundary),
+      free_hats_(smooth_.size()),
+      sums_(smooth_.size()),
+      level_(smooth_.size()),
+      rest_(smooth_.size()),
       free_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), 0) {
   for (int y = 0; y < ny; y += tile_height)
-    for (int x = 0; x < nx; x += tile_width)
-      tiles_.push_back({x, y, std::min(tile_width, nx - x), std::min(tile_height, ny - y)});
+    for (int x = 0; x < nx; x += tile_width) {
+      const int width = std::min(tile_width, nx - x), height = std::min(tile_height, ny - y);
+      const SmoothExtension::Sums sums(smooth_, x, y, width, height);
+      tiles_.push_back({x, y, width, height, sums, sums});
+    }
 }
 
 // Calls run(column, node, length) for the stretches of row j of a patch that lie on the grid.
@@ -188,7 +221,8 @@ void ContactPreconditioner::Parts::find_groups(Tile& tile) {
   };
   tile.holds_free = any(sweeps_, sweeps_ + tile.height);
   tile.reaches_free = any(0, rows);
-  tile.swept = false;
+  tile.swept = std::any_of(patch->bound.begin(), patch->bound.begin() + static_cast<std::ptrdiff_t>(words),
+                           [](std::uint64_t word) { return word != 0; });
   for (auto& of_colour : tile.groups)
     for (Groups& groups : of_colour) {
       groups.starts.clear();
@@ -218,16 +252,13 @@ void ContactPreconditioner::Parts::find_groups(Tile& tile) {
       }
     }
     for (auto& of_colour : tile.groups)
-      for (Groups& groups : of_colour) {
+      for (Groups& groups : of_colour)
         groups.reached.push_back(static_cast<std::uint32_t>(groups.starts.size()));
-        tile.swept = tile.swept || !groups.starts.empty();
-      }
   }
 }
 
 void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) {
   if (free.size() != free_.size()) throw Error(ErrorCode::internal, "a free set of another grid");
-  const std::span<float> extended = pyramid_.input();
   const auto count = static_cast<std::int64_t>(tiles_.size());
   // Late in a solve few tiles see a new mark.
   parallel_for(count, [&](std::int64_t k) {
@@ -250,18 +281,42 @@ void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) 
     if (!tile.stale) return;
     tile.stale = false;
     find_groups(tile);
-    // extend() leaves such a tile alone.
-    if (!tile.reaches_free)
-      for (int j = tile.y; j < tile.y + tile.height; ++j)
-        std::fill_n(extended.begin() + static_cast<std::ptrdiff_t>(node(tile.x, j)), tile.width, 0.0f);
+    const auto patch = borrow();
+    tile.free_hats.clear();
+    for (int j = tile.y; j < tile.y + tile.height && tile.holds_free; ++j) {
+      std::transform(free_.data() + node(tile.x, j), free_.data() + node(tile.x, j) + tile.width,
+                     patch->row.data(), [](std::uint8_t mark) { return static_cast<float>(mark); });
+      tile.free_hats.add(j, patch->row.data(), patch->sums);
+    }
+    tile.free_hats.finish(patch->sums);
   });
+  std::fill(free_hats_.begin(), free_hats_.end(), 0.0);
+  for (const Tile& tile : tiles_) tile.free_hats.add_to(free_hats_);
+}
+
+// total = the sums over the hats of what add(tile, patch) gives to each tile's own.
+template <class Add>
+void ContactPreconditioner::Parts::add_up_hats(const Add& add, Array<double>& total) {
+  parallel_for(static_cast<std::int64_t>(tiles_.size()), [&](std::int64_t k) {
+    Tile& tile = tiles_[static_cast<std::size_t>(k)];
+    const auto patch = borrow();
+    tile.hats.clear();
+    add(static_cast<std::size_t>(k), *patch);
+    tile.hats.finish(patch->sums);
+  });
+  std::fill(total.begin(), total.end(), 0.0);
+  for (const Tile& tile : tiles_) tile.hats.add_to(total);
+}
+
+void ContactPreconditioner::Parts::divide(const Array<double>& sums, Array<float>& field) const {
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    field[k] = static_cast<float>(sums[k] / smooth_.divisor(k, free_hats_[k]));
 }
 
 void ContactPreconditioner::Parts::extend(const Tile& tile, const Residual& r) {
-  if (!tile.reaches_free) return;
   const auto width = static_cast<std::size_t>(tile.width);
   float* const extended = pyramid_.input().data();
-  if (!tile.swept) {
+  if (tile.reaches_free && !tile.swept) {
     for (int j = tile.y; j < tile.y + tile.height; ++j) {
       const std::size_t k = node(tile.x, j);
       convert(r.values + k, r.factor, r.offset, width, extended + k);
@@ -269,50 +324,66 @@ void ContactPreconditioner::Parts::extend(const Tile& tile, const Residual& r) {
     }
     return;
   }
+  if (!tile.reaches_free) {
+    for (int j = tile.y; j < tile.y + tile.height; ++j)
+      smooth_.row(level_, j, tile.x, tile.width, extended + node(tile.x, j));
+    return;
+  }
   const auto patch = borrow();
+  const auto nx = static_cast<std::size_t>(nx_);
   load(*patch, tile, [&](std::size_t row, std::size_t column, std::size_t from, std::size_t length) {
-    start_free(free_.data() + from, r.values + from, r.factor, r.offset, length, column, half(),
-               patch->now.data() + row);
+    smooth_.row(level_, static_cast<int>(from / nx), static_cast<int>(from % nx), static_cast<int>(length),
+                patch->row.data());
+    start_free(free_.data() + from, r.values + from, r.factor, r.offset, patch->row.data(), length, column,
+               half(), patch->now.data() + row);
   });
   // Nothing is farther from the free set than there have been sweeps.
   for (int s = 1; s <= sweeps_; ++s)
     for (const int odd : {0, 1})
       sweep_groups(tile.groups[s % 2][odd].within(s), odd != 0, half_, share_, patch->now.data());
-  for (int j = 0; j < tile.height; ++j)
-    merge(patch->now.data() + core_row(j), half_, width, extended + node(tile.x, tile.y + j));
+  for (int j = 0; j < tile.height; ++j) {
+    smooth_.row(level_, tile.y + j, tile.x, tile.width, patch->row.data());
+    merge(patch->now.data() + core_row(j), half_, patch->row.data(), width,
+          extended + node(tile.x, tile.y + j));
+  }
 }
 
-// z = (y + N v) on the free set, v being what has been passed on off it.
-void ContactPreconditioner::Parts::gather_back(std::size_t number, std::span<const float> y, double scale,
+// z = (y + N v) on the free set, v being what has been passed on off it, less the smooth field that is yet to
+// come; what that is made from goes to the hats.
+void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch, std::span<const float> y,
                                                const Keep& keep) {
-  const Tile& tile = tiles_[number];
+  Tile& tile = tiles_[number];
   const auto width = static_cast<std::size_t>(tile.width);
   if (!tile.holds_free) {
-    for (int j = tile.y; j < tile.y + tile.height; ++j) keep(number, node(tile.x, j), width, nullptr, 0);
+    for (int j = tile.y; j < tile.y + tile.height; ++j) {
+      const std::size_t k = node(tile.x, j);
+      tile.hats.add(j, y.data() + k, patch.sums);
+      keep(number, k, width, nullptr, 0);
+    }
     return;
   }
-  const auto patch = borrow();
   if (tile.swept) {
-    load(*patch, tile, [&](std::size_t row, std::size_t column, std::size_t from, std::size_t length) {
-      start_bound(y.data() + from, length, column, half(), patch->given.data() + row,
-                  patch->now.data() + row);
+    load(patch, tile, [&](std::size_t row, std::size_t column, std::size_t from, std::size_t length) {
+      start_bound(y.data() + from, length, column, half(), patch.given.data() + row, patch.now.data() + row);
     });
     // Nothing matters that is farther from the free set than there are sweeps to come.
     for (int s = sweeps_; s >= 1; --s)
       for (const int odd : {0, 1})
-        sweep_back_groups(tile.groups[s % 2][odd].within(s), odd != 0, half_, share_, patch->given.data(),
-                          patch->now.data());
+        sweep_back_groups(tile.groups[s % 2][odd].within(s), odd != 0, half_, share_, patch.given.data(),
+                          patch.now.data());
   }
   float sum[tile_width];
   for (int j = 0; j < tile.height; ++j) {
     const std::size_t k = node(tile.x, tile.y + j);
     if (tile.swept) {
-      add_neighbours(free_.data() + k, y.data() + k, patch->now.data() + core_row(j), half_, width, sum);
+      add_neighbours(free_.data() + k, y.data() + k, patch.now.data() + core_row(j), half_, width, sum);
     } else {
       std::copy_n(y.data() + k, width, sum);
       keep_free(free_.data() + k, width, sum);
     }
-    keep(number, k, width, sum, scale);
+    subtract(y.data() + k, sum, width, patch.row.data());
+    tile.hats.add(tile.y + j, patch.row.data(), patch.sums);
+    keep(number, k, width, sum, grow_);
   }
 }
 
@@ -334,25 +405,69 @@ double ContactPreconditioner::Parts::greatest(const Residual& r) const {
   return 0;
 }
 
-void ContactPreconditioner::Parts::apply(const Residual& r, const Keep& keep) {
+double ContactPreconditioner::Parts::spread(const Residual& r) {
   // Single precision has little range: near 1, and by a power of two, which rounds nothing.
   const double most = greatest(r);
-  const auto width = static_cast<std::size_t>(nx_);
-  if (!(most > 0)) {
-    for (int j = 0; j < ny_; ++j) keep(0, node(0, j), width, nullptr, 0);
-    return;
-  }
+  spread_ = {};
+  if (!(most > 0)) return 0;
   const int exponent = std::clamp(std::ilogb(most), -1000, 1000);
-  const auto count = static_cast<std::int64_t>(tiles_.size());
-  const double shrink = std::ldexp(1.0, -exponent), grow = std::ldexp(1.0, exponent);
+  const double shrink = std::ldexp(1.0, -exponent);
+  grow_ = std::ldexp(1.0, exponent);
   const Residual near_one{r.values, r.factor * shrink, r.offset * shrink};
-  parallel_for(count, [&](std::int64_t k) { extend(tiles_[static_cast<std::size_t>(k)], near_one); });
-  const std::span<const float> y = pyramid_.apply();
-  parallel_for(count, [&](std::int64_t k) { gather_back(static_cast<std::size_t>(k), y, grow, keep); });
+  const auto pass_on_residual = [&](std::size_t number, Patch& patch) {
+    Tile& tile = tiles_[number];
+    const auto width = static_cast<std::size_t>(tile.width);
+    for (int j = tile.y; j < tile.y + tile.height && tile.holds_free; ++j) {
+      const std::size_t k = node(tile.x, j);
+      convert(near_one.values + k, near_one.factor, near_one.offset, width, patch.row.data());
+      keep_free(free_.data() + k, width, patch.row.data());
+      tile.hats.add(j, patch.row.data(), patch.sums);
+    }
+  };
+  add_up_hats(pass_on_residual, sums_);
+  divide(sums_, level_);
+  parallel_for(static_cast<std::int64_t>(tiles_.size()),
+               [&](std::int64_t k) { extend(tiles_[static_cast<std::size_t>(k)], near_one); });
+  spread_ = pyramid_.apply();
+  // Ext is the transpose of what gathers: r·z = Ext r·B Ext r.
+  return pyramid_.product() * grow_ * grow_;
 }
 
-ContactPreconditioner::ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, int sweeps,
-                                             double weight)
+void ContactPreconditioner::Parts::gather(const Keep& keep) {
+  if (spread_.empty()) {
+    for (int j = 0; j < ny_; ++j) keep(0, node(0, j), static_cast<std::size_t>(nx_), nullptr, 0);
+    std::fill(rest_.begin(), rest_.end(), 0.0f);
+    rest_sum_ = 0;
+    return;
+  }
+  // With Ext = L (1 − C) + C, L being the sweeps and C the smooth field, Extᵀ y = Lᵀ y + Cᵀ (y − Lᵀ y).
+  add_up_hats([&](std::size_t number, Patch& patch) { gather_back(number, patch, spread_, keep); }, sums_);
+  divide(sums_, rest_);
+  rest_sum_ = 0;
+  for (std::size_t k = 0; k < rest_.size(); ++k) rest_sum_ += static_cast<double>(rest_[k]) * free_hats_[k];
+}
+
+double ContactPreconditioner::Parts::smooth(std::size_t first, std::size_t n, float* values) const {
+  const auto nx = static_cast<std::size_t>(nx_);
+  smooth_.row(rest_, static_cast<int>(first / nx), static_cast<int>(first % nx), static_cast<int>(n), values);
+  return grow_;
+}
+
+void ContactPreconditioner::Parts::add_smooth(std::span<double> z) const {
+  const auto nx = static_cast<std::size_t>(nx_);
+  parallel_for(ny_, [&](std::int64_t j) {
+    float values[tile_width];
+    const std::size_t begin = node(0, static_cast<int>(j));
+    for (std::size_t at = 0; at < nx; at += tile_width) {
+      const std::size_t n = std::min<std::size_t>(tile_width, nx - at);
+      const double factor = smooth(begin + at, n, values);
+      add_free(free_.data() + begin + at, values, factor, n, z.data() + begin + at);
+    }
+  });
+}
+
+ContactPreconditioner::ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, double weight,
+                                             int sweeps)
     : parts_(std::make_unique<Parts>(nx, ny, aspect, boundary, sweeps, weight)) {}
 
 ContactPreconditioner::~ContactPreconditioner() = default;
@@ -364,16 +479,22 @@ void ContactPreconditioner::set_free(std::span<const std::uint8_t> free) { parts
 void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z) {
   if (r.size() != parts_->nodes() || z.size() != parts_->nodes())
     throw Error(ErrorCode::internal, "a preconditioner of another grid's values");
-  parts_->apply(Residual{r.data()},
-                [&](std::size_t, std::size_t first, std::size_t n, const float* values, double factor) {
-                  if (values)
-                    convert(values, factor, n, z.data() + first);
-                  else
-                    std::fill_n(z.data() + first, n, 0.0);
-                });
+  parts_->spread(Residual{r.data()});
+  parts_->gather([&](std::size_t, std::size_t first, std::size_t n, const float* values, double factor) {
+    if (values)
+      convert(values, factor, n, z.data() + first);
+    else
+      std::fill_n(z.data() + first, n, 0.0);
+  });
+  parts_->add_smooth(z);
 }
 
-void ContactPreconditioner::apply(const Residual& r, const Keep& keep) { parts_->apply(r, keep); }
+double ContactPreconditioner::spread(const Residual& r) { return parts_->spread(r); }
+double ContactPreconditioner::smooth(std::size_t first, std::size_t n, float* values) const {
+  return parts_->smooth(first, n, values);
+}
+double ContactPreconditioner::smooth_sum() const { return parts_->smooth_sum(); }
+void ContactPreconditioner::gather(const Keep& keep) { parts_->gather(keep); }
 
 std::size_t ContactPreconditioner::tiles() const { return parts_->tiles(); }
 

@@ -21,7 +21,7 @@ class ContactPreconditioner {
  public:
   // nx, ny >= 1; aspect > 0; sweeps >= 0. `weight` is the cost of one transform of this grid in
   // transforms of the finest; counted only as far as the pyramid has to transform.
-  ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, int sweeps = 8, double weight = 1);
+  ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, double weight = 1, int sweeps = 4);
   ~ContactPreconditioner();
   ContactPreconditioner(ContactPreconditioner&&) noexcept;
   ContactPreconditioner& operator=(ContactPreconditioner&&) noexcept;
@@ -38,12 +38,19 @@ class ContactPreconditioner {
     const double* values;
     double factor = 1, offset = 0;
   };
-  // The same, z passing by in stretches of a row: `keep` takes z, `factor` times the values, 0 off the
-  // free set, or null for no free node there, with the number of the tile, 0 … tiles(): the stretches of
-  // a tile come in their order on one thread.
+  // The same in two halves. The first gives r·z, …
+  double spread(const Residual& r);
+  // … the second z less a smooth field, which passes by in stretches of a row: `keep` takes `factor` times
+  // the values, 0 off the free set, or null for no free node there, with the number of the tile,
+  // 0 … tiles(): the stretches of a tile come in their order on one thread. …
   using Keep = std::function<void(std::size_t tile, std::size_t first, std::size_t n, const float* values,
                                   double factor)>;
-  void apply(const Residual& r, const Keep& keep);
+  void gather(const Keep& keep);
+  // … And then that field, to be added on the free set: its values divided by the factor returned at n nodes
+  // from the node `first`, in one row, …
+  double smooth(std::size_t first, std::size_t n, float* values) const;
+  // … and its sum over the free set.
+  double smooth_sum() const;
   std::size_t tiles() const;
 
   // What an object of this grid holds, at most.

@@ -176,18 +176,8 @@ ContactQuality contact_quality(const ContactLevel& level, std::span<const double
 ContactQuality contact_quality(const ContactLevel& level, std::span<double> p, std::span<double> g,
                                const PressureStep& step, double balance) {
   if (step.length == 0) return contact_quality(level, p, g, balance);
-  const auto take = [p = p.data(), g = g.data(), d = step.direction.data(), image = step.image.data(),
-                     length = step.length]<class Value>(std::size_t k, Value& pressure, Value& gap) {
-    Value along, across;
-    lane_terms::read(p + k, pressure);
-    lane_terms::read(g + k, gap);
-    lane_terms::read(d + k, along);
-    lane_terms::read(image + k, across);
-    pressure += length * along;
-    gap += length * across;
-    lane_terms::put(pressure, p + k);
-    lane_terms::put(gap, g + k);
-  };
+  const auto take = [p = p.data(), g = g.data(), step]<class Value>(
+                        std::size_t k, Value& pressure, Value& gap) { step.take(k, p, g, pressure, gap); };
   return std::visit([&](const auto& limit) { return measure(level, limit, p, g, balance, take); },
                     level.limit);
 }

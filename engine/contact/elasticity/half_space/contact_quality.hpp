@@ -9,6 +9,7 @@
 #include <span>
 
 #include "engine/contact/elasticity/half_space/contact_level.hpp"
+#include "engine/contact/elasticity/half_space/lane_terms.hpp"
 
 namespace asperity {
 
@@ -27,7 +28,21 @@ struct ContactQuality {
 // A step still to be taken: p += length · direction, g += length · image.
 struct PressureStep {
   double length = 0;
-  std::span<const double> direction, image;
+  const float *direction, *image;
+
+  // At node k, or at as many as a vector has lanes.
+  template <class Value>
+  void take(std::size_t k, double* p, double* g, Value& pressure, Value& gap) const {
+    Value along, across;
+    lane_terms::read(p + k, pressure);
+    lane_terms::read(g + k, gap);
+    lane_terms::read(direction + k, along);
+    lane_terms::read(image + k, across);
+    pressure += length * along;
+    gap += length * across;
+    lane_terms::put(pressure, p + k);
+    lane_terms::put(gap, g + k);
+  }
 };
 
 // One pass over the nodes, two with a cap. g = K p − h for p as given. `balance` as in PressureLimit::settle.

@@ -12,18 +12,14 @@ namespace asperity {
 
 struct DescentFields {
   explicit DescentFields(std::size_t nodes)
-      : pressure(nodes),
-        gap(nodes),
-        step(nodes),
-        direction(nodes),
-        correction(nodes),
-        free(nodes),
-        old_free(nodes) {}
+      : pressure(nodes), gap(nodes), direction(nodes), image(nodes), free(nodes), old_free(nodes) {}
 
   Array<double> pressure;  // p: feasible between stages
   Array<double> gap;       // K p − h
-  Array<double> step, direction;
-  Array<float> correction;  // of the preconditioner, which has no more digits; times a power of two
+  // That pressures move along, and what K makes of it, times a power of two. The one has no more digits than
+  // its preconditioner; what rounding takes from the other is made good when the gap is computed from the
+  // pressures again.
+  Array<float> direction, image;
   Array<double> old_pressure, old_gap;  // of the pass before; made when first needed
   Array<std::uint8_t> free, old_free;   // nodes the present pass may move
 };

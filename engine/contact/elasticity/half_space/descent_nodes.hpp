@@ -14,8 +14,7 @@ namespace asperity {
 
 template <class Limit>
 struct DescentNodes {
-  double *pressure, *gap, *step, *direction;
-  float* correction;  // M r, the load not yet kept
+  double *pressure, *gap;
   std::uint8_t* free;
   Limit limit;
   double balance;
@@ -71,28 +70,28 @@ std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t b
     });
 }
 
-// Of a stretch of nodes, `step` being the image of `direction`: the sum of their products, and that of the
-// image with the opening of ground that yields over those that balance the load.
+// Of a stretch of nodes from `begin`, `image` being what K makes of `direction` there, kept in `to`: the sum
+// of their products, and that of the image with the opening of ground that yields over those that balance the
+// load.
 template <class Limit>
 std::array<double, 2> weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
-                                  Freedom balancing) {
-  if constexpr (Limit::hardens)
-    return over_marked_stretch<2>(nodes.free, begin, end, [=, n = nodes](std::size_t k, double* v) {
-      const double d = n.direction[k], image = n.step[k];
-      const double total = image + (n.free[k] == yielding ? n.limit.yielding_slope() * d : 0.0);
-      v[0] = d * total;
-      v[1] = n.free[k] == balancing ? total : 0.0;
-    });
-  else
-    return over_lanes_of_stretch<2>(begin, end, [n = nodes]<class Value>(std::size_t k, Value* v) {
-      Value d, image, mark;
-      lane_terms::read(n.direction + k, d);
-      lane_terms::read(n.step + k, image);
-      lane_terms::read(n.free + k, mark);
-      const Value none = {};
-      v[0] = d * image;
-      v[1] = mark > none ? image : none;
-    });
+                                  Freedom balancing, const float* direction, const double* image, float* to) {
+  const double* const from = image - begin;
+  return over_lanes_of_stretch<2>(begin, end, [=, n = nodes]<class Value>(std::size_t k, Value* v) {
+    Value d, value, mark;
+    lane_terms::read(direction + k, d);
+    lane_terms::read(from + k, value);
+    lane_terms::put(value, to + k);
+    lane_terms::read(to + k, value);
+    lane_terms::read(n.free + k, mark);
+    const Value none = {}, at = none + static_cast<double>(balancing);
+    if constexpr (Limit::hardens) {
+      const Value yields = none + static_cast<double>(yielding), opening = n.limit.yielding_slope() * d;
+      value += mark == yields ? opening : none;
+    }
+    v[0] = d * value;
+    v[1] = mark == at ? value : none;
+  });
 }
 
 }  // namespace asperity

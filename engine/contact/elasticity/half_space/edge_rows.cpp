@@ -113,6 +113,15 @@ void convert(const float* __restrict from, double scale, std::size_t n, double* 
   for (std::size_t k = 0; k < n; ++k) to[k] = static_cast<double>(from[k]) * scale;
 }
 
+void add_free(const std::uint8_t* __restrict free, const float* __restrict from, double scale, std::size_t n,
+              double* __restrict to) {
+  for (std::size_t k = 0; k < n; ++k) to[k] += free[k] != 0 ? static_cast<double>(from[k]) * scale : 0.0;
+}
+
+void subtract(const float* __restrict a, const float* __restrict b, std::size_t n, float* __restrict to) {
+  for (std::size_t k = 0; k < n; ++k) to[k] = a[k] - b[k];
+}
+
 void keep_free(const std::uint8_t* __restrict free, std::size_t n, float* __restrict values) {
   for (std::size_t k = 0; k < n; ++k) values[k] = free[k] != 0 ? values[k] : 0.0f;
 }
@@ -121,16 +130,19 @@ void keep_free(const std::uint8_t* __restrict free, std::size_t n, float* __rest
 inline std::size_t split(std::size_t column, std::size_t half) { return column % 2 * half + column / 2; }
 
 void start_free(const std::uint8_t* __restrict free, const double* __restrict values, double slope,
-                double offset, std::size_t n, std::size_t place, std::size_t half, float* __restrict now) {
+                double offset, const float* __restrict less, std::size_t n, std::size_t place,
+                std::size_t half, float* __restrict now) {
   std::size_t k = 0;
   const auto one = [&] {
-    now[split(place + k, half)] = free[k] != 0 ? static_cast<float>(offset + slope * values[k]) : 0.0f;
+    now[split(place + k, half)] =
+        free[k] != 0 ? static_cast<float>(offset + slope * values[k]) - less[k] : 0.0f;
     ++k;
   };
   while (k < n && (place + k) % columns != 0) one();
   for (; k + columns <= n; k += columns) {
-    const Eight low = __builtin_convertvector(offset + slope * *eight(values + k), Eight);
-    const Eight high = __builtin_convertvector(offset + slope * *eight(values + k + group), Eight);
+    const Eight low = __builtin_convertvector(offset + slope * *eight(values + k), Eight) - *eight(less + k);
+    const Eight high = __builtin_convertvector(offset + slope * *eight(values + k + group), Eight) -
+                       *eight(less + k + group);
     Eight even, odd;
     take_apart(low, high, even, odd);
     EightMarks free_even, free_odd;
@@ -230,13 +242,17 @@ void sweep_back_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t h
       : sweep_back<false>(groups, half, share, given, now);
 }
 
-void merge(const float* __restrict row, std::ptrdiff_t half, std::size_t n, float* __restrict to) {
+void merge(const float* __restrict row, std::ptrdiff_t half, const float* __restrict more, std::size_t n,
+           float* __restrict to) {
   std::size_t k = 0;
   for (; k + columns <= n; k += columns) {
     const Eight even = *eight(row + k / 2), odd = *eight(row + half + k / 2);
-    merge(even, odd, to + k);
+    Eight low = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
+    Eight high = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
+    *eight(to + k) = low + *eight(more + k);
+    *eight(to + k + group) = high + *eight(more + k + group);
   }
-  for (; k < n; ++k) to[k] = row[split(k, static_cast<std::size_t>(half))];
+  for (; k < n; ++k) to[k] = row[split(k, static_cast<std::size_t>(half))] + more[k];
 }
 
 void add_neighbours(const std::uint8_t* __restrict free, const float* __restrict values,

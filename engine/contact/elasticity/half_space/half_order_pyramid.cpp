@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/contact/elasticity/half_space/lane_terms.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -92,6 +93,26 @@ void stencil_rows(const float* __restrict c0, const float* __restrict c1, const 
   for (int i = 0; i < n; ++i) to[i] = c0[i] + (c1[i - 1] + c1[i + 1]) + (c2[i - 2] + c2[i + 2]);
 }
 
+// a·b, added up in double precision.
+double product_of_rows(const float* __restrict a, const float* __restrict b, int n) {
+  typedef float Floats __attribute__((vector_size(32)));
+  typedef double Doubles __attribute__((vector_size(64)));
+  Doubles sums[2] = {};
+  int i = 0;
+  for (; i + 16 <= n; i += 16)
+    for (int half = 0; half < 2; ++half) {
+      Floats x, y;
+      __builtin_memcpy(&x, a + i + 8 * half, sizeof x);
+      __builtin_memcpy(&y, b + i + 8 * half, sizeof y);
+      sums[half] += __builtin_convertvector(x * y, Doubles);
+    }
+  const Doubles both = sums[0] + sums[1];
+  double sum = 0;
+  for (int lane = 0; lane < 8; ++lane) sum += both[lane];
+  for (; i < n; ++i) sum += static_cast<double>(a[i] * b[i]);
+  return sum;
+}
+
 double work(double nodes) { return nodes * std::log2(std::max(nodes, 2.0)); }
 
 }  // namespace
@@ -175,10 +196,13 @@ void HalfOrderPyramid::restrict_to(const Level& fine, Level& coarse) const {
 }
 
 // fine.out = S fine.in + 2 W up(coarse.out).
-void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) const {
+void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
   const int nx = fine.nx;
   const int rows = rows_per_block(nx);
-  parallel_for(block_count(fine.ny, rows), [&](std::int64_t block) {
+  const std::int64_t blocks = block_count(fine.ny, rows);
+  const bool finest = &fine == &levels_.front();
+  Array<std::array<double, 1>> products(finest ? static_cast<std::size_t>(blocks) : 0);
+  parallel_for(blocks, [&](std::int64_t block) {
     MarginedRow aside(nx, wraps_), far_aside(nx, wraps_), weighted(coarse.nx, wraps_);
     Array<float> centre(static_cast<std::size_t>(nx + 2));
     const int first = static_cast<int>(block) * rows;
@@ -194,8 +218,11 @@ void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) const {
       aside.close();
       far_aside.close();
       stencil_rows(centre.data(), aside.values(), far_aside.values(), nx, fine.row_out(j));
+      if (finest)
+        products[static_cast<std::size_t>(block)][0] += product_of_rows(fine.row_in(j), fine.row_out(j), nx);
     }
   });
+  if (finest) product_ = added_up(products)[0];
 }
 
 void HalfOrderPyramid::transform_coarsest() {
@@ -215,6 +242,11 @@ std::span<const float> HalfOrderPyramid::apply() {
   for (std::size_t l = 0; l + 1 < levels_.size(); ++l) restrict_to(levels_[l], levels_[l + 1]);
   transform_coarsest();
   for (std::size_t l = levels_.size() - 1; l-- > 0;) add_up(levels_[l], levels_[l + 1]);
+  if (levels_.size() == 1) {
+    Level& only = levels_.front();
+    product_ = 0;
+    for (int j = 0; j < only.ny; ++j) product_ += product_of_rows(only.row_in(j), only.row_out(j), only.nx);
+  }
   return levels_.front().out;
 }
 

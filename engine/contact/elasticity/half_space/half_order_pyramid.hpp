@@ -23,8 +23,10 @@ class HalfOrderPyramid {
 
   // The field to work on, nx·ny values row by row; kept by apply(). All 0 at first.
   std::span<float> input() { return levels_.front().in; }
-  // B of input(); valid until the next call. The same bits for any number of threads.
+  // B a of a = input(); valid until the next call. The same bits for any number of threads.
   std::span<const float> apply();
+  // a·B a of the last call.
+  double product() const { return product_; }
 
   // Share of one transform pair of this grid that a call spends on transforms: 1 where there is no
   // coarser grid. Counted where it is more than a thousandth.
@@ -42,11 +44,11 @@ class HalfOrderPyramid {
   static std::vector<Level> shape(int nx, int ny, double aspect, Boundary boundary);
   const float* row(const Array<float>& field, const Level& level, int j) const;
   void restrict_to(const Level& fine, Level& coarse) const;
-  void add_up(Level& fine, const Level& coarse) const;
+  void add_up(Level& fine, const Level& coarse);
   void transform_coarsest();
 
   bool wraps_;
-  double weight_, transform_share_;
+  double weight_, transform_share_, product_ = 0;
   std::vector<Level> levels_;  // finest first
   Array<float> zeros_;         // a row beyond the rim
   FourierFilter filter_;

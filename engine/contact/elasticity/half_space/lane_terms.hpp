@@ -72,6 +72,14 @@ std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t en
   return block.total();
 }
 
+template <class Body>
+void visit_range(std::size_t begin, std::size_t end, const Body& body) {
+  const Body own = body;
+  std::size_t k = begin;
+  for (; k + lanes_a_block <= end; k += lanes_a_block) own.template operator()<LaneVector>(k);
+  for (; k < end; ++k) own.template operator()<double>(k);
+}
+
 }  // namespace lane_terms
 
 // As over_nodes and over_stretch.
@@ -80,6 +88,16 @@ std::array<double, sums + minima> over_lanes(std::size_t nodes, Term term) {
   return node_loop::gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
     return lane_terms::gather_range<sums, minima>(begin, end, term);
   });
+}
+// As for_nodes and for_stretch, body.operator()<Value>(k) being for eight nodes or for one.
+template <class Body>
+void for_lanes(std::size_t nodes, Body body) {
+  for_node_blocks(nodes,
+                  [&](std::size_t begin, std::size_t end) { lane_terms::visit_range(begin, end, body); });
+}
+template <class Body>
+void for_lanes_of_stretch(std::size_t begin, std::size_t end, const Body& body) {
+  lane_terms::visit_range(begin, end, body);
 }
 template <std::size_t sums, class Term>
 std::array<double, sums> over_lanes_of_stretch(std::size_t begin, std::size_t end, const Term& term) {

@@ -26,6 +26,20 @@ constexpr double jump = 10;  // a pass whose residual is so many times the one b
 constexpr int jumps_in_a_cycle = 2;
 constexpr int most_renewals = 50;
 
+// A direction yet without its balance of the load: what is stored, and a smooth field.
+struct Along {
+  const float *values, *smooth;
+  double factor;
+
+  template <class Value>
+  Value at(std::size_t k) const {
+    Value value, more;
+    lane_terms::read(values + k, value);
+    lane_terms::read(smooth + k, more);
+    return value + more * factor;
+  }
+};
+
 template <class Limit>
 class Descent {
  public:
@@ -42,9 +56,9 @@ class Descent {
  private:
   std::size_t nodes() const { return f_.pressure.size(); }
   DescentNodes<Limit> view() const {
-    return {f_.pressure.data(),   f_.gap.data(),  f_.step.data(), f_.direction.data(),
-            f_.correction.data(), f_.free.data(), limit_,         balance_};
+    return {f_.pressure.data(), f_.gap.data(), f_.free.data(), limit_, balance_};
   }
+
   ContactQuality quality();
   // What the pressures lack of feasible ones: each settled, those of the elastic interior shifted to the
   // load.
@@ -58,7 +72,11 @@ class Descent {
     balance_ = std::numeric_limits<double>::quiet_NaN();
   }
   double residual_norm() const;
-  double precondition();
+  double turn();
+  // visit(begin, end, along) for parts of a stretch of a row, along.at<Value>(k) being the direction at node
+  // k on the free set, but for its surplus.
+  template <class Visit>
+  void stretch_direction(std::size_t begin, std::size_t end, const Visit& visit) const;
   void settle_step(const ContactQuality& at);
   bool descend(int steps);
 
@@ -70,7 +88,7 @@ class Descent {
   int most_;
   FreeSet set_;
   double mean_gap_ = 0;  // of the balancing nodes
-  double surplus_ = 0;   // of load in `correction`, a balancing node
+  double surplus_ = 0;   // of load in `direction`, a balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
   double untaken_ = 0;  // length along `direction` that the pressures and gaps have yet to go
   bool fresh_ = false;
@@ -82,7 +100,7 @@ class Descent {
 // Takes the last step on the way.
 template <class Limit>
 ContactQuality Descent<Limit>::quality() {
-  const PressureStep step{untaken_, f_.direction, f_.step};
+  const PressureStep step{untaken_, f_.direction.data(), f_.image.data()};
   untaken_ = 0;
   return contact_quality(level_, f_.pressure, f_.gap, step, balance_);
 }
@@ -133,12 +151,18 @@ double Descent<Limit>::residual_norm() const {
   return std::sqrt(squares[0]);
 }
 
-// correction = M r, r what the gaps of the free nodes lack of their mean, the load not yet kept; means
-// nothing off them. Returns r·(M r with the load kept).
+// The direction becomes M r, r what the gaps of the free nodes lack of their mean, kept conjugate to the one
+// before if there is one. Returns r·(M r with the load kept).
 template <class Limit>
-double Descent<Limit>::precondition() {
+double Descent<Limit>::turn() {
   const double shrink = 1 / level_.pressure_unit();
-  std::array<double, 2> sums;
+  // r carries no load, so that r·(M r) is the same whether or not M r does.
+  double rz = 0;
+  const auto keep = [&] {
+    rz *= shrink;
+    return have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
+  };
+  double load = 0;
   if constexpr (Limit::hardens) {
     work_.resize(nodes());
     for_marked_nodes(f_.free, [n = view(), to = work_.data(), mean = mean_gap_](std::size_t k) {
@@ -146,56 +170,81 @@ double Descent<Limit>::precondition() {
       to[k] = n.moves(k) ? all : 0.0;
     });
     preconditioner_.apply(f_.free, work_);
-    for_marked_nodes(f_.free, [n = view(), from = work_.data(), shrink](std::size_t k) {
-      n.correction[k] = static_cast<float>(from[k] * shrink);
-    });
-    sums = over_marked_nodes<2>(f_.free, [n = view(), mean = mean_gap_](std::size_t k, double* v) {
-      const double all = static_cast<double>(n.correction[k]), r = mean - n.total_gap(k);
-      v[0] = n.moves(k) ? all : 0.0;
-      v[1] = n.moves(k) ? all * r : 0.0;
-    });
+    rz = over_marked_nodes<1>(f_.free,
+                              [n = view(), z = work_.data(), mean = mean_gap_](std::size_t k, double* v) {
+                                const double all = z[k] * (mean - n.total_gap(k));
+                                v[0] = n.moves(k) ? all : 0.0;
+                              })[0];
+    const double kept = keep();
+    load = over_marked_nodes<1>(f_.free, [=, n = view(), z = work_.data(), d = f_.direction.data(),
+                                          balancing = set_.balancing()](std::size_t k, double* v) {
+      d[k] = static_cast<float>(z[k] * shrink + (kept != 0 ? kept * static_cast<double>(d[k]) : 0.0));
+      v[0] = n.free[k] == balancing ? static_cast<double>(d[k]) : 0.0;
+    })[0];
   } else {
-    Array<std::array<double, 2>> parts(level_.preconditioner.tiles());
+    rz = level_.preconditioner.spread({f_.gap.data(), -1, mean_gap_});
+    const double kept = keep();
+    Array<std::array<double, 1>> parts(level_.preconditioner.tiles());
     const auto put = [&](std::size_t tile, std::size_t first, std::size_t n, const float* values,
                          double factor) {
       if (!values) return;
-      const auto part = over_lanes_of_stretch<2>(
-          first, first + n,
-          [from = values - first, to = f_.correction.data(), gap = f_.gap.data(), times = factor * shrink,
-           mean = mean_gap_]<class Value>(std::size_t k, Value* v) {
-            Value correction, apart;
-            lane_terms::read(from + k, correction);
-            lane_terms::put(correction * times, to + k);
-            lane_terms::read(to + k, v[0]);
-            lane_terms::read(gap + k, apart);
-            v[1] = v[0] * (mean - apart);
-          });
-      for (std::size_t i = 0; i < 2; ++i) parts[tile][i] += part[i];
+      const auto part =
+          over_lanes_of_stretch<1>(first, first + n,
+                                   [=, z = values - first, d = f_.direction.data(),
+                                    times = factor * shrink]<class Value>(std::size_t k, Value* v) {
+                                     Value value;
+                                     lane_terms::read(z + k, value);
+                                     value *= times;
+                                     if (kept != 0) {
+                                       Value old;
+                                       lane_terms::read(d + k, old);
+                                       value += kept * old;
+                                     }
+                                     lane_terms::put(value, d + k);
+                                     lane_terms::read(d + k, v[0]);  // as rounded, and 0 off the free set
+                                   });
+      parts[tile][0] += part[0];
     };
-    std::fill(parts.begin(), parts.end(), std::array<double, 2>{});
-    level_.preconditioner.apply({f_.gap.data(), -1, mean_gap_}, put);
-    sums = added_up(parts);
+    std::fill(parts.begin(), parts.end(), std::array<double, 1>{});
+    level_.preconditioner.gather(put);
+    load = added_up(parts)[0] + level_.preconditioner.smooth_sum() * shrink;
   }
-  surplus_ = sums[0] / set_.balancing_count();
-  return sums[1];
+  surplus_ = load / set_.balancing_count();
+  direction_rz_ = rz;
+  return rz;
+}
+
+template <class Limit>
+template <class Visit>
+void Descent<Limit>::stretch_direction(std::size_t begin, std::size_t end, const Visit& visit) const {
+  constexpr std::size_t part = 256;
+  std::array<float, part> smooth{};
+  for (std::size_t k = begin; k < end; k += part) {
+    const std::size_t n = std::min(part, end - k);
+    double factor = 0;
+    if constexpr (!Limit::hardens)
+      factor = level_.preconditioner.smooth(k, n, smooth.data()) / level_.pressure_unit();
+    visit(k, k + n, Along{f_.direction.data(), smooth.data() - k, factor});
+  }
 }
 
 // What settling changes and a fixed step of the preconditioner, at the cost of one application.
 template <class Limit>
 void Descent<Limit>::settle_step(const ContactQuality& at) {
   const std::optional<double> shift = shift_to_load(at);
+  Array<double> projected;
   if (!shift) {
+    projected.resize(nodes());
     std::swap(f_.free, f_.old_free);  // project() needs marks of its own
-    project(at, f_.step);
+    project(at, projected);
     std::swap(f_.free, f_.old_free);
   }
-  precondition();
-  const Freedom balancing = set_.balancing();
+  turn();
   const auto nx = static_cast<std::size_t>(level_.shape.nx);
   const double unit = level_.pressure_unit(), shrink = 1 / unit;
-  const auto advance = [=, n = view(), surplus = surplus_](std::size_t k, double target) {
-    const double p = n.pressure[k];
-    const double z = static_cast<double>(n.correction[k]) - (n.free[k] == balancing ? surplus : 0.0);
+  const auto advance = [=, n = view(), balancing = set_.balancing(), surplus = surplus_](
+                           std::size_t k, double along, double target) {
+    const double p = n.pressure[k], z = along - (n.free[k] == balancing ? surplus : 0.0);
     const double descent = richardson_step * unit * z, x = (target - p) + (n.moves(k) ? descent : 0.0);
     n.pressure[k] = p + x;
     return x * shrink;
@@ -203,15 +252,19 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
   const auto source = [&](int j, double* step) -> const double* {
     const std::size_t begin = static_cast<std::size_t>(j) * nx;
     const auto to = step - begin;
-    if (shift) {
-      for_stretch(begin, begin + nx, [=, n = view(), by = *shift, upper = limit_.upper()](std::size_t k) {
-        const double q = n.settled(k), moved = q + by, positive = moved > 0 ? moved : 0.0;
-        const double shifted = moved < upper ? positive : upper;
-        to[k] = advance(k, n.shifts(k, q, true) ? shifted : q);
-      });
-    } else {
-      for_stretch(begin, begin + nx, [=, n = view()](std::size_t k) { to[k] = advance(k, n.step[k]); });
-    }
+    stretch_direction(begin, begin + nx, [&](std::size_t from, std::size_t end, const Along& along) {
+      if (shift) {
+        for_stretch(from, end, [=, n = view(), by = *shift, upper = limit_.upper()](std::size_t k) {
+          const double q = n.settled(k), moved = q + by, positive = moved > 0 ? moved : 0.0;
+          const double shifted = moved < upper ? positive : upper;
+          to[k] = advance(k, along.at<double>(k), n.shifts(k, q, true) ? shifted : q);
+        });
+      } else {
+        for_stretch(from, end, [=, target = projected.data()](std::size_t k) {
+          to[k] = advance(k, along.at<double>(k), target[k]);
+        });
+      }
+    });
     return step;
   };
   // Ground that goes on yielding once it has settled is not among what balances here.
@@ -240,7 +293,6 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
 // Conjugate gradients on the free set, `steps` of the pass being taken already; false where no step could be.
 template <class Limit>
 bool Descent<Limit>::descend(int steps) {
-  const Freedom balancing = set_.balancing();
   const auto nx = static_cast<std::size_t>(level_.shape.nx);
   const bool from_rest = steps == 0;
   double start = 0;
@@ -253,26 +305,36 @@ bool Descent<Limit>::descend(int steps) {
       else if (norm < enough_reduction * start)
         break;
     }
-    const double rz = precondition();
-    const double keep = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
-    direction_rz_ = rz;
-    const auto turn = [=, n = view(), surplus = surplus_](std::size_t k) {
-      const double z = static_cast<double>(n.correction[k]) - (n.free[k] == balancing ? surplus : 0.0);
-      const double old = n.direction[k], next = z + (keep != 0 ? keep * old : 0.0);
-      n.direction[k] = n.moves(k) ? next : 0.0;
-    };
+    const double rz = turn();
     have_direction_ = true;
-    const auto source = [&](int j, double*) -> const double* {
+    const Freedom balancing = set_.balancing();
+    // Of the direction without its surplus, as rounded.
+    const auto source = [&](int j, double* row) -> const double* {
       const std::size_t begin = static_cast<std::size_t>(j) * nx;
-      for_stretch(begin, begin + nx, turn);
-      return f_.direction.data() + begin;
+      stretch_direction(begin, begin + nx, [&](std::size_t from, std::size_t end, const Along& along) {
+        for_lanes_of_stretch(from, end,
+                             [along, balancing, surplus = surplus_, marks = f_.free.data(),
+                              d = f_.direction.data(), to = row - begin]<class Value>(std::size_t k) {
+                               const Value value = along.at<Value>(k);
+                               Value mark;
+                               lane_terms::read(marks + k, mark);
+                               const Value none = {}, at = none + static_cast<double>(balancing);
+                               const Value balanced = mark == at ? value - surplus : value;
+                               lane_terms::put(mark > none ? balanced : none, d + k);
+                               Value rounded;
+                               lane_terms::read(d + k, rounded);
+                               lane_terms::put(rounded, to + k);
+                             });
+      });
+      return row;
     };
     Array<std::array<double, 2>> rows(static_cast<std::size_t>(level_.shape.ny));
-    const auto sink = [&](int j, const double*) {
+    const auto sink = [&](int j, const double* image) {
       const std::size_t begin = static_cast<std::size_t>(j) * nx;
-      rows[static_cast<std::size_t>(j)] = weigh_image(view(), begin, begin + nx, balancing);
+      rows[static_cast<std::size_t>(j)] =
+          weigh_image(view(), begin, begin + nx, balancing, f_.direction.data(), image, f_.image.data());
     };
-    level_.apply(source, sink, f_.step);
+    level_.apply(source, sink, {});
     const auto sums = added_up(rows);
     if (!(sums[0] > 0) || !(rz > 0)) {
       have_direction_ = false;
@@ -283,9 +345,10 @@ bool Descent<Limit>::descend(int steps) {
     if (++steps == steps_a_pass) {
       untaken_ = length;  // until the pressures and gaps are read again
     } else {
-      for_nodes(nodes(), [=, n = view()](std::size_t k) {
-        n.pressure[k] += length * n.direction[k];
-        n.gap[k] += length * n.step[k];
+      for_lanes(nodes(), [step = PressureStep{length, f_.direction.data(), f_.image.data()},
+                          p = f_.pressure.data(), g = f_.gap.data()]<class Value>(std::size_t k) {
+        Value pressure, gap;
+        step.take(k, p, g, pressure, gap);
       });
     }
   }

@@ -18,7 +18,8 @@ template <class Limit>
 StageEnd descend(ContactLevel& level, const Limit& limit, DescentFields& f, double tolerance, int most) {
   const std::size_t nodes = f.pressure.size();
   const double load = level.total_load(), upper = limit.upper();
-  Array<double>&p = f.pressure, &g = f.gap, &d = f.direction, &image = f.step;
+  Array<double>&p = f.pressure, &g = f.gap;
+  Array<double> d(nodes), image(nodes);
   const int last = level.applications + most;
   auto opening_slope = [&](std::size_t k) {
     return limit.opening(k, p[k]) > 0 ? limit.yielding_slope() : 0.0;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bilinear fields between points some 32 nodes apart, and means of what lies around these points: the long
+// waves' share in carrying a residual past the edge of a free set. A residual that varies little from one
+// contact to the next costs next to nothing where it is carried on over the ground between them; cut off a
+// few nodes from every contact it pays for a jump around each of them, the more of them the larger the grid.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "engine/contact/boundary.hpp"
+#include "engine/core/memory.hpp"
+
+namespace asperity {
+
+// The hat functions of one side of a grid. Periodic: they wrap. Free: there is one on either rim.
+struct HatAxis {
+  HatAxis(int nodes, Boundary boundary);
+  int next(int hat) const { return hat + 1 == hats && wraps ? 0 : hat + 1; }
+
+  bool wraps;
+  int hats;
+  Array<int> before;   // of a node: the hat whose point is the last at or before it,
+  Array<float> share;  // and the value of the next hat there
+  Array<int> end;      // of a hat: the node after the last whose `before` it is,
+  Array<double> mass;  // and its sum over all nodes
+};
+
+class SmoothExtension {
+ public:
+  // nx, ny >= 1.
+  SmoothExtension(int nx, int ny, Boundary boundary);
+
+  // Sums of values times hats over a rectangle of nodes, given row by row from its first one; those that
+  // it has no part in are left out.
+  class Sums {
+   public:
+    Sums(const SmoothExtension& hats, int x, int y, int width, int height);
+    void clear();
+    // `work`: 2·width values, kept between the rows.
+    void add(int y, const float* values, std::span<float> work);
+    void finish(std::span<float> work) { flush(work); }
+    void add_to(Array<double>& total) const;
+
+   private:
+    void flush(std::span<float> work);
+    const SmoothExtension* hats_;
+    int x_, y_, width_;
+    int columns_, rows_;
+    int band_ = -1;  // hat before the rows that `work` holds
+    Array<double> sums_;
+  };
+
+  std::size_t size() const { return static_cast<std::size_t>(x_.hats) * static_cast<std::size_t>(y_.hats); }
+  // What sums over the free nodes are divided by, `free` of all hats being the sums of 1: more than that
+  // where few nodes are free, so that a lone contact is not carried on as if it were the ground.
+  double divisor(std::size_t hat, double free) const;
+
+  // `to` becomes the values of the field, of size() values at the points, at n nodes of row y from x on.
+  void row(std::span<const float> field, int y, int x, int n, float* to) const;
+
+ private:
+  std::size_t hat(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(x_.hats) + static_cast<std::size_t>(i);
+  }
+  HatAxis x_, y_;
+};
+
+}  // namespace asperity
