@@ -14,7 +14,8 @@ ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double
       limit(std::move(pressure_limit)),
       mean_pressure(mean),
       compliance(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, shape.single),
-      preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight),
+      preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight,
+                     std::holds_alternative<LinearHardening>(limit) ? 8 : 4),
       short_wave_stiffness(std::numbers::pi / 4 / std::sqrt(shape.aspect)),
       heights_(raw_heights),
       origin_(height_origin),
@@ -25,7 +26,10 @@ ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double
 
 void ContactLevel::gap(std::span<const double> p, std::span<double> g) {
   ++applications;
-  compliance.apply_in_double(p, g);
+  // On a periodic tile the mean moves nothing, and may be so large that beside it the others lose digits.
+  const double mean = shape.boundary == Boundary::periodic ? mean_pressure : 0;
+  for_nodes(nodes(), [to = g.data(), from = p.data(), mean](std::size_t k) { to[k] = from[k] - mean; });
+  compliance.apply_in_double(g, g);
   for_nodes(nodes(), [to = g.data(), h = heights_.data(), origin = origin_, factor = factor_](std::size_t k) {
     to[k] -= (h[k] - origin) * factor;
   });

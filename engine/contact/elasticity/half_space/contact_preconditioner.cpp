@@ -9,6 +9,7 @@
 #include "engine/contact/elasticity/half_space/contact_preconditioner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -36,7 +37,7 @@ class ContactPreconditioner::Parts {
   void set_free(std::span<const std::uint8_t> free);
   double spread(const Residual& r);
   void gather(const Keep& keep);
-  double smooth(std::size_t first, std::size_t n, float* values) const;
+  void smooth(std::size_t first, std::size_t n, double factor, double* values) const;
   double smooth_sum() const { return grow_ * rest_sum_; }
   void add_smooth(std::span<double> z) const;
   std::size_t tiles() const { return tiles_.size(); }
@@ -108,7 +109,8 @@ class ContactPreconditioner::Parts {
   double greatest(const Residual& r) const;
   template <class Add>
   void add_up_hats(const Add& add, Array<double>& total);
-  void divide(const Array<double>& sums, Array<float>& field) const;
+  template <class Real>
+  void divide(const Array<double>& sums, Array<Real>& field) const;
   std::size_t node(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(i);
   }
@@ -121,7 +123,8 @@ class ContactPreconditioner::Parts {
   HalfOrderPyramid pyramid_;
   SmoothExtension smooth_;
   Array<double> free_hats_, sums_;  // sums of hats over the free set, and of what is passed on
-  Array<float> level_, rest_;       // of the residual, and of what is gathered, at the hats' points
+  Array<float> level_;              // of the residual, at the hats' points,
+  Array<double> rest_;              // and of what is gathered
   double rest_sum_ = 0;             // of the field of rest_ over the free set
   std::span<const float> spread_;   // B Ext r/grow_; empty where r is 0
   double grow_ = 1;                 // a power of two
@@ -281,14 +284,12 @@ void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) 
     if (!tile.stale) return;
     tile.stale = false;
     find_groups(tile);
-    const auto patch = borrow();
+    std::array<double, 2 * tile_width> sums;
     tile.free_hats.clear();
     for (int j = tile.y; j < tile.y + tile.height && tile.holds_free; ++j) {
-      std::transform(free_.data() + node(tile.x, j), free_.data() + node(tile.x, j) + tile.width,
-                     patch->row.data(), [](std::uint8_t mark) { return static_cast<float>(mark); });
-      tile.free_hats.add(j, patch->row.data(), patch->sums);
+      tile.free_hats.add<std::uint8_t, double>(j, free_.data() + node(tile.x, j), sums);
     }
-    tile.free_hats.finish(patch->sums);
+    tile.free_hats.finish<double>(sums);
   });
   std::fill(free_hats_.begin(), free_hats_.end(), 0.0);
   for (const Tile& tile : tiles_) tile.free_hats.add_to(free_hats_);
@@ -302,15 +303,16 @@ void ContactPreconditioner::Parts::add_up_hats(const Add& add, Array<double>& to
     const auto patch = borrow();
     tile.hats.clear();
     add(static_cast<std::size_t>(k), *patch);
-    tile.hats.finish(patch->sums);
+    tile.hats.finish<float>(patch->sums);
   });
   std::fill(total.begin(), total.end(), 0.0);
   for (const Tile& tile : tiles_) tile.hats.add_to(total);
 }
 
-void ContactPreconditioner::Parts::divide(const Array<double>& sums, Array<float>& field) const {
+template <class Real>
+void ContactPreconditioner::Parts::divide(const Array<double>& sums, Array<Real>& field) const {
   for (std::size_t k = 0; k < sums.size(); ++k)
-    field[k] = static_cast<float>(sums[k] / smooth_.divisor(k, free_hats_[k]));
+    field[k] = static_cast<Real>(sums[k] / smooth_.divisor(k, free_hats_[k]));
 }
 
 void ContactPreconditioner::Parts::extend(const Tile& tile, const Residual& r) {
@@ -326,14 +328,14 @@ void ContactPreconditioner::Parts::extend(const Tile& tile, const Residual& r) {
   }
   if (!tile.reaches_free) {
     for (int j = tile.y; j < tile.y + tile.height; ++j)
-      smooth_.row(level_, j, tile.x, tile.width, extended + node(tile.x, j));
+      smooth_.row<float>(level_, j, tile.x, tile.width, 1, extended + node(tile.x, j));
     return;
   }
   const auto patch = borrow();
   const auto nx = static_cast<std::size_t>(nx_);
   load(*patch, tile, [&](std::size_t row, std::size_t column, std::size_t from, std::size_t length) {
-    smooth_.row(level_, static_cast<int>(from / nx), static_cast<int>(from % nx), static_cast<int>(length),
-                patch->row.data());
+    smooth_.row<float>(level_, static_cast<int>(from / nx), static_cast<int>(from % nx),
+                       static_cast<int>(length), 1, patch->row.data());
     start_free(free_.data() + from, r.values + from, r.factor, r.offset, patch->row.data(), length, column,
                half(), patch->now.data() + row);
   });
@@ -342,7 +344,7 @@ void ContactPreconditioner::Parts::extend(const Tile& tile, const Residual& r) {
     for (const int odd : {0, 1})
       sweep_groups(tile.groups[s % 2][odd].within(s), odd != 0, half_, share_, patch->now.data());
   for (int j = 0; j < tile.height; ++j) {
-    smooth_.row(level_, tile.y + j, tile.x, tile.width, patch->row.data());
+    smooth_.row<float>(level_, tile.y + j, tile.x, tile.width, 1, patch->row.data());
     merge(patch->now.data() + core_row(j), half_, patch->row.data(), width,
           extended + node(tile.x, tile.y + j));
   }
@@ -357,7 +359,7 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
   if (!tile.holds_free) {
     for (int j = tile.y; j < tile.y + tile.height; ++j) {
       const std::size_t k = node(tile.x, j);
-      tile.hats.add(j, y.data() + k, patch.sums);
+      tile.hats.add<float, float>(j, y.data() + k, patch.sums);
       keep(number, k, width, nullptr, 0);
     }
     return;
@@ -382,7 +384,7 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
       keep_free(free_.data() + k, width, sum);
     }
     subtract(y.data() + k, sum, width, patch.row.data());
-    tile.hats.add(tile.y + j, patch.row.data(), patch.sums);
+    tile.hats.add<float, float>(tile.y + j, patch.row.data(), patch.sums);
     keep(number, k, width, sum, grow_);
   }
 }
@@ -421,7 +423,7 @@ double ContactPreconditioner::Parts::spread(const Residual& r) {
       const std::size_t k = node(tile.x, j);
       convert(near_one.values + k, near_one.factor, near_one.offset, width, patch.row.data());
       keep_free(free_.data() + k, width, patch.row.data());
-      tile.hats.add(j, patch.row.data(), patch.sums);
+      tile.hats.add<float, float>(j, patch.row.data(), patch.sums);
     }
   };
   add_up_hats(pass_on_residual, sums_);
@@ -436,7 +438,7 @@ double ContactPreconditioner::Parts::spread(const Residual& r) {
 void ContactPreconditioner::Parts::gather(const Keep& keep) {
   if (spread_.empty()) {
     for (int j = 0; j < ny_; ++j) keep(0, node(0, j), static_cast<std::size_t>(nx_), nullptr, 0);
-    std::fill(rest_.begin(), rest_.end(), 0.0f);
+    std::fill(rest_.begin(), rest_.end(), 0.0);
     rest_sum_ = 0;
     return;
   }
@@ -444,24 +446,25 @@ void ContactPreconditioner::Parts::gather(const Keep& keep) {
   add_up_hats([&](std::size_t number, Patch& patch) { gather_back(number, patch, spread_, keep); }, sums_);
   divide(sums_, rest_);
   rest_sum_ = 0;
-  for (std::size_t k = 0; k < rest_.size(); ++k) rest_sum_ += static_cast<double>(rest_[k]) * free_hats_[k];
+  for (std::size_t k = 0; k < rest_.size(); ++k) rest_sum_ += rest_[k] * free_hats_[k];
 }
 
-double ContactPreconditioner::Parts::smooth(std::size_t first, std::size_t n, float* values) const {
+void ContactPreconditioner::Parts::smooth(std::size_t first, std::size_t n, double factor,
+                                          double* values) const {
   const auto nx = static_cast<std::size_t>(nx_);
-  smooth_.row(rest_, static_cast<int>(first / nx), static_cast<int>(first % nx), static_cast<int>(n), values);
-  return grow_;
+  smooth_.row<double>(rest_, static_cast<int>(first / nx), static_cast<int>(first % nx), static_cast<int>(n),
+                      factor * grow_, values);
 }
 
 void ContactPreconditioner::Parts::add_smooth(std::span<double> z) const {
   const auto nx = static_cast<std::size_t>(nx_);
   parallel_for(ny_, [&](std::int64_t j) {
-    float values[tile_width];
+    double values[tile_width];
     const std::size_t begin = node(0, static_cast<int>(j));
     for (std::size_t at = 0; at < nx; at += tile_width) {
       const std::size_t n = std::min<std::size_t>(tile_width, nx - at);
-      const double factor = smooth(begin + at, n, values);
-      add_free(free_.data() + begin + at, values, factor, n, z.data() + begin + at);
+      smooth(begin + at, n, 1, values);
+      add_free(free_.data() + begin + at, values, n, z.data() + begin + at);
     }
   });
 }
@@ -490,8 +493,8 @@ void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z
 }
 
 double ContactPreconditioner::spread(const Residual& r) { return parts_->spread(r); }
-double ContactPreconditioner::smooth(std::size_t first, std::size_t n, float* values) const {
-  return parts_->smooth(first, n, values);
+void ContactPreconditioner::smooth(std::size_t first, std::size_t n, double factor, double* values) const {
+  parts_->smooth(first, n, factor, values);
 }
 double ContactPreconditioner::smooth_sum() const { return parts_->smooth_sum(); }
 void ContactPreconditioner::gather(const Keep& keep) { parts_->gather(keep); }

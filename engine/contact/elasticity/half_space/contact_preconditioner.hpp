@@ -46,10 +46,10 @@ class ContactPreconditioner {
   using Keep = std::function<void(std::size_t tile, std::size_t first, std::size_t n, const float* values,
                                   double factor)>;
   void gather(const Keep& keep);
-  // … And then that field, to be added on the free set: its values divided by the factor returned at n nodes
-  // from the node `first`, in one row, …
-  double smooth(std::size_t first, std::size_t n, float* values) const;
-  // … and its sum over the free set.
+  // … And then that field, to be added on the free set: `factor` times its values at n nodes from the node
+  // `first`, in one row, …
+  void smooth(std::size_t first, std::size_t n, double factor, double* values) const;
+  // … and its sum over the free set, to the last digits.
   double smooth_sum() const;
   std::size_t tiles() const;
 

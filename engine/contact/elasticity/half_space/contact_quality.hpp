@@ -28,7 +28,7 @@ struct ContactQuality {
 // A step still to be taken: p += length · direction, g += length · image.
 struct PressureStep {
   double length = 0;
-  const float *direction, *image;
+  const double *direction, *image;
 
   // At node k, or at as many as a vector has lanes.
   template <class Value>

@@ -71,23 +71,28 @@ std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t b
 }
 
 // Of a stretch of nodes from `begin`, `image` being what K makes of `direction` there, kept in `to`: the sum
-// of their products, and that of the image with the opening of ground that yields over those that balance the
-// load.
+// of their products, that of the image with the opening of ground that yields over those that balance the
+// load, and, of ground that does not harden, that of the direction with what gaps lack of `mean`.
 template <class Limit>
-std::array<double, 2> weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
-                                  Freedom balancing, const float* direction, const double* image, float* to) {
+std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
+                                  Freedom balancing, double mean, const double* direction,
+                                  const double* image, double* to) {
   const double* const from = image - begin;
-  return over_lanes_of_stretch<2>(begin, end, [=, n = nodes]<class Value>(std::size_t k, Value* v) {
+  return over_lanes_of_stretch<3>(begin, end, [=, n = nodes]<class Value>(std::size_t k, Value* v) {
     Value d, value, mark;
     lane_terms::read(direction + k, d);
     lane_terms::read(from + k, value);
     lane_terms::put(value, to + k);
-    lane_terms::read(to + k, value);
     lane_terms::read(n.free + k, mark);
     const Value none = {}, at = none + static_cast<double>(balancing);
     if constexpr (Limit::hardens) {
       const Value yields = none + static_cast<double>(yielding), opening = n.limit.yielding_slope() * d;
       value += mark == yields ? opening : none;
+      v[2] = none;
+    } else {
+      Value gap;
+      lane_terms::read(n.gap + k, gap);
+      v[2] = d * (mean - gap);
     }
     v[0] = d * value;
     v[1] = mark == at ? value : none;

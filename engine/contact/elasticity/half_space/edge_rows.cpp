@@ -113,9 +113,9 @@ void convert(const float* __restrict from, double scale, std::size_t n, double* 
   for (std::size_t k = 0; k < n; ++k) to[k] = static_cast<double>(from[k]) * scale;
 }
 
-void add_free(const std::uint8_t* __restrict free, const float* __restrict from, double scale, std::size_t n,
+void add_free(const std::uint8_t* __restrict free, const double* __restrict from, std::size_t n,
               double* __restrict to) {
-  for (std::size_t k = 0; k < n; ++k) to[k] += free[k] != 0 ? static_cast<double>(from[k]) * scale : 0.0;
+  for (std::size_t k = 0; k < n; ++k) to[k] += free[k] != 0 ? from[k] : 0.0;
 }
 
 void subtract(const float* __restrict a, const float* __restrict b, std::size_t n, float* __restrict to) {

@@ -32,8 +32,8 @@ void widen(Array<std::uint64_t>& field, int rows, std::size_t row_words, Array<s
 // to = offset + factor · from.
 void convert(const double* from, double factor, double offset, std::size_t n, float* to);
 void convert(const float* from, double scale, std::size_t n, double* to);
-// to += scale · from where free.
-void add_free(const std::uint8_t* free, const float* from, double scale, std::size_t n, double* to);
+// to += from where free.
+void add_free(const std::uint8_t* free, const double* from, std::size_t n, double* to);
 // to = a − b.
 void subtract(const float* a, const float* b, std::size_t n, float* to);
 // values where free, else 0.

@@ -16,8 +16,11 @@
 namespace asperity {
 
 namespace {
+// Applications of K a pass. Where one costs several times as much as the preconditioner, or ground hardens,
+// that of settling also carries a fixed step of the preconditioner.
+constexpr int steps_a_pass = 3, steps_of_dear_pass = 2;
 constexpr double richardson_step = 0.65;
-constexpr int steps_a_pass = 2;
+constexpr double load_slack = 1e-6;       // of the load, that a pass leaves to a later one
 constexpr double enough_reduction = 0.1;  // of the residual's norm within a pass
 constexpr int passes_without_gain = 4;
 constexpr double slow = 0.7;  // a pass that leaves more than this of the best residual is slow
@@ -28,15 +31,14 @@ constexpr int most_renewals = 50;
 
 // A direction yet without its balance of the load: what is stored, and a smooth field.
 struct Along {
-  const float *values, *smooth;
-  double factor;
+  const double *values, *smooth;
 
   template <class Value>
   Value at(std::size_t k) const {
     Value value, more;
     lane_terms::read(values + k, value);
     lane_terms::read(smooth + k, more);
-    return value + more * factor;
+    return value + more;
   }
 };
 
@@ -49,7 +51,9 @@ class Descent {
         f_(fields),
         preconditioner_(level, limit),
         tolerance_(tolerance),
-        most_(level.applications + most) {}
+        most_(level.applications + most),
+        dear_(Limit::hardens || level.shape.boundary == Boundary::free),
+        steps_a_pass_(dear_ ? steps_of_dear_pass : steps_a_pass) {}
 
   StageEnd run();
 
@@ -86,6 +90,8 @@ class Descent {
   SetPreconditioner<Limit> preconditioner_;
   double tolerance_;
   int most_;
+  const bool dear_;
+  const int steps_a_pass_;
   FreeSet set_;
   double mean_gap_ = 0;  // of the balancing nodes
   double surplus_ = 0;   // of load in `direction`, a balancing node
@@ -176,11 +182,12 @@ double Descent<Limit>::turn() {
                                 v[0] = n.moves(k) ? all : 0.0;
                               })[0];
     const double kept = keep();
-    load = over_marked_nodes<1>(f_.free, [=, n = view(), z = work_.data(), d = f_.direction.data(),
-                                          balancing = set_.balancing()](std::size_t k, double* v) {
-      d[k] = static_cast<float>(z[k] * shrink + (kept != 0 ? kept * static_cast<double>(d[k]) : 0.0));
-      v[0] = n.free[k] == balancing ? static_cast<double>(d[k]) : 0.0;
-    })[0];
+    load = over_marked_nodes<1>(
+        f_.free, [=, n = view(), z = work_.data(), d = f_.direction.data()](std::size_t k, double* v) {
+          const double all = z[k] * shrink + (kept != 0 ? kept * d[k] : 0.0);
+          d[k] = all;
+          v[0] = n.moves(k) ? all : 0.0;
+        })[0];
   } else {
     rz = level_.preconditioner.spread({f_.gap.data(), -1, mean_gap_});
     const double kept = keep();
@@ -201,7 +208,7 @@ double Descent<Limit>::turn() {
                                        value += kept * old;
                                      }
                                      lane_terms::put(value, d + k);
-                                     lane_terms::read(d + k, v[0]);  // as rounded, and 0 off the free set
+                                     v[0] = value;  // 0 off the free set
                                    });
       parts[tile][0] += part[0];
     };
@@ -218,17 +225,16 @@ template <class Limit>
 template <class Visit>
 void Descent<Limit>::stretch_direction(std::size_t begin, std::size_t end, const Visit& visit) const {
   constexpr std::size_t part = 256;
-  std::array<float, part> smooth{};
+  std::array<double, part> smooth{};
   for (std::size_t k = begin; k < end; k += part) {
     const std::size_t n = std::min(part, end - k);
-    double factor = 0;
     if constexpr (!Limit::hardens)
-      factor = level_.preconditioner.smooth(k, n, smooth.data()) / level_.pressure_unit();
-    visit(k, k + n, Along{f_.direction.data(), smooth.data() - k, factor});
+      level_.preconditioner.smooth(k, n, 1 / level_.pressure_unit(), smooth.data());
+    visit(k, k + n, Along{f_.direction.data(), smooth.data() - k});
   }
 }
 
-// What settling changes and a fixed step of the preconditioner, at the cost of one application.
+// What settling changes, and a fixed step of the preconditioner if K is dear, at the cost of one application.
 template <class Limit>
 void Descent<Limit>::settle_step(const ContactQuality& at) {
   const std::optional<double> shift = shift_to_load(at);
@@ -239,7 +245,7 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
     project(at, projected);
     std::swap(f_.free, f_.old_free);
   }
-  turn();
+  if (dear_) turn();
   const auto nx = static_cast<std::size_t>(level_.shape.nx);
   const double unit = level_.pressure_unit(), shrink = 1 / unit;
   const auto advance = [=, n = view(), balancing = set_.balancing(), surplus = surplus_](
@@ -249,22 +255,28 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
     n.pressure[k] = p + x;
     return x * shrink;
   };
+  const auto move = [&](std::size_t begin, std::size_t end, double* to, const auto& target) {
+    if (dear_)
+      stretch_direction(begin, end, [&](std::size_t from, std::size_t last, const Along& along) {
+        for_stretch(from, last, [=](std::size_t k) { to[k] = advance(k, along.at<double>(k), target(k)); });
+      });
+    else
+      for_stretch(begin, end, [=, p = f_.pressure.data()](std::size_t k) {
+        const double next = target(k);
+        to[k] = (next - p[k]) * shrink;
+        p[k] = next;
+      });
+  };
   const auto source = [&](int j, double* step) -> const double* {
-    const std::size_t begin = static_cast<std::size_t>(j) * nx;
-    const auto to = step - begin;
-    stretch_direction(begin, begin + nx, [&](std::size_t from, std::size_t end, const Along& along) {
-      if (shift) {
-        for_stretch(from, end, [=, n = view(), by = *shift, upper = limit_.upper()](std::size_t k) {
-          const double q = n.settled(k), moved = q + by, positive = moved > 0 ? moved : 0.0;
-          const double shifted = moved < upper ? positive : upper;
-          to[k] = advance(k, along.at<double>(k), n.shifts(k, q, true) ? shifted : q);
-        });
-      } else {
-        for_stretch(from, end, [=, target = projected.data()](std::size_t k) {
-          to[k] = advance(k, along.at<double>(k), target[k]);
-        });
-      }
-    });
+    const std::size_t begin = static_cast<std::size_t>(j) * nx, end = begin + nx;
+    if (shift)
+      move(begin, end, step - begin, [n = view(), by = *shift, upper = limit_.upper()](std::size_t k) {
+        const double q = n.settled(k), moved = q + by, positive = moved > 0 ? moved : 0.0;
+        const double shifted = moved < upper ? positive : upper;
+        return n.shifts(k, q, true) ? shifted : q;
+      });
+    else
+      move(begin, end, step - begin, [from = projected.data()](std::size_t k) { return from[k]; });
     return step;
   };
   // Ground that goes on yielding once it has settled is not among what balances here.
@@ -296,7 +308,7 @@ bool Descent<Limit>::descend(int steps) {
   const auto nx = static_cast<std::size_t>(level_.shape.nx);
   const bool from_rest = steps == 0;
   double start = 0;
-  while (steps < steps_a_pass) {
+  while (steps < steps_a_pass_) {
     // A pass that begins with conjugate gradients ends when it has gained enough for this free set.
     if (from_rest) {
       const double norm = residual_norm();
@@ -308,7 +320,6 @@ bool Descent<Limit>::descend(int steps) {
     const double rz = turn();
     have_direction_ = true;
     const Freedom balancing = set_.balancing();
-    // Of the direction without its surplus, as rounded.
     const auto source = [&](int j, double* row) -> const double* {
       const std::size_t begin = static_cast<std::size_t>(j) * nx;
       stretch_direction(begin, begin + nx, [&](std::size_t from, std::size_t end, const Along& along) {
@@ -320,19 +331,18 @@ bool Descent<Limit>::descend(int steps) {
                                lane_terms::read(marks + k, mark);
                                const Value none = {}, at = none + static_cast<double>(balancing);
                                const Value balanced = mark == at ? value - surplus : value;
-                               lane_terms::put(mark > none ? balanced : none, d + k);
-                               Value rounded;
-                               lane_terms::read(d + k, rounded);
-                               lane_terms::put(rounded, to + k);
+                               const Value next = mark > none ? balanced : none;
+                               lane_terms::put(next, d + k);
+                               lane_terms::put(next, to + k);
                              });
       });
       return row;
     };
-    Array<std::array<double, 2>> rows(static_cast<std::size_t>(level_.shape.ny));
+    Array<std::array<double, 3>> rows(static_cast<std::size_t>(level_.shape.ny));
     const auto sink = [&](int j, const double* image) {
       const std::size_t begin = static_cast<std::size_t>(j) * nx;
-      rows[static_cast<std::size_t>(j)] =
-          weigh_image(view(), begin, begin + nx, balancing, f_.direction.data(), image, f_.image.data());
+      rows[static_cast<std::size_t>(j)] = weigh_image(view(), begin, begin + nx, balancing, mean_gap_,
+                                                      f_.direction.data(), image, f_.image.data());
     };
     level_.apply(source, sink, {});
     const auto sums = added_up(rows);
@@ -340,9 +350,10 @@ bool Descent<Limit>::descend(int steps) {
       have_direction_ = false;
       break;
     }
-    const double length = rz / sums[0];
+    // r·M r is known to single precision only, unless it was summed up.
+    const double length = (Limit::hardens ? rz : sums[2]) / sums[0];
     mean_gap_ += length * (sums[1] / set_.balancing_count());
-    if (++steps == steps_a_pass) {
+    if (++steps == steps_a_pass_) {
       untaken_ = length;  // until the pressures and gaps are read again
     } else {
       for_lanes(nodes(), [step = PressureStep{length, f_.direction.data(), f_.image.data()},
@@ -413,11 +424,13 @@ StageEnd Descent<Limit>::run() {
     set_ = mark_free_set(limit_, at, balance_, first_shift(at, level_.total_load()), f_.pressure, f_.gap,
                          f_.old_free, f_.free);
     if (set_.changed) preconditioner_.set_free(f_.free);
-    if (!at.within || set_.changed) have_direction_ = false;
+    const bool settles =
+        !at.within || std::abs(at.load - level_.total_load()) > load_slack * level_.total_load();
+    if (settles || set_.changed) have_direction_ = false;
     fresh_ = false;
     mean_gap_ = set_.count() > 0 ? set_.balancing_gap() / set_.balancing_count() : at.interior_gap;
-    if (!at.within) settle_step(at);
-    if (!descend(at.within ? 0 : 1)) {  // the free nodes are in balance to the last bit
+    if (settles) settle_step(at);
+    if (!descend(settles ? 1 : 0)) {  // the free nodes are in balance to the last bit
       project(at, f_.pressure);
       return end;
     }

@@ -2,6 +2,8 @@
 #include "engine/contact/elasticity/half_space/smooth_extension.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <type_traits>
 
 namespace asperity {
 
@@ -10,13 +12,50 @@ namespace {
 // twice as much or half of either changes little.
 constexpr int spacing = 32;
 constexpr double reluctance = 0.03;
+
+template <class Real>
+const Real* shares(const HatAxis& axis) {
+  if constexpr (std::is_same_v<Real, double>)
+    return axis.share.data();
+  else
+    return axis.single_share.data();
+}
+
+struct Pair {
+  double left, right;
+};
+
+// Sums of values·(1 − share) and of values·share.
+template <class Real>
+Pair weighed(const Real* __restrict values, const Real* __restrict share, int n) {
+  constexpr int lanes = 8;
+  Real left[lanes] = {}, right[lanes] = {};
+  int k = 0;
+  for (; k + lanes <= n; k += lanes)
+    for (int l = 0; l < lanes; ++l) {
+      left[l] += values[k + l] * (1 - share[k + l]);
+      right[l] += values[k + l] * share[k + l];
+    }
+  Pair sums{};
+  for (int l = 0; l < lanes; ++l) {
+    sums.left += static_cast<double>(left[l]);
+    sums.right += static_cast<double>(right[l]);
+  }
+  for (; k < n; ++k) {
+    sums.left += static_cast<double>(values[k] * (1 - share[k]));
+    sums.right += static_cast<double>(values[k] * share[k]);
+  }
+  return sums;
+}
 }  // namespace
 
 HatAxis::HatAxis(int nodes, Boundary boundary) : wraps(boundary == Boundary::periodic) {
   const int steps = std::max(1, nodes / spacing);
+  const auto count = static_cast<std::size_t>(nodes);
   hats = wraps ? steps : steps + 1;
-  before.resize(static_cast<std::size_t>(nodes));
-  share.resize(before.size());
+  before.resize(count);
+  share.resize(count);
+  single_share.resize(count);
   end.resize(static_cast<std::size_t>(hats));
   mass.resize(static_cast<std::size_t>(hats));
   for (int k = 0; k < nodes; ++k) {
@@ -25,8 +64,9 @@ HatAxis::HatAxis(int nodes, Boundary boundary) : wraps(boundary == Boundary::per
     const int hat = std::min(static_cast<int>(place), steps - 1);
     const auto node = static_cast<std::size_t>(k);
     before[node] = hat;
+    share[node] = place - hat;
+    single_share[node] = static_cast<float>(place - hat);
     end[static_cast<std::size_t>(hat)] = k + 1;
-    share[node] = static_cast<float>(place - hat);
     mass[static_cast<std::size_t>(hat)] += 1 - (place - hat);
     mass[static_cast<std::size_t>(next(hat))] += place - hat;
   }
@@ -39,48 +79,21 @@ double SmoothExtension::divisor(std::size_t hat, double free) const {
   return free + reluctance * x_.mass[i] * y_.mass[j];
 }
 
-void SmoothExtension::row(std::span<const float> field, int y, int x, int n, float* __restrict to) const {
+template <class Real>
+void SmoothExtension::row(std::span<const Real> field, int y, int x, int n, double factor,
+                          Real* __restrict to) const {
   const int j = y_.before[static_cast<std::size_t>(y)];
-  const float up = y_.share[static_cast<std::size_t>(y)];
-  const float* const low = field.data() + hat(0, j);
-  const float* const high = field.data() + hat(0, y_.next(j));
-  const auto point = [&](int i) { return low[i] + up * (high[i] - low[i]); };
-  const float* const share = x_.share.data();
-  float* const at = to - x;
+  const Real up = shares<Real>(y_)[y], times = static_cast<Real>(factor);
+  const Real *const low = field.data() + hat(0, j), *const high = field.data() + hat(0, y_.next(j));
+  const auto point = [&](int i) { return (low[i] + up * (high[i] - low[i])) * times; };
+  const Real* const share = shares<Real>(x_);
+  Real* const at = to - x;
   for (int k = x, i = x_.before[static_cast<std::size_t>(x)]; k < x + n; ++i) {
-    const float left = point(i), rise = point(x_.next(i)) - left;
-    const int end = std::min(x + n, x_.end[static_cast<std::size_t>(i)]);
-    for (; k < end; ++k) at[k] = left + share[k] * rise;
+    const Real left = point(i), rise = point(x_.next(i)) - left;
+    const int stop = std::min(x + n, x_.end[static_cast<std::size_t>(i)]);
+    for (; k < stop; ++k) at[k] = left + share[k] * rise;
   }
 }
-
-namespace {
-struct Pair {
-  double left, right;
-};
-
-// Sums of values·(1 − share) and of values·share.
-Pair weighed(const float* __restrict values, const float* __restrict share, int n) {
-  constexpr int lanes = 8;
-  float all[lanes] = {}, right[lanes] = {};
-  int k = 0;
-  for (; k + lanes <= n; k += lanes)
-    for (int l = 0; l < lanes; ++l) {
-      all[l] += values[k + l];
-      right[l] += values[k + l] * share[k + l];
-    }
-  double sum = 0, to_the_right = 0;
-  for (int l = 0; l < lanes; ++l) {
-    sum += static_cast<double>(all[l]);
-    to_the_right += static_cast<double>(right[l]);
-  }
-  for (; k < n; ++k) {
-    sum += static_cast<double>(values[k]);
-    to_the_right += static_cast<double>(values[k] * share[k]);
-  }
-  return {sum - to_the_right, to_the_right};
-}
-}  // namespace
 
 SmoothExtension::Sums::Sums(const SmoothExtension& hats, int x, int y, int width, int height)
     : hats_(&hats), x_(x), y_(y), width_(width) {
@@ -98,36 +111,40 @@ void SmoothExtension::Sums::clear() {
   band_ = -1;
 }
 
-void SmoothExtension::Sums::add(int y, const float* __restrict values, std::span<float> work) {
+template <class Value, class Work>
+void SmoothExtension::Sums::add(int y, const Value* __restrict values, std::span<Work> work) {
   const int band = hats_->y_.before[static_cast<std::size_t>(y)];
-  float* __restrict low = work.data(), * __restrict high = low + width_;
+  Work* __restrict low = work.data();
+  Work* __restrict high = low + width_;
   if (band != band_) {
-    flush(work);
+    finish(work);
     band_ = band;
-    std::fill_n(low, 2 * width_, 0.0f);
+    std::fill_n(low, 2 * width_, Work{});
   }
-  const float up = hats_->y_.share[static_cast<std::size_t>(y)], down = 1 - up;
+  const Work up = shares<Work>(hats_->y_)[y], down = 1 - up;
   for (int k = 0; k < width_; ++k) {
-    low[k] += down * values[k];
-    high[k] += up * values[k];
+    const Work value = static_cast<Work>(values[k]);
+    low[k] += down * value;
+    high[k] += up * value;
   }
 }
 
-void SmoothExtension::Sums::flush(std::span<float> work) {
+template <class Work>
+void SmoothExtension::Sums::finish(std::span<Work> work) {
   if (band_ < 0) return;
   const HatAxis& along = hats_->x_;
-  const float* const share = along.share.data() + x_;
+  const Work* const share = shares<Work>(along) + x_;
   const int first = along.before[static_cast<std::size_t>(x_)];
   const int first_row = hats_->y_.before[static_cast<std::size_t>(y_)];
   for (int half = 0; half < 2; ++half) {
-    const float* const values = work.data() + half * width_;
+    const Work* const values = work.data() + half * width_;
     double* const to = sums_.data() + static_cast<std::ptrdiff_t>(band_ - first_row + half) * columns_;
     for (int k = 0, i = 0; k < width_; ++i) {
-      const int end = std::min(width_, along.end[static_cast<std::size_t>(first + i)] - x_);
-      const Pair sums = weighed(values + k, share + k, end - k);
+      const int stop = std::min(width_, along.end[static_cast<std::size_t>(first + i)] - x_);
+      const Pair sums = weighed(values + k, share + k, stop - k);
       to[i] += sums.left;
       to[i + 1] += sums.right;
-      k = end;
+      k = stop;
     }
   }
   band_ = -1;
@@ -146,5 +163,12 @@ void SmoothExtension::Sums::add_to(Array<double>& total) const {
           sums_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
                 static_cast<std::size_t>(i)];
 }
+
+template void SmoothExtension::row(std::span<const float>, int, int, int, double, float*) const;
+template void SmoothExtension::row(std::span<const double>, int, int, int, double, double*) const;
+template void SmoothExtension::Sums::add(int, const float*, std::span<float>);
+template void SmoothExtension::Sums::add(int, const std::uint8_t*, std::span<double>);
+template void SmoothExtension::Sums::finish(std::span<float>);
+template void SmoothExtension::Sums::finish(std::span<double>);
 
 }  // namespace asperity

@@ -20,8 +20,9 @@ struct HatAxis {
 
   bool wraps;
   int hats;
-  Array<int> before;   // of a node: the hat whose point is the last at or before it,
-  Array<float> share;  // and the value of the next hat there
+  Array<int> before;    // of a node: the hat whose point is the last at or before it,
+  Array<double> share;  // and the value of the next hat there,
+  Array<float> single_share;
   Array<int> end;      // of a hat: the node after the last whose `before` it is,
   Array<double> mass;  // and its sum over all nodes
 };
@@ -37,13 +38,14 @@ class SmoothExtension {
    public:
     Sums(const SmoothExtension& hats, int x, int y, int width, int height);
     void clear();
-    // `work`: 2·width values, kept between the rows.
-    void add(int y, const float* values, std::span<float> work);
-    void finish(std::span<float> work) { flush(work); }
+    // `work`: 2·width values, kept between the rows; as precise as the sums are to be.
+    template <class Value, class Work>
+    void add(int y, const Value* values, std::span<Work> work);
+    template <class Work>
+    void finish(std::span<Work> work);
     void add_to(Array<double>& total) const;
 
    private:
-    void flush(std::span<float> work);
     const SmoothExtension* hats_;
     int x_, y_, width_;
     int columns_, rows_;
@@ -56,8 +58,10 @@ class SmoothExtension {
   // where few nodes are free, so that a lone contact is not carried on as if it were the ground.
   double divisor(std::size_t hat, double free) const;
 
-  // `to` becomes the values of the field, of size() values at the points, at n nodes of row y from x on.
-  void row(std::span<const float> field, int y, int x, int n, float* to) const;
+  // `to` becomes `factor` times the values of the field, of size() values at the points, at n nodes of row y
+  // from x on.
+  template <class Real>
+  void row(std::span<const Real> field, int y, int x, int n, double factor, Real* to) const;
 
  private:
   std::size_t hat(int i, int j) const {
