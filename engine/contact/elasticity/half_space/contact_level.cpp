@@ -25,11 +25,16 @@ ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double
 }
 
 void ContactLevel::gap(std::span<const double> p, std::span<double> g) {
+  if (shape.boundary == Boundary::free) return gap_beside_mean(p, g);
+  for_nodes(nodes(), [to = g.data(), from = p.data(), mean = mean_pressure](std::size_t k) {
+    to[k] = from[k] - mean;
+  });
+  gap_beside_mean(g, g);
+}
+
+void ContactLevel::gap_beside_mean(std::span<const double> p, std::span<double> g) {
   ++applications;
-  // On a periodic tile the mean moves nothing, and may be so large that beside it the others lose digits.
-  const double mean = shape.boundary == Boundary::periodic ? mean_pressure : 0;
-  for_nodes(nodes(), [to = g.data(), from = p.data(), mean](std::size_t k) { to[k] = from[k] - mean; });
-  compliance.apply_in_double(g, g);
+  compliance.apply_in_double(p, g);
   for_nodes(nodes(), [to = g.data(), h = heights_.data(), origin = origin_, factor = factor_](std::size_t k) {
     to[k] -= (h[k] - origin) * factor;
   });

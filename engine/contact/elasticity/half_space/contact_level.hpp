@@ -65,8 +65,11 @@ class ContactLevel {
     ++applications;
     compliance.apply(source, sink, u);
   }
-  // g = K p − h, in double precision always.
+  // g = K p − h, in double precision always. On a periodic tile the mean pressure moves nothing, and may be
+  // so large that beside it p has lost digits: …
   void gap(std::span<const double> p, std::span<double> g);
+  // … the same of a p from which it has been taken already. g may be p.
+  void gap_beside_mean(std::span<const double> p, std::span<double> g);
 
  private:
   std::span<const double> heights_;

@@ -259,7 +259,7 @@ CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   });
   progress.report(0, 1, 1, 0.5);
   if (!(found[0] == 0 && found[1] > 0)) return answer;
-  level.gap(answer.gap, answer.gap);
+  level.gap_beside_mean(answer.gap, answer.gap);
   answer.applications = 2;
   const ContactQuality at = contact_quality(level, p, answer.gap);
   answer.offset = at.offset;
