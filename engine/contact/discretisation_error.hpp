@@ -17,13 +17,13 @@
 //     stiffness                 96 %            55 %                   88 %
 //
 // and of 16 with a prescribed approach, whose load, separation and energy err as the first touch does, 94 %,
-// 75 to 81 %, and 100 %. Coarser grids cost a third of a press and show how great the chance is, not what
-// came of it: of two errors from like normal laws one is within a factor of three of the other in 59 % of all
-// cases, and of an error whose law is known outright no guess is in more than 78 %. The finer grid sees the
-// chance itself, at some eleven times the cost: its own error is a ninth as great in the middle scene, and
-// the estimate is the step to it, its outline and first touch mended. What one step cannot show is a value
-// that grows without end. It says nothing of roughness finer than the cells made or measured, of the size of
-// the tile, or of the model.
+// 75 to 81 %, and 100 %. Coarser grids cost about a third of a press and show how great the chance is, not
+// what came of it: of two errors from like normal laws one is within a factor of three of the other in 59 %
+// of all cases, and of an error whose law is known outright no guess is in more than 78 %. The finer grid
+// sees the chance itself, at some eleven times the cost: its own error is a ninth as great in the middle
+// scene, and the estimate is the step to it, its outline and first touch mended. What one step cannot show is
+// a value that grows without end. It says nothing of roughness finer than the cells made or measured, of the
+// size of the tile, or of the model.
 #pragma once
 
 #include <span>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An approximate inverse of the half-space's compliance restricted to the free nodes of a contact:
-// z = Extᵀ (|q|/2) Ext r on the free set, in cell units. Ext carries r past the edge of the set by a
-// few sweeps, each making the nodes of one colour of a chessboard, off the set, the mean of their four
-// neighbours, of two on a line of nodes, so that no jump is paid for there; on a periodic side of an odd
-// number of nodes, where two of one colour meet, it does not wrap. |q|/2 is HalfOrderPyramid's. Symmetric,
-// positive semi-definite on the free set; single precision inside. No projection of the mean.
+// z = Extᵀ (|q|/2) Ext r on the free set, in cell units. Ext carries r past the edge of the set, so that no
+// jump is paid for there: as a field that is smooth from one contact to the next (SmoothExtension) all over
+// the grid, and what r differs from that by a few sweeps far, each making the nodes of one colour of a
+// chessboard, off the set, the mean of their four neighbours, of two on a line of nodes; on a periodic side
+// of an odd number of nodes, where two of one colour meet, sweeps do not wrap. |q|/2 is HalfOrderPyramid's.
+// Symmetric, positive semi-definite on the free set; single precision inside. No projection of the mean.
 #pragma once
 
 #include <cstddef>
