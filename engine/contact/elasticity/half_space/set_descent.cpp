@@ -34,11 +34,11 @@ struct Along {
   const double *values, *smooth;
 
   template <class Value>
-  Value at(std::size_t k) const {
-    Value value, more;
-    lane_terms::read(values + k, value);
+  void read(std::size_t k, Value& to) const {
+    Value more;
+    lane_terms::read(values + k, to);
     lane_terms::read(smooth + k, more);
-    return value + more;
+    to += more;
   }
 };
 
@@ -77,8 +77,8 @@ class Descent {
   }
   double residual_norm() const;
   double turn();
-  // visit(begin, end, along) for parts of a stretch of a row, along.at<Value>(k) being the direction at node
-  // k on the free set, but for its surplus.
+  // visit(begin, end, along) for parts of a stretch of a row, along.read(k, …) giving the direction at node k
+  // of the free set, but for its surplus.
   template <class Visit>
   void stretch_direction(std::size_t begin, std::size_t end, const Visit& visit) const;
   void settle_step(const ContactQuality& at);
@@ -258,7 +258,11 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
   const auto move = [&](std::size_t begin, std::size_t end, double* to, const auto& target) {
     if (dear_)
       stretch_direction(begin, end, [&](std::size_t from, std::size_t last, const Along& along) {
-        for_stretch(from, last, [=](std::size_t k) { to[k] = advance(k, along.at<double>(k), target(k)); });
+        for_stretch(from, last, [=](std::size_t k) {
+          double z;
+          along.read(k, z);
+          to[k] = advance(k, z, target(k));
+        });
       });
     else
       for_stretch(begin, end, [=, p = f_.pressure.data()](std::size_t k) {
@@ -326,8 +330,8 @@ bool Descent<Limit>::descend(int steps) {
         for_lanes_of_stretch(from, end,
                              [along, balancing, surplus = surplus_, marks = f_.free.data(),
                               d = f_.direction.data(), to = row - begin]<class Value>(std::size_t k) {
-                               const Value value = along.at<Value>(k);
-                               Value mark;
+                               Value value, mark;
+                               along.read(k, value);
                                lane_terms::read(marks + k, mark);
                                const Value none = {}, at = none + static_cast<double>(balancing);
                                const Value balanced = mark == at ? value - surplus : value;
