@@ -185,7 +185,9 @@ Pool& pool() {
 int thread_count() {
   if (single_threaded) return 1;
   const int wanted = threads_wanted.load();
-  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  // Asked for once: the system takes microseconds to tell, and every loop wants to know.
+  static const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return wanted > 0 ? wanted : processors;
 }
 
 void set_thread_count(int threads) { threads_wanted.store(std::max(threads, 0)); }

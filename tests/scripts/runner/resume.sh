@@ -17,7 +17,7 @@ cd "$folder"
 # Plastic memory, random streams, two notebooks (one that gets a column late), an ensemble and a chart.
 cat > events.lua <<'LUA'
 local lab = require "asperity"
-local n, label = 192, ...
+local n, label = 512, ...
 local al = lab.material "Al-2011"
 local function body(seed)
   return lab.surface.self_affine{ cells = n, size = "1 mm", hurst = 0.8, rms_slope = 0.1, short_wave = "40 um",
@@ -36,7 +36,7 @@ for event = 1, 8 do
   c:place{ seed = event }
 end
 local rows = lab.ensemble{ over = { pressure = { 1e6, 2e6, 4e6 }, seed = { 1, 2, 3 } }, run = function(case)
-  local rough = lab.surface.self_affine{ cells = 192, size = "1 mm", hurst = 0.8, rms_slope = 0.1,
+  local rough = lab.surface.self_affine{ cells = 512, size = "1 mm", hurst = 0.8, rms_slope = 0.1,
     short_wave = "40 um", seed = case.seed, material = lab.material "Al-2011" }
   local st = lab.contact{ lower = rough, upper = lab.rigid, boundary = "periodic",
     effects = { elasticity = "half_space" } }:press{ pressure = case.pressure }
