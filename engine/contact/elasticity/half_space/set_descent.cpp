@@ -238,11 +238,9 @@ void Descent<Limit>::stretch_direction(std::size_t begin, std::size_t end, const
 template <class Limit>
 void Descent<Limit>::settle_step(const ContactQuality& at) {
   const std::optional<double> shift = shift_to_load(at);
-  Array<double> projected;
-  if (!shift) {
-    projected.resize(nodes());
+  if (!shift) {                       // the image of the last step is done with
     std::swap(f_.free, f_.old_free);  // project() needs marks of its own
-    project(at, projected);
+    project(at, f_.image);
     std::swap(f_.free, f_.old_free);
   }
   if (dear_) turn();
@@ -280,7 +278,7 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
         return n.shifts(k, q, true) ? shifted : q;
       });
     else
-      move(begin, end, step - begin, [from = projected.data()](std::size_t k) { return from[k]; });
+      move(begin, end, step - begin, [from = f_.image.data()](std::size_t k) { return from[k]; });
     return step;
   };
   // Ground that goes on yielding once it has settled is not among what balances here.
