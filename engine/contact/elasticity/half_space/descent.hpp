@@ -16,9 +16,7 @@ struct DescentFields {
 
   Array<double> pressure;  // p: feasible between stages
   Array<double> gap;       // K p − h
-  // That pressures move along, and what K makes of it, times a power of two. The one has no more digits than
-  // its preconditioner; what rounding takes from the other is made good when the gap is computed from the
-  // pressures again.
+  // That pressures move along, and what K makes of it, times a power of two.
   Array<double> direction, image;
   Array<double> old_pressure, old_gap;  // of the pass before; made when first needed
   Array<std::uint8_t> free, old_free;   // nodes the present pass may move
