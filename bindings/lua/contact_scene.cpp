@@ -201,9 +201,8 @@ const Block<AccuracyKeys>& accuracy_block() {
            "estimate", "boolean|\"finer\"",
            "solves each press on other cells too, for st.error.discretisation: true on half and a "
            "quarter of them, which costs about a third of the press and mostly bounds the error; \"finer\" "
-           "on "
-           "thrice the "
-           "cells a side, which costs about eleven times the press and is within a factor of three of the "
+           "on thrice the cells a side, which costs about eleven times the press and is within a factor of "
+           "three of the "
            "true error, above and below, in nine cases of ten",
            read_estimate)
            .shown_by([](const K& keys) { return std::string(estimate_text(keys.estimate)); })

@@ -7,6 +7,13 @@
 
 namespace asperity {
 
+namespace {
+// Of the preconditioner. With four, one random scene in 2000 of ground that hardens weakly stalled.
+int sweeps_under(const PressureLimit& limit) {
+  return std::holds_alternative<LinearHardening>(limit) ? 8 : 4;
+}
+}  // namespace
+
 ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double> raw_heights,
                            double height_origin, double height_factor, PressureLimit pressure_limit,
                            double mean)
@@ -14,8 +21,7 @@ ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double
       limit(std::move(pressure_limit)),
       mean_pressure(mean),
       compliance(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, shape.single),
-      preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight,
-                     std::holds_alternative<LinearHardening>(limit) ? 8 : 4),
+      preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, sweeps_under(limit)),
       short_wave_stiffness(std::numbers::pi / 4 / std::sqrt(shape.aspect)),
       heights_(raw_heights),
       origin_(height_origin),

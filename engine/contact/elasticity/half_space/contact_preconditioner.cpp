@@ -161,11 +161,10 @@ void ContactPreconditioner::Parts::divide(const Array<double>& sums, Array<Real>
 void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& r) {
   const auto width = static_cast<std::size_t>(tile.width);
   float* const extended = pyramid_.input().data();
-  if (tile.reaches_free && !tile.swept) {
+  if (tile.reaches_free && !tile.swept) {  // every node is free
     for (int j = tile.y; j < tile.y + tile.height; ++j) {
       const std::size_t k = node(tile.x, j);
       convert(r.values + k, r.factor, r.offset, width, extended + k);
-      keep_free(tiles_.marks(k), width, extended + k);
     }
     return;
   }
@@ -227,7 +226,6 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
                      width, sum);
     } else {
       std::copy_n(y.data() + k, width, sum);
-      keep_free(tiles_.marks(k), width, sum);
     }
     subtract(y.data() + k, sum, width, patch.row.data());
     hats.add<float, float>(tile.y + j, patch.row.data(), patch.sums);

@@ -188,8 +188,7 @@ std::array<double, sums> over_marked_nodes(std::span<const std::uint8_t> marks, 
   return node_loop::gather<sums, 0>(marks.size(), node_loop::Marked{marks.data()}, term);
 }
 
-// A stretch of nodes on this thread, for what hands out rows: body(k) for each, and sums of term(k, v); with
-// `marks`, of all the nodes, as for_marked_nodes and over_marked_nodes.
+// A stretch of nodes on this thread, for what hands out rows: body(k) for each, and sums of term(k, v).
 template <class Body>
 void for_stretch(std::size_t begin, std::size_t end, const Body& body) {
   const Body own = body;
@@ -199,12 +198,6 @@ template <std::size_t sums, class Term>
 std::array<double, sums> over_stretch(std::size_t begin, std::size_t end, const Term& term) {
   return node_loop::gather_range<sums, 0>(begin, end, node_loop::All{}, term);
 }
-template <std::size_t sums, class Term>
-std::array<double, sums> over_marked_stretch(const std::uint8_t* marks, std::size_t begin, std::size_t end,
-                                             const Term& term) {
-  return node_loop::gather_range<sums, 0>(begin, end, node_loop::Marked{marks}, term);
-}
-
 // The sums of stretches, added up in their order.
 template <std::size_t sums>
 std::array<double, sums> added_up(const Array<std::array<double, sums>>& parts) {
