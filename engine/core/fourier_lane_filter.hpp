@@ -44,7 +44,7 @@ class FourierLaneFilter {
   void apply(std::span<const double> in, std::span<double> out, double scale = 1);
 
   // Gives its spectrum back until it is applied again; the multiplier is kept.
-  void rest() { spectrum_ = Array<Complex>(); }
+  void rest() { spectrum_ = UnsetArray<Complex>(); }
 
   // The multiplier of wave (a, b), 0 <= a <= period_x/2, 0 <= b <= period_y/2, as it is held.
   double factor(int a, int b) const;
@@ -79,7 +79,7 @@ class FourierLaneFilter {
   Array<Real> turns_;       // e^{−2πi k/period_x}, k = 0 … half/2
   Array<Factors> factors_;  // of a block of bins, for b = 0 … period_y/2, divided by all that comes with it
   Array<double> last_factors_;  // of a = period_x/2
-  Array<Complex> spectrum_;
+  UnsetArray<Complex> spectrum_;
   ScratchPool<Scratch> scratch_;
 };
 

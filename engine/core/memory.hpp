@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <new>
+#include <utility>
 #include <vector>
 
 namespace asperity {
@@ -56,5 +58,27 @@ struct Allocator {
 // A std::vector whose storage is counted.
 template <class T>
 using Array = std::vector<T, Allocator<T>>;
+
+// The same for what is written before it is read: new values are whatever the memory held.
+template <class T>
+struct UnsetAllocator : Allocator<T> {
+  UnsetAllocator() = default;
+  template <class U>
+  UnsetAllocator(const UnsetAllocator<U>&) noexcept {}
+  template <class U>
+  struct rebind {
+    using other = UnsetAllocator<U>;
+  };
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Arguments>
+  void construct(U* at, Arguments&&... arguments) {
+    ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
+  }
+};
+template <class T>
+using UnsetArray = std::vector<T, UnsetAllocator<T>>;
 
 }  // namespace asperity

@@ -31,19 +31,26 @@ ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double
 }
 
 void ContactLevel::gap(std::span<const double> p, std::span<double> g) {
-  if (shape.boundary == Boundary::free) return gap_beside_mean(p, g);
-  for_nodes(nodes(), [to = g.data(), from = p.data(), mean = mean_pressure](std::size_t k) {
-    to[k] = from[k] - mean;
-  });
-  gap_beside_mean(g, g);
+  gap_beside(p, shape.boundary == Boundary::free ? 0 : mean_pressure, g);
 }
 
-void ContactLevel::gap_beside_mean(std::span<const double> p, std::span<double> g) {
+void ContactLevel::gap_beside_mean(std::span<const double> p, std::span<double> g) { gap_beside(p, 0, g); }
+
+void ContactLevel::gap_beside(std::span<const double> p, double mean, std::span<double> g) {
   ++applications;
-  compliance.apply_in_double(p, g);
-  for_nodes(nodes(), [to = g.data(), h = heights_.data(), origin = origin_, factor = factor_](std::size_t k) {
-    to[k] -= (h[k] - origin) * factor;
-  });
+  const auto nx = static_cast<std::size_t>(shape.nx);
+  const auto source = [=](int j, double* row) -> const double* {
+    const std::size_t begin = static_cast<std::size_t>(j) * nx;
+    for_stretch(0, nx, [=, from = p.data() + begin](std::size_t k) { row[k] = from[k] - mean; });
+    return row;
+  };
+  const auto sink = [=, h = heights_.data(), origin = origin_, factor = factor_](int j, const double* row) {
+    const std::size_t begin = static_cast<std::size_t>(j) * nx;
+    for_stretch(0, nx, [=, h = h + begin, to = g.data() + begin](std::size_t k) {
+      to[k] = row[k] - (h[k] - origin) * factor;
+    });
+  };
+  compliance.apply_in_double(source, sink, g);
 }
 
 }  // namespace asperity

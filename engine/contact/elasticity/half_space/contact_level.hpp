@@ -72,6 +72,8 @@ class ContactLevel {
   void gap_beside_mean(std::span<const double> p, std::span<double> g);
 
  private:
+  void gap_beside(std::span<const double> p, double mean, std::span<double> g);
+
   std::span<const double> heights_;
   double origin_, factor_, unit_;
 };

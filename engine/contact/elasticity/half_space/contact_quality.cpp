@@ -175,7 +175,7 @@ ContactQuality contact_quality(const ContactLevel& level, std::span<const double
 
 ContactQuality contact_quality(const ContactLevel& level, std::span<double> p, std::span<double> g,
                                const PressureStep& step, double balance) {
-  if (step.length == 0) return contact_quality(level, p, g, balance);
+  if (step.none()) return contact_quality(level, p, g, balance);
   const auto take = [p = p.data(), g = g.data(), step]<class Value>(
                         std::size_t k, Value& pressure, Value& gap) { step.take(k, p, g, pressure, gap); };
   return std::visit([&](const auto& limit) { return measure(level, limit, p, g, balance, take); },

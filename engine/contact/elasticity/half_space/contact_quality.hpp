@@ -25,22 +25,29 @@ struct ContactQuality {
   bool within = true;       // nothing had to be settled
 };
 
-// A step still to be taken: p += length · direction, g += length · image.
+// Steps still to be taken: p += Σ length · direction, g += gap_length · image.
 struct PressureStep {
-  double length = 0;
-  const double *direction, *image;
+  struct Along {
+    double length = 0;
+    const float* direction = nullptr;
+  };
+  Along along[2];  // null only where both are
+  double gap_length = 0;
+  const double* image = nullptr;
 
+  bool none() const { return along[0].length == 0 && along[1].length == 0 && gap_length == 0; }
   // At node k, or at as many as a vector has lanes.
   template <class Value>
   void take(std::size_t k, double* p, double* g, Value& pressure, Value& gap) const {
-    Value along, across;
+    Value last, before, change;
     lane_terms::read(p + k, pressure);
-    lane_terms::read(g + k, gap);
-    lane_terms::read(direction + k, along);
-    lane_terms::read(image + k, across);
-    pressure += length * along;
-    gap += length * across;
+    lane_terms::read(along[0].direction + k, last);
+    lane_terms::read(along[1].direction + k, before);
+    pressure += along[0].length * last + along[1].length * before;
     lane_terms::put(pressure, p + k);
+    lane_terms::read(g + k, gap);
+    lane_terms::read(image + k, change);
+    gap += gap_length * change;
     lane_terms::put(gap, g + k);
   }
 };
@@ -50,7 +57,7 @@ ContactQuality contact_quality(const ContactLevel& level, std::span<const double
                                std::span<const double> g,
                                double balance = std::numeric_limits<double>::quiet_NaN());
 
-// The same after a step, which the pass takes on its way.
+// The same after steps, which the pass takes on its way.
 ContactQuality contact_quality(const ContactLevel& level, std::span<double> p, std::span<double> g,
                                const PressureStep& step, double balance);
 

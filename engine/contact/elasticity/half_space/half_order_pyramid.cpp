@@ -172,7 +172,7 @@ std::int64_t HalfOrderPyramid::bytes(int nx, int ny, double aspect, Boundary bou
               static_cast<std::int64_t>(period_x / 2 + 1) * (period_y / 2 + 1));
 }
 
-const float* HalfOrderPyramid::row(const Array<float>& field, const Level& level, int j) const {
+const float* HalfOrderPyramid::row(const UnsetArray<float>& field, const Level& level, int j) const {
   if (wraps_)
     j = (j + level.ny) % level.ny;
   else if (j < 0 || j >= level.ny)

@@ -21,7 +21,7 @@ class HalfOrderPyramid {
   // `weight`: the cost of one transform of this grid in transforms of the finest.
   HalfOrderPyramid(int nx, int ny, double aspect, Boundary boundary, double weight = 1);
 
-  // The field to work on, nx·ny values row by row; kept by apply(). All 0 at first.
+  // The field to work on, nx·ny values row by row; kept by apply().
   std::span<float> input() { return levels_.front().in; }
   // B a of a = input(); valid until the next call. The same bits for any number of threads.
   std::span<const float> apply();
@@ -37,12 +37,12 @@ class HalfOrderPyramid {
  private:
   struct Level {
     int nx, ny;
-    Array<float> in, out;
+    UnsetArray<float> in, out;
     float* row_in(int j) { return in.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(nx); }
     float* row_out(int j) { return out.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(nx); }
   };
   static std::vector<Level> shape(int nx, int ny, double aspect, Boundary boundary);
-  const float* row(const Array<float>& field, const Level& level, int j) const;
+  const float* row(const UnsetArray<float>& field, const Level& level, int j) const;
   void restrict_to(const Level& fine, Level& coarse) const;
   void add_up(Level& fine, const Level& coarse);
   void transform_coarsest();

@@ -28,7 +28,7 @@ void periodic_multiplier(int nx, int ny, double aspect, int a, std::span<double>
   const double qx = 2 * std::numbers::pi * static_cast<double>(a) / nx;
   for (std::size_t b = 0; b < factors.size(); ++b) {
     const double qy = 2 * std::numbers::pi * static_cast<double>(b) / (ny * aspect);
-    factors[b] = a == 0 && b == 0 ? 0 : 2 / std::hypot(qx, qy);
+    factors[b] = a == 0 && b == 0 ? 0 : 2 / std::sqrt(qx * qx + qy * qy);
   }
 }
 
@@ -124,6 +124,22 @@ struct HalfSpaceCompliance::Parts {
   std::span<double> column(int a) {
     return std::span(multiplier).subspan(static_cast<std::size_t>(a) * bins_y(), bins_y());
   }
+  // filter(u) of what the source gives.
+  template <class Filter>
+  void by_field(const Source& source, const Sink& sink, std::span<double> u, const Filter& filter) {
+    const auto width = static_cast<std::size_t>(nx);
+    if (u.empty()) {
+      field.resize(width * static_cast<std::size_t>(ny));
+      u = field;
+    }
+    const auto row = [&](std::int64_t j) { return u.data() + static_cast<std::size_t>(j) * width; };
+    parallel_for(ny, [&](std::int64_t j) {
+      const double* const from = source(static_cast<int>(j), row(j));
+      if (from != row(j)) std::copy_n(from, width, row(j));
+    });
+    filter(u);
+    if (sink) parallel_for(ny, [&](std::int64_t j) { sink(static_cast<int>(j), row(j)); });
+  }
   // The factors of the waves (a, b), b = 0 … period_y/2.
   void factors_of(int a, std::span<double> factors) {
     if (lanes)
@@ -159,18 +175,9 @@ void HalfSpaceCompliance::apply(const Source& source, const Sink& sink, std::spa
   cost::count_transforms(2 * parts.weight);
   if (parts.lanes) return parts.lanes->apply(source, sink, u);
   if (parts.singles) return parts.singles->apply(source, sink, u);
-  const auto nx = static_cast<std::size_t>(parts.nx);
-  if (u.empty()) {
-    parts.field.resize(nx * static_cast<std::size_t>(parts.ny));
-    u = parts.field;
-  }
-  const auto row = [&](std::int64_t j) { return u.data() + static_cast<std::size_t>(j) * nx; };
-  parallel_for(parts.ny, [&](std::int64_t j) {
-    const double* const from = source(static_cast<int>(j), row(j));
-    if (from != row(j)) std::copy_n(from, nx, row(j));
+  parts.by_field(source, sink, u, [&](std::span<double> field) {
+    parts.plain->apply(field, field, [&](int a, std::span<double> factors) { parts.factors_of(a, factors); });
   });
-  parts.plain->apply(u, u, [&](int a, std::span<double> factors) { parts.factors_of(a, factors); });
-  if (sink) parallel_for(parts.ny, [&](std::int64_t j) { sink(static_cast<int>(j), row(j)); });
 }
 
 bool HalfSpaceCompliance::single() const { return parts_->singles.has_value(); }
@@ -184,19 +191,21 @@ void HalfSpaceCompliance::count_pressures_in(double unit) {
     parts_->scale = std::ldexp(1.0, std::clamp(-std::ilogb(unit), -1000, 1000));
 }
 
-void HalfSpaceCompliance::apply_in_double(std::span<const double> p, std::span<double> u) {
+void HalfSpaceCompliance::apply_in_double(const Source& source, const Sink& sink, std::span<double> u) {
   Parts& parts = *parts_;
-  if (!parts.singles) return apply(p, u);
+  if (!parts.singles) return apply(source, sink, u);
   parts.singles->rest();
   if (parts.boundary == Boundary::free) {
     HalfSpaceCompliance exact(parts.nx, parts.ny, parts.aspect, parts.boundary, parts.weight);
-    return exact.apply(p, u);
+    return exact.apply(source, sink, u);
   }
-  FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
-  filter.apply(p, u, [&](int a, std::span<double> factors) {
-    periodic_multiplier(parts.nx, parts.ny, parts.aspect, a, factors);
-  });
   cost::count_transforms(2 * parts.weight);
+  parts.by_field(source, sink, u, [&](std::span<double> field) {
+    FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
+    filter.apply(field, field, [&](int a, std::span<double> factors) {
+      periodic_multiplier(parts.nx, parts.ny, parts.aspect, a, factors);
+    });
+  });
 }
 
 void HalfSpaceCompliance::apply_inverse(std::span<const double> u, std::span<double> p) {

@@ -37,14 +37,14 @@ class HalfSpaceCompliance {
   bool single() const;
   static bool single_possible(int nx, int ny, Boundary boundary);
   void count_pressures_in(double unit);
-  // As apply(), in double precision all the same.
-  void apply_in_double(std::span<const double> p, std::span<double> u);
 
   // The same row by row, as FourierLaneFilter::apply: `source` gives rows of p, `sink` takes rows of u,
   // which are kept in `u` unless it is empty. In single precision rows of p must be near 1.
   using Source = std::function<const double*(int j, double* scratch)>;
   using Sink = std::function<void(int j, const double* row)>;
   void apply(const Source& source, const Sink& sink, std::span<double> u);
+  // In double precision all the same, of any p.
+  void apply_in_double(const Source& source, const Sink& sink, std::span<double> u);
 
   // Periodic only: the pressure of mean 0 whose displacement is u, but for the mean of u: |q|/2. Costs
   // the same. Throws Error{internal} on a free boundary.

@@ -9,6 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+#include <immintrin.h>
+#endif
+
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
 
 namespace asperity {
@@ -33,6 +37,16 @@ inline void put(const double& from, std::uint8_t* to) {
 }
 
 inline void read(const double* from, LaneVector& to) { to = *reinterpret_cast<const Doubles*>(from); }
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+// What takes a compiler left to itself several instructions each.
+inline void read(const float* from, LaneVector& to) {
+  to = (LaneVector)_mm512_maskz_cvtps_pd(0xff, _mm256_loadu_ps(from));
+}
+inline void read(const std::uint8_t* from, LaneVector& to) {
+  to = (LaneVector)_mm512_maskz_cvtepi32_pd(
+      0xff, _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+}
+#else
 inline void read(const float* from, LaneVector& to) {
   to = __builtin_convertvector(*reinterpret_cast<const Floats*>(from), LaneVector);
 }
@@ -42,6 +56,7 @@ inline void read(const std::uint8_t* from, LaneVector& to) {
   const Integers integers = __builtin_convertvector(words, Integers);
   to = __builtin_convertvector(integers, LaneVector);
 }
+#endif
 inline void put(const LaneVector& from, double* to) { *reinterpret_cast<Doubles*>(to) = from; }
 inline void put(const LaneVector& from, float* to) {
   *reinterpret_cast<Floats*>(to) = __builtin_convertvector(from, Floats);

@@ -29,16 +29,20 @@ constexpr double jump = 10;  // a pass whose residual is so many times the one b
 constexpr int jumps_in_a_cycle = 2;
 constexpr int most_renewals = 50;
 
-// A direction yet without its balance of the load: what is stored, and a smooth field.
+// A direction yet without its balance of the load: what is stored of M r, a smooth field, and what is kept of
+// the direction before.
 struct Along {
-  const double *values, *smooth;
+  const float *values, *before;
+  const double* smooth;
+  double kept;
 
   template <class Value>
   void read(std::size_t k, Value& to) const {
-    Value more;
+    Value more, old;
     lane_terms::read(values + k, to);
     lane_terms::read(smooth + k, more);
-    to += more;
+    lane_terms::read(before + k, old);
+    to += more + kept * old;
   }
 };
 
@@ -66,7 +70,7 @@ class Descent {
   ContactQuality quality();
   // What the pressures lack of feasible ones: each settled, those of the elastic interior shifted to the
   // load.
-  void project(const ContactQuality& at, Array<double>& target);
+  void project(const ContactQuality& at, std::span<double> target);
   std::optional<double> shift_to_load(const ContactQuality& at) const;
   // Feasible pressures and their gap.
   void renew(const ContactQuality& at) {
@@ -76,12 +80,14 @@ class Descent {
     balance_ = std::numeric_limits<double>::quiet_NaN();
   }
   double residual_norm() const;
+  float* new_direction();
   double turn();
   // visit(begin, end, along) for parts of a stretch of a row, along.read(k, …) giving the direction at node k
   // of the free set, but for its surplus.
   template <class Visit>
   void stretch_direction(std::size_t begin, std::size_t end, const Visit& visit) const;
   void settle_step(const ContactQuality& at);
+  void take_step();
   bool descend(int steps);
 
   ContactLevel& level_;
@@ -96,7 +102,8 @@ class Descent {
   double mean_gap_ = 0;  // of the balancing nodes
   double surplus_ = 0;   // of load in `direction`, a balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
-  double untaken_ = 0;  // length along `direction` that the pressures and gaps have yet to go
+  double kept_ = 0;         // of the direction before, in the present one
+  PressureStep untaken_{};  // that the pressures and gaps have yet to go
   bool fresh_ = false;
   bool have_direction_ = false;
   double direction_rz_ = 0;
@@ -106,15 +113,15 @@ class Descent {
 // Takes the last step on the way.
 template <class Limit>
 ContactQuality Descent<Limit>::quality() {
-  const PressureStep step{untaken_, f_.direction.data(), f_.image.data()};
-  untaken_ = 0;
+  const PressureStep step = untaken_;
+  untaken_ = {};
   return contact_quality(level_, f_.pressure, f_.gap, step, balance_);
 }
 
 // target = the settled pressures, those of the elastic interior shifted to the load; where it cannot carry
 // the load all nodes move, in the order of their gaps.
 template <class Limit>
-void Descent<Limit>::project(const ContactQuality& at, Array<double>& target) {
+void Descent<Limit>::project(const ContactQuality& at, std::span<double> target) {
   const double upper = limit_.upper();
   const bool any_interior = at.interior > 0;
   for_nodes(nodes(), [n = view(), to = target.data(), any_interior](std::size_t k) {
@@ -157,18 +164,34 @@ double Descent<Limit>::residual_norm() const {
   return std::sqrt(squares[0]);
 }
 
+// A place for a direction, that of the one before the last; a step along that is taken first.
+template <class Limit>
+float* Descent<Limit>::new_direction() {
+  PressureStep::Along &last = untaken_.along[0], &oldest = untaken_.along[1];
+  if (oldest.length != 0)
+    for_lanes(nodes(), [oldest, p = f_.pressure.data()]<class Value>(std::size_t k) {
+      Value pressure, change;
+      lane_terms::read(p + k, pressure);
+      lane_terms::read(oldest.direction + k, change);
+      pressure += oldest.length * change;
+      lane_terms::put(pressure, p + k);
+    });
+  f_.directions[1].resize(nodes());
+  std::swap(f_.directions[0], f_.directions[1]);
+  float* const direction = f_.directions[0].data();
+  oldest = last.length != 0 ? last : PressureStep::Along{0, direction};
+  last = {0, direction};
+  return direction;
+}
+
 // The direction becomes M r, r what the gaps of the free nodes lack of their mean, kept conjugate to the one
 // before if there is one. Returns r·(M r with the load kept).
 template <class Limit>
 double Descent<Limit>::turn() {
   const double shrink = 1 / level_.pressure_unit();
-  // r carries no load, so that r·(M r) is the same whether or not M r does.
-  double rz = 0;
-  const auto keep = [&] {
-    rz *= shrink;
-    return have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
-  };
-  double load = 0;
+  float* const direction = new_direction();
+  // r carries no load, so that r·(M r) is the same whether or not M r does; nor does the direction before.
+  double rz = 0, load = 0;
   if constexpr (Limit::hardens) {
     work_.resize(nodes());
     for_marked_nodes(f_.free, [n = view(), to = work_.data(), mean = mean_gap_](std::size_t k) {
@@ -176,37 +199,27 @@ double Descent<Limit>::turn() {
       to[k] = n.moves(k) ? all : 0.0;
     });
     preconditioner_.apply(f_.free, work_);
-    rz = over_marked_nodes<1>(f_.free,
-                              [n = view(), z = work_.data(), mean = mean_gap_](std::size_t k, double* v) {
-                                const double all = z[k] * (mean - n.total_gap(k));
-                                v[0] = n.moves(k) ? all : 0.0;
-                              })[0];
-    const double kept = keep();
-    load = over_marked_nodes<1>(
-        f_.free, [=, n = view(), z = work_.data(), d = f_.direction.data()](std::size_t k, double* v) {
-          const double all = z[k] * shrink + (kept != 0 ? kept * d[k] : 0.0);
-          d[k] = all;
-          v[0] = n.moves(k) ? all : 0.0;
-        })[0];
+    const auto sums = over_nodes<2>(nodes(), [n = view(), z = work_.data(), d = direction, shrink,
+                                              mean = mean_gap_](std::size_t k, double* v) {
+      const double all = z[k] * (mean - n.total_gap(k)), along = z[k] * shrink;
+      d[k] = static_cast<float>(along);
+      v[0] = n.moves(k) ? all : 0.0;
+      v[1] = n.moves(k) ? along : 0.0;
+    });
+    rz = sums[0];
+    load = sums[1];
   } else {
     rz = level_.preconditioner.spread({f_.gap.data(), -1, mean_gap_});
-    const double kept = keep();
     Array<std::array<double, 1>> parts(level_.preconditioner.tiles());
     const auto put = [&](std::size_t tile, std::size_t first, std::size_t n, const float* values,
                          double factor) {
-      if (!values) return;
       const auto part =
           over_lanes_of_stretch<1>(first, first + n,
-                                   [=, z = values - first, d = f_.direction.data(),
-                                    times = factor * shrink]<class Value>(std::size_t k, Value* v) {
-                                     Value value;
-                                     lane_terms::read(z + k, value);
+                                   [z = values - first, d = direction, times = factor * shrink,
+                                    any = values != nullptr]<class Value>(std::size_t k, Value* v) {
+                                     Value value = {};
+                                     if (any) lane_terms::read(z + k, value);
                                      value *= times;
-                                     if (kept != 0) {
-                                       Value old;
-                                       lane_terms::read(d + k, old);
-                                       value += kept * old;
-                                     }
                                      lane_terms::put(value, d + k);
                                      v[0] = value;  // 0 off the free set
                                    });
@@ -216,6 +229,8 @@ double Descent<Limit>::turn() {
     level_.preconditioner.gather(put);
     load = added_up(parts)[0] + level_.preconditioner.smooth_sum() * shrink;
   }
+  rz *= shrink;
+  kept_ = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
   surplus_ = load / set_.balancing_count();
   direction_rz_ = rz;
   return rz;
@@ -226,11 +241,13 @@ template <class Visit>
 void Descent<Limit>::stretch_direction(std::size_t begin, std::size_t end, const Visit& visit) const {
   constexpr std::size_t part = 256;
   std::array<double, part> smooth{};
+  const float *const direction = f_.directions[0].data(), *const before = kept_ != 0 ? f_.directions[1].data()
+                                                                                     : direction;
   for (std::size_t k = begin; k < end; k += part) {
     const std::size_t n = std::min(part, end - k);
     if constexpr (!Limit::hardens)
       level_.preconditioner.smooth(k, n, 1 / level_.pressure_unit(), smooth.data());
-    visit(k, k + n, Along{f_.direction.data(), smooth.data() - k});
+    visit(k, k + n, Along{direction, before, smooth.data() - k, kept_});
   }
 }
 
@@ -327,7 +344,7 @@ bool Descent<Limit>::descend(int steps) {
       stretch_direction(begin, begin + nx, [&](std::size_t from, std::size_t end, const Along& along) {
         for_lanes_of_stretch(from, end,
                              [along, balancing, surplus = surplus_, marks = f_.free.data(),
-                              d = f_.direction.data(), to = row - begin]<class Value>(std::size_t k) {
+                              d = f_.directions[0].data(), to = row - begin]<class Value>(std::size_t k) {
                                Value value, mark;
                                along.read(k, value);
                                lane_terms::read(marks + k, mark);
@@ -335,7 +352,8 @@ bool Descent<Limit>::descend(int steps) {
                                const Value balanced = mark == at ? value - surplus : value;
                                const Value next = mark > none ? balanced : none;
                                lane_terms::put(next, d + k);
-                               lane_terms::put(next, to + k);
+                               lane_terms::read(d + k, value);
+                               lane_terms::put(value, to + k);
                              });
       });
       return row;
@@ -344,7 +362,7 @@ bool Descent<Limit>::descend(int steps) {
     const auto sink = [&](int j, const double* image) {
       const std::size_t begin = static_cast<std::size_t>(j) * nx;
       rows[static_cast<std::size_t>(j)] = weigh_image(view(), begin, begin + nx, balancing, mean_gap_,
-                                                      f_.direction.data(), image, f_.image.data());
+                                                      f_.directions[0].data(), image, f_.image.data());
     };
     level_.apply(source, sink, {});
     const auto sums = added_up(rows);
@@ -355,17 +373,38 @@ bool Descent<Limit>::descend(int steps) {
     // r·M r is known to single precision only, unless it was summed up.
     const double length = (Limit::hardens ? rz : sums[2]) / sums[0];
     mean_gap_ += length * (sums[1] / set_.balancing_count());
-    if (++steps == steps_a_pass_) {
-      untaken_ = length;  // until the pressures and gaps are read again
-    } else {
-      for_lanes(nodes(), [step = PressureStep{length, f_.direction.data(), f_.image.data()},
-                          p = f_.pressure.data(), g = f_.gap.data()]<class Value>(std::size_t k) {
-        Value pressure, gap;
-        step.take(k, p, g, pressure, gap);
-      });
-    }
+    untaken_.along[0].length = length;
+    untaken_.gap_length = length;
+    untaken_.image = f_.image.data();
+    // The last step waits until pressures and gaps are read again, and so do pressures that no one reads yet.
+    if (++steps < steps_a_pass_) take_step();
   }
   return steps > 0;
+}
+
+// Of the gaps, and of what else decides how they go on.
+template <class Limit>
+void Descent<Limit>::take_step() {
+  const auto take = [&](const PressureStep& step) {
+    for_lanes(nodes(), [step, p = f_.pressure.data(), g = f_.gap.data()]<class Value>(std::size_t k) {
+      Value pressure, gap;
+      step.take(k, p, g, pressure, gap);
+    });
+  };
+  if constexpr (Limit::hardens) {
+    take(untaken_);
+    untaken_ = {};
+  } else {
+    for_lanes(nodes(), [length = untaken_.gap_length, image = f_.image.data(),
+                        g = f_.gap.data()]<class Value>(std::size_t k) {
+      Value gap, change;
+      lane_terms::read(g + k, gap);
+      lane_terms::read(image + k, change);
+      gap += length * change;
+      lane_terms::put(gap, g + k);
+    });
+    untaken_.gap_length = 0;
+  }
 }
 
 template <class Limit>
