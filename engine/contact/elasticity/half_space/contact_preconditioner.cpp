@@ -38,7 +38,7 @@ class ContactPreconditioner::Parts {
   void set_free(std::span<const std::uint8_t> free);
   double spread(const Residual& r);
   void gather(const Keep& keep);
-  void smooth(std::size_t first, std::size_t n, double factor, double* values) const;
+  SmoothRow<double> smooth(int j, double factor) const { return rest_.row(j, factor * grow_); }
   double smooth_sum() const { return grow_ * rest_sum_; }
   void add_smooth(std::span<double> z) const;
   std::size_t tiles() const { return tiles_.count(); }
@@ -48,9 +48,8 @@ class ContactPreconditioner::Parts {
   // A tile with its margin, laid out as FreeTiles has it.
   struct Patch {
     Array<float> given, now;
-    Array<float> row;  // of it
     float sums[2 * tile_width];
-    Patch(std::size_t places, std::size_t width) : given(places), now(places), row(width) {}
+    explicit Patch(std::size_t places) : given(places), now(places) {}
   };
   // Sums over the hats: of the free nodes, and of what is passed on.
   struct Hats {
@@ -59,8 +58,7 @@ class ContactPreconditioner::Parts {
 
   std::size_t node(int i, int j) const { return tiles_.node(i, j); }
   ScratchPool<Patch>::Loan borrow() {
-    return patches_.borrow(
-        [this] { return std::make_unique<Patch>(tiles_.patch_places(), tiles_.patch_width()); });
+    return patches_.borrow([this] { return std::make_unique<Patch>(tiles_.patch_places()); });
   }
   template <class Put>
   void load(Patch& patch, const FreeTile& tile, const Put& put) const;
@@ -69,19 +67,19 @@ class ContactPreconditioner::Parts {
   double greatest(const Residual& r) const;
   template <class Add>
   void add_up_hats(const Add& add, Array<double>& total);
-  template <class Real>
-  void divide(const Array<double>& sums, Array<Real>& field) const;
+  // From the sums over hats to values at their points.
+  void divide(Array<double>& sums) const;
 
   int nx_, ny_;
   float share_;  // of a neighbour in the mean of them
   HalfOrderPyramid pyramid_;
   SmoothExtension smooth_;
-  Array<double> free_hats_, sums_;  // sums of hats over the free set, and of what is passed on
-  Array<float> level_;              // of the residual, at the hats' points,
-  Array<double> rest_;              // and of what is gathered
-  double rest_sum_ = 0;             // of the field of rest_ over the free set
-  std::span<const float> spread_;   // B Ext r/grow_; empty where r is 0
-  double grow_ = 1;                 // a power of two
+  Array<double> free_hats_, sums_;       // sums of hats over the free set, and of what is passed on
+  SmoothExtension::Field<float> level_;  // of the residual,
+  SmoothExtension::Field<double> rest_;  // and of what is gathered
+  double rest_sum_ = 0;                  // of the field of rest_ over the free set
+  std::span<const float> spread_;        // B Ext r/grow_; empty where r is 0
+  double grow_ = 1;                      // a power of two
   FreeTiles tiles_;
   std::vector<Hats> hats_;  // of each tile
   ScratchPool<Patch> patches_;
@@ -96,8 +94,8 @@ ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boun
       smooth_(nx, ny, boundary),
       free_hats_(smooth_.size()),
       sums_(smooth_.size()),
-      level_(smooth_.size()),
-      rest_(smooth_.size()),
+      level_(smooth_),
+      rest_(smooth_),
       tiles_(nx, ny, boundary, sweeps) {
   for (std::size_t k = 0; k < tiles_.count(); ++k) {
     const FreeTile& tile = tiles_[k];
@@ -130,7 +128,8 @@ void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) 
     std::array<double, 2 * tile_width> sums;
     hats.clear();
     for (int j = tile.y; j < tile.y + tile.height && tile.holds_free; ++j)
-      hats.add<std::uint8_t, double>(j, tiles_.marks(node(tile.x, j)), sums);
+      add_marks(tiles_.marks(node(tile.x, j)), static_cast<std::size_t>(tile.width),
+                hats.row<double>(j, sums));
     hats.finish<double>(sums);
   });
   std::fill(free_hats_.begin(), free_hats_.end(), 0.0);
@@ -152,10 +151,8 @@ void ContactPreconditioner::Parts::add_up_hats(const Add& add, Array<double>& to
   for (const Hats& hats : hats_) hats.passed.add_to(total);
 }
 
-template <class Real>
-void ContactPreconditioner::Parts::divide(const Array<double>& sums, Array<Real>& field) const {
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    field[k] = static_cast<Real>(sums[k] / smooth_.divisor(k, free_hats_[k]));
+void ContactPreconditioner::Parts::divide(Array<double>& sums) const {
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= smooth_.divisor(k, free_hats_[k]);
 }
 
 void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& r) {
@@ -170,15 +167,14 @@ void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& 
   }
   if (!tile.reaches_free) {
     for (int j = tile.y; j < tile.y + tile.height; ++j)
-      smooth_.row<float>(level_, j, tile.x, tile.width, 1, extended + node(tile.x, j));
+      fill(level_.row(j).from(static_cast<std::size_t>(tile.x)), width, extended + node(tile.x, j));
     return;
   }
   const auto patch = borrow();
   const auto nx = static_cast<std::size_t>(nx_);
   load(*patch, tile, [&](std::size_t row, std::size_t column, std::size_t from, std::size_t length) {
-    smooth_.row<float>(level_, static_cast<int>(from / nx), static_cast<int>(from % nx),
-                       static_cast<int>(length), 1, patch->row.data());
-    start_free(tiles_.marks(from), r.values + from, r.factor, r.offset, patch->row.data(), length, column,
+    start_free(tiles_.marks(from), r.values + from, r.factor, r.offset,
+               level_.row(static_cast<int>(from / nx)).from(from % nx), length, column,
                static_cast<std::size_t>(tiles_.half()), patch->now.data() + row);
   });
   // Nothing is farther from the free set than there have been sweeps.
@@ -186,8 +182,8 @@ void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& 
     for (const int odd : {0, 1})
       sweep_groups(tile.groups[s % 2][odd].within(s), odd != 0, tiles_.half(), share_, patch->now.data());
   for (int j = 0; j < tile.height; ++j) {
-    smooth_.row<float>(level_, tile.y + j, tile.x, tile.width, 1, patch->row.data());
-    merge(patch->now.data() + tiles_.core_row(j), tiles_.half(), patch->row.data(), width,
+    merge(patch->now.data() + tiles_.core_row(j), tiles_.half(),
+          level_.row(tile.y + j).from(static_cast<std::size_t>(tile.x)), width,
           extended + node(tile.x, tile.y + j));
   }
 }
@@ -202,7 +198,7 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
   if (!tile.holds_free) {
     for (int j = tile.y; j < tile.y + tile.height; ++j) {
       const std::size_t k = node(tile.x, j);
-      hats.add<float, float>(j, y.data() + k, patch.sums);
+      add_values(y.data() + k, width, hats.row<float>(j, patch.sums));
       keep(number, k, width, nullptr, 0);
     }
     return;
@@ -227,8 +223,7 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
     } else {
       std::copy_n(y.data() + k, width, sum);
     }
-    subtract(y.data() + k, sum, width, patch.row.data());
-    hats.add<float, float>(tile.y + j, patch.row.data(), patch.sums);
+    add_difference(y.data() + k, sum, width, hats.row<float>(tile.y + j, patch.sums));
     keep(number, k, width, sum, grow_);
   }
 }
@@ -266,13 +261,13 @@ double ContactPreconditioner::Parts::spread(const Residual& r) {
     const auto width = static_cast<std::size_t>(tile.width);
     for (int j = tile.y; j < tile.y + tile.height && tile.holds_free; ++j) {
       const std::size_t k = node(tile.x, j);
-      convert(near_one.values + k, near_one.factor, near_one.offset, width, patch.row.data());
-      keep_free(tiles_.marks(k), width, patch.row.data());
-      hats.add<float, float>(j, patch.row.data(), patch.sums);
+      add_residual(tiles_.marks(k), near_one.values + k, near_one.factor, near_one.offset, width,
+                   hats.row<float>(j, patch.sums));
     }
   };
   add_up_hats(pass_on_residual, sums_);
-  divide(sums_, level_);
+  divide(sums_);
+  level_.set(sums_);
   parallel_for(static_cast<std::int64_t>(tiles_.count()),
                [&](std::int64_t k) { extend(tiles_[static_cast<std::size_t>(k)], near_one); });
   spread_ = pyramid_.apply();
@@ -283,34 +278,24 @@ double ContactPreconditioner::Parts::spread(const Residual& r) {
 void ContactPreconditioner::Parts::gather(const Keep& keep) {
   if (spread_.empty()) {
     for (int j = 0; j < ny_; ++j) keep(0, node(0, j), static_cast<std::size_t>(nx_), nullptr, 0);
-    std::fill(rest_.begin(), rest_.end(), 0.0);
+    std::fill(sums_.begin(), sums_.end(), 0.0);
+    rest_.set(sums_);
     rest_sum_ = 0;
     return;
   }
   // With Ext = L (1 − C) + C, L being the sweeps and C the smooth field, Extᵀ y = Lᵀ y + Cᵀ (y − Lᵀ y).
   add_up_hats([&](std::size_t number, Patch& patch) { gather_back(number, patch, spread_, keep); }, sums_);
-  divide(sums_, rest_);
+  divide(sums_);
+  rest_.set(sums_);
   rest_sum_ = 0;
-  for (std::size_t k = 0; k < rest_.size(); ++k) rest_sum_ += rest_[k] * free_hats_[k];
-}
-
-void ContactPreconditioner::Parts::smooth(std::size_t first, std::size_t n, double factor,
-                                          double* values) const {
-  const auto nx = static_cast<std::size_t>(nx_);
-  smooth_.row<double>(rest_, static_cast<int>(first / nx), static_cast<int>(first % nx), static_cast<int>(n),
-                      factor * grow_, values);
+  for (std::size_t k = 0; k < sums_.size(); ++k) rest_sum_ += sums_[k] * free_hats_[k];
 }
 
 void ContactPreconditioner::Parts::add_smooth(std::span<double> z) const {
-  const auto nx = static_cast<std::size_t>(nx_);
   parallel_for(ny_, [&](std::int64_t j) {
-    double values[tile_width];
     const std::size_t begin = node(0, static_cast<int>(j));
-    for (std::size_t at = 0; at < nx; at += tile_width) {
-      const std::size_t n = std::min<std::size_t>(tile_width, nx - at);
-      smooth(begin + at, n, 1, values);
-      add_free(tiles_.marks(begin + at), values, n, z.data() + begin + at);
-    }
+    add_free(tiles_.marks(begin), smooth(static_cast<int>(j), 1), static_cast<std::size_t>(nx_),
+             z.data() + begin);
   });
 }
 
@@ -338,8 +323,8 @@ void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z
 }
 
 double ContactPreconditioner::spread(const Residual& r) { return parts_->spread(r); }
-void ContactPreconditioner::smooth(std::size_t first, std::size_t n, double factor, double* values) const {
-  parts_->smooth(first, n, factor, values);
+SmoothRow<double> ContactPreconditioner::smooth(int j, double factor) const {
+  return parts_->smooth(j, factor);
 }
 double ContactPreconditioner::smooth_sum() const { return parts_->smooth_sum(); }
 void ContactPreconditioner::gather(const Keep& keep) { parts_->gather(keep); }

@@ -15,6 +15,7 @@
 #include <span>
 
 #include "engine/contact/boundary.hpp"
+#include "engine/contact/elasticity/half_space/smooth_extension.hpp"
 
 namespace asperity {
 
@@ -47,9 +48,8 @@ class ContactPreconditioner {
   using Keep = std::function<void(std::size_t tile, std::size_t first, std::size_t n, const float* values,
                                   double factor)>;
   void gather(const Keep& keep);
-  // … And then that field, to be added on the free set: `factor` times its values at n nodes from the node
-  // `first`, in one row, …
-  void smooth(std::size_t first, std::size_t n, double factor, double* values) const;
+  // … And then that field, to be added on the free set: `factor` times its row j, …
+  SmoothRow<double> smooth(int j, double factor) const;
   // … and its sum over the free set, to the last digits.
   double smooth_sum() const;
   std::size_t tiles() const;

@@ -173,13 +173,19 @@ ContactQuality contact_quality(const ContactLevel& level, std::span<const double
                     level.limit);
 }
 
+template <class Stored>
 ContactQuality contact_quality(const ContactLevel& level, std::span<double> p, std::span<double> g,
-                               const PressureStep& step, double balance) {
+                               const PressureStep<Stored>& step, double balance) {
   if (step.none()) return contact_quality(level, p, g, balance);
   const auto take = [p = p.data(), g = g.data(), step]<class Value>(
                         std::size_t k, Value& pressure, Value& gap) { step.take(k, p, g, pressure, gap); };
   return std::visit([&](const auto& limit) { return measure(level, limit, p, g, balance, take); },
                     level.limit);
 }
+
+template ContactQuality contact_quality(const ContactLevel&, std::span<double>, std::span<double>,
+                                        const PressureStep<float>&, double);
+template ContactQuality contact_quality(const ContactLevel&, std::span<double>, std::span<double>,
+                                        const PressureStep<double>&, double);
 
 }  // namespace asperity

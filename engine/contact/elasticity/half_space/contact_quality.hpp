@@ -26,10 +26,11 @@ struct ContactQuality {
 };
 
 // Steps still to be taken: p += Σ length · direction, g += gap_length · image.
+template <class Stored>
 struct PressureStep {
   struct Along {
     double length = 0;
-    const float* direction = nullptr;
+    const Stored* direction = nullptr;
   };
   Along along[2];  // null only where both are
   double gap_length = 0;
@@ -58,7 +59,8 @@ ContactQuality contact_quality(const ContactLevel& level, std::span<const double
                                double balance = std::numeric_limits<double>::quiet_NaN());
 
 // The same after steps, which the pass takes on its way.
+template <class Stored>
 ContactQuality contact_quality(const ContactLevel& level, std::span<double> p, std::span<double> g,
-                               const PressureStep& step, double balance);
+                               const PressureStep<Stored>& step, double balance);
 
 }  // namespace asperity

@@ -14,12 +14,9 @@ struct DescentFields {
   explicit DescentFields(std::size_t nodes)
       : pressure(nodes), gap(nodes), image(nodes), free(nodes), old_free(nodes) {}
 
-  Array<double> pressure;  // p: feasible between stages
-  Array<double> gap;       // K p − h
-  // That pressures move along, and the one before: any rounding of them is as good, since pressures and gaps
-  // go by what has been rounded.
-  UnsetArray<float> directions[2];
-  UnsetArray<double> image;             // what K makes of the direction, times a power of two
+  Array<double> pressure;               // p: feasible between stages
+  Array<double> gap;                    // K p − h
+  UnsetArray<double> image;             // what K makes of a direction, times a power of two
   Array<double> old_pressure, old_gap;  // of the pass before; made when first needed
   Array<std::uint8_t> free, old_free;   // nodes the present pass may move
 };

@@ -73,10 +73,10 @@ std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t b
 // Of a stretch of nodes from `begin`, `image` being what K makes of `direction` there, kept in `to`: the sum
 // of their products, that of the image with the opening of ground that yields over those that balance the
 // load, and, of ground that does not harden, that of the direction with what gaps lack of `mean`.
-template <class Limit>
+template <class Limit, class Stored>
 std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
-                                  Freedom balancing, double mean, const float* direction, const double* image,
-                                  double* to) {
+                                  Freedom balancing, double mean, const Stored* direction,
+                                  const double* image, double* to) {
   const double* const from = image - begin;
   return over_lanes_of_stretch<3>(begin, end, [=, n = nodes]<class Value>(std::size_t k, Value* v) {
     Value d, value, mark;

@@ -18,6 +18,8 @@ typedef std::uint32_t EightWords __attribute__((vector_size(32)));
 // reference.
 typedef float EightAnywhere __attribute__((vector_size(32), aligned(4), may_alias));
 typedef double EightDoublesAnywhere __attribute__((vector_size(64), aligned(8), may_alias));
+typedef std::uint8_t EightBytes __attribute__((vector_size(8), aligned(1), may_alias));
+typedef std::uint16_t EightShorts __attribute__((vector_size(16)));
 typedef std::uint16_t EightPairs __attribute__((vector_size(16), aligned(1), may_alias));
 
 // Vectors are passed and returned by reference or pointer alone.
@@ -41,6 +43,12 @@ inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes,
   odd = __builtin_convertvector(little ? high : low, EightMarks);
 }
 
+// Not 0 where one of eight bytes is not; in steps that are single instructions.
+inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, EightMarks& marks) {
+  const EightShorts words = __builtin_convertvector(*reinterpret_cast<const EightBytes*>(bytes), EightShorts);
+  marks = __builtin_convertvector(words, EightMarks);
+}
+
 inline __attribute__((always_inline)) void take_apart(const Eight& low, const Eight& high, Eight& even,
                                                       Eight& odd) {
   even = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
@@ -50,6 +58,13 @@ inline __attribute__((always_inline)) void take_apart(const Eight& low, const Ei
 inline __attribute__((always_inline)) void merge(const Eight& even, const Eight& odd, float* to) {
   *eight(to) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
   *eight(to + group) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+
+inline __attribute__((always_inline)) void eight_of(const SmoothRow<float>& row, std::size_t k, Eight& to) {
+  to = row.low_share * *eight(row.low + k) + row.high_share * *eight(row.high + k);
+}
+inline float at(const SmoothRow<float>& row, std::size_t k) {
+  return row.low_share * row.low[k] + row.high_share * row.high[k];
 }
 
 }  // namespace
@@ -113,36 +128,90 @@ void convert(const float* __restrict from, double scale, std::size_t n, double* 
   for (std::size_t k = 0; k < n; ++k) to[k] = static_cast<double>(from[k]) * scale;
 }
 
-void add_free(const std::uint8_t* __restrict free, const double* __restrict from, std::size_t n,
+void add_free(const std::uint8_t* __restrict free, const SmoothRow<double>& from, std::size_t n,
               double* __restrict to) {
-  for (std::size_t k = 0; k < n; ++k) to[k] += free[k] != 0 ? from[k] : 0.0;
+  const SmoothRow<double> row = from;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double value = row.low_share * row.low[k] + row.high_share * row.high[k];
+    to[k] += free[k] != 0 ? value : 0.0;
+  }
 }
 
-void subtract(const float* __restrict a, const float* __restrict b, std::size_t n, float* __restrict to) {
-  for (std::size_t k = 0; k < n; ++k) to[k] = a[k] - b[k];
+void fill(const SmoothRow<float>& from, std::size_t n, float* __restrict to) {
+  const SmoothRow<float> row = from;
+  for (std::size_t k = 0; k < n; ++k) to[k] = row.low_share * row.low[k] + row.high_share * row.high[k];
 }
 
-void keep_free(const std::uint8_t* __restrict free, std::size_t n, float* __restrict values) {
-  for (std::size_t k = 0; k < n; ++k) values[k] = free[k] != 0 ? values[k] : 0.0f;
+void add_marks(const std::uint8_t* __restrict free, std::size_t n,
+               const SmoothExtension::Sums::Row<double>& to) {
+  double* __restrict low = to.low, * __restrict high = to.high;
+  const double low_share = to.low_share, high_share = to.high_share;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double value = free[k];
+    low[k] += low_share * value;
+    high[k] += high_share * value;
+  }
+}
+
+void add_residual(const std::uint8_t* free, const double* values, double slope, double offset, std::size_t n,
+                  const SmoothExtension::Sums::Row<float>& sums) {
+  const SmoothExtension::Sums::Row<float> to = sums;
+  std::size_t k = 0;
+  for (; k + group <= n; k += group) {
+    const Eight all = __builtin_convertvector(offset + slope * *eight(values + k), Eight), none = {};
+    EightMarks marks;
+    read_marks(free + k, marks);
+    const Eight value = marks != 0 ? all : none;
+    *eight(to.low + k) += to.low_share * value;
+    *eight(to.high + k) += to.high_share * value;
+  }
+  for (; k < n; ++k) {
+    const float value = free[k] != 0 ? static_cast<float>(offset + slope * values[k]) : 0.0f;
+    to.low[k] += to.low_share * value;
+    to.high[k] += to.high_share * value;
+  }
+}
+
+void add_difference(const float* __restrict a, const float* __restrict b, std::size_t n,
+                    const SmoothExtension::Sums::Row<float>& to) {
+  float* __restrict low = to.low, * __restrict high = to.high;
+  const float low_share = to.low_share, high_share = to.high_share;
+  for (std::size_t k = 0; k < n; ++k) {
+    const float value = a[k] - b[k];
+    low[k] += low_share * value;
+    high[k] += high_share * value;
+  }
+}
+
+void add_values(const float* __restrict values, std::size_t n, const SmoothExtension::Sums::Row<float>& to) {
+  float* __restrict low = to.low, * __restrict high = to.high;
+  const float low_share = to.low_share, high_share = to.high_share;
+  for (std::size_t k = 0; k < n; ++k) {
+    low[k] += low_share * values[k];
+    high[k] += high_share * values[k];
+  }
 }
 
 // Where column p of a row is.
 inline std::size_t split(std::size_t column, std::size_t half) { return column % 2 * half + column / 2; }
 
 void start_free(const std::uint8_t* __restrict free, const double* __restrict values, double slope,
-                double offset, const float* __restrict less, std::size_t n, std::size_t place,
+                double offset, const SmoothRow<float>& smooth, std::size_t n, std::size_t place,
                 std::size_t half, float* __restrict now) {
+  const SmoothRow<float> less = smooth;
   std::size_t k = 0;
   const auto one = [&] {
     now[split(place + k, half)] =
-        free[k] != 0 ? static_cast<float>(offset + slope * values[k]) - less[k] : 0.0f;
+        free[k] != 0 ? static_cast<float>(offset + slope * values[k]) - at(less, k) : 0.0f;
     ++k;
   };
   while (k < n && (place + k) % columns != 0) one();
   for (; k + columns <= n; k += columns) {
-    const Eight low = __builtin_convertvector(offset + slope * *eight(values + k), Eight) - *eight(less + k);
-    const Eight high = __builtin_convertvector(offset + slope * *eight(values + k + group), Eight) -
-                       *eight(less + k + group);
+    Eight low, high;
+    eight_of(less, k, low);
+    eight_of(less, k + group, high);
+    low = __builtin_convertvector(offset + slope * *eight(values + k), Eight) - low;
+    high = __builtin_convertvector(offset + slope * *eight(values + k + group), Eight) - high;
     Eight even, odd;
     take_apart(low, high, even, odd);
     EightMarks free_even, free_odd;
@@ -242,17 +311,21 @@ void sweep_back_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t h
       : sweep_back<false>(groups, half, share, given, now);
 }
 
-void merge(const float* __restrict row, std::ptrdiff_t half, const float* __restrict more, std::size_t n,
+void merge(const float* __restrict row, std::ptrdiff_t half, const SmoothRow<float>& smooth, std::size_t n,
            float* __restrict to) {
+  const SmoothRow<float> more = smooth;
   std::size_t k = 0;
   for (; k + columns <= n; k += columns) {
     const Eight even = *eight(row + k / 2), odd = *eight(row + half + k / 2);
     Eight low = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
     Eight high = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
-    *eight(to + k) = low + *eight(more + k);
-    *eight(to + k + group) = high + *eight(more + k + group);
+    Eight smooth_low, smooth_high;
+    eight_of(more, k, smooth_low);
+    eight_of(more, k + group, smooth_high);
+    *eight(to + k) = low + smooth_low;
+    *eight(to + k + group) = high + smooth_high;
   }
-  for (; k < n; ++k) to[k] = row[split(k, static_cast<std::size_t>(half))] + more[k];
+  for (; k < n; ++k) to[k] = row[split(k, static_cast<std::size_t>(half))] + at(more, k);
 }
 
 void add_neighbours(const std::uint8_t* __restrict free, const float* __restrict values,

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/contact/elasticity/half_space/smooth_extension.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity::edge_rows {
@@ -32,17 +33,23 @@ void widen(Array<std::uint64_t>& field, int rows, std::size_t row_words, Array<s
 // to = offset + factor · from.
 void convert(const double* from, double factor, double offset, std::size_t n, float* to);
 void convert(const float* from, double scale, std::size_t n, double* to);
-// to += from where free.
-void add_free(const std::uint8_t* free, const double* from, std::size_t n, double* to);
-// to = a − b.
-void subtract(const float* a, const float* b, std::size_t n, float* to);
-// values where free, else 0.
-void keep_free(const std::uint8_t* free, std::size_t n, float* values);
+// to += the smooth row where free.
+void add_free(const std::uint8_t* free, const SmoothRow<double>& from, std::size_t n, double* to);
+// to = the smooth row.
+void fill(const SmoothRow<float>& from, std::size_t n, float* to);
+
+// What sums over hats take of a row: marks; offset + slope · values where free; a − b.
+void add_marks(const std::uint8_t* free, std::size_t n, const SmoothExtension::Sums::Row<double>& to);
+void add_residual(const std::uint8_t* free, const double* values, double slope, double offset, std::size_t n,
+                  const SmoothExtension::Sums::Row<float>& to);
+void add_difference(const float* a, const float* b, std::size_t n,
+                    const SmoothExtension::Sums::Row<float>& to);
+void add_values(const float* values, std::size_t n, const SmoothExtension::Sums::Row<float>& to);
 
 // What sweeps over a row of a patch start from, columns `place` and on of it: offset + slope · values − less
 // on the free set, else 0, as now, …
 void start_free(const std::uint8_t* free, const double* values, double slope, double offset,
-                const float* less, std::size_t n, std::size_t place, std::size_t half, float* now);
+                const SmoothRow<float>& less, std::size_t n, std::size_t place, std::size_t half, float* now);
 // … or the values as given and 0 as now.
 void start_bound(const float* values, std::size_t n, std::size_t place, std::size_t half, float* given,
                  float* now);
@@ -61,7 +68,7 @@ void sweep_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t half, 
 void sweep_back_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t half, float share,
                        const float* given, float* now);
 // The columns of a row of a patch in their order again, and `more` added.
-void merge(const float* row, std::ptrdiff_t half, const float* more, std::size_t n, float* to);
+void merge(const float* row, std::ptrdiff_t half, const SmoothRow<float>& more, std::size_t n, float* to);
 // to = values + the four neighbours of the columns of a row where free, else 0.
 void add_neighbours(const std::uint8_t* free, const float* values, const float* row, std::ptrdiff_t half,
                     std::size_t n, float* to);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/contact_quality.hpp"
@@ -20,6 +21,9 @@ namespace {
 // that of settling also carries a fixed step of the preconditioner.
 constexpr int steps_a_pass = 3, steps_of_dear_pass = 2;
 constexpr double richardson_step = 0.65;
+// Directions in single precision are half of what a step reads, and leave what rounding leaves of the last
+// ones within a tolerance like this.
+constexpr double single_enough = 1e-9;
 constexpr double load_slack = 1e-6;       // of the load, that a pass leaves to a later one
 constexpr double enough_reduction = 0.1;  // of the residual's norm within a pass
 constexpr int passes_without_gain = 4;
@@ -29,24 +33,27 @@ constexpr double jump = 10;  // a pass whose residual is so many times the one b
 constexpr int jumps_in_a_cycle = 2;
 constexpr int most_renewals = 50;
 
-// A direction yet without its balance of the load: what is stored of M r, a smooth field, and what is kept of
-// the direction before.
+// A row of a direction yet without its balance of the load: what is stored of M r, what is kept of the
+// direction before, and a smooth field.
+template <class Stored>
 struct Along {
-  const float *values, *before;
-  const double* smooth;
+  const Stored *values, *before;
   double kept;
+  SmoothRow<double> smooth;
 
+  // At node k of the grid, or at as many as a vector has lanes.
   template <class Value>
   void read(std::size_t k, Value& to) const {
-    Value more, old;
+    Value old, low, high;
     lane_terms::read(values + k, to);
-    lane_terms::read(smooth + k, more);
     lane_terms::read(before + k, old);
-    to += more + kept * old;
+    lane_terms::read(smooth.low + k, low);
+    lane_terms::read(smooth.high + k, high);
+    to += kept * old + (smooth.low_share * low + smooth.high_share * high);
   }
 };
 
-template <class Limit>
+template <class Limit, class Stored>
 class Descent {
  public:
   Descent(ContactLevel& level, const Limit& limit, DescentFields& fields, double tolerance, int most)
@@ -57,7 +64,8 @@ class Descent {
         tolerance_(tolerance),
         most_(level.applications + most),
         dear_(Limit::hardens || level.shape.boundary == Boundary::free),
-        steps_a_pass_(dear_ ? steps_of_dear_pass : steps_a_pass) {}
+        steps_a_pass_(dear_ ? steps_of_dear_pass : steps_a_pass),
+        no_field_(Limit::hardens ? static_cast<std::size_t>(level.shape.nx) : 0) {}
 
   StageEnd run();
 
@@ -80,12 +88,10 @@ class Descent {
     balance_ = std::numeric_limits<double>::quiet_NaN();
   }
   double residual_norm() const;
-  float* new_direction();
+  Stored* new_direction();
   double turn();
-  // visit(begin, end, along) for parts of a stretch of a row, along.read(k, …) giving the direction at node k
-  // of the free set, but for its surplus.
-  template <class Visit>
-  void stretch_direction(std::size_t begin, std::size_t end, const Visit& visit) const;
+  // Of row j, on the free set.
+  Along<Stored> along(int j) const;
   void settle_step(const ContactQuality& at);
   void take_step();
   bool descend(int steps);
@@ -99,29 +105,32 @@ class Descent {
   const bool dear_;
   const int steps_a_pass_;
   FreeSet set_;
+  // That pressures move along, and the one before. Any rounding of them is as good, since pressures and gaps
+  // go by what has been rounded.
+  UnsetArray<Stored> directions_[2];
   double mean_gap_ = 0;  // of the balancing nodes
   double surplus_ = 0;   // of load in `direction`, a balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
-  double kept_ = 0;         // of the direction before, in the present one
-  PressureStep untaken_{};  // that the pressures and gaps have yet to go
+  double kept_ = 0;                 // of the direction before, in the present one
+  PressureStep<Stored> untaken_{};  // that the pressures and gaps have yet to go
   bool fresh_ = false;
   bool have_direction_ = false;
   double direction_rz_ = 0;
-  Array<double> work_;  // of ground that hardens
+  Array<double> work_, no_field_;  // of ground that hardens
 };
 
 // Takes the last step on the way.
-template <class Limit>
-ContactQuality Descent<Limit>::quality() {
-  const PressureStep step = untaken_;
+template <class Limit, class Stored>
+ContactQuality Descent<Limit, Stored>::quality() {
+  const PressureStep<Stored> step = untaken_;
   untaken_ = {};
   return contact_quality(level_, f_.pressure, f_.gap, step, balance_);
 }
 
 // target = the settled pressures, those of the elastic interior shifted to the load; where it cannot carry
 // the load all nodes move, in the order of their gaps.
-template <class Limit>
-void Descent<Limit>::project(const ContactQuality& at, std::span<double> target) {
+template <class Limit, class Stored>
+void Descent<Limit, Stored>::project(const ContactQuality& at, std::span<double> target) {
   const double upper = limit_.upper();
   const bool any_interior = at.interior > 0;
   for_nodes(nodes(), [n = view(), to = target.data(), any_interior](std::size_t k) {
@@ -146,16 +155,16 @@ double first_shift(const ContactQuality& at, double load) {
 
 // That shift, but for what it misses of the load, which the next pass makes good. Nothing where that is not
 // small.
-template <class Limit>
-std::optional<double> Descent<Limit>::shift_to_load(const ContactQuality& at) const {
+template <class Limit, class Stored>
+std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality& at) const {
   const double load = level_.total_load(), found = set_.shifted_load;
   if (at.interior == 0 || !(std::abs(found - load) < 0.01 * load) || set_.shifted_count == 0) return {};
   return first_shift(at, load) - (found - load) / set_.shifted_count;
 }
 
 // Of what the gaps of the free nodes lack of their mean.
-template <class Limit>
-double Descent<Limit>::residual_norm() const {
+template <class Limit, class Stored>
+double Descent<Limit, Stored>::residual_norm() const {
   const auto squares =
       over_marked_nodes<1>(f_.free, [n = view(), mean = mean_gap_](std::size_t k, double* v) {
         const double all = mean - n.total_gap(k), r = n.moves(k) ? all : 0.0;
@@ -165,9 +174,9 @@ double Descent<Limit>::residual_norm() const {
 }
 
 // A place for a direction, that of the one before the last; a step along that is taken first.
-template <class Limit>
-float* Descent<Limit>::new_direction() {
-  PressureStep::Along &last = untaken_.along[0], &oldest = untaken_.along[1];
+template <class Limit, class Stored>
+Stored* Descent<Limit, Stored>::new_direction() {
+  typename PressureStep<Stored>::Along &last = untaken_.along[0], &oldest = untaken_.along[1];
   if (oldest.length != 0)
     for_lanes(nodes(), [oldest, p = f_.pressure.data()]<class Value>(std::size_t k) {
       Value pressure, change;
@@ -176,20 +185,20 @@ float* Descent<Limit>::new_direction() {
       pressure += oldest.length * change;
       lane_terms::put(pressure, p + k);
     });
-  f_.directions[1].resize(nodes());
-  std::swap(f_.directions[0], f_.directions[1]);
-  float* const direction = f_.directions[0].data();
-  oldest = last.length != 0 ? last : PressureStep::Along{0, direction};
+  directions_[1].resize(nodes());
+  std::swap(directions_[0], directions_[1]);
+  Stored* const direction = directions_[0].data();
+  oldest = last.length != 0 ? last : typename PressureStep<Stored>::Along{0, direction};
   last = {0, direction};
   return direction;
 }
 
 // The direction becomes M r, r what the gaps of the free nodes lack of their mean, kept conjugate to the one
 // before if there is one. Returns r·(M r with the load kept).
-template <class Limit>
-double Descent<Limit>::turn() {
+template <class Limit, class Stored>
+double Descent<Limit, Stored>::turn() {
   const double shrink = 1 / level_.pressure_unit();
-  float* const direction = new_direction();
+  Stored* const direction = new_direction();
   // r carries no load, so that r·(M r) is the same whether or not M r does; nor does the direction before.
   double rz = 0, load = 0;
   if constexpr (Limit::hardens) {
@@ -202,7 +211,7 @@ double Descent<Limit>::turn() {
     const auto sums = over_nodes<2>(nodes(), [n = view(), z = work_.data(), d = direction, shrink,
                                               mean = mean_gap_](std::size_t k, double* v) {
       const double all = z[k] * (mean - n.total_gap(k)), along = z[k] * shrink;
-      d[k] = static_cast<float>(along);
+      d[k] = static_cast<Stored>(along);
       v[0] = n.moves(k) ? all : 0.0;
       v[1] = n.moves(k) ? along : 0.0;
     });
@@ -236,24 +245,20 @@ double Descent<Limit>::turn() {
   return rz;
 }
 
-template <class Limit>
-template <class Visit>
-void Descent<Limit>::stretch_direction(std::size_t begin, std::size_t end, const Visit& visit) const {
-  constexpr std::size_t part = 256;
-  std::array<double, part> smooth{};
-  const float *const direction = f_.directions[0].data(), *const before = kept_ != 0 ? f_.directions[1].data()
-                                                                                     : direction;
-  for (std::size_t k = begin; k < end; k += part) {
-    const std::size_t n = std::min(part, end - k);
-    if constexpr (!Limit::hardens)
-      level_.preconditioner.smooth(k, n, 1 / level_.pressure_unit(), smooth.data());
-    visit(k, k + n, Along{direction, before, smooth.data() - k, kept_});
-  }
+template <class Limit, class Stored>
+Along<Stored> Descent<Limit, Stored>::along(int j) const {
+  const Stored* const values = directions_[0].data();
+  const auto begin = static_cast<std::ptrdiff_t>(j) * level_.shape.nx;
+  SmoothRow<double> smooth{no_field_.data(), no_field_.data(), 0, 0};
+  if constexpr (!Limit::hardens) smooth = level_.preconditioner.smooth(j, 1 / level_.pressure_unit());
+  smooth.low -= begin;
+  smooth.high -= begin;
+  return {values, kept_ != 0 ? directions_[1].data() : values, kept_, smooth};
 }
 
 // What settling changes, and a fixed step of the preconditioner if K is dear, at the cost of one application.
-template <class Limit>
-void Descent<Limit>::settle_step(const ContactQuality& at) {
+template <class Limit, class Stored>
+void Descent<Limit, Stored>::settle_step(const ContactQuality& at) {
   const std::optional<double> shift = shift_to_load(at);
   if (!shift) {                       // the image of the last step is done with
     std::swap(f_.free, f_.old_free);  // project() needs marks of its own
@@ -270,32 +275,31 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
     n.pressure[k] = p + x;
     return x * shrink;
   };
-  const auto move = [&](std::size_t begin, std::size_t end, double* to, const auto& target) {
+  const auto move = [&](int j, double* to, const auto& target) {
+    const std::size_t begin = static_cast<std::size_t>(j) * nx;
     if (dear_)
-      stretch_direction(begin, end, [&](std::size_t from, std::size_t last, const Along& along) {
-        for_stretch(from, last, [=](std::size_t k) {
-          double z;
-          along.read(k, z);
-          to[k] = advance(k, z, target(k));
-        });
+      for_stretch(begin, begin + nx, [=, along = along(j)](std::size_t k) {
+        double z;
+        along.read(k, z);
+        to[k] = advance(k, z, target(k));
       });
     else
-      for_stretch(begin, end, [=, p = f_.pressure.data()](std::size_t k) {
+      for_stretch(begin, begin + nx, [=, p = f_.pressure.data()](std::size_t k) {
         const double next = target(k);
         to[k] = (next - p[k]) * shrink;
         p[k] = next;
       });
   };
   const auto source = [&](int j, double* step) -> const double* {
-    const std::size_t begin = static_cast<std::size_t>(j) * nx, end = begin + nx;
+    double* const to = step - static_cast<std::ptrdiff_t>(static_cast<std::size_t>(j) * nx);
     if (shift)
-      move(begin, end, step - begin, [n = view(), by = *shift, upper = limit_.upper()](std::size_t k) {
+      move(j, to, [n = view(), by = *shift, upper = limit_.upper()](std::size_t k) {
         const double q = n.settled(k), moved = q + by, positive = moved > 0 ? moved : 0.0;
         const double shifted = moved < upper ? positive : upper;
         return n.shifts(k, q, true) ? shifted : q;
       });
     else
-      move(begin, end, step - begin, [from = f_.image.data()](std::size_t k) { return from[k]; });
+      move(j, to, [from = f_.image.data()](std::size_t k) { return from[k]; });
     return step;
   };
   // Ground that goes on yielding once it has settled is not among what balances here.
@@ -322,8 +326,8 @@ void Descent<Limit>::settle_step(const ContactQuality& at) {
 }
 
 // Conjugate gradients on the free set, `steps` of the pass being taken already; false where no step could be.
-template <class Limit>
-bool Descent<Limit>::descend(int steps) {
+template <class Limit, class Stored>
+bool Descent<Limit, Stored>::descend(int steps) {
   const auto nx = static_cast<std::size_t>(level_.shape.nx);
   const bool from_rest = steps == 0;
   double start = 0;
@@ -341,28 +345,26 @@ bool Descent<Limit>::descend(int steps) {
     const Freedom balancing = set_.balancing();
     const auto source = [&](int j, double* row) -> const double* {
       const std::size_t begin = static_cast<std::size_t>(j) * nx;
-      stretch_direction(begin, begin + nx, [&](std::size_t from, std::size_t end, const Along& along) {
-        for_lanes_of_stretch(from, end,
-                             [along, balancing, surplus = surplus_, marks = f_.free.data(),
-                              d = f_.directions[0].data(), to = row - begin]<class Value>(std::size_t k) {
-                               Value value, mark;
-                               along.read(k, value);
-                               lane_terms::read(marks + k, mark);
-                               const Value none = {}, at = none + static_cast<double>(balancing);
-                               const Value balanced = mark == at ? value - surplus : value;
-                               const Value next = mark > none ? balanced : none;
-                               lane_terms::put(next, d + k);
-                               lane_terms::read(d + k, value);
-                               lane_terms::put(value, to + k);
-                             });
-      });
+      for_lanes_of_stretch(begin, begin + nx,
+                           [along = along(j), balancing, surplus = surplus_, marks = f_.free.data(),
+                            d = directions_[0].data(), to = row - begin]<class Value>(std::size_t k) {
+                             Value value, mark;
+                             along.read(k, value);
+                             lane_terms::read(marks + k, mark);
+                             const Value none = {}, at = none + static_cast<double>(balancing);
+                             const Value balanced = mark == at ? value - surplus : value;
+                             const Value next = mark > none ? balanced : none;
+                             lane_terms::put(next, d + k);
+                             lane_terms::read(d + k, value);
+                             lane_terms::put(value, to + k);
+                           });
       return row;
     };
     Array<std::array<double, 3>> rows(static_cast<std::size_t>(level_.shape.ny));
     const auto sink = [&](int j, const double* image) {
       const std::size_t begin = static_cast<std::size_t>(j) * nx;
       rows[static_cast<std::size_t>(j)] = weigh_image(view(), begin, begin + nx, balancing, mean_gap_,
-                                                      f_.directions[0].data(), image, f_.image.data());
+                                                      directions_[0].data(), image, f_.image.data());
     };
     level_.apply(source, sink, {});
     const auto sums = added_up(rows);
@@ -383,9 +385,9 @@ bool Descent<Limit>::descend(int steps) {
 }
 
 // Of the gaps, and of what else decides how they go on.
-template <class Limit>
-void Descent<Limit>::take_step() {
-  const auto take = [&](const PressureStep& step) {
+template <class Limit, class Stored>
+void Descent<Limit, Stored>::take_step() {
+  const auto take = [&](const PressureStep<Stored>& step) {
     for_lanes(nodes(), [step, p = f_.pressure.data(), g = f_.gap.data()]<class Value>(std::size_t k) {
       Value pressure, gap;
       step.take(k, p, g, pressure, gap);
@@ -407,8 +409,8 @@ void Descent<Limit>::take_step() {
   }
 }
 
-template <class Limit>
-StageEnd Descent<Limit>::run() {
+template <class Limit, class Stored>
+StageEnd Descent<Limit, Stored>::run() {
   level_.gap(f_.pressure, f_.gap);
   fresh_ = true;
   StageEnd end;
@@ -482,9 +484,14 @@ StageEnd Descent<Limit>::run() {
 }  // namespace
 
 StageEnd set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications) {
-  return std::visit(
-      [&](const auto& limit) { return Descent(level, limit, fields, tolerance, most_applications).run(); },
-      level.limit);
+  const auto run = [&]<class Stored>(const auto& limit, Stored) {
+    return Descent<std::remove_cvref_t<decltype(limit)>, Stored>(level, limit, fields, tolerance,
+                                                                 most_applications)
+        .run();
+  };
+  if (const auto* hardening = std::get_if<LinearHardening>(&level.limit)) return run(*hardening, double{});
+  const PressureCap& cap = std::get<PressureCap>(level.limit);
+  return tolerance >= single_enough ? run(cap, float{}) : run(cap, double{});
 }
 
 }  // namespace asperity

@@ -80,19 +80,33 @@ double SmoothExtension::divisor(std::size_t hat, double free) const {
 }
 
 template <class Real>
-void SmoothExtension::row(std::span<const Real> field, int y, int x, int n, double factor,
-                          Real* __restrict to) const {
-  const int j = y_.before[static_cast<std::size_t>(y)];
-  const Real up = shares<Real>(y_)[y], times = static_cast<Real>(factor);
-  const Real *const low = field.data() + hat(0, j), *const high = field.data() + hat(0, y_.next(j));
-  const auto point = [&](int i) { return (low[i] + up * (high[i] - low[i])) * times; };
-  const Real* const share = shares<Real>(x_);
-  Real* const at = to - x;
-  for (int k = x, i = x_.before[static_cast<std::size_t>(x)]; k < x + n; ++i) {
-    const Real left = point(i), rise = point(x_.next(i)) - left;
-    const int stop = std::min(x + n, x_.end[static_cast<std::size_t>(i)]);
-    for (; k < stop; ++k) at[k] = left + share[k] * rise;
+SmoothExtension::Field<Real>::Field(const SmoothExtension& hats)
+    : hats_(&hats), rows_(hats.x_.before.size() * static_cast<std::size_t>(hats.y_.hats)) {}
+
+template <class Real>
+void SmoothExtension::Field<Real>::set(std::span<const double> at_points) {
+  const HatAxis& along = hats_->x_;
+  const std::size_t nx = along.before.size();
+  for (int j = 0; j < hats_->y_.hats; ++j) {
+    Real* const to = rows_.data() + static_cast<std::size_t>(j) * nx;
+    for (std::size_t k = 0; k < nx;) {
+      const int hat = along.before[k];
+      const double left = at_points[hats_->hat(hat, j)],
+                   rise = at_points[hats_->hat(along.next(hat), j)] - left;
+      const auto stop = static_cast<std::size_t>(along.end[static_cast<std::size_t>(hat)]);
+      for (; k < stop; ++k) to[k] = static_cast<Real>(left + along.share[k] * rise);
+    }
   }
+}
+
+template <class Real>
+SmoothRow<Real> SmoothExtension::Field<Real>::row(int y, Real factor) const {
+  const HatAxis& across = hats_->y_;
+  const std::size_t nx = hats_->x_.before.size();
+  const int hat = across.before[static_cast<std::size_t>(y)];
+  const auto at = [&](int j) { return rows_.data() + static_cast<std::size_t>(j) * nx; };
+  const Real up = shares<Real>(across)[y];
+  return {at(hat), at(across.next(hat)), (1 - up) * factor, up * factor};
 }
 
 SmoothExtension::Sums::Sums(const SmoothExtension& hats, int x, int y, int width, int height)
@@ -111,22 +125,16 @@ void SmoothExtension::Sums::clear() {
   band_ = -1;
 }
 
-template <class Value, class Work>
-void SmoothExtension::Sums::add(int y, const Value* __restrict values, std::span<Work> work) {
+template <class Work>
+SmoothExtension::Sums::Row<Work> SmoothExtension::Sums::row(int y, std::span<Work> work) {
   const int band = hats_->y_.before[static_cast<std::size_t>(y)];
-  Work* __restrict low = work.data();
-  Work* __restrict high = low + width_;
   if (band != band_) {
     finish(work);
     band_ = band;
-    std::fill_n(low, 2 * width_, Work{});
+    std::fill_n(work.data(), 2 * width_, Work{});
   }
-  const Work up = shares<Work>(hats_->y_)[y], down = 1 - up;
-  for (int k = 0; k < width_; ++k) {
-    const Work value = static_cast<Work>(values[k]);
-    low[k] += down * value;
-    high[k] += up * value;
-  }
+  const Work up = shares<Work>(hats_->y_)[y];
+  return {work.data(), work.data() + width_, 1 - up, up};
 }
 
 template <class Work>
@@ -164,10 +172,10 @@ void SmoothExtension::Sums::add_to(Array<double>& total) const {
                 static_cast<std::size_t>(i)];
 }
 
-template void SmoothExtension::row(std::span<const float>, int, int, int, double, float*) const;
-template void SmoothExtension::row(std::span<const double>, int, int, int, double, double*) const;
-template void SmoothExtension::Sums::add(int, const float*, std::span<float>);
-template void SmoothExtension::Sums::add(int, const std::uint8_t*, std::span<double>);
+template class SmoothExtension::Field<float>;
+template class SmoothExtension::Field<double>;
+template SmoothExtension::Sums::Row<float> SmoothExtension::Sums::row(int, std::span<float>);
+template SmoothExtension::Sums::Row<double> SmoothExtension::Sums::row(int, std::span<double>);
 template void SmoothExtension::Sums::finish(std::span<float>);
 template void SmoothExtension::Sums::finish(std::span<double>);
 

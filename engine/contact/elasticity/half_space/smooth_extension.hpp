@@ -27,6 +27,15 @@ struct HatAxis {
   Array<double> mass;  // and its sum over all nodes
 };
 
+// A row of a smooth field: at node i, low_share·low[i] + high_share·high[i].
+template <class Real>
+struct SmoothRow {
+  const Real *low, *high;
+  Real low_share, high_share;
+
+  SmoothRow from(std::size_t node) const { return {low + node, high + node, low_share, high_share}; }
+};
+
 class SmoothExtension {
  public:
   // nx, ny >= 1.
@@ -38,9 +47,16 @@ class SmoothExtension {
    public:
     Sums(const SmoothExtension& hats, int x, int y, int width, int height);
     void clear();
-    // `work`: 2·width values, kept between the rows; as precise as the sums are to be.
-    template <class Value, class Work>
-    void add(int y, const Value* values, std::span<Work> work);
+    // Where the values of row y go: low_share times each to `low` and high_share times each to `high`, as
+    // many as the rectangle is wide. `work`: 2·width values, kept between the rows; as precise as the sums
+    // are to be.
+    template <class Work>
+    struct Row {
+      Work *low, *high;
+      Work low_share, high_share;
+    };
+    template <class Work>
+    Row<Work> row(int y, std::span<Work> work);
     template <class Work>
     void finish(std::span<Work> work);
     void add_to(Array<double>& total) const;
@@ -53,15 +69,25 @@ class SmoothExtension {
     Array<double> sums_;
   };
 
+  // A field of given values at the points.
+  template <class Real>
+  class Field {
+   public:
+    explicit Field(const SmoothExtension& hats);
+    // at_points: size() values.
+    void set(std::span<const double> at_points);
+    // Row y of `factor` times the field.
+    SmoothRow<Real> row(int y, Real factor = 1) const;
+
+   private:
+    const SmoothExtension* hats_;
+    Array<Real> rows_;  // those through the points
+  };
+
   std::size_t size() const { return static_cast<std::size_t>(x_.hats) * static_cast<std::size_t>(y_.hats); }
   // What sums over the free nodes are divided by, `free` of all hats being the sums of 1: more than that
   // where few nodes are free, so that a lone contact is not carried on as if it were the ground.
   double divisor(std::size_t hat, double free) const;
-
-  // `to` becomes `factor` times the values of the field, of size() values at the points, at n nodes of row y
-  // from x on.
-  template <class Real>
-  void row(std::span<const Real> field, int y, int x, int n, double factor, Real* to) const;
 
  private:
   std::size_t hat(int i, int j) const {
