@@ -38,7 +38,7 @@ class ContactPreconditioner::Parts {
   void set_free(std::span<const std::uint8_t> free);
   double spread(const Residual& r);
   void gather(const Keep& keep);
-  SmoothRow<double> smooth(int j, double factor) const { return rest_.row(j, factor * grow_); }
+  SmoothRow<double> smooth(int j, double factor) const { return rest_.row(j, 0, factor * grow_); }
   double smooth_sum() const { return grow_ * rest_sum_; }
   void add_smooth(std::span<double> z) const;
   std::size_t tiles() const { return tiles_.count(); }
@@ -167,14 +167,14 @@ void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& 
   }
   if (!tile.reaches_free) {
     for (int j = tile.y; j < tile.y + tile.height; ++j)
-      fill(level_.row(j).from(static_cast<std::size_t>(tile.x)), width, extended + node(tile.x, j));
+      fill(level_.row(j, static_cast<std::size_t>(tile.x)), width, extended + node(tile.x, j));
     return;
   }
   const auto patch = borrow();
   const auto nx = static_cast<std::size_t>(nx_);
   load(*patch, tile, [&](std::size_t row, std::size_t column, std::size_t from, std::size_t length) {
     start_free(tiles_.marks(from), r.values + from, r.factor, r.offset,
-               level_.row(static_cast<int>(from / nx)).from(from % nx), length, column,
+               level_.row(static_cast<int>(from / nx), from % nx), length, column,
                static_cast<std::size_t>(tiles_.half()), patch->now.data() + row);
   });
   // Nothing is farther from the free set than there have been sweeps.
@@ -183,7 +183,7 @@ void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& 
       sweep_groups(tile.groups[s % 2][odd].within(s), odd != 0, tiles_.half(), share_, patch->now.data());
   for (int j = 0; j < tile.height; ++j) {
     merge(patch->now.data() + tiles_.core_row(j), tiles_.half(),
-          level_.row(tile.y + j).from(static_cast<std::size_t>(tile.x)), width,
+          level_.row(tile.y + j, static_cast<std::size_t>(tile.x)), width,
           extended + node(tile.x, tile.y + j));
   }
 }

@@ -68,47 +68,88 @@ void weigh_every_second(const float* __restrict from, int n, float* __restrict t
   for (int i = 0; i < n; ++i) to[i] = 0.25f * (from[2 * i - 1] + from[2 * i + 1]) + 0.5f * from[2 * i];
 }
 
-void interpolate(const float* __restrict from, int pairs, float* __restrict to) {
-  for (int i = 0; i < pairs; ++i) {
-    to[2 * i] = from[i];
-    to[2 * i + 1] = 0.5f * (from[i] + from[i + 1]);
-  }
+typedef float Sixteen __attribute__((vector_size(64)));
+typedef float Eight __attribute__((vector_size(32)));
+typedef float SixteenAnywhere __attribute__((vector_size(64), aligned(4), may_alias));
+typedef float EightAnywhere __attribute__((vector_size(32), aligned(4), may_alias));
+constexpr int lanes = 16;
+
+inline __attribute__((always_inline)) void read(const float* from, Sixteen& to) {
+  to = *reinterpret_cast<const SixteenAnywhere*>(from);
+}
+inline __attribute__((always_inline)) void read(const float* from, float& to) { to = *from; }
+inline __attribute__((always_inline)) void put(const Sixteen& from, float* to) {
+  *reinterpret_cast<SixteenAnywhere*>(to) = from;
+}
+inline __attribute__((always_inline)) void put(const float& from, float* to) { *to = from; }
+// At node i of a row that has twice the nodes of `coarse`: its values, and between them their means.
+inline __attribute__((always_inline)) void interpolate(const float* coarse, int i, Sixteen& to) {
+  const Eight even = *reinterpret_cast<const EightAnywhere*>(coarse + i / 2);
+  const Eight next = *reinterpret_cast<const EightAnywhere*>(coarse + i / 2 + 1);
+  const Eight odd = 0.5f * (even + next);
+  to = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+inline __attribute__((always_inline)) void interpolate(const float* coarse, int i, float& to) {
+  to = i % 2 == 0 ? coarse[i / 2] : 0.5f * (coarse[i / 2] + coarse[i / 2 + 1]);
 }
 
-// The sums over the rows of the stencil: what stays in its column, goes one and goes two columns aside.
-void stencil_columns(const float* __restrict far_below, const float* __restrict below,
-                     const float* __restrict here, const float* __restrict above,
-                     const float* __restrict far_above, int n, float* __restrict c0, float* __restrict c1,
-                     float* __restrict c2) {
-  for (int i = 0; i < n; ++i) {
-    const float r0 = here[i], r1 = 0.5f * (below[i] + above[i]), r2 = 0.5f * (far_below[i] + far_above[i]);
-    c0[i] += s00 * r0 + s10 * r1 + s20 * r2;
-    c1[i] = 0.5f * (s10 * r0 + s11 * r1 + s21 * r2);
-    c2[i] = 0.5f * (s20 * r0 + s21 * r1 + s22 * r2);
-  }
-}
-
-void stencil_rows(const float* __restrict c0, const float* __restrict c1, const float* __restrict c2, int n,
-                  float* __restrict to) {
-  for (int i = 0; i < n; ++i) to[i] = c0[i] + (c1[i - 1] + c1[i + 1]) + (c2[i - 2] + c2[i + 2]);
-}
-
-// a·b, added up in double precision.
-double product_of_rows(const float* __restrict a, const float* __restrict b, int n) {
-  typedef float Floats __attribute__((vector_size(32)));
-  typedef double Doubles __attribute__((vector_size(64)));
-  Doubles sums[2] = {};
+// Calls loop.operator()<Value>(i) for sixteen nodes at a time, and then for each that is left.
+template <class Loop>
+inline __attribute__((always_inline)) void each(int n, const Loop& loop) {
   int i = 0;
-  for (; i + 16 <= n; i += 16)
-    for (int half = 0; half < 2; ++half) {
-      Floats x, y;
-      __builtin_memcpy(&x, a + i + 8 * half, sizeof x);
-      __builtin_memcpy(&y, b + i + 8 * half, sizeof y);
-      sums[half] += __builtin_convertvector(x * y, Doubles);
-    }
-  const Doubles both = sums[0] + sums[1];
+  for (; i + lanes <= n; i += lanes) loop.template operator()<Sixteen>(i);
+  for (; i < n; ++i) loop.template operator()<float>(i);
+}
+
+struct FiveRows {
+  const float *far_below, *below, *here, *above, *far_above;
+};
+
+// The sums over the rows of the stencil: what stays in its column, with what comes from the coarse grid, goes
+// one and goes two columns aside.
+void stencil_columns(const FiveRows& five, const float* coarse, int n, float* c0, float* c1, float* c2) {
+  each(n, [=, rows = five]<class Value>(int i) {
+    Value far_below, below, here, above, far_above, from_coarse;
+    read(rows.far_below + i, far_below);
+    read(rows.below + i, below);
+    read(rows.here + i, here);
+    read(rows.above + i, above);
+    read(rows.far_above + i, far_above);
+    interpolate(coarse, i, from_coarse);
+    const Value r1 = below + above, r2 = far_below + far_above;
+    put(from_coarse + (s00 * here + 0.5f * s10 * r1 + 0.5f * s20 * r2), c0 + i);
+    put(0.5f * s10 * here + 0.25f * s11 * r1 + 0.25f * s21 * r2, c1 + i);
+    put(0.5f * s20 * here + 0.25f * s21 * r1 + 0.25f * s22 * r2, c2 + i);
+  });
+}
+
+void stencil_rows(const float* c0, const float* c1, const float* c2, int n, float* to) {
+  each(n, [=]<class Value>(int i) {
+    Value centre, before, after, far_before, far_after;
+    read(c0 + i, centre);
+    read(c1 + i - 1, before);
+    read(c1 + i + 1, after);
+    read(c2 + i - 2, far_before);
+    read(c2 + i + 2, far_after);
+    put(centre + (before + after) + (far_before + far_after), to + i);
+  });
+}
+
+// a·b, added up in double precision but for 32 terms at a time.
+double product_of_rows(const float* a, const float* b, int n) {
+  constexpr int chunk = 32 * lanes;
   double sum = 0;
-  for (int lane = 0; lane < 8; ++lane) sum += both[lane];
+  int i = 0;
+  while (i + lanes <= n) {
+    Sixteen part = {};
+    for (const int end = std::min(i + chunk, n); i + lanes <= end; i += lanes) {
+      Sixteen x, y;
+      read(a + i, x);
+      read(b + i, y);
+      part += x * y;
+    }
+    for (int lane = 0; lane < lanes; ++lane) sum += static_cast<double>(part[lane]);
+  }
   for (; i < n; ++i) sum += static_cast<double>(a[i] * b[i]);
   return sum;
 }
@@ -204,17 +245,16 @@ void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
   Array<std::array<double, 1>> products(finest ? static_cast<std::size_t>(blocks) : 0);
   parallel_for(blocks, [&](std::int64_t block) {
     MarginedRow aside(nx, wraps_), far_aside(nx, wraps_), weighted(coarse.nx, wraps_);
-    Array<float> centre(static_cast<std::size_t>(nx + 2));
+    UnsetArray<float> centre(static_cast<std::size_t>(nx));
     const int first = static_cast<int>(block) * rows;
     for (int j = first; j < std::min(first + rows, fine.ny); ++j) {
       const float* const from = row(coarse.out, coarse, j / 2);
       const float* const next = j % 2 == 0 ? from : row(coarse.out, coarse, j / 2 + 1);
       add_quarters(from, next, coarse.nx, weighted.values());
       weighted.close();
-      interpolate(weighted.values(), (nx + 1) / 2, centre.data());
-      stencil_columns(row(fine.in, fine, j - 2), row(fine.in, fine, j - 1), row(fine.in, fine, j),
-                      row(fine.in, fine, j + 1), row(fine.in, fine, j + 2), nx, centre.data(), aside.values(),
-                      far_aside.values());
+      const FiveRows five{row(fine.in, fine, j - 2), row(fine.in, fine, j - 1), row(fine.in, fine, j),
+                          row(fine.in, fine, j + 1), row(fine.in, fine, j + 2)};
+      stencil_columns(five, weighted.values(), nx, centre.data(), aside.values(), far_aside.values());
       aside.close();
       far_aside.close();
       stencil_rows(centre.data(), aside.values(), far_aside.values(), nx, fine.row_out(j));

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <type_traits>
 
 namespace asperity {
 
@@ -12,14 +11,6 @@ namespace {
 // twice as much or half of either changes little.
 constexpr int spacing = 32;
 constexpr double reluctance = 0.03;
-
-template <class Real>
-const Real* shares(const HatAxis& axis) {
-  if constexpr (std::is_same_v<Real, double>)
-    return axis.share.data();
-  else
-    return axis.single_share.data();
-}
 
 struct Pair {
   double left, right;
@@ -99,16 +90,6 @@ void SmoothExtension::Field<Real>::set(std::span<const double> at_points) {
   }
 }
 
-template <class Real>
-SmoothRow<Real> SmoothExtension::Field<Real>::row(int y, Real factor) const {
-  const HatAxis& across = hats_->y_;
-  const std::size_t nx = hats_->x_.before.size();
-  const int hat = across.before[static_cast<std::size_t>(y)];
-  const auto at = [&](int j) { return rows_.data() + static_cast<std::size_t>(j) * nx; };
-  const Real up = shares<Real>(across)[y];
-  return {at(hat), at(across.next(hat)), (1 - up) * factor, up * factor};
-}
-
 SmoothExtension::Sums::Sums(const SmoothExtension& hats, int x, int y, int width, int height)
     : hats_(&hats), x_(x), y_(y), width_(width) {
   const auto count = [](const HatAxis& axis, int first, int n) {
@@ -133,7 +114,7 @@ SmoothExtension::Sums::Row<Work> SmoothExtension::Sums::row(int y, std::span<Wor
     band_ = band;
     std::fill_n(work.data(), 2 * width_, Work{});
   }
-  const Work up = shares<Work>(hats_->y_)[y];
+  const Work up = hats_->y_.shares<Work>()[y];
   return {work.data(), work.data() + width_, 1 - up, up};
 }
 
@@ -141,7 +122,7 @@ template <class Work>
 void SmoothExtension::Sums::finish(std::span<Work> work) {
   if (band_ < 0) return;
   const HatAxis& along = hats_->x_;
-  const Work* const share = shares<Work>(along) + x_;
+  const Work* const share = along.shares<Work>() + x_;
   const int first = along.before[static_cast<std::size_t>(x_)];
   const int first_row = hats_->y_.before[static_cast<std::size_t>(y_)];
   for (int half = 0; half < 2; ++half) {

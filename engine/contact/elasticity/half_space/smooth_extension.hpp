@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 #include "engine/contact/boundary.hpp"
 #include "engine/core/memory.hpp"
@@ -17,6 +18,13 @@ namespace asperity {
 struct HatAxis {
   HatAxis(int nodes, Boundary boundary);
   int next(int hat) const { return hat + 1 == hats && wraps ? 0 : hat + 1; }
+  template <class Real>
+  const Real* shares() const {
+    if constexpr (std::is_same_v<Real, double>)
+      return share.data();
+    else
+      return single_share.data();
+  }
 
   bool wraps;
   int hats;
@@ -27,13 +35,11 @@ struct HatAxis {
   Array<double> mass;  // and its sum over all nodes
 };
 
-// A row of a smooth field: at node i, low_share·low[i] + high_share·high[i].
+// Part of a row of a smooth field: at its node i, low_share·low[i] + high_share·high[i].
 template <class Real>
 struct SmoothRow {
   const Real *low, *high;
   Real low_share, high_share;
-
-  SmoothRow from(std::size_t node) const { return {low + node, high + node, low_share, high_share}; }
 };
 
 class SmoothExtension {
@@ -76,8 +82,16 @@ class SmoothExtension {
     explicit Field(const SmoothExtension& hats);
     // at_points: size() values.
     void set(std::span<const double> at_points);
-    // Row y of `factor` times the field.
-    SmoothRow<Real> row(int y, Real factor = 1) const;
+    // `factor` times row y from node x on.
+    SmoothRow<Real> row(int y, std::size_t x, Real factor = 1) const {
+      const HatAxis& across = hats_->y_;
+      const std::size_t nx = hats_->x_.before.size();
+      const int hat = across.before[static_cast<std::size_t>(y)];
+      const Real* const rows = rows_.data() + x;
+      const Real up = across.template shares<Real>()[y];
+      return {rows + static_cast<std::size_t>(hat) * nx,
+              rows + static_cast<std::size_t>(across.next(hat)) * nx, (1 - up) * factor, up * factor};
+    }
 
    private:
     const SmoothExtension* hats_;
