@@ -38,7 +38,7 @@ class Field {
   Field(int nx, int ny, double value = 0.0)
       : nx_(nx), ny_(ny), values_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), value) {}
   // Takes over nx·ny values. Throws Error{internal} if they are not as many.
-  Field(int nx, int ny, Array<double>&& values);
+  Field(int nx, int ny, UnsetArray<double>&& values);
 
   int nx() const { return nx_; }
   int ny() const { return ny_; }
@@ -62,7 +62,7 @@ class Field {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(i);
   }
   int nx_ = 0, ny_ = 0;
-  Array<double> values_;
+  UnsetArray<double> values_;
 };
 
 // Sum in fixed blocks of 1024 added pairwise: the same bits for any number of threads, and an error

@@ -14,11 +14,11 @@ struct DescentFields {
   explicit DescentFields(std::size_t nodes)
       : pressure(nodes), gap(nodes), image(nodes), free(nodes), old_free(nodes) {}
 
-  Array<double> pressure;               // p: feasible between stages
-  Array<double> gap;                    // K p − h
-  UnsetArray<double> image;             // what K makes of a direction, times a power of two
-  Array<double> old_pressure, old_gap;  // of the pass before; made when first needed
-  Array<std::uint8_t> free, old_free;   // nodes the present pass may move
+  UnsetArray<double> pressure;               // p: feasible between stages
+  UnsetArray<double> gap;                    // K p − h
+  UnsetArray<double> image;                  // what K makes of a direction, times a power of two
+  UnsetArray<double> old_pressure, old_gap;  // of the pass before; made when first needed
+  Array<std::uint8_t> free, old_free;        // nodes the present pass may move
 };
 
 struct StageEnd {

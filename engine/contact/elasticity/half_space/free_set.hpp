@@ -47,29 +47,41 @@ struct FreeSet {
 // Of ground that does not harden: marks it, and sums free nodes, their gaps, new marks, and of the shift.
 inline constexpr std::size_t free_sums = 5;
 
-inline std::array<double, free_sums> mark_elastic(double upper, double offset, double shift,
-                                                  std::span<const double> p, std::span<const double> g,
-                                                  std::span<const std::uint8_t> before,
-                                                  std::span<std::uint8_t> free) {
+template <bool capped>
+std::array<double, free_sums> mark_elastic(double upper, double offset, double shift,
+                                           std::span<const double> p, std::span<const double> g,
+                                           std::span<const std::uint8_t> before,
+                                           std::span<std::uint8_t> free) {
   return over_lanes<free_sums>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),
                                           free = free.data()]<class Value>(std::size_t k, Value* v) {
     Value pressure, gap, old;
     lane_terms::read(p + k, pressure);
     lane_terms::read(g + k, gap);
     lane_terms::read(before + k, old);
-    const Value none = {}, one = none + 1.0, at = none + offset, most = none + upper;
-    const Value below = gap < at ? one : none, above = gap > at ? one : none;
-    const Value opens = pressure >= none ? below : none, leaves = pressure <= most ? above : none;
-    const Value not_full = pressure < most ? one : leaves, kind = pressure > none ? not_full : opens;
+    const Value none = {}, one = none + 1.0, at = none + offset;
+    const Value below = gap < at ? one : none, opens = pressure >= none ? below : none;
+    Value kind, inside, moved;
+    if constexpr (capped) {
+      const Value most = none + upper, above = gap > at ? one : none;
+      const Value leaves = pressure <= most ? above : none, not_full = pressure < most ? one : leaves;
+      kind = pressure > none ? not_full : opens;
+      const Value within = pressure < most ? one : none;
+      inside = pressure > none ? within : none;
+      moved = pressure + inside * shift;
+      const Value positive = moved > none ? moved : none, stays = moved > none ? inside : none;
+      v[3] = moved < most ? positive : most;
+      v[4] = moved < most ? stays : none;
+    } else {
+      kind = pressure > none ? one : opens;
+      inside = pressure > none ? one : none;
+      moved = pressure + inside * shift;
+      v[3] = moved > none ? moved : none;
+      v[4] = moved > none ? inside : none;
+    }
     lane_terms::put(kind, free + k);
     v[0] = kind;
     v[1] = kind > none ? gap : none;
     v[2] = kind == old ? none : one;
-    const Value within = pressure < most ? one : none, inside = pressure > none ? within : none;
-    const Value moved = pressure + inside * shift, positive = moved > none ? moved : none;
-    v[3] = moved < most ? positive : most;
-    const Value stays = moved > none ? inside : none;
-    v[4] = moved < most ? stays : none;
   });
 }
 
@@ -82,7 +94,9 @@ FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balan
   const double offset = at.interior_gap;
   std::array<double, Limit::hardens ? free_sums + 3 : free_sums> sums;
   if constexpr (!Limit::hardens)
-    sums = mark_elastic(limit.upper(), offset, shift, p, g, before, free);
+    sums = std::isfinite(limit.upper())
+               ? mark_elastic<true>(limit.upper(), offset, shift, p, g, before, free)
+               : mark_elastic<false>(limit.upper(), offset, shift, p, g, before, free);
   else
     // By value: a store of a byte could change anything that is reached by a reference.
     sums = over_nodes<free_sums + 3>(p.size(), [=, p = p.data(), g = g.data(), before = before.data(),

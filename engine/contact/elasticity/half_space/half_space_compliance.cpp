@@ -26,10 +26,12 @@ int period(int n, Boundary boundary) {
 // 2/|q| of the waves (a, b), b = 0 … period/2; 0 for the mean.
 void periodic_multiplier(int nx, int ny, double aspect, int a, std::span<double> factors) {
   const double qx = 2 * std::numbers::pi * static_cast<double>(a) / nx;
+  const double per_wave = 2 * std::numbers::pi / (ny * aspect);
   for (std::size_t b = 0; b < factors.size(); ++b) {
-    const double qy = 2 * std::numbers::pi * static_cast<double>(b) / (ny * aspect);
-    factors[b] = a == 0 && b == 0 ? 0 : 2 / std::sqrt(qx * qx + qy * qy);
+    const double qy = per_wave * static_cast<int>(b);
+    factors[b] = 2 / std::sqrt(qx * qx + qy * qy);
   }
+  if (a == 0) factors[0] = 0;
 }
 
 // The transform of an even sequence, given from 0 to period/2, is real; it replaces it.

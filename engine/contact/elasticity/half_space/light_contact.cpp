@@ -43,7 +43,7 @@ class LightContact {
 
 bool LightContact::again(double length, ChainEnd& end) {
   level_.length = length;
-  const Array<double> before = fields_.pressure;
+  const UnsetArray<double> before = fields_.pressure;
   const ChainEnd finer = run_chain(level_, fields_, tolerance_, false);
   if (finer.stage.converged)
     end = finer;
@@ -71,7 +71,7 @@ void LightContact::by_approach(double approach, ChainEnd& end) {
 // Soft ground: all is at the cap above some height, and all is open below; nodes at that height share the
 // rest.
 void LightContact::at_the_cap(double cap, ChainEnd& end) {
-  const Array<double>& p = fields_.pressure;
+  const UnsetArray<double>& p = fields_.pressure;
   for (std::size_t k = 0; k < p.size(); ++k)
     if (p[k] > 0 && p[k] < cap) {
       level_.count_from(heights_.values[k]);

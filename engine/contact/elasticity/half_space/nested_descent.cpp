@@ -130,7 +130,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
   Progress progress(monitor);
   CellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
-  Array<double> carried;  // the level-set field of the grid below
+  UnsetArray<double> carried;  // the level-set field of the grid below
   double all_work = 0, work_done = 0;
   for (const Step& step : steps) all_work += step.shape.weight;
 
@@ -151,7 +151,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
     };
 
     DescentFields fields(nodes);
-    Array<double>& p = fields.pressure;
+    UnsetArray<double>& p = fields.pressure;
     if (!start_pressure.empty()) {
       std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
       if (!start_gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, start_gap, p);
@@ -160,7 +160,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
     } else {
       const CoarserGrid& from = *steps[l + 1].from;
       prolong(from, carried, 1 / from.pitch_x, step.shape, p);
-      carried = Array<double>();
+      carried = UnsetArray<double>();
     }
     project_to_load(p, {}, upper, level.total_load(), p);
 
@@ -213,8 +213,8 @@ CellProblem times_power_of_two(const CellProblem& problem, int power) {
   return result;
 }
 
-Array<double> times_power_of_two(std::span<const double> values, int power) {
-  Array<double> result(values.begin(), values.end());
+UnsetArray<double> times_power_of_two(std::span<const double> values, int power) {
+  UnsetArray<double> result(values.begin(), values.end());
   for (double& value : result) value = std::ldexp(value, power);
   return result;
 }
@@ -243,7 +243,7 @@ CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   CellAnswer answer;
   answer.stage = "exact filter (full contact)";
   answer.pressure.resize(nodes);
-  Array<double>& p = answer.pressure;
+  UnsetArray<double>& p = answer.pressure;
   for_nodes(nodes, [&](std::size_t k) { p[k] = level.height(k); });
   level.compliance.apply_inverse(p, p);
   answer.applications = 1;

@@ -25,8 +25,8 @@ struct CellProblem {
 };
 
 struct CellAnswer {
-  Array<double> pressure;  // feasible, bounds exact
-  Array<double> gap;       // K p − h, without offset, from an application to `pressure`
+  UnsetArray<double> pressure;  // feasible, bounds exact
+  UnsetArray<double> gap;       // K p − h, without offset, from an application to `pressure`
   double offset = 0;
   // A light contact, where h + offset is a small difference of large heights: gap and offset are counted
   // from the highest node, and the offset is the approach.

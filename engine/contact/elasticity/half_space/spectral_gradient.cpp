@@ -18,7 +18,7 @@ template <class Limit>
 StageEnd descend(ContactLevel& level, const Limit& limit, DescentFields& f, double tolerance, int most) {
   const std::size_t nodes = f.pressure.size();
   const double load = level.total_load(), upper = limit.upper();
-  Array<double>&p = f.pressure, &g = f.gap;
+  UnsetArray<double>&p = f.pressure, &g = f.gap;
   Array<double> d(nodes), image(nodes);
   const int last = level.applications + most;
   auto opening_slope = [&](std::size_t k) {
