@@ -14,7 +14,8 @@
 // A pair is one transform forward and one back, of the finest grid; coarser grids are counted by n ln n.
 // Plain conjugate gradients (Polonsky & Keer 1999) apply the operator twice an iteration. The bare pair is
 // FFTW's own two-dimensional in-place real transform, measured plan, of the grid (free: of the padded grid),
-// without multiplication, always in double precision, and timed before and after each solve. In rows marked
+// without multiplication, always in double precision; as many in a row as the solve takes, and the solve, by
+// turns, and the ratio is that of neighbouring turns. In rows marked
 // single, transforms of a solve are in single precision, its certificate as ever. Memory is the peak of a
 // solve in grids of doubles, heights and answer left out.
 #include <fftw3.h>
@@ -98,18 +99,9 @@ Value median(std::vector<Value> values) {
 
 constexpr double slope = 0.1, tolerance = 1e-8;
 
-// The least seconds of several turns: another program may have had the processor, and the first ones find it
-// asleep.
-template <class Turn>
-double best(const Turn& turn) {
-  double least = 1e300;
-  for (double spent = 0, turns = 0; turns < 3 || (spent < 0.2 && turns < 200); ++turns) {
-    const double taken = turn();
-    least = std::min(least, taken);
-    spent += taken;
-  }
-  return least;
-}
+// What is compared takes turns of about as long: other programs have the processor and its memory now and
+// then, and meet both alike.
+constexpr int turns = 7;
 
 Field heights(int n, std::uint64_t seed) {
   SelfAffineOptions options;
@@ -144,13 +136,14 @@ class BarePair {
   BarePair(const BarePair&) = delete;
   BarePair& operator=(const BarePair&) = delete;
 
-  double seconds() const {
-    return best([this] {
-      const double start = now();
+  // Of one, of so many in a row.
+  double seconds(int pairs) const {
+    const double start = now();
+    for (int pair = 0; pair < pairs; ++pair) {
       fftw_execute(forward_);
       fftw_execute(back_);
-      return now() - start;
-    });
+    }
+    return (now() - start) / pairs;
   }
 
  private:
@@ -258,8 +251,8 @@ Ours ours(std::shared_ptr<const Field> h, double mean_pressure, double cap, bool
 void table(const Settings& settings) {
   const bool free = settings.boundary == Boundary::free;
   std::printf(
-      "%s boundary, complementarity %g, median of %d seeds, each the best of several turns, %d thread(s)\n",
-      free ? "free" : "periodic", tolerance, settings.seeds, thread_count());
+      "%s boundary, complementarity %g, medians of %d seeds, times of %d turns of each, %d thread(s)\n",
+      free ? "free" : "periodic", tolerance, settings.seeds, turns, thread_count());
   std::printf("%6s %6s %6s %9s | %11s %9s | %7s %9s %9s | %9s %10s %6s\n", "n", "load", "cap", "precision",
               "plain its", "s", "pairs", "s", "ms/pair", "bare ms", "ms/pair :", "grids");
   std::printf("%6s %6s %6s %9s | %11s %9s | %7s %9s %9s | %9s %10s %6s\n", "", "/E*h'", "/load", "",
@@ -279,20 +272,20 @@ void table(const Settings& settings) {
     for (const Case& c : cases) {
       const double pressure = c.load * slope;
       const double cap = c.cap > 0 ? c.cap * pressure : std::numeric_limits<double>::infinity();
-      std::vector<double> pairs, seconds, grids, plain_seconds;
-      double bare = bare_pair.seconds();
+      std::vector<double> pairs, seconds, bare, ratios, grids, plain_seconds;
       std::vector<int> iterations;
       for (int seed = 1; seed <= settings.seeds; ++seed) {
         const auto h = std::make_shared<const Field>(heights(n, static_cast<std::uint64_t>(seed)));
-        Ours mine{};
-        mine.seconds = best([&] {
-          mine = ours(h, pressure, cap, c.single, settings.boundary);
-          return mine.seconds;
-        });
-        bare = std::min(bare, bare_pair.seconds());
+        Ours mine = ours(h, pressure, cap, c.single, settings.boundary);
         pairs.push_back(mine.pairs);
-        seconds.push_back(mine.seconds);
         grids.push_back(mine.grids);
+        for (int turn = 0; turn < turns; ++turn) {
+          const double pair = bare_pair.seconds(static_cast<int>(std::lround(mine.pairs)));
+          mine = ours(h, pressure, cap, c.single, settings.boundary);
+          bare.push_back(pair);
+          seconds.push_back(mine.seconds);
+          ratios.push_back(mine.seconds / mine.pairs / pair);
+        }
         if (c.cap == 0 && !c.single && n <= settings.plain) {
           const Plain plain = plain_conjugate_gradients(*h, pressure, settings.boundary);
           iterations.push_back(plain.iterations);
@@ -304,9 +297,8 @@ void table(const Settings& settings) {
       std::printf("%9s | ", c.single ? "single" : "double");
       iterations.empty() ? std::printf("%11s %9s | ", "-", "-")
                          : std::printf("%11d %9.3f | ", median(iterations), median(plain_seconds));
-      const double per_pair = median(seconds) / median(pairs);
-      std::printf("%7.1f %9.3f %9.3f | %9.3f %10.2f %6.1f\n", median(pairs), median(seconds), 1e3 * per_pair,
-                  1e3 * bare, per_pair / bare, median(grids));
+      std::printf("%7.1f %9.3f %9.3f | %9.3f %10.2f %6.1f\n", median(pairs), median(seconds),
+                  1e3 * median(seconds) / median(pairs), 1e3 * median(bare), median(ratios), median(grids));
       std::fflush(stdout);
     }
   }

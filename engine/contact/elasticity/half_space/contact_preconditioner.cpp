@@ -30,13 +30,18 @@ namespace {
 using namespace edge_rows;
 
 constexpr int tile_width = FreeTiles::width;
+
+// From value k on.
+void take(const ContactPreconditioner::Step& step, std::size_t k, std::size_t n) {
+  if (step.length != 0) add_times(step.length, step.more + k, n, step.values + k);
+}
 }  // namespace
 
 class ContactPreconditioner::Parts {
  public:
   Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps, double weight);
   void set_free(std::span<const std::uint8_t> free);
-  double spread(const Residual& r);
+  double spread(const Residual& r, const Step& step);
   void gather(const Keep& keep);
   SmoothRow<double> smooth(int j, double factor) const { return rest_.row(j, 0, factor * grow_); }
   double smooth_sum() const { return grow_ * rest_sum_; }
@@ -64,7 +69,7 @@ class ContactPreconditioner::Parts {
   void load(Patch& patch, const FreeTile& tile, const Put& put) const;
   void extend(const FreeTile& tile, const Residual& scaled);
   void gather_back(std::size_t number, Patch& patch, std::span<const float> y, const Keep& keep);
-  double greatest(const Residual& r) const;
+  double greatest(const Residual& r, const Step& step) const;
   template <class Add>
   void add_up_hats(const Add& add, Array<double>& total);
   // From the sums over hats to values at their points.
@@ -228,16 +233,19 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
   }
 }
 
-// Roughly: of every sixteenth row, and of all only if that finds nothing.
-double ContactPreconditioner::Parts::greatest(const Residual& r) const {
+// Roughly: of a few rows, and of all only if that finds nothing.
+double ContactPreconditioner::Parts::greatest(const Residual& r, const Step& step) const {
+  constexpr int few = 32;
   const auto width = static_cast<std::size_t>(nx_);
-  for (const int step : {16, 1}) {
+  for (const int stride : {std::max(1, ny_ / few), 1}) {
     double most = 0;
-    for (int j = 0; j < ny_; j += step) {
+    for (int j = 0; j < ny_; j += stride) {
       const std::uint8_t* const free = tiles_.marks(node(0, j));
       const double* const values = r.values + node(0, j);
+      const double* const more = step.more ? step.more + node(0, j) : values;
       for (std::size_t i = 0; i < width; ++i) {
-        const double value = std::abs(r.offset + r.factor * values[i]), counted = free[i] != 0 ? value : 0.0;
+        const double stepped = values[i] + step.length * more[i];
+        const double value = std::abs(r.offset + r.factor * stepped), counted = free[i] != 0 ? value : 0.0;
         most = counted > most ? counted : most;
       }
     }
@@ -246,11 +254,16 @@ double ContactPreconditioner::Parts::greatest(const Residual& r) const {
   return 0;
 }
 
-double ContactPreconditioner::Parts::spread(const Residual& r) {
+double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step) {
   // Single precision has little range: near 1, and by a power of two, which rounds nothing.
-  const double most = greatest(r);
+  const double most = greatest(r, step);
   spread_ = {};
-  if (!(most > 0)) return 0;
+  if (!(most > 0)) {
+    parallel_for(ny_, [&](std::int64_t j) {
+      take(step, node(0, static_cast<int>(j)), static_cast<std::size_t>(nx_));
+    });
+    return 0;
+  }
   const int exponent = std::clamp(std::ilogb(most), -1000, 1000);
   const double shrink = std::ldexp(1.0, -exponent);
   grow_ = std::ldexp(1.0, exponent);
@@ -259,8 +272,10 @@ double ContactPreconditioner::Parts::spread(const Residual& r) {
     const FreeTile& tile = tiles_[number];
     SmoothExtension::Sums& hats = hats_[number].passed;
     const auto width = static_cast<std::size_t>(tile.width);
-    for (int j = tile.y; j < tile.y + tile.height && tile.holds_free; ++j) {
+    for (int j = tile.y; j < tile.y + tile.height; ++j) {
       const std::size_t k = node(tile.x, j);
+      take(step, k, width);
+      if (!tile.holds_free) continue;
       add_residual(tiles_.marks(k), near_one.values + k, near_one.factor, near_one.offset, width,
                    hats.row<float>(j, patch.sums));
     }
@@ -312,7 +327,7 @@ void ContactPreconditioner::set_free(std::span<const std::uint8_t> free) { parts
 void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z) {
   if (r.size() != parts_->nodes() || z.size() != parts_->nodes())
     throw Error(ErrorCode::internal, "a preconditioner of another grid's values");
-  parts_->spread(Residual{r.data()});
+  parts_->spread(Residual{r.data()}, {});
   parts_->gather([&](std::size_t, std::size_t first, std::size_t n, const float* values, double factor) {
     if (values)
       convert(values, factor, n, z.data() + first);
@@ -322,7 +337,7 @@ void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z
   parts_->add_smooth(z);
 }
 
-double ContactPreconditioner::spread(const Residual& r) { return parts_->spread(r); }
+double ContactPreconditioner::spread(const Residual& r, const Step& step) { return parts_->spread(r, step); }
 SmoothRow<double> ContactPreconditioner::smooth(int j, double factor) const {
   return parts_->smooth(j, factor);
 }

@@ -40,8 +40,14 @@ class ContactPreconditioner {
     const double* values;
     double factor = 1, offset = 0;
   };
-  // The same in two halves. The first gives r·z, …
-  double spread(const Residual& r);
+  // Taken on the way: values += length · more.
+  struct Step {
+    double* values = nullptr;
+    double length = 0;
+    const double* more = nullptr;
+  };
+  // The same in two halves. The first, after a step of the values of r if there is one, gives r·z, …
+  double spread(const Residual& r, const Step& step);
   // … the second z less a smooth field, which passes by in stretches of a row: `keep` takes `factor` times
   // the values, 0 off the free set, or null for no free node there, with the number of the tile,
   // 0 … tiles(): the stretches of a tile come in their order on one thread. …

@@ -119,6 +119,10 @@ void copy_marks(const std::uint8_t* __restrict from, std::size_t n, std::uint8_t
   for (std::size_t k = 0; k < n; ++k) to[k] = from[k] != 0 ? 1 : 0;
 }
 
+void add_times(double factor, const double* __restrict from, std::size_t n, double* __restrict to) {
+  for (std::size_t k = 0; k < n; ++k) to[k] += factor * from[k];
+}
+
 void convert(const double* __restrict from, double factor, double offset, std::size_t n,
              float* __restrict to) {
   for (std::size_t k = 0; k < n; ++k) to[k] = static_cast<float>(offset + factor * from[k]);

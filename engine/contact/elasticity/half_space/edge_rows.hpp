@@ -30,6 +30,8 @@ void fill_bits(std::size_t place, std::size_t n, std::uint64_t* words);
 // Every bit of `rows` rows also to the four places beside it; `work` is as large as the field.
 void widen(Array<std::uint64_t>& field, int rows, std::size_t row_words, Array<std::uint64_t>& work);
 
+// to += factor · from.
+void add_times(double factor, const double* from, std::size_t n, double* to);
 // to = offset + factor · from.
 void convert(const double* from, double factor, double offset, std::size_t n, float* to);
 void convert(const float* from, double scale, std::size_t n, double* to);

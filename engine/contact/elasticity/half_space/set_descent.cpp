@@ -87,7 +87,7 @@ class Descent {
     fresh_ = true;
     balance_ = std::numeric_limits<double>::quiet_NaN();
   }
-  double residual_norm() const;
+  double residual_norm();
   Stored* new_direction();
   double turn();
   // Of row j, on the free set.
@@ -162,9 +162,38 @@ std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality
   return first_shift(at, load) - (found - load) / set_.shifted_count;
 }
 
-// Of what the gaps of the free nodes lack of their mean.
 template <class Limit, class Stored>
-double Descent<Limit, Stored>::residual_norm() const {
+void Descent<Limit, Stored>::take_step() {
+  if (untaken_.none()) return;
+  for_lanes(nodes(),
+            [step = untaken_, p = f_.pressure.data(), g = f_.gap.data()]<class Value>(std::size_t k) {
+              Value pressure, gap;
+              step.take(k, p, g, pressure, gap);
+            });
+  untaken_ = {};
+}
+
+// Of what the gaps of the free nodes lack of their mean, their step being taken on the way.
+template <class Limit, class Stored>
+double Descent<Limit, Stored>::residual_norm() {
+  if constexpr (!Limit::hardens) {
+    if (untaken_.gap_length != 0) {
+      const auto squares = over_lanes<1>(
+          nodes(), [length = untaken_.gap_length, image = untaken_.image, g = f_.gap.data(),
+                    free = f_.free.data(), mean = mean_gap_]<class Value>(std::size_t k, Value* v) {
+            Value gap, change, mark;
+            lane_terms::read(g + k, gap);
+            lane_terms::read(image + k, change);
+            lane_terms::read(free + k, mark);
+            gap += length * change;
+            lane_terms::put(gap, g + k);
+            const Value none = {}, lacking = mean - gap, r = mark > none ? lacking : none;
+            v[0] = r * r;
+          });
+      untaken_.gap_length = 0;
+      return std::sqrt(squares[0]);
+    }
+  }
   const auto squares =
       over_marked_nodes<1>(f_.free, [n = view(), mean = mean_gap_](std::size_t k, double* v) {
         const double all = mean - n.total_gap(k), r = n.moves(k) ? all : 0.0;
@@ -218,7 +247,10 @@ double Descent<Limit, Stored>::turn() {
     rz = sums[0];
     load = sums[1];
   } else {
-    rz = level_.preconditioner.spread({f_.gap.data(), -1, mean_gap_});
+    ContactPreconditioner::Step step;
+    if (untaken_.gap_length != 0) step = {f_.gap.data(), untaken_.gap_length, untaken_.image};
+    rz = level_.preconditioner.spread({f_.gap.data(), -1, mean_gap_}, step);
+    untaken_.gap_length = 0;
     Array<std::array<double, 1>> parts(level_.preconditioner.tiles());
     const auto put = [&](std::size_t tile, std::size_t first, std::size_t n, const float* values,
                          double factor) {
@@ -332,6 +364,7 @@ bool Descent<Limit, Stored>::descend(int steps) {
   const bool from_rest = steps == 0;
   double start = 0;
   while (steps < steps_a_pass_) {
+    if constexpr (Limit::hardens) take_step();
     // A pass that begins with conjugate gradients ends when it has gained enough for this free set.
     if (from_rest) {
       const double norm = residual_norm();
@@ -378,35 +411,10 @@ bool Descent<Limit, Stored>::descend(int steps) {
     untaken_.along[0].length = length;
     untaken_.gap_length = length;
     untaken_.image = f_.image.data();
-    // The last step waits until pressures and gaps are read again, and so do pressures that no one reads yet.
-    if (++steps < steps_a_pass_) take_step();
+    // Taken when pressures and gaps are read again.
+    ++steps;
   }
   return steps > 0;
-}
-
-// Of the gaps, and of what else decides how they go on.
-template <class Limit, class Stored>
-void Descent<Limit, Stored>::take_step() {
-  const auto take = [&](const PressureStep<Stored>& step) {
-    for_lanes(nodes(), [step, p = f_.pressure.data(), g = f_.gap.data()]<class Value>(std::size_t k) {
-      Value pressure, gap;
-      step.take(k, p, g, pressure, gap);
-    });
-  };
-  if constexpr (Limit::hardens) {
-    take(untaken_);
-    untaken_ = {};
-  } else {
-    for_lanes(nodes(), [length = untaken_.gap_length, image = f_.image.data(),
-                        g = f_.gap.data()]<class Value>(std::size_t k) {
-      Value gap, change;
-      lane_terms::read(g + k, gap);
-      lane_terms::read(image + k, change);
-      gap += length * change;
-      lane_terms::put(gap, g + k);
-    });
-    untaken_.gap_length = 0;
-  }
 }
 
 template <class Limit, class Stored>
