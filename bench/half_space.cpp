@@ -14,10 +14,10 @@
 // A pair is one transform forward and one back, of the finest grid; coarser grids are counted by n ln n.
 // Plain conjugate gradients (Polonsky & Keer 1999) apply the operator twice an iteration. The bare pair is
 // FFTW's own two-dimensional in-place real transform, measured plan, of the grid (free: of the padded grid),
-// without multiplication, always in double precision; as many in a row as the solve takes, and the solve, by
-// turns, and the ratio is that of neighbouring turns. In rows marked
-// single, transforms of a solve are in single precision, its certificate as ever. Memory is the peak of a
-// solve in grids of doubles, heights and answer left out.
+// without multiplication, always in double precision: as many in a row as the solve takes, then the solve, by
+// turns, and the ratio is that of neighbours. In rows marked single, transforms of a solve are in single
+// precision, its certificate as ever. Memory is the peak of a solve in grids of doubles, heights and answer
+// left out.
 #include <fftw3.h>
 #include <sys/resource.h>
 

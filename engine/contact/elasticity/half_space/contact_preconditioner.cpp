@@ -347,10 +347,11 @@ void ContactPreconditioner::gather(const Keep& keep) { parts_->gather(keep); }
 std::size_t ContactPreconditioner::tiles() const { return parts_->tiles(); }
 
 std::int64_t ContactPreconditioner::bytes(int nx, int ny, double aspect, Boundary boundary) {
-  // The free set, the groups of eight nodes with their margins', and a patch a thread.
+  // The free set, the groups of eight nodes with their margins', the rows of smooth fields, and a patch a
+  // thread.
   constexpr std::int64_t patch = 12 * (tile_width + 64) * (FreeTiles::height + 32);
   return HalfOrderPyramid::bytes(nx, ny, aspect, boundary) + 2 * static_cast<std::int64_t>(nx) * ny +
-         patch * thread_count();
+         SmoothExtension::field_bytes(nx, ny) + patch * thread_count();
 }
 
 }  // namespace asperity

@@ -65,6 +65,10 @@ HatAxis::HatAxis(int nodes, Boundary boundary) : wraps(boundary == Boundary::per
 
 SmoothExtension::SmoothExtension(int nx, int ny, Boundary boundary) : x_(nx, boundary), y_(ny, boundary) {}
 
+std::int64_t SmoothExtension::field_bytes(int nx, int ny) {
+  return static_cast<std::int64_t>(sizeof(float) + sizeof(double)) * nx * (ny / spacing + 1);
+}
+
 double SmoothExtension::divisor(std::size_t hat, double free) const {
   const auto i = hat % static_cast<std::size_t>(x_.hats), j = hat / static_cast<std::size_t>(x_.hats);
   return free + reluctance * x_.mass[i] * y_.mass[j];

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 
@@ -97,6 +98,9 @@ class SmoothExtension {
     const SmoothExtension* hats_;
     Array<Real> rows_;  // those through the points
   };
+
+  // What a field in either precision holds.
+  static std::int64_t field_bytes(int nx, int ny);
 
   std::size_t size() const { return static_cast<std::size_t>(x_.hats) * static_cast<std::size_t>(y_.hats); }
   // What sums over the free nodes are divided by, `free` of all hats being the sums of 1: more than that
