@@ -80,12 +80,12 @@ TEST(Field, StoresRowByRow) {
 }
 
 TEST(Field, TakesValuesOver) {
-  Array<double> values(6, 3.0);
+  UnsetArray<double> values(6, 3.0);
   const double* const at = values.data();
   const Field field(3, 2, std::move(values));
   EXPECT_EQ(field.data(), at);
   EXPECT_EQ(field(2, 1), 3.0);
-  EXPECT_THROW(Field(2, 2, Array<double>(3)), Error);
+  EXPECT_THROW(Field(2, 2, UnsetArray<double>(3)), Error);
 }
 
 TEST(BlockSum, OfKnownSeries) {

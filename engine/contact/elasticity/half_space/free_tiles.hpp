@@ -38,7 +38,7 @@ struct FreeTile {
 
 class FreeTiles {
  public:
-  static constexpr int width = 256, height = 64;
+  static constexpr int width = 512, height = 32;
 
   // nx, ny >= 1; sweeps >= 0. Nothing is free at first.
   FreeTiles(int nx, int ny, Boundary boundary, int sweeps);
