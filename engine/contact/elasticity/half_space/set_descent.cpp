@@ -254,16 +254,19 @@ double Descent<Limit, Stored>::turn() {
     Array<std::array<double, 1>> parts(level_.preconditioner.tiles());
     const auto put = [&](std::size_t tile, std::size_t first, std::size_t n, const float* values,
                          double factor) {
-      const auto part =
-          over_lanes_of_stretch<1>(first, first + n,
-                                   [z = values - first, d = direction, times = factor * shrink,
-                                    any = values != nullptr]<class Value>(std::size_t k, Value* v) {
-                                     Value value = {};
-                                     if (any) lane_terms::read(z + k, value);
-                                     value *= times;
-                                     lane_terms::put(value, d + k);
-                                     v[0] = value;  // 0 off the free set
-                                   });
+      if (!values) {
+        std::fill_n(direction + first, n, Stored{});
+        return;
+      }
+      const auto part = over_lanes_of_stretch<1>(
+          first, first + n,
+          [z = values - first, d = direction, times = factor * shrink]<class Value>(std::size_t k, Value* v) {
+            Value value;
+            lane_terms::read(z + k, value);
+            value *= times;
+            lane_terms::put(value, d + k);
+            v[0] = value;  // 0 off the free set
+          });
       parts[tile][0] += part[0];
     };
     std::fill(parts.begin(), parts.end(), std::array<double, 1>{});
