@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
-#include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -44,26 +43,27 @@ double sum_of_block(const double* v, std::size_t n) {
   return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
 }
 
-// Of the sums of blocks.
-double pairwise(const double* sums, std::size_t blocks) {
-  if (blocks == 1) return sums[0];
-  const std::size_t left = blocks / 2;
-  return pairwise(sums, left) + pairwise(sums + left, blocks - left);
+double pairwise(const double* v, std::size_t n) {
+  if (n <= block) return sum_of_block(v, n);
+  const std::size_t blocks = (n + block - 1) / block;
+  const std::size_t left = blocks / 2 * block;
+  return pairwise(v, left) + pairwise(v + left, n - left);
+}
+}  // namespace
+
+Field::Field(int nx, int ny, UnsetArray<double>&& values) : nx_(nx), ny_(ny), values_(std::move(values)) {
+  if (values_.size() != static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny))
+    throw Error(ErrorCode::internal, "a field's values are not on its grid");
 }
 
-constexpr std::size_t stretch = 64 * block;  // less than which is not worth a thread
+double block_sum(std::span<const double> values) { return pairwise(values.data(), values.size()); }
 
-// part(k, values) for each stretch of values, the last of what is left.
-template <class Part>
-void each_stretch(std::span<const double> values, const Part& part) {
-  const std::size_t stretches = (values.size() + stretch - 1) / stretch;
-  parallel_for(static_cast<std::int64_t>(stretches), [&](std::int64_t number) {
-    const auto k = static_cast<std::size_t>(number);
-    part(k, values.subspan(k * stretch, std::min(stretch, values.size() - k * stretch)));
-  });
+double mean(std::span<const double> values) {
+  return values.empty() ? 0.0 : block_sum(values) / static_cast<double>(values.size());
 }
 
-Range range_of_stretch(std::span<const double> values) {
+Range range(std::span<const double> values) {
+  if (values.empty()) return {};
   // By lanes: one least and one greatest value would be waited for at every step.
   constexpr std::size_t lanes = 16;
   double low[lanes], high[lanes];
@@ -80,40 +80,6 @@ Range range_of_stretch(std::span<const double> values) {
   const auto rest = std::minmax_element(values.begin() + static_cast<std::ptrdiff_t>(whole), values.end());
   Range range{*std::min_element(low, low + lanes), *std::max_element(high, high + lanes)};
   if (whole < values.size()) range = {std::min(range.min, *rest.first), std::max(range.max, *rest.second)};
-  return range;
-}
-}  // namespace
-
-Field::Field(int nx, int ny, UnsetArray<double>&& values) : nx_(nx), ny_(ny), values_(std::move(values)) {
-  if (values_.size() != static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny))
-    throw Error(ErrorCode::internal, "a field's values are not on its grid");
-}
-
-double block_sum(std::span<const double> values) {
-  if (values.size() <= block) return sum_of_block(values.data(), values.size());
-  Array<double> sums((values.size() + block - 1) / block);
-  each_stretch(values, [&](std::size_t k, std::span<const double> part) {
-    for (std::size_t from = 0; from < part.size(); from += block)
-      sums[(k * stretch + from) / block] =
-          sum_of_block(part.data() + from, std::min(block, part.size() - from));
-  });
-  return pairwise(sums.data(), sums.size());
-}
-
-double mean(std::span<const double> values) {
-  return values.empty() ? 0.0 : block_sum(values) / static_cast<double>(values.size());
-}
-
-Range range(std::span<const double> values) {
-  if (values.empty()) return {};
-  Array<Range> parts((values.size() + stretch - 1) / stretch);
-  each_stretch(values,
-               [&](std::size_t k, std::span<const double> part) { parts[k] = range_of_stretch(part); });
-  Range range = parts.front();
-  for (const Range& part : parts) {
-    range.min = part.min < range.min ? part.min : range.min;
-    range.max = part.max > range.max ? part.max : range.max;
-  }
   return range;
 }
 

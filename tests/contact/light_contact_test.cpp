@@ -58,7 +58,8 @@ TEST_P(LightContactOn, SoftGroundTouchesOnLoadOverHardness) {
     if (hardness < 1e-15) continue;
     for (int j = 0; j < 32; ++j)
       for (int i = 0; i < 32; ++i)
-        ASSERT_NEAR(answer.pressure(i, j), answer.pressure(j, i), 1e-9 * hardness) << hardness;
+        ASSERT_NEAR(answer.pressure(i, j), answer.pressure(j, i), 1e-9 * hardness)
+            << hardness;  // measured 5e-11
   }
 }
 INSTANTIATE_TEST_SUITE_P(Boundaries, LightContactOn, testing::Values(Boundary::periodic, Boundary::free),

@@ -40,11 +40,11 @@ inline void read(const double* from, LaneVector& to) { to = *reinterpret_cast<co
 #if defined(__AVX512F__) && defined(__AVX512VL__)
 // What takes a compiler left to itself several instructions each.
 inline void read(const float* from, LaneVector& to) {
-  to = (LaneVector)_mm512_maskz_cvtps_pd(0xff, _mm256_loadu_ps(from));
+  to = reinterpret_cast<LaneVector>(_mm512_maskz_cvtps_pd(0xff, _mm256_loadu_ps(from)));
 }
 inline void read(const std::uint8_t* from, LaneVector& to) {
-  to = (LaneVector)_mm512_maskz_cvtepi32_pd(
-      0xff, _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(from))));
+  const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+  to = reinterpret_cast<LaneVector>(_mm512_maskz_cvtepi32_pd(0xff, _mm256_cvtepu8_epi32(bytes)));
 }
 #else
 inline void read(const float* from, LaneVector& to) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/contact_quality.hpp"
+#include "engine/contact/elasticity/half_space/descent_directions.hpp"
 #include "engine/contact/elasticity/half_space/descent_nodes.hpp"
 #include "engine/contact/elasticity/half_space/free_set.hpp"
 #include "engine/contact/elasticity/half_space/load_projection.hpp"
@@ -32,26 +33,6 @@ constexpr int slow_passes = 2;
 constexpr double jump = 10;  // a pass whose residual is so many times the one before has gone back
 constexpr int jumps_in_a_cycle = 2;
 constexpr int most_renewals = 50;
-
-// A row of a direction yet without its balance of the load: what is stored of M r, what is kept of the
-// direction before, and a smooth field.
-template <class Stored>
-struct Along {
-  const Stored *values, *before;
-  double kept;
-  SmoothRow<double> smooth;
-
-  // At node k of the grid, or at as many as a vector has lanes.
-  template <class Value>
-  void read(std::size_t k, Value& to) const {
-    Value old, low, high;
-    lane_terms::read(values + k, to);
-    lane_terms::read(before + k, old);
-    lane_terms::read(smooth.low + k, low);
-    lane_terms::read(smooth.high + k, high);
-    to += kept * old + (smooth.low_share * low + smooth.high_share * high);
-  }
-};
 
 template <class Limit, class Stored>
 class Descent {
@@ -87,13 +68,11 @@ class Descent {
     fresh_ = true;
     balance_ = std::numeric_limits<double>::quiet_NaN();
   }
-  double residual_norm();
-  Stored* new_direction();
+  double residual_norm() const;
   double turn();
   // Of row j, on the free set.
   Along<Stored> along(int j) const;
   void settle_step(const ContactQuality& at);
-  void take_step();
   bool descend(int steps);
 
   ContactLevel& level_;
@@ -105,26 +84,21 @@ class Descent {
   const bool dear_;
   const int steps_a_pass_;
   FreeSet set_;
-  // That pressures move along, and the one before. Any rounding of them is as good, since pressures and gaps
-  // go by what has been rounded.
-  UnsetArray<Stored> directions_[2];
+  DescentDirections<Stored> directions_;
   double mean_gap_ = 0;  // of the balancing nodes
   double surplus_ = 0;   // of load in `direction`, a balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
-  double kept_ = 0;                 // of the direction before, in the present one
-  PressureStep<Stored> untaken_{};  // that the pressures and gaps have yet to go
+  double kept_ = 0;  // of the direction before, in the present one
   bool fresh_ = false;
   bool have_direction_ = false;
   double direction_rz_ = 0;
   Array<double> work_, no_field_;  // of ground that hardens
 };
 
-// Takes the last step on the way.
+// Takes the last steps on the way.
 template <class Limit, class Stored>
 ContactQuality Descent<Limit, Stored>::quality() {
-  const PressureStep<Stored> step = untaken_;
-  untaken_ = {};
-  return contact_quality(level_, f_.pressure, f_.gap, step, balance_);
+  return contact_quality(level_, f_.pressure, f_.gap, directions_.hand_over(), balance_);
 }
 
 // target = the settled pressures, those of the elastic interior shifted to the load; where it cannot carry
@@ -162,38 +136,9 @@ std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality
   return first_shift(at, load) - (found - load) / set_.shifted_count;
 }
 
+// Of what the gaps of the free nodes lack of their mean.
 template <class Limit, class Stored>
-void Descent<Limit, Stored>::take_step() {
-  if (untaken_.none()) return;
-  for_lanes(nodes(),
-            [step = untaken_, p = f_.pressure.data(), g = f_.gap.data()]<class Value>(std::size_t k) {
-              Value pressure, gap;
-              step.take(k, p, g, pressure, gap);
-            });
-  untaken_ = {};
-}
-
-// Of what the gaps of the free nodes lack of their mean, their step being taken on the way.
-template <class Limit, class Stored>
-double Descent<Limit, Stored>::residual_norm() {
-  if constexpr (!Limit::hardens) {
-    if (untaken_.gap_length != 0) {
-      const auto squares = over_lanes<1>(
-          nodes(), [length = untaken_.gap_length, image = untaken_.image, g = f_.gap.data(),
-                    free = f_.free.data(), mean = mean_gap_]<class Value>(std::size_t k, Value* v) {
-            Value gap, change, mark;
-            lane_terms::read(g + k, gap);
-            lane_terms::read(image + k, change);
-            lane_terms::read(free + k, mark);
-            gap += length * change;
-            lane_terms::put(gap, g + k);
-            const Value none = {}, lacking = mean - gap, r = mark > none ? lacking : none;
-            v[0] = r * r;
-          });
-      untaken_.gap_length = 0;
-      return std::sqrt(squares[0]);
-    }
-  }
+double Descent<Limit, Stored>::residual_norm() const {
   const auto squares =
       over_marked_nodes<1>(f_.free, [n = view(), mean = mean_gap_](std::size_t k, double* v) {
         const double all = mean - n.total_gap(k), r = n.moves(k) ? all : 0.0;
@@ -202,32 +147,12 @@ double Descent<Limit, Stored>::residual_norm() {
   return std::sqrt(squares[0]);
 }
 
-// A place for a direction, that of the one before the last; a step along that is taken first.
-template <class Limit, class Stored>
-Stored* Descent<Limit, Stored>::new_direction() {
-  typename PressureStep<Stored>::Along &last = untaken_.along[0], &oldest = untaken_.along[1];
-  if (oldest.length != 0)
-    for_lanes(nodes(), [oldest, p = f_.pressure.data()]<class Value>(std::size_t k) {
-      Value pressure, change;
-      lane_terms::read(p + k, pressure);
-      lane_terms::read(oldest.direction + k, change);
-      pressure += oldest.length * change;
-      lane_terms::put(pressure, p + k);
-    });
-  directions_[1].resize(nodes());
-  std::swap(directions_[0], directions_[1]);
-  Stored* const direction = directions_[0].data();
-  oldest = last.length != 0 ? last : typename PressureStep<Stored>::Along{0, direction};
-  last = {0, direction};
-  return direction;
-}
-
 // The direction becomes M r, r what the gaps of the free nodes lack of their mean, kept conjugate to the one
 // before if there is one. Returns r·(M r with the load kept).
 template <class Limit, class Stored>
 double Descent<Limit, Stored>::turn() {
   const double shrink = 1 / level_.pressure_unit();
-  Stored* const direction = new_direction();
+  Stored* const direction = directions_.next(f_.pressure);
   // r carries no load, so that r·(M r) is the same whether or not M r does; nor does the direction before.
   double rz = 0, load = 0;
   if constexpr (Limit::hardens) {
@@ -247,10 +172,7 @@ double Descent<Limit, Stored>::turn() {
     rz = sums[0];
     load = sums[1];
   } else {
-    ContactPreconditioner::Step step;
-    if (untaken_.gap_length != 0) step = {f_.gap.data(), untaken_.gap_length, untaken_.image};
-    rz = level_.preconditioner.spread({f_.gap.data(), -1, mean_gap_}, step);
-    untaken_.gap_length = 0;
+    rz = level_.preconditioner.spread({f_.gap.data(), -1, mean_gap_}, directions_.hand_over_gaps(f_.gap));
     Array<std::array<double, 1>> parts(level_.preconditioner.tiles());
     const auto put = [&](std::size_t tile, std::size_t first, std::size_t n, const float* values,
                          double factor) {
@@ -282,13 +204,9 @@ double Descent<Limit, Stored>::turn() {
 
 template <class Limit, class Stored>
 Along<Stored> Descent<Limit, Stored>::along(int j) const {
-  const Stored* const values = directions_[0].data();
-  const auto begin = static_cast<std::ptrdiff_t>(j) * level_.shape.nx;
   SmoothRow<double> smooth{no_field_.data(), no_field_.data(), 0, 0};
   if constexpr (!Limit::hardens) smooth = level_.preconditioner.smooth(j, 1 / level_.pressure_unit());
-  smooth.low -= begin;
-  smooth.high -= begin;
-  return {values, kept_ != 0 ? directions_[1].data() : values, kept_, smooth};
+  return directions_.row(j, level_.shape.nx, kept_, smooth);
 }
 
 // What settling changes, and a fixed step of the preconditioner if K is dear, at the cost of one application.
@@ -367,7 +285,7 @@ bool Descent<Limit, Stored>::descend(int steps) {
   const bool from_rest = steps == 0;
   double start = 0;
   while (steps < steps_a_pass_) {
-    if constexpr (Limit::hardens) take_step();
+    if (Limit::hardens || from_rest) directions_.take(f_.pressure, f_.gap);
     // A pass that begins with conjugate gradients ends when it has gained enough for this free set.
     if (from_rest) {
       const double norm = residual_norm();
@@ -383,7 +301,7 @@ bool Descent<Limit, Stored>::descend(int steps) {
       const std::size_t begin = static_cast<std::size_t>(j) * nx;
       for_lanes_of_stretch(begin, begin + nx,
                            [along = along(j), balancing, surplus = surplus_, marks = f_.free.data(),
-                            d = directions_[0].data(), to = row - begin]<class Value>(std::size_t k) {
+                            d = directions_.last(), to = row - begin]<class Value>(std::size_t k) {
                              Value value, mark;
                              along.read(k, value);
                              lane_terms::read(marks + k, mark);
@@ -400,22 +318,19 @@ bool Descent<Limit, Stored>::descend(int steps) {
     const auto sink = [&](int j, const double* image) {
       const std::size_t begin = static_cast<std::size_t>(j) * nx;
       rows[static_cast<std::size_t>(j)] = weigh_image(view(), begin, begin + nx, balancing, mean_gap_,
-                                                      directions_[0].data(), image, f_.image.data());
+                                                      directions_.last(), image, f_.image.data());
     };
     level_.apply(source, sink, {});
     const auto sums = added_up(rows);
     if (!(sums[0] > 0) || !(rz > 0)) {
       have_direction_ = false;
-      untaken_.image = f_.gap.data();  // finite, whatever the image has become; not taken
+      directions_.drop_last(f_.gap);
       break;
     }
     // r·M r is known to single precision only, unless it was summed up.
     const double length = (Limit::hardens ? rz : sums[2]) / sums[0];
     mean_gap_ += length * (sums[1] / set_.balancing_count());
-    untaken_.along[0].length = length;
-    untaken_.gap_length = length;
-    untaken_.image = f_.image.data();
-    // Taken when pressures and gaps are read again.
+    directions_.go(length, f_.image.data());
     ++steps;
   }
   return steps > 0;
