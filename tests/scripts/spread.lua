@@ -4,7 +4,7 @@
 --! output: over ranks as in one process
 local lab = require "asperity"
 local al = lab.material{ young = "70 GPa", poisson = 0.33, hardness = "1 GPa" }
-local tolerance = 1e-6
+local tolerance = 1e-7
 
 local function close(what, found, wanted, within)
   if not (math.abs(found - wanted) <= within * math.abs(wanted)) then
@@ -12,7 +12,8 @@ local function close(what, found, wanted, within)
   end
 end
 
--- Every number within ten tolerances; the numbers of nodes may differ by one that is on the edge.
+-- Every number within ten tolerances, but the pressure of one node, which no average steadies, within a hundred; the
+-- numbers of nodes may differ by one that is on the edge.
 local function compare(cells, press, plasticity)
   local keys = { cells = cells, size = { "100 um", "80 um" }, hurst = 0.7, rms_height = "1 um", short_wave = "12 um",
     seed = 3, material = al }
@@ -26,9 +27,10 @@ local function compare(cells, press, plasticity)
   local b = lab.contact{ lower = whole, upper = lab.rigid, boundary = "periodic", effects = effects,
     accuracy = accuracy }:press(press)
   assert(a.converged and a.residual <= tolerance)
-  for _, name in ipairs{ "load", "pressure", "approach", "mean_gap", "energy", "peak_pressure" } do
+  for _, name in ipairs{ "load", "pressure", "approach", "mean_gap", "energy" } do
     close(name, a[name], b[name], 10 * tolerance)
   end
+  close("peak_pressure", a.peak_pressure, b.peak_pressure, 100 * tolerance)
   assert(math.abs(a.contacts - b.contacts) <= 1)
   close("area", a.area, a.contacts * (100e-6 / spread.cells[1]) * (80e-6 / spread.cells[2]), 1e-12)
   if plasticity then

@@ -22,7 +22,7 @@ struct DescentFields {
 };
 
 struct StageEnd {
-  bool converged = false;  // then `gap` belongs to `pressure`, by an application of K of its own
+  bool converged = false;
   double residual = std::numeric_limits<double>::infinity();
   double best = std::numeric_limits<double>::infinity();
 };

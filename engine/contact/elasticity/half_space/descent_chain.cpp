@@ -6,11 +6,11 @@
 
 namespace asperity {
 
-ChainEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, bool with_last_resort) {
+ChainEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, ChainEffort effort) {
   constexpr int quick = 300, shake = 12, last_resort = 3000;
   ChainEnd end;
   for (int stage = 0; stage < 5; ++stage) {
-    if (!with_last_resort && stage > 2) break;
+    if (effort != ChainEffort::full && stage > 2) break;
     if (stage == 4) {
       end.stage = spectral_gradient(level, fields, tolerance, last_resort);
       end.name = "spectral projected gradients, after the descents stalled";
@@ -18,7 +18,7 @@ ChainEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance,
       end.stage = spectral_gradient(level, fields, tolerance, shake);
       end.name = "spectral projected gradients";
     } else {
-      end.stage = set_descent(level, fields, tolerance, quick);
+      end.stage = set_descent(level, fields, tolerance, quick, effort != ChainEffort::start);
       end.name = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
     }
     if (end.stage.converged) break;

@@ -15,7 +15,13 @@ struct ChainEnd {
   std::string name;
 };
 
-// Until one converges. `with_last_resort`: down to thousands of projected gradients.
-ChainEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, bool with_last_resort);
+enum class ChainEffort {
+  start,  // of a finer grid: pressures may end outside their bounds, with gaps as the steps left them
+  brief,  // an answer, or none without the last resort
+  full    // an answer, down to thousands of projected gradients
+};
+
+// Until one converges.
+ChainEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, ChainEffort effort);
 
 }  // namespace asperity

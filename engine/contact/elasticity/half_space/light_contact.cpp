@@ -44,7 +44,7 @@ class LightContact {
 bool LightContact::again(double length, ChainEnd& end) {
   level_.length = length;
   const UnsetArray<double> before = fields_.pressure;
-  const ChainEnd finer = run_chain(level_, fields_, tolerance_, false);
+  const ChainEnd finer = run_chain(level_, fields_, tolerance_, ChainEffort::brief);
   if (finer.stage.converged)
     end = finer;
   else

@@ -19,6 +19,7 @@ namespace asperity {
 
 namespace {
 constexpr double coarse_tolerance = 5e-3;
+constexpr int most_snaps = 3;
 
 // Progress on a logarithmic scale of the residual, and the place where a stop is seen.
 class Progress {
@@ -164,13 +165,22 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
     }
     project_to_load(p, {}, upper, level.total_load(), p);
 
-    ChainEnd end = run_chain(level, fields, tolerance, finest);
+    ChainEnd end = run_chain(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
     if (!end.stage.converged) level.gap(p, fields.gap);
     answer.from_peak =
         finest && refine_light_contact(level, fields, {problem.heights, problem.origin, problem.factor},
                                        tolerance, end);
-    if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
-    const ContactQuality at = contact_quality(level, p, fields.gap);
+    ContactQuality at;
+    for (int round = 0;; ++round) {
+      if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
+      at = contact_quality(level, p, fields.gap);
+      if (!finest || answer.from_peak || !end.stage.converged || at.residual <= tolerance) break;
+      // Nodes that were snapped to the limit no longer balance the load.
+      end.stage.converged = round < most_snaps;
+      if (!end.stage.converged) break;
+      end = run_chain(level, fields, tolerance, ChainEffort::full);
+      if (!end.stage.converged) level.gap(p, fields.gap);
+    }
     if (finest) {
       answer.pressure = std::move(p);
       answer.gap = std::move(fields.gap);

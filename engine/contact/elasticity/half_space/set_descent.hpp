@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The quick stage: preconditioned conjugate gradients on the current free set, a step or two at a time,
-// with pressures allowed outside their bounds until the next pass. What the clipping changes is not
-// paid for by an application of its own but travels with a fixed preconditioned (Richardson) step.
-// Two-cycles of a few nodes are broken by averaging two passes, exact because g is linear in p. It has no
-// proof of convergence; it stops when it no longer gains.
+// The quick stage: preconditioned conjugate gradients on the current free set, with pressures allowed outside
+// their bounds until the next pass: one step a pass where nothing has to be settled, else two. What the
+// clipping changes is not paid for by an application of its own but travels with a fixed preconditioned
+// (Richardson) step. Two-cycles of a few nodes are broken by averaging two passes, exact because g is linear
+// in p. It has no proof of convergence; it stops when it no longer gains.
 #pragma once
 
 #include "engine/contact/elasticity/half_space/contact_level.hpp"
@@ -11,8 +11,9 @@
 
 namespace asperity {
 
-// From fields.pressure, feasible. Ends converged (residual < tolerance, fresh gap) or with feasible
-// pressures.
-StageEnd set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications);
+// From fields.pressure, feasible. Ends converged (residual < tolerance) or with feasible pressures. `exact`:
+// pressures that converged are feasible, too, and their gap is computed afresh.
+StageEnd set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications,
+                     bool exact);
 
 }  // namespace asperity
