@@ -173,7 +173,7 @@ struct Trial {
 };
 
 Trial make_trial(Placed placed, double tolerance) {
-  PrecisionChoice precision = choose_precision(placed.scene, placed.scene.lower.grid(), tolerance);
+  PrecisionChoice precision = choose_precision(placed.scene, placed.scene.lower.grid());
   Trial trial{std::move(placed.scene), {}, {}, {}, {}, std::move(placed.source), std::move(precision.why)};
   trial.scene.accuracy.tolerance = tolerance;
   trial.scene.accuracy.precision = precision.precision;

@@ -389,5 +389,24 @@ TEST_P(Flattening, TheLeastSharesAreMet) {
 INSTANTIATE_TEST_SUITE_P(Boundaries, Flattening, testing::Values(Boundary::periodic, Boundary::free),
                          [](const auto& boundary) { return std::string(name(boundary.param)); });
 
+// Nearly all nodes have yielded already and are just at the limit when they are pressed again: one that is
+// snapped to it no longer balances the load, and the others have to.
+TEST(CloseToHardness, WhatIsSnappedToTheLimitIsJudgedAgain) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Grid grid = make_grid(24, 47, 24, 624);
+    Field h(grid.nx, grid.ny);
+    const Stream stream(seed, "heights");
+    for (std::size_t k = 0; k < h.size(); ++k) h[k] = std::round(2 * stream.normal(k));
+    for (int event = 0; event < 3; ++event) {
+      HalfSpaceProblem problem = problem_of(grid, h, Boundary::periodic, 1, 1e-10);
+      problem.yield.cap = 7.4;
+      const HalfSpaceAnswer answer = solve(problem, 0.9985 * problem.yield.cap);
+      EXPECT_TRUE(answer.converged) << seed;
+      EXPECT_LE(answer.certificate.worst(), problem.tolerance) << seed << " event " << event;
+      for (std::size_t k = 0; k < h.size(); ++k) h[k] += std::min(0.0, answer.gap[k]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace asperity

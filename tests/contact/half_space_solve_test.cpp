@@ -309,7 +309,7 @@ TEST(HalfSpaceSolve, TakesFewTransforms) {
         const CostScope scope;
         const HalfSpaceAnswer answer = solve(rough_problem(n, Boundary::periodic, seed), load);
         EXPECT_TRUE(answer.converged);
-        EXPECT_LE(scope.so_far().transforms / 2, 36) << n << " " << load << " seed " << seed;
+        EXPECT_LE(scope.so_far().transforms / 2, 24) << n << " " << load << " seed " << seed;
       }
 }
 TEST(HalfSpaceSolve, TakesFewTransformsUnderACap) {
@@ -318,14 +318,14 @@ TEST(HalfSpaceSolve, TakesFewTransformsUnderACap) {
     problem.yield.cap = over * .03;
     const CostScope scope;
     EXPECT_TRUE(solve(problem, .03).converged);
-    EXPECT_LE(scope.so_far().transforms / 2, 40) << over;
+    EXPECT_LE(scope.so_far().transforms / 2, 26) << over;
   }
 }
 TEST(HalfSpaceSolve, TakesFewTransformsOnAFreeTile) {
   for (const double load : {.005, .03}) {
     const CostScope scope;
     EXPECT_TRUE(solve(rough_problem(256, Boundary::free, 1), load).converged);
-    EXPECT_LE(scope.so_far().transforms / 2, 45) << load;
+    EXPECT_LE(scope.so_far().transforms / 2, 32) << load;
   }
 }
 TEST(HalfSpaceSolve, TakesFewTransformsUnderHardening) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Half-space solves whose transforms are in single precision: what they reach, what they agree with, what
-// they hold, and where they are not. Case: single precision of the hard cases.
+// Half-space solves whose transforms, or some of them, are in single precision: what they reach, what they
+// agree with, what they hold, and where they are not. Case: single precision of the hard cases.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -56,18 +57,21 @@ TEST_P(SinglePrecision, MeetsEachToleranceAndAgreesWithDouble) {
   }
 }
 
-// Gaps handed out are those of the pressures in double precision, not in single.
+// Gaps handed out are those of the pressures in double precision, not in single: of a solve in single
+// precision, and of one in double so large that it rounds its steps.
 TEST_P(SinglePrecision, GapsAreDouble) {
-  const HalfSpaceProblem problem = rough_problem(48, GetParam(), 2);
-  const HalfSpaceAnswer answer = solved(problem, 0.02, true);
-  const Grid& grid = problem.grid;
-  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), GetParam());
-  Field u(grid.nx, grid.ny);
-  compliance.apply(answer.pressure.values(), u.values());
-  for (std::size_t k = 0; k < u.size(); ++k)
-    ASSERT_NEAR(u[k] * grid.hx() / problem.modulus - (*problem.heights)[k] - answer.offset, answer.gap[k],
-                1e-13 * problem.rms * 100)
-        << k;
+  for (const auto& [n, single] : {std::pair(48, true), std::pair(256, false)}) {
+    const HalfSpaceProblem problem = rough_problem(n, GetParam(), 2);
+    const HalfSpaceAnswer answer = solved(problem, 0.02, single);
+    const Grid& grid = problem.grid;
+    HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), GetParam());
+    Field u(grid.nx, grid.ny);
+    compliance.apply(answer.pressure.values(), u.values());
+    for (std::size_t k = 0; k < u.size(); ++k)
+      ASSERT_NEAR(u[k] * grid.hx() / problem.modulus - (*problem.heights)[k] - answer.offset, answer.gap[k],
+                  1e-13 * problem.rms * 100)
+          << k;
+  }
 }
 
 TEST_P(SinglePrecision, ThreadsChangeNoBit) {
@@ -151,6 +155,15 @@ TEST(SinglePrecisionOf, AnOperatorIsTheOperatorRounded) {
   EXPECT_GT(apart(u.values(), v.values()), 1e-9 * most(u.values()));
   EXPECT_LE(apart(u.values(), v.values()), 1e-6 * most(u.values()));
   EXPECT_LE(apart(u.values(), w.values()), 1e-14 * most(u.values()));
+
+  // One in double precision rounds when it is told to, and no longer.
+  for (int time = 0; time < 2; ++time) {
+    exact.apply_rounded([&](int j, double*) { return p.row(j).data(); },
+                        [&](int j, const double* row) { std::copy_n(row, n, w.row(j).data()); }, {});
+    EXPECT_EQ(apart(v.values(), w.values()), 0);
+    exact.apply(p.values(), w.values());
+    EXPECT_EQ(apart(u.values(), w.values()), 0);
+  }
 }
 
 // Where nothing can meet the tolerance, single precision says so as double does.

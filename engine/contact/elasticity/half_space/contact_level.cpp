@@ -30,8 +30,14 @@ ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double
   compliance.count_pressures_in(unit_);
 }
 
+void ContactLevel::unpressed_gap(std::size_t first, std::size_t n, double* g) const {
+  for_stretch(0, n, [=, h = heights_.data() + first, origin = origin_, factor = factor_](std::size_t k) {
+    g[k] = (origin - h[k]) * factor;
+  });
+}
+
 void ContactLevel::gap(std::span<const double> p, std::span<double> g) {
-  gap_beside(p, shape.boundary == Boundary::free ? 0 : mean_pressure, g);
+  gap_beside(p, immobile_pressure(), g);
 }
 
 void ContactLevel::gap_beside_mean(std::span<const double> p, std::span<double> g) { gap_beside(p, 0, g); }

@@ -49,6 +49,8 @@ class ContactLevel {
 
   std::size_t nodes() const { return shape.nodes(); }
   double height(std::size_t k) const { return (heights_[k] - origin_) * factor_; }
+  // g = −h of n nodes from `first`, the gap where nothing presses.
+  void unpressed_gap(std::size_t first, std::size_t n, double* g) const;
   // Heights, and with them gaps, are counted from `height_origin` from now on.
   void count_from(double height_origin) { origin_ = height_origin; }
   // A power of two, about the mean pressure.
@@ -59,14 +61,23 @@ class ContactLevel {
     ++applications;
     compliance.apply(p, u);
   }
-  // Row by row, as HalfSpaceCompliance::apply, of pressures in pressure_unit().
-  void apply(const HalfSpaceCompliance::Source& source, const HalfSpaceCompliance::Sink& sink,
-             std::span<double> u) {
+  // Row by row, as HalfSpaceCompliance::apply or apply_rounded, of pressures in pressure_unit().
+  void apply(const HalfSpaceCompliance::Source& source, const HalfSpaceCompliance::Sink& sink, bool rounded) {
     ++applications;
-    compliance.apply(source, sink, u);
+    if (rounded)
+      compliance.apply_rounded(source, sink, {});
+    else
+      compliance.apply(source, sink, {});
   }
-  // g = K p − h, in double precision always. On a periodic tile the mean pressure moves nothing, and may be
-  // so large that beside it p has lost digits: …
+  // In double precision always; `work`, of as many values as there are nodes, is overwritten.
+  void apply_in_double(const HalfSpaceCompliance::Source& source, const HalfSpaceCompliance::Sink& sink,
+                       std::span<double> work) {
+    ++applications;
+    compliance.apply_in_double(source, sink, work);
+  }
+  // On a periodic tile the mean pressure moves nothing, and may be so large that beside it p has lost digits.
+  double immobile_pressure() const { return shape.boundary == Boundary::free ? 0 : mean_pressure; }
+  // g = K p − h, in double precision always: …
   void gap(std::span<const double> p, std::span<double> g);
   // … the same of a p from which it has been taken already. g may be p.
   void gap_beside_mean(std::span<const double> p, std::span<double> g);

@@ -73,7 +73,8 @@ void free_multiplier(int period_x, int period_y, double aspect, std::span<double
 
 }  // namespace
 
-// By lanes where the period allows, else by the library's transforms.
+// By lanes where the period allows, else by the library's transforms. What both precisions hold is never more
+// than what double alone does: `lanes` rest while `singles` are used, and `singles` go when `lanes` are.
 struct HalfSpaceCompliance::Parts {
   int nx, ny, period_x, period_y;
   double aspect;
@@ -121,6 +122,23 @@ struct HalfSpaceCompliance::Parts {
     multiplier = Array<double>();
   }
 
+  FourierLaneFilter<double>& in_double() {
+    singles.reset();
+    return *lanes;
+  }
+  FourierLaneFilter<float>& in_single() {
+    if (!singles) {
+      lanes->rest();
+      singles.emplace(nx, ny, period_x, period_y, [this](int a, std::span<double> to) {
+        if (boundary == Boundary::periodic)
+          periodic_multiplier(nx, ny, aspect, a, to);
+        else
+          factors_of(a, to);
+      });
+    }
+    return *singles;
+  }
+
   std::size_t bins_x() const { return static_cast<std::size_t>(period_x / 2 + 1); }
   std::size_t bins_y() const { return static_cast<std::size_t>(period_y / 2 + 1); }
   std::span<double> column(int a) {
@@ -164,7 +182,7 @@ HalfSpaceCompliance::HalfSpaceCompliance(HalfSpaceCompliance&&) noexcept = defau
 HalfSpaceCompliance& HalfSpaceCompliance::operator=(HalfSpaceCompliance&&) noexcept = default;
 
 void HalfSpaceCompliance::apply(std::span<const double> p, std::span<double> u) {
-  if (parts_->singles) {
+  if (single()) {
     cost::count_transforms(2 * parts_->weight);
     return parts_->singles->apply(p, u, parts_->scale);
   }
@@ -175,14 +193,20 @@ void HalfSpaceCompliance::apply(std::span<const double> p, std::span<double> u) 
 void HalfSpaceCompliance::apply(const Source& source, const Sink& sink, std::span<double> u) {
   Parts& parts = *parts_;
   cost::count_transforms(2 * parts.weight);
-  if (parts.lanes) return parts.lanes->apply(source, sink, u);
+  if (parts.lanes) return parts.in_double().apply(source, sink, u);
   if (parts.singles) return parts.singles->apply(source, sink, u);
   parts.by_field(source, sink, u, [&](std::span<double> field) {
     parts.plain->apply(field, field, [&](int a, std::span<double> factors) { parts.factors_of(a, factors); });
   });
 }
 
-bool HalfSpaceCompliance::single() const { return parts_->singles.has_value(); }
+void HalfSpaceCompliance::apply_rounded(const Source& source, const Sink& sink, std::span<double> u) {
+  if (!parts_->lanes) return apply(source, sink, u);
+  cost::count_transforms(2 * parts_->weight);
+  parts_->in_single().apply(source, sink, u);
+}
+
+bool HalfSpaceCompliance::single() const { return parts_->singles && !parts_->lanes; }
 
 bool HalfSpaceCompliance::single_possible(int nx, int ny, Boundary boundary) {
   return FourierLaneFilter<double>::possible(period(nx, boundary), period(ny, boundary));
@@ -195,7 +219,7 @@ void HalfSpaceCompliance::count_pressures_in(double unit) {
 
 void HalfSpaceCompliance::apply_in_double(const Source& source, const Sink& sink, std::span<double> u) {
   Parts& parts = *parts_;
-  if (!parts.singles) return apply(source, sink, u);
+  if (!single()) return apply(source, sink, u);
   parts.singles->rest();
   if (parts.boundary == Boundary::free) {
     HalfSpaceCompliance exact(parts.nx, parts.ny, parts.aspect, parts.boundary, parts.weight);

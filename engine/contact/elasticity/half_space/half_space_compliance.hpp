@@ -45,6 +45,8 @@ class HalfSpaceCompliance {
   void apply(const Source& source, const Sink& sink, std::span<double> u);
   // In double precision all the same, of any p.
   void apply_in_double(const Source& source, const Sink& sink, std::span<double> u);
+  // In single precision all the same, where single_possible(); rows of p must be near 1.
+  void apply_rounded(const Source& source, const Sink& sink, std::span<double> u);
 
   // Periodic only: the pressure of mean 0 whose displacement is u, but for the mean of u: |q|/2. Costs
   // the same. Throws Error{internal} on a free boundary.

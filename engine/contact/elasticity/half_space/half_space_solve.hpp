@@ -28,8 +28,8 @@ struct HalfSpaceProblem {
   YieldLaw yield;
   double tolerance = 1e-6;   // greatest entry of the certificate
   bool best_effort = false;  // hand out what was reached instead of throwing
-  // What steps change is computed in single precision, where the grid allows; pressures, gaps and the
-  // certificate are double all the same, so that the tolerance is met as ever, by a step or two more.
+  // What steps change is computed in single precision, where the grid allows, on any grid and with the memory
+  // for that alone; pressures, gaps and the certificate are double all the same.
   bool single = false;
 };
 

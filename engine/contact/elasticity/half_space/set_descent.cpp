@@ -23,9 +23,13 @@ namespace {
 // takes one: more on a free set that is not the last take up to a third more in all.
 constexpr int steps_a_pass = 3, steps_of_dear_pass = 2;
 constexpr double richardson_step = 0.65;
-// With a tolerance no less than this, directions in single precision serve: half the memory to move. They
-// leave pressures of mirrored contacts some 1e-9 of the greatest apart.
+// With a tolerance no less than this, single precision serves for what steps change. Directions take half the
+// memory to move; they leave pressures of mirrored contacts some 1e-9 of the greatest apart.
 constexpr double single_enough = 5e-9;
+constexpr std::size_t worth_rounding = std::size_t{256} * 256;  // nodes; images of fewer save no time
+// The image of what takes gaps a residual further leaves so much of the residual: 4e-7 was measured on 256²,
+// 2e-6 on 2048². It adds up until gaps are computed afresh, as a pass that settles may do at no cost.
+constexpr double rounding_of_steps = 2e-6, rounding_share = 0.1;  // of the tolerance, without harm
 constexpr double load_slack = 1e-6;  // of the load, that a pass leaves to a later one
 constexpr int passes_without_gain = 4;
 constexpr double slow = 0.7;  // a pass that leaves more than this of the best residual is slow
@@ -47,6 +51,9 @@ class Descent {
         most_(level.applications + most),
         exact_(exact),
         dear_(Limit::hardens || level.shape.boundary == Boundary::free),
+        rounds_(
+            HalfSpaceCompliance::single_possible(level.shape.nx, level.shape.ny, level.shape.boundary) &&
+            (level.shape.single || (std::is_same_v<Stored, float> && level.shape.nodes() >= worth_rounding))),
         steps_a_pass_(dear_ ? steps_of_dear_pass : steps_a_pass),
         no_field_(Limit::hardens ? static_cast<std::size_t>(level.shape.nx) : 0) {}
 
@@ -68,12 +75,13 @@ class Descent {
     project(at, f_.pressure);
     level_.gap(f_.pressure, f_.gap);
     fresh_ = true;
+    drift_ = 0;
     balance_ = std::numeric_limits<double>::quiet_NaN();
   }
   double turn();
   // Of row j, on the free set.
   Along<Stored> along(int j) const;
-  void settle_step(const ContactQuality& at);
+  void settle_step(const ContactQuality& at, bool afresh);
   bool descend(int steps);
 
   ContactLevel& level_;
@@ -83,13 +91,15 @@ class Descent {
   double tolerance_;
   int most_;
   const bool exact_, dear_;
+  const bool rounds_;  // images are computed in single precision
   const int steps_a_pass_;
   FreeSet set_;
   DescentDirections<Stored> directions_;
   double mean_gap_ = 0;  // of the balancing nodes
   double surplus_ = 0;   // of load in `direction`, a balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
-  double kept_ = 0;  // of the direction before, in the present one
+  double kept_ = 0;   // of the direction before, in the present one
+  double drift_ = 0;  // of the gaps, at most, by images in single precision; as a residual
   bool fresh_ = false;
   bool have_direction_ = false;
   double direction_rz_ = 0;
@@ -199,9 +209,10 @@ Along<Stored> Descent<Limit, Stored>::along(int j) const {
   return directions_.row(j, level_.shape.nx, kept_, smooth);
 }
 
-// What settling changes, and a fixed step of the preconditioner if K is dear, at the cost of one application.
+// What settling changes, and a fixed step of the preconditioner if K is dear, at the cost of one application,
+// which moves the gaps, or computes them afresh, in double precision.
 template <class Limit, class Stored>
-void Descent<Limit, Stored>::settle_step(const ContactQuality& at) {
+void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) {
   const std::optional<double> shift = shift_to_load(at);
   if (!shift) {                       // the image of the last step is done with
     std::swap(f_.free, f_.old_free);  // project() needs marks of its own
@@ -210,13 +221,13 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at) {
   }
   if (dear_) turn();
   const auto nx = static_cast<std::size_t>(level_.shape.nx);
-  const double unit = level_.pressure_unit(), shrink = 1 / unit;
+  const double unit = level_.pressure_unit(), shrink = 1 / unit, immobile = level_.immobile_pressure();
   const auto advance = [=, n = view(), balancing = set_.balancing(), surplus = surplus_](
                            std::size_t k, double along, double target) {
     const double p = n.pressure[k], z = along - (n.free[k] == balancing ? surplus : 0.0);
     const double descent = richardson_step * unit * z, next = target + (n.moves(k) ? descent : 0.0);
     n.pressure[k] = next;  // at a bound to the last bit if it does not move
-    return (next - p) * shrink;
+    return (next - (afresh ? immobile : p)) * shrink;
   };
   const auto move = [&](int j, double* to, const auto& target) {
     const std::size_t begin = static_cast<std::size_t>(j) * nx;
@@ -229,7 +240,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at) {
     else
       for_stretch(begin, begin + nx, [=, p = f_.pressure.data()](std::size_t k) {
         const double next = target(k);
-        to[k] = (next - p[k]) * shrink;
+        to[k] = (next - (afresh ? immobile : p[k])) * shrink;
         p[k] = next;
       });
   };
@@ -250,9 +261,13 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at) {
   Array<std::array<double, 1>> rows(static_cast<std::size_t>(level_.shape.ny));
   const auto sink = [&](int j, const double* image) {
     const std::size_t begin = static_cast<std::size_t>(j) * nx;
+    if (afresh) level_.unpressed_gap(begin, nx, f_.gap.data() + begin);
     rows[static_cast<std::size_t>(j)] = take_image(view(), begin, begin + nx, image, unit, balances);
   };
-  level_.apply(source, sink, {});
+  if (afresh)
+    level_.apply_in_double(source, sink, f_.image);  // row by row: where `from` is, it has been read
+  else
+    level_.apply(source, sink, rounds_);
   auto sums = added_up(rows);
   if (set_.settling_count > 0) {
     for (std::uint8_t& kind : f_.free)
@@ -301,7 +316,7 @@ bool Descent<Limit, Stored>::descend(int steps) {
       rows[static_cast<std::size_t>(j)] = weigh_image(view(), begin, begin + nx, balancing, mean_gap_,
                                                       directions_.last(), image, f_.image.data());
     };
-    level_.apply(source, sink, {});
+    level_.apply(source, sink, rounds_);
     const auto sums = added_up(rows);
     if (!(sums[0] > 0) || !(rz > 0)) {
       have_direction_ = false;
@@ -381,7 +396,11 @@ StageEnd Descent<Limit, Stored>::run() {
     if (settles || set_.changed) have_direction_ = false;
     fresh_ = false;
     mean_gap_ = set_.count() > 0 ? set_.balancing_gap() / set_.balancing_count() : at.interior_gap;
-    if (settles) settle_step(at);
+    const double rounding = rounding_of_steps * at.residual, harmless = rounding_share * tolerance_;
+    const bool afresh = settles && drift_ > harmless && (rounding <= harmless || rounding < 0.01 * drift_);
+    if (afresh) drift_ = 0;
+    if (rounds_) drift_ += rounding;
+    if (settles) settle_step(at, afresh);
     if (!descend(settles ? 1 : 0)) {  // the free nodes are in balance to the last bit
       project(at, f_.pressure);
       return end;
