@@ -20,7 +20,8 @@ namespace asperity {
 namespace {
 // Applications of K in a pass that settles. Where one costs several times as much as the preconditioner, or
 // ground hardens, that of settling also carries a fixed step of the preconditioner. A pass without settling
-// takes one: more on a free set that is not the last take up to a third more in all.
+// takes one: more, on a free set that is not the last, take up to a third more in all. Not where ground
+// hardens: there three times as many random scenes stalled with one, six of 20 000.
 constexpr int steps_a_pass = 3, steps_of_dear_pass = 2;
 constexpr double richardson_step = 0.65;
 // With a tolerance no less than this, single precision serves for what steps change. Directions take half the
@@ -287,7 +288,7 @@ void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) 
 template <class Limit, class Stored>
 bool Descent<Limit, Stored>::descend(int steps) {
   const auto nx = static_cast<std::size_t>(level_.shape.nx);
-  const int enough = steps == 0 ? 1 : steps_a_pass_;
+  const int enough = steps > 0 || Limit::hardens ? steps_a_pass_ : 1;
   while (steps < enough) {
     if constexpr (Limit::hardens) directions_.take(f_.pressure, f_.gap);
     const double rz = turn();

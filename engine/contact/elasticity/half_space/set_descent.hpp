@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The quick stage: preconditioned conjugate gradients on the current free set, with pressures allowed outside
-// their bounds until the next pass: one step a pass where nothing has to be settled, else two. What the
+// their bounds until the next pass: one step a pass where nothing has to be settled, else a few. What the
 // clipping changes is not paid for by an application of its own but travels with a fixed preconditioned
 // (Richardson) step. Two-cycles of a few nodes are broken by averaging two passes, exact because g is linear
 // in p. It has no proof of convergence; it stops when it no longer gains.
