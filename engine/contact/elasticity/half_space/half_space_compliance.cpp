@@ -73,8 +73,8 @@ void free_multiplier(int period_x, int period_y, double aspect, std::span<double
 
 }  // namespace
 
-// By lanes where the period allows, else by the library's transforms. What both precisions hold is never more
-// than what double alone does: `lanes` rest while `singles` are used, and `singles` go when `lanes` are.
+// By lanes where the period allows, else by the library's transforms. Of two precisions one rests: what
+// double alone would hold, and the multiplier in single.
 struct HalfSpaceCompliance::Parts {
   int nx, ny, period_x, period_y;
   double aspect;
@@ -123,19 +123,18 @@ struct HalfSpaceCompliance::Parts {
   }
 
   FourierLaneFilter<double>& in_double() {
-    singles.reset();
+    if (singles) singles->rest();
     return *lanes;
   }
   FourierLaneFilter<float>& in_single() {
-    if (!singles) {
-      lanes->rest();
+    lanes->rest();
+    if (!singles)
       singles.emplace(nx, ny, period_x, period_y, [this](int a, std::span<double> to) {
         if (boundary == Boundary::periodic)
           periodic_multiplier(nx, ny, aspect, a, to);
         else
           factors_of(a, to);
       });
-    }
     return *singles;
   }
 

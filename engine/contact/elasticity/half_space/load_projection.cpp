@@ -84,7 +84,10 @@ bool project(std::span<const double> y, Where where, double upper, double load, 
     (excess > 0 ? high : low) = shift;
     // Newton's step, with nothing cancelled.
     double next = (load - fixed - at.bound - at.values) / at.interior;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (!(next > low && next < high)) {
+      if (best <= noticed * load) break;  // what is left is rounding
+      next = 0.5 * (low + high);
+    }
     if (next == shift || !(next > low && next < high)) break;
     shift = next;
   }
