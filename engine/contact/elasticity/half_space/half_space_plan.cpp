@@ -29,8 +29,8 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   plan.buffers.push_back({"pressures and gaps of each state", grids(2)});
   plan.buffers.push_back({"work of the solver", grids(!periodic ? 11 : single ? 7.5 : 8), false});
   plan.transforms = periodic ? 40 : 60;
-  // Measured on two threads: a transform of a million nodes takes some 3 ms with all that goes with it, one of
-  // 67 million 430 ms.
+  // Measured on two threads: a transform of a million nodes takes some 3 ms with all that goes with it, one
+  // of 67 million 430 ms.
   constexpr double seconds_per_node = 4e-9;
   plan.seconds = plan.transforms * seconds_per_node * nodes * (periodic ? 1 : 2.5);
 }

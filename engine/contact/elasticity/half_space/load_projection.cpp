@@ -82,12 +82,11 @@ bool project(std::span<const double> y, Where where, double upper, double load, 
     }
     if (std::abs(excess) <= round_off * load) break;
     (excess > 0 ? high : low) = shift;
-    // Newton's step, with nothing cancelled.
+    // Newton's step, with nothing cancelled; or by what the load is off, which tells shifts apart that the
+    // sums do not.
     double next = (load - fixed - at.bound - at.values) / at.interior;
-    if (!(next > low && next < high)) {
-      if (best <= noticed * load) break;  // what is left is rounding
-      next = 0.5 * (low + high);
-    }
+    if (!(next > low && next < high)) next = shift - excess / at.interior;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (next == shift || !(next > low && next < high)) break;
     shift = next;
   }

@@ -17,7 +17,6 @@ namespace {
 // As in half_space/set_descent.cpp.
 constexpr double richardson_step = 0.65;
 constexpr int steps_a_pass = 2;
-constexpr double enough_reduction = 0.1;
 constexpr int passes_without_gain = 4;
 constexpr double slow = 0.7;
 constexpr int slow_passes = 2;
@@ -27,12 +26,13 @@ constexpr int most_renewals = 50;
 
 class Descent {
  public:
-  Descent(SlabLevel& level, SlabFields& fields, double tolerance, int most)
+  Descent(SlabLevel& level, SlabFields& fields, double tolerance, int most, bool exact)
       : level_(level),
         f_(fields),
         preconditioner_(level),
         tolerance_(tolerance),
-        most_(level.applications + most) {}
+        most_(level.applications + most),
+        exact_(exact) {}
   bool run();
 
  private:
@@ -50,6 +50,7 @@ class Descent {
   SlabPreconditioner preconditioner_;
   double tolerance_;
   int most_;
+  const bool exact_;
   double free_count_ = 0;
   bool changed_ = true;
   double mean_gap_ = 0;  // of the free nodes
@@ -171,9 +172,10 @@ void Descent::settle_step(const SlabQuality& at) {
           const bool here = (p[k] > 0) & (p[k] < upper);
           to = here ? std::min(std::max(q + by, 0.0), upper) : q;
         }
-        const double x = (to - p[k]) + (free[k] != 0 ? richardson_step * (z[k] - surplus) : 0.0);
-        p[k] += x;
-        return x;
+        const double before = p[k];
+        p[k] =
+            to + (free[k] != 0 ? richardson_step * (z[k] - surplus) : 0.0);  // if not free, to the last bit
+        return p[k] - before;
       },
       [g = f_.gap.data()](std::size_t k, double u) { g[k] += u; });
   balance();
@@ -181,19 +183,8 @@ void Descent::settle_step(const SlabQuality& at) {
 
 // Conjugate gradients on the free set, `steps` of the pass being taken already; false where no step could be.
 bool Descent::descend(int steps) {
-  const bool from_rest = steps == 0;
-  double start = 0;
-  while (steps < steps_a_pass) {
-    if (from_rest) {
-      const double norm = std::sqrt(level_.over<1>(
-          [g = f_.gap.data(), free = f_.free.data(), mean = mean_gap_](std::size_t k, double* v) {
-            v[0] = free[k] != 0 ? (mean - g[k]) * (mean - g[k]) : 0.0;
-          })[0]);
-      if (steps == 0)
-        start = norm;
-      else if (norm < enough_reduction * start)
-        break;
-    }
+  const int enough = steps == 0 ? 1 : steps_a_pass;
+  while (steps < enough) {
     const double rz = precondition();
     const double keep = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
     direction_rz_ = rz;
@@ -240,7 +231,7 @@ bool Descent::run() {
     });
     if (at.residual < tolerance_) {
       const double load = level_.total_load();
-      if (at.within && fresh && std::abs(at.load - load) < tolerance_ * load) return true;
+      if (!exact_ || (at.within && fresh && std::abs(at.load - load) < tolerance_ * load)) return true;
       project(at, f_.pressure);
       if (++renewals > most_renewals) return false;
       level_.gap(f_.pressure, f_.gap);
@@ -296,13 +287,13 @@ SlabFields::SlabFields(Team& team, std::size_t nodes) {
   team.agree();
 }
 
-SlabEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, bool with_last_resort) {
+SlabEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort) {
   constexpr int quick = 300, shake = 12, last_resort = 3000;
   SlabEnd end;
-  for (int stage = 0; stage < (with_last_resort ? 5 : 3) && !end.converged; ++stage) {
+  for (int stage = 0; stage < (effort == ChainEffort::full ? 5 : 3) && !end.converged; ++stage) {
     if (stage % 2 == 0 && stage < 4) {
       end.stage = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
-      end.converged = Descent(level, fields, tolerance, quick).run();
+      end.converged = Descent(level, fields, tolerance, quick, effort != ChainEffort::start).run();
     } else {
       end.stage = "spectral projected gradients";
       end.converged = slab_gradient(level, fields, tolerance, stage == 4 ? last_resort : shake);

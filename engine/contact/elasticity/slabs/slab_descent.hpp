@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "engine/contact/elasticity/half_space/descent_chain.hpp"
 #include "engine/contact/elasticity/slabs/slab_level.hpp"
 
 namespace asperity {
@@ -24,12 +25,11 @@ struct SlabFields {
 };
 
 struct SlabEnd {
-  bool converged = false;  // then `gap` belongs to `pressure`, by an application of its own
+  bool converged = false;
   std::string stage;
 };
 
-// From fields.pressure, feasible, until a stage converges. `with_last_resort`: down to thousands of projected
-// gradients.
-SlabEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, bool with_last_resort);
+// From fields.pressure, feasible, until a stage converges.
+SlabEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort);
 
 }  // namespace asperity

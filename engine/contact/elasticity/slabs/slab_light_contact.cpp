@@ -20,7 +20,7 @@ bool again(SlabLevel& level, SlabFields& fields, double tolerance, double length
   Array<double> before;
   level.team.work([&] { before = fields.pressure; });
   level.team.agree();
-  const SlabEnd finer = descend_in_slabs(level, fields, tolerance, false);
+  const SlabEnd finer = descend_in_slabs(level, fields, tolerance, ChainEffort::brief);
   if (finer.converged)
     end = finer;
   else
