@@ -183,13 +183,15 @@ const Block<AccuracyKeys>& accuracy_block() {
       {number("tolerance", &K::given_tolerance, {1e-15, 1, false, true, false},
               "bound on every relative entry of the certificate")
            .defaults_to("1e-06"),
-       choice("precision", &K::given_precision,
-              {{"double", O::Precision::double_}, {"single", O::Precision::single}},
-              "of the transforms inside a half-space solve. In \"double\" those of a step may be rounded to "
-              "single precision on 256 x 256 nodes and more, where that saves time and gaps computed afresh "
-              "later take it back; \"single\" rounds them on any grid and saves memory. The certificate is "
-              "double always. A periodic tile of odd `nx`, or of a side with a prime factor over 7, stays in "
-              "double; boxes refuse it; with `error` it is chosen where it is not named")
+       choice(
+           "precision", &K::given_precision,
+           {{"double", O::Precision::double_}, {"single", O::Precision::single}},
+           "of the transforms inside a half-space solve. In \"double\" those of a step may be rounded to "
+           "single precision on 256 x 256 nodes and more, where that saves time and gaps computed afresh "
+           "later take it back; \"single\" rounds them on any grid and saves memory on a periodic tile. The "
+           "certificate is double always. A periodic tile of odd `nx`, or of a side with a prime factor over "
+           "7, stays in "
+           "double; boxes refuse it; with `error` it is chosen where it is not named")
            .shown_by([](const K& keys) {
              return std::string(keys.precision == O::Precision::single ? "\"single\"" : "\"double\"");
            })

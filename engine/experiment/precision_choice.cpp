@@ -14,7 +14,7 @@ PrecisionChoice choose_precision(const Scene& scene, const Grid& grid) {
     return {Precision::double_, "boxes are solved in no other"};
   if (!HalfSpaceCompliance::single_possible(grid.nx, grid.ny, scene.boundary))
     return {Precision::double_, "there is no other on cells like these"};
-  return {Precision::double_, "single takes as long and saves memory alone"};
+  return {Precision::double_, "single saves no time"};
 }
 
 }  // namespace asperity

@@ -23,8 +23,8 @@ namespace asperity {
 //     512²       1.04  1.03  1.02    1.26  1.18  1.23
 //     1024²      1.05  1.03  1.02    1.19  1.13   -
 //
-// Either takes as many transforms down to a tolerance of 1e-8, within a tenth to 1e-9. Single saves a
-// tenth of the memory.
+// Either takes as many transforms to these. At 512² single holds 4.2 grids of doubles where double holds 5.1
+// on a periodic tile, 7.1 where it holds 7.2 on a free one, whose kernel is made anew for each gap.
 struct PrecisionChoice {
   Accuracy::Precision precision = Accuracy::Precision::double_;
   std::string why;  // in a few words, for people
