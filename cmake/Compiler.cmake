@@ -18,6 +18,11 @@ target_compile_options(asperity_options INTERFACE -Wall -Wextra -Wpedantic -Wsha
 # GCC 12 sees an overlap in `"text" + std::string` that is not there (GCC bug 105651).
 target_compile_options(asperity_options INTERFACE
                        $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+# Sources compiled several at once see one another's globals: what those shadow, or lend to a type, is no fault then.
+if(CMAKE_UNITY_BUILD)
+  target_compile_options(asperity_options INTERFACE -Wno-shadow
+                         $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 # Contraction of a*b+c would make debug, release and clang builds disagree in the last bit.
 target_compile_options(asperity_options INTERFACE -ffp-contract=off)
 target_compile_definitions(asperity_options INTERFACE EIGEN_DONT_PARALLELIZE)

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/run_observer.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
@@ -21,8 +22,6 @@
 namespace asperity::cli {
 
 namespace {
-
-constexpr int done = 0, failed = 1, bad_usage = 2;
 
 // A run without its heavy calls. `report` tells what was found, and how far the script could be followed: ""
 // to its end, otherwise why no further.

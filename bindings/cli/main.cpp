@@ -12,6 +12,7 @@
 #include "bindings/cli/accuracy_command.hpp"
 #include "bindings/cli/check_command.hpp"
 #include "bindings/cli/command_pages.hpp"
+#include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/lesson_command.hpp"
 #include "bindings/cli/repl_command.hpp"
 #include "bindings/cli/replay_command.hpp"
@@ -30,8 +31,7 @@
 namespace {
 
 using namespace asperity;
-
-constexpr int bad_usage = 2;
+using cli::bad_usage;
 
 void print_materials() {
   std::printf("%-9s %-10s %-6s %-10s %-11s %s\n", "name", "E", "nu", "hardness", "density", "source");

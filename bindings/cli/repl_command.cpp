@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/line_reader.hpp"
 #include "bindings/cli/run_command.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
@@ -22,8 +23,6 @@
 namespace asperity::cli {
 
 namespace {
-
-constexpr int done = 0, failed = 1, bad_usage = 2;
 
 class Conversation {
  public:

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/kept_results.hpp"
 #include "bindings/cli/muted.hpp"
 #include "bindings/lua/variation.hpp"
@@ -18,7 +19,7 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr int equal = 0, different = 1, bad_usage = 2;
+constexpr int equal = done, different = failed;
 
 // Programs or libraries of another version may round otherwise.
 void print_versions(const RecordedRun& recorded, const RecordedRun& again) {

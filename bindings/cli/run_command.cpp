@@ -11,6 +11,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/kept_results.hpp"
 #include "bindings/cli/mpi_ranks.hpp"
 #include "bindings/cli/run_observer.hpp"
@@ -32,8 +33,6 @@
 namespace asperity::cli {
 
 namespace {
-
-constexpr int done = 0, failed = 1, bad_usage = 2;
 
 // A limit that the counters cannot see (a library's own heap) still ends in bad_alloc.
 void limit_address_space(std::int64_t bytes) {

@@ -233,11 +233,11 @@ Values close(Call& call) {
   return {};
 }
 
-std::string describe(const void* self) {
+std::string describe_contact(const void* self) {
   const auto& pair = *static_cast<const SpecimenPair*>(self);
   return "contact: " + pair.plan().title + (pair.under_load() ? ", under load" : "");
 }
-std::string digest(const void* self) {
+std::string digest_of_contact(const void* self) {
   const auto& pair = *static_cast<const SpecimenPair*>(self);
   return pair.lower().digest() + "+" + (pair.upper_is_flat() ? std::string("flat") : pair.upper().digest());
 }
@@ -263,8 +263,8 @@ const Class& contact_class() {
         "value "
         "that changes.";
     c.shareable = false;
-    c.describe = describe;
-    c.digest = digest;
+    c.describe = describe_contact;
+    c.digest = digest_of_contact;
     c.closing = close_states;
     c.methods = {
         {.name = "press",

@@ -140,7 +140,8 @@ void read_estimate(const Argument& value, const OptionInfo& info, AccuracyKeys& 
 }
 
 // One name or a list of them.
-void read_names(const Argument& value, const OptionInfo& info, AccuracyKeys& keys, Problems& problems) {
+void read_effect_names(const Argument& value, const OptionInfo& info, AccuracyKeys& keys,
+                       Problems& problems) {
   if (value.is_text()) {
     keys.of = {std::string(value.text())};
     return;
@@ -212,7 +213,7 @@ const Block<AccuracyKeys>& accuracy_block() {
        number("error", &K::error, {1e-6, 1, false, true, false},
               "relative error to be met instead of a tolerance: the first press chooses cells, tolerance and "
               "precision"),
-       custom<K>("of", "string|string[]", "quantities of a state whose error that is", read_names)
+       custom<K>("of", "string|string[]", "quantities of a state whose error that is", read_effect_names)
            .defaults_to("\"corrected_area_fraction\"")},
       finish_accuracy};
   return block;

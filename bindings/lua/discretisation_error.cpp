@@ -20,7 +20,7 @@ Values extrapolated(Call& call) {
   return {discretisation_estimate(call.self<DiscretisationError>().state, call.text(1, "name")).extrapolated};
 }
 
-std::string describe(const void* self) {
+std::string describe_error(const void* self) {
   const auto& state = static_cast<const DiscretisationError*>(self)->state;
   if (!state.other_grids())
     return "discretisation error: not estimated; give lab.contact accuracy={ estimate=true }";
@@ -60,7 +60,7 @@ const Class& discretisation_error_class() {
         "quantities, from the same press on half and a quarter of the cells, or on thrice the cells with "
         "estimate=\"finer\"; math.huge where two coarser grids show that a value grows without end. Needs "
         "accuracy={ estimate=true } or \"finer\".";
-    c.describe = describe;
+    c.describe = describe_error;
     c.fields = {
         quantity_field("load", "of the load; 0 where it was prescribed", dimension::force),
         quantity_field("pressure", "of the load over the nominal area", dimension::pressure),

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t most_cases = 1'000'000;
 // Ensembles in cases of ensembles: each level holds a thread and a Lua state.
-constexpr int deepest = 8;
+constexpr int deepest_case = 8;
 
 enum class OnFailure { error, report };
 
@@ -344,8 +344,9 @@ Map case_values(const std::vector<CaseValue>& values) {
 Values ensemble(Call& call) {
   const EnsembleKeys keys = call.options(ensemble_block());
   Session& session = call.session();
-  if (session.depth >= deepest)
-    throw Error(ErrorCode::bad_value, "this ensemble stands inside " + std::to_string(deepest) + " others",
+  if (session.depth >= deepest_case)
+    throw Error(ErrorCode::bad_value,
+                "this ensemble stands inside " + std::to_string(deepest_case) + " others",
                 "let the outer ones vary more keys in `over` instead");
   return with_key(call.argument(1), "run", [&](const Argument& run) -> Values {
     CaseSetup common;

@@ -173,7 +173,7 @@ std::vector<const Function*> functions_with_options() {
   return all;
 }
 
-bool same(std::string_view a, std::string_view b) {
+bool same_word(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
   });
@@ -184,7 +184,7 @@ std::string keys_help(const std::string& name) {
   std::string text;
   for (const Function* function : functions_with_options())
     for (const auto& [path, option] : all_options(*function->options))
-      if (same(path, name) || same(last_name(path), name))
+      if (same_word(path, name) || same_word(last_name(path), name))
         text += "Key `" + path + "` of " + qualified_name(*function) + ": " + option->sentence + " (" +
                 describe_option(*option) + ")\n";
   return text;
@@ -278,11 +278,11 @@ std::string help_text(const std::string& topic) {
     for (const Topic& t : topics)
       if (t.name == name) return t.text;
   for (const Topic& t : topics)
-    if (same(t.name, topic) || same(t.name, "lab." + topic)) return t.text;
+    if (same_word(t.name, topic) || same_word(t.name, "lab." + topic)) return t.text;
   // A bare name may mean several things: `close`, `roughness`. Show them all.
   std::string found;
   for (const Topic& t : topics)
-    if (same(last_name(t.name), topic)) found += (found.empty() ? "" : "\n") + t.text;
+    if (same_word(last_name(t.name), topic)) found += (found.empty() ? "" : "\n") + t.text;
   if (const std::string keys = keys_help(topic); !keys.empty()) found += (found.empty() ? "" : "\n") + keys;
   if (!found.empty()) return found;
   std::vector<std::string> names;

@@ -16,7 +16,7 @@ namespace asperity::lua {
 
 namespace {
 
-constexpr std::string_view form = "asperity case 1";
+constexpr std::string_view case_form = "asperity case 1";
 constexpr std::size_t bytes_a_number = 6;  // whole numbers that a double holds exactly
 
 // Bytes in a field of a kept result.
@@ -80,7 +80,7 @@ CaseInput input_of_case(const std::string& file) {
 
 std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& given) {
   ByteWriter out;
-  out.text(form);
+  out.text(case_form);
   out.number(result.row != nullptr);
   if (result.row != nullptr) out.text(result.row->bytes("run(case)", natives(given)));
   for (const std::string* text : {&result.digest, &result.failure, &result.output}) out.text(*text);
@@ -100,7 +100,7 @@ std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& g
 
 CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>& given) {
   ByteReader in(bytes);
-  if (in.text() != form) ByteReader::damaged();
+  if (in.text() != case_form) ByteReader::damaged();
   CaseResult result;
   if (in.truth()) result.row = Parcel::from_bytes(in.text(), natives(given));
   for (std::string* text : {&result.digest, &result.failure, &result.output}) *text = in.text();
@@ -134,7 +134,7 @@ KeptCases::KeptCases(const Session& session, const Parcel& run) {
 
 std::string KeptCases::key_of(const CaseSetup& setup, bool drew) const {
   Digester digester;
-  digester.add(form).add(content_.digest).add(setup.depth);
+  digester.add(case_form).add(content_.digest).add(setup.depth);
   digester.add(static_cast<std::int64_t>(setup.values.size()));
   bool whole = content_.whole;
   for (const CaseValue& value : setup.values) {

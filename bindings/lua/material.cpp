@@ -37,7 +37,7 @@ Values property(Call& call) {
   return {Value(call.self<Material>().*member)};
 }
 
-std::string describe(const void* self) {
+std::string describe_material(const void* self) {
   const auto& m = *static_cast<const Material*>(self);
   if (m.rigid) return "rigid body";
   std::string text = m.name;
@@ -48,7 +48,7 @@ std::string describe(const void* self) {
   return text;
 }
 
-bool equal(const void* a, const void* b) {
+bool equal_materials(const void* a, const void* b) {
   const auto& x = *static_cast<const Material*>(a);
   const auto& y = *static_cast<const Material*>(b);
   return x.name == y.name && x.young == y.young && x.poisson == y.poisson && x.hardness == y.hardness &&
@@ -98,8 +98,8 @@ const Class& material_class() {
                   {},
                   [](Call& c) -> Values { return {c.self<Material>().source}; }}},
       .methods = {},
-      .describe = describe,
-      .equal = equal,
+      .describe = describe_material,
+      .equal = equal_materials,
   };
   return type;
 }

@@ -58,7 +58,7 @@ void keep_quantity(Entry& entry) {
   }
 }
 
-Values write(Call& call) {
+Values write_row(Call& call) {
   const Argument table = call.argument(1);
   if (!table.is_table())
     throw Error(ErrorCode::bad_value, "a row is a table of columns, and was given as " + table.describe(),
@@ -112,7 +112,7 @@ Value cell_value(const Cell& cell) {
   return {};
 }
 
-Values rows(Call& call) {
+Values rows_of_notebook(Call& call) {
   const Table table = call.self<Notebook>().table();
   List list;
   for (std::size_t r = 0; r < table.rows(); ++r) {
@@ -204,14 +204,14 @@ Values expect(Call& call) {
   return {call.self<Notebook>().expect(expectation).passed};
 }
 
-Values chart(Call& call) {
+Values chart_rows(Call& call) {
   const NotebookChart options = call.options(notebook_chart_block());
   const DrawnChart drawn = draw_chart(run_of(call), call.self<Notebook>(), options);
   for (const std::string& warning : drawn.warnings) call.session().monitor().warn(warning);
   return {drawn.file.string()};
 }
 
-std::string describe(const void* self) {
+std::string describe_notebook(const void* self) {
   const auto& book = *static_cast<const Notebook*>(self);
   const Table table = book.table();
   return "notebook \"" + book.name() + "\": " + std::to_string(table.rows()) + " rows of " +
@@ -279,7 +279,7 @@ const Class& notebook_class() {
     c.article_name = "a notebook";
     c.sentence = "Rows of free columns, with expectations about them and charts of them.";
     c.shareable = false;
-    c.describe = describe;
+    c.describe = describe_notebook;
     c.fields = {
         {"name",
          "string",
@@ -294,7 +294,7 @@ const Class& notebook_class() {
     };
     c.methods = {
         {.name = "write",
-         .body = write,
+         .body = write_row,
          .sentence = "Adds a row. A column may carry its unit in its name: [\"Ra [m]\"] = s:roughness().Ra.",
          .parameters = {{"row", "table", "columns and their values: numbers, strings, booleans"}},
          .example = "book:write{ N=1, mu=0.4 }"},
@@ -304,7 +304,7 @@ const Class& notebook_class() {
          .parameters = {{"units", "table", "unit of each column"}},
          .example = "book:units{ Ra=\"m\", pressure=\"Pa\" }"},
         {.name = "rows",
-         .body = rows,
+         .body = rows_of_notebook,
          .sentence = "All rows as tables.",
          .returns = "table[]",
          .example = "for _, row in ipairs(book:rows()) do print(row.N, row.mu) end"},
@@ -319,7 +319,7 @@ const Class& notebook_class() {
          .example = "book:expect(\"mu\", { where={N=1}, near=0.4, within=0.05 })",
          .heavy = true},
         {.name = "chart",
-         .body = chart,
+         .body = chart_rows,
          .sentence = "Draws columns against a column; returns the file.",
          .options = &notebook_chart_block(),
          .returns = "string",

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view form = "asperity value 1";
 // Results within results: more than any has, and less than the stack holds.
-constexpr int deepest = 200;
+constexpr int deepest_parcel = 200;
 
 enum class Tag : std::uint8_t {
   nil,
@@ -177,7 +177,8 @@ struct Parcel::Writer {
     }
   }
   void write(const Value& value) {
-    if (++depth > deepest) refuse("results within results, more than " + std::to_string(deepest) + " deep");
+    if (++depth > deepest_parcel)
+      refuse("results within results, more than " + std::to_string(deepest_parcel) + " deep");
     std::visit(
         [&](const auto& held) {
           using Held = std::decay_t<decltype(held)>;
@@ -352,7 +353,7 @@ struct Parcel::Reader {
   }
   Value value() { return value(tag()); }
   Value value(Tag kind) {
-    if (++depth > deepest) ByteReader::damaged();
+    if (++depth > deepest_parcel) ByteReader::damaged();
     Value result = [&]() -> Value {
       switch (kind) {
         case Tag::nil:

@@ -18,17 +18,17 @@ namespace asperity::lua {
 
 namespace {
 
-Value::Numbers numbers(std::span<const double> values) {
+Value::Numbers profile_numbers(std::span<const double> values) {
   return std::make_shared<const Array<double>>(values.begin(), values.end());
 }
 
-Values heights(Call& call) { return {numbers(call.self<Profile>().heights())}; }
+Values heights_of_profile(Call& call) { return {profile_numbers(call.self<Profile>().heights())}; }
 
 Values positions(Call& call) {
   const Profile& p = call.self<Profile>();
   Array<double> x(static_cast<std::size_t>(p.size()));
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = static_cast<double>(k) * p.spacing();
-  return {numbers(x)};
+  return {profile_numbers(x)};
 }
 
 // x and y of a closed outline about its centre.
@@ -43,25 +43,27 @@ Values outline(Call& call) {
     x[k] = (*p.closed_radius() + h[k]) * std::cos(angle);
     y[k] = (*p.closed_radius() + h[k]) * std::sin(angle);
   }
-  return {numbers(x), numbers(y)};
+  return {profile_numbers(x), profile_numbers(y)};
 }
 
-Values roughness_of(Call& call) { return {roughness_record(roughness(call.self<Profile>()), false)}; }
-Values spectrum_of(Call& call) {
+Values roughness_of_profile(Call& call) { return {roughness_record(roughness(call.self<Profile>()), false)}; }
+Values spectrum_of_profile(Call& call) {
   return {spectrum_record(spectrum(call.self<Profile>(), call.options(spectrum_block())), false)};
 }
-Values fractal_dimension_of(Call& call) {
+Values fractal_dimension_of_profile(Call& call) {
   return {fractal_dimension_record(
       fractal_dimension(call.self<Profile>(), call.options(fractal_dimension_block(false))))};
 }
-Values filtered(Call& call) {
+Values filtered_profile(Call& call) {
   return {object(gaussian_filtered(call.self<Profile>(), call.options(filter_block())))};
 }
-Values level(Call& call) {
+Values level_profile(Call& call) {
   return {object(levelled(call.self<Profile>(), call.options(level_block()).degree))};
 }
 
-Values cut_off(Call& call) { return {object(cut(call.self<Profile>(), call.options(cut_block()).fraction))}; }
+Values cut_off_profile(Call& call) {
+  return {object(cut(call.self<Profile>(), call.options(cut_block()).fraction))};
+}
 
 struct ProfilePictureKeys {
   std::string title;
@@ -71,21 +73,21 @@ const Block<ProfilePictureKeys>& profile_picture_block() {
       "picture", {text("title", &ProfilePictureKeys::title, "above the picture")}};
   return block;
 }
-Values picture(Call& call) {
+Values picture_of_profile(Call& call) {
   const ProfilePictureKeys keys = call.options(profile_picture_block(), 2);
   const std::string path = writable_path(call, call.text(1, "path"));
   draw(call.self<Profile>(), keys.title, path);
   return {path};
 }
 
-Values write(Call& call) {
+Values write_profile(Call& call) {
   const Profile& profile = call.self<Profile>();
   const std::string path = writable_path(call, call.text(1, "path"));
   write_profile(profile, path, call.session().monitor());
   return {path};
 }
 
-const Block<ReadProfileOptions>& read_block() {
+const Block<ReadProfileOptions>& read_profile_block() {
   using O = ReadProfileOptions;
   static const Block<O> block{
       "lab.profile.read",
@@ -97,26 +99,26 @@ const Block<ReadProfileOptions>& read_block() {
   return block;
 }
 
-Values read(Call& call) {
+Values read_profile_number(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
-  const ReadProfileOptions options = call.options(read_block(), 2);
+  const ReadProfileOptions options = call.options(read_profile_block(), 2);
   note_input(call, path);
   return {object(read_profile(path, options, call.session().monitor()))};
 }
 
-std::string describe(const void* self) {
+std::string describe_profile(const void* self) {
   const auto& p = *static_cast<const Profile*>(self);
   return (p.closed() ? "closed profile of " : "profile of ") + std::to_string(p.size()) + " samples, " +
          format_quantity(p.length(), dimension::length) + " long, peak to valley " +
          format_quantity(p.height_range().span(), dimension::length);
 }
-std::size_t native_bytes(const void* self) {
+std::size_t bytes_of_profile(const void* self) {
   return static_cast<const Profile*>(self)->heights().size_bytes();
 }
-bool equal(const void* a, const void* b) {
+bool equal_profiles(const void* a, const void* b) {
   return static_cast<const Profile*>(a)->digest() == static_cast<const Profile*>(b)->digest();
 }
-std::string digest(const void* self) { return static_cast<const Profile*>(self)->digest(); }
+std::string digest_of_profile(const void* self) { return static_cast<const Profile*>(self)->digest(); }
 
 }  // namespace
 
@@ -127,10 +129,10 @@ const Class& profile_class() {
     c.article_name = "a profile";
     c.sentence =
         "Heights at equal spacing along a line, or once around a closed outline; an immutable value.";
-    c.describe = describe;
-    c.native_bytes = native_bytes;
-    c.equal = equal;
-    c.digest = digest;
+    c.describe = describe_profile;
+    c.native_bytes = bytes_of_profile;
+    c.equal = equal_profiles;
+    c.digest = digest_of_profile;
     c.fields = {
         {"points",
          "integer",
@@ -151,7 +153,7 @@ const Class& profile_class() {
     };
     c.methods = {
         {.name = "heights",
-         .body = heights,
+         .body = heights_of_profile,
          .sentence = "All heights in metres.",
          .returns = "number[]",
          .example = "local z = p:heights()"},
@@ -166,45 +168,45 @@ const Class& profile_class() {
          .returns = "number[], number[]",
          .example = "local x, y = grain:outline()"},
         {.name = "roughness",
-         .body = roughness_of,
+         .body = roughness_of_profile,
          .sentence = "Amplitude and slope statistics (ISO 21920-2).",
          .returns = "table",
          .example = "print(p:roughness().Ra)"},
         {.name = "spectrum",
-         .body = spectrum_of,
+         .body = spectrum_of_profile,
          .sentence = "Power spectral density along the profile.",
          .options = &spectrum_block(),
          .options_optional = true,
          .returns = "table",
          .example = "local c = p:spectrum().C"},
         {.name = "fractal_dimension",
-         .body = fractal_dimension_of,
+         .body = fractal_dimension_of_profile,
          .sentence = "Fractal dimension of the profile.",
          .options = &fractal_dimension_block(false),
          .options_optional = true,
          .returns = "table",
          .example = "print(p:fractal_dimension{}.D)"},
         {.name = "filtered",
-         .body = filtered,
+         .body = filtered_profile,
          .sentence = "ISO 16610-21 Gaussian filter.",
          .options = &filter_block(),
          .returns = "Profile",
          .example = "p:filtered{ long_wave=\"0.8 mm\" }"},
         {.name = "levelled",
-         .body = level,
+         .body = level_profile,
          .sentence = "Less the least-squares polynomial of a degree.",
          .options = &level_block(),
          .options_optional = true,
          .returns = "Profile",
          .example = "p:levelled()"},
         {.name = "cut",
-         .body = cut_off,
+         .body = cut_off_profile,
          .sentence = "Heights above max - fraction * peak-to-valley brought down to it.",
          .options = &cut_block(),
          .returns = "Profile",
          .example = "p:cut{ fraction=0.2 }"},
         {.name = "picture",
-         .body = picture,
+         .body = picture_of_profile,
          .sentence = "A drawing of the profile, or of the shape of a closed outline: .svg or .png.",
          .parameters = {{"path", "string", "under the run directory"}},
          .options = &profile_picture_block(),
@@ -213,7 +215,7 @@ const Class& profile_class() {
          .example = "grain:picture \"grain.svg\"",
          .heavy = true},
         {.name = "write",
-         .body = write,
+         .body = write_profile,
          .sentence = "Writes the profile: .csv, .txt or .npy by the extension of the path.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",
@@ -237,10 +239,10 @@ const Module& profile_module() {
     m.sentence = "Profiles: stylus traces from files. Surfaces give others with s:profile and s:profiles.";
     m.functions = {
         {.name = "read",
-         .body = read,
+         .body = read_profile_number,
          .sentence = "A stylus trace from a file: a profiler's CSV, NPY, or text of one or two columns.",
          .parameters = {{"path", "string", "the file"}},
-         .options = &read_block(),
+         .options = &read_profile_block(),
          .options_optional = true,
          .returns = "Profile",
          .example = "local trace = lab.profile.read \"scan.csv\"",

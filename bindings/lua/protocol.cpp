@@ -137,7 +137,7 @@ const Block<ChartKeys>& chart_block() {
   return block;
 }
 
-Values chart(Call& call) {
+Values chart_protocol(Call& call) {
   const std::string file = call.text(1, "path");
   picture_format(file);
   const LineChart lines = protocol_chart(call.self<Protocol>(), call.options(chart_block(), 2).title);
@@ -164,23 +164,23 @@ Values repeated(Call& call) {
 }
 Values plus(Call& call) { return {object(call.self<Protocol>().plus(call.object<Protocol>(1, "next")))}; }
 
-Values write(Call& call) {
+Values write_protocol(Call& call) {
   const std::string log = press_log_text(call.self<Protocol>());
   const std::string path = writable_path(call, call.text(1, "path"));
   write_aside(path, log);
   return {path};
 }
 
-std::string describe(const void* self) {
+std::string describe_protocol(const void* self) {
   const auto& protocol = *static_cast<const Protocol*>(self);
   return protocol.text() + (protocol.recording() ? "\n" + protocol.recording()->text() : "");
 }
-std::string digest(const void* self) { return static_cast<const Protocol*>(self)->digest(); }
-bool equal(const void* a, const void* b) { return digest(a) == digest(b); }
+std::string digest_of_protocol(const void* self) { return static_cast<const Protocol*>(self)->digest(); }
+bool equal_protocols(const void* a, const void* b) { return digest_of_protocol(a) == digest_of_protocol(b); }
 std::int64_t length(const void* self) {
   return static_cast<std::int64_t>(static_cast<const Protocol*>(self)->count());
 }
-std::size_t native_bytes(const void* self) {
+std::size_t bytes_of_protocol(const void* self) {
   return static_cast<const Protocol*>(self)->count() * sizeof(Protocol::Event);
 }
 
@@ -195,10 +195,10 @@ const Class& protocol_class() {
         "What is done to a contact, event by event; an immutable value that any number of contacts may go "
         "through. #p is the number of its events.";
     c.length = length;
-    c.describe = describe;
-    c.native_bytes = native_bytes;
-    c.equal = equal;
-    c.digest = digest;
+    c.describe = describe_protocol;
+    c.native_bytes = bytes_of_protocol;
+    c.equal = equal_protocols;
+    c.digest = digest_of_protocol;
     c.fields = {
         {"count",
          "integer",
@@ -222,7 +222,7 @@ const Class& protocol_class() {
          {},
          recording},
         {"digest", "string", "equal protocols have equal digests", {}, [](Call& call) -> Values {
-           return {digest(&call.self<Protocol>())};
+           return {digest_of_protocol(&call.self<Protocol>())};
          }}};
     c.methods = {
         {.name = "on",
@@ -257,7 +257,7 @@ const Class& protocol_class() {
          .returns = "Protocol",
          .example = "local both = protocol:plus(protocol:repeated{ times=2 })"},
         {.name = "chart",
-         .body = chart,
+         .body = chart_protocol,
          .sentence =
              "Draws load over time with rises, holds, peaks, releases and turns marked and labelled, over "
              "what was recorded if it was detected in a recording; without recorded times over the time "
@@ -269,7 +269,7 @@ const Class& protocol_class() {
          .example = "protocol:chart \"protocol.svg\"",
          .heavy = true},
         {.name = "write",
-         .body = write,
+         .body = write_protocol,
          .sentence = "Writes a press log, which lab.protocol.read reads back as this protocol: rows of turn, "
                      "pressure "
                      "or load, and dwell. Shifts, and presses to anything else, are an error.",

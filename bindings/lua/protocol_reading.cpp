@@ -18,7 +18,7 @@ namespace {
 
 enum class ReadAs { as_it_looks, rows, detect };
 
-struct ReadKeys {
+struct ReadProtocolKeys {
   ReadAs events = ReadAs::as_it_looks;
   std::optional<Quantity> noise, zero;
   std::optional<double> zero_drift, same_load, shortest_hold, evidence, least_overshoot, least_turn,
@@ -33,11 +33,11 @@ struct ReadKeys {
 };
 
 // A load or a pressure, as the recording has it.
-Option<ReadKeys> reading(std::string name, std::optional<Quantity> ReadKeys::*member, bool signed_value,
-                         std::string sentence) {
-  return custom<ReadKeys>(
+Option<ReadProtocolKeys> reading(std::string name, std::optional<Quantity> ReadProtocolKeys::*member,
+                                 bool signed_value, std::string sentence) {
+  return custom<ReadProtocolKeys>(
              std::move(name), "a load|a pressure", std::move(sentence),
-             [member, signed_value](const Argument& value, const OptionInfo& info, ReadKeys& keys,
+             [member, signed_value](const Argument& value, const OptionInfo& info, ReadProtocolKeys& keys,
                                     Problems& problems) {
                if (!value.is_number() && !value.is_text())
                  return detail::wrong_type(value, info, "a load such as \"2 N\" or a pressure", problems);
@@ -57,13 +57,13 @@ Option<ReadKeys> reading(std::string name, std::optional<Quantity> ReadKeys::*me
                  problems.push_back(quoted(info.name) + ": " + error.what());
                }
              })
-      .shown_by([member](const ReadKeys& keys) {
+      .shown_by([member](const ReadProtocolKeys& keys) {
         return keys.*member ? format_exact((keys.*member)->value) : std::string();
       });
 }
 
-const Block<ReadKeys>& read_block() {
-  using K = ReadKeys;
+const Block<ReadProtocolKeys>& read_protocol_block() {
+  using K = ReadProtocolKeys;
   using Overshoot = DetectionOptions::Overshoot;
   static const Block<K> block{
       "read",
@@ -111,7 +111,7 @@ const Block<ReadKeys>& read_block() {
   return block;
 }
 
-DetectionOptions detection_options(const ReadKeys& keys, const PressRecording& recording) {
+DetectionOptions detection_options(const ReadProtocolKeys& keys, const PressRecording& recording) {
   DetectionOptions options;
   const Dimension wanted = recording.by == PressBy::load ? dimension::force : dimension::pressure;
   const auto value = [&](const char* key, const std::optional<Quantity>& given) -> std::optional<double> {
@@ -149,9 +149,9 @@ Protocol over_area(const Protocol& protocol, const std::optional<double>& area) 
   return Protocol(std::move(events));
 }
 
-Values read(Call& call) {
+Values read_protocol(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
-  const ReadKeys keys = call.options(read_block(), 2);
+  const ReadProtocolKeys keys = call.options(read_protocol_block(), 2);
   note_input(call, path);
   Monitor& monitor = call.session().monitor();
   const SourceFile file(path, monitor);
@@ -175,7 +175,7 @@ Values read(Call& call) {
 Function protocol_read_function() {
   return {
       .name = "read",
-      .body = read,
+      .body = read_protocol,
       .sentence =
           "A protocol from a press log. Its columns are named with units, such as time [s], pressure "
           "[MPa] or "
@@ -192,7 +192,7 @@ Function protocol_read_function() {
           "those "
           "of the beginning of the hold.",
       .parameters = {{"path", "string", "the file"}},
-      .options = &read_block(),
+      .options = &read_protocol_block(),
       .options_optional = true,
       .returns = "Protocol",
       .example = "local protocol = lab.protocol.read \"press_log.csv\"",

@@ -88,7 +88,7 @@ bool holds_unknown(const Argument& value, int depth) {
   return found;
 }
 
-bool any_unknown(const Call& call) {
+bool any_argument_unknown(const Call& call) {
   constexpr int nested_options = 3;
   for (int k = 1; k <= call.count(); ++k)
     if (holds_unknown(call.argument(k), nested_options)) return true;
@@ -172,7 +172,7 @@ Values call_function(lua_State* L, const Entry& entry) {
   // To explain a contact its bodies are needed; to check a script they are not.
   const bool left_out =
       function.heavy && (call.session().explanation == nullptr || function.returns != surface_class().name);
-  if (call.session().dry_run && (left_out || placeholder_self || any_unknown(call)))
+  if (call.session().dry_run && (left_out || placeholder_self || any_argument_unknown(call)))
     return dry_call(call, function);
   LedgerScope scope = ledger_scope(call.session(), call.function_name(), function.heavy);
   if (function.returns.starts_with("iterator")) scope.forget();  // its turns count

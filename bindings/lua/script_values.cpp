@@ -12,7 +12,7 @@ namespace asperity::lua {
 
 namespace {
 
-constexpr int deepest = 40;  // brackets in brackets; beyond, values are unknown
+constexpr int deepest_brackets = 40;  // brackets in brackets; beyond, values are unknown
 
 // "State", "table and State?", "Profile[] with tip_effect and lines": one type a turn.
 ScriptTypeList types_of_turn(std::string_view text) {
@@ -83,7 +83,7 @@ ScriptTypeList ScriptTypes::values(std::size_t& k, int depth) const {
   for (;;) {
     std::size_t from = k;
     ScriptTypeList types;
-    if (depth < deepest) types = operand(k, depth, size());
+    if (depth < deepest_brackets) types = operand(k, depth, size());
     // Only the last of a list gives more than its first value, and only where nothing is done with it.
     if (k < size() && is_binary(word(k))) {
       const std::size_t reached = k;
@@ -101,7 +101,7 @@ ScriptTypeList ScriptTypes::values(std::size_t& k, int depth) const {
 }
 
 ScriptType ScriptTypes::value(std::size_t& k, int depth) const {
-  if (depth >= deepest) return {};
+  if (depth >= deepest_brackets) return {};
   ScriptTypeList types = operand(k, depth, size());
   ScriptType result = types.empty() ? ScriptType{} : types.front();
   while (k < size() && tokens_[k].kind != Token::Kind::text && is_binary(word(k))) {

@@ -63,11 +63,11 @@ Values shear(Call& call) {
 
 // A field of the result that is one member function.
 template <auto member>
-Values read(Call& call) {
+Values read_slip_number(Call& call) {
   return {Value((call.self<PartialSlip>().*member)())};
 }
 
-Values field(Call& call) {
+Values slip_field(Call& call) {
   const auto& slip = call.self<PartialSlip>();
   const std::string name = call.text(1, "name");
   return {object(StateField{name, slip.normal().geometry().grid(),
@@ -75,8 +75,8 @@ Values field(Call& call) {
                             name == "shear" ? dimension::pressure : dimension::number})};
 }
 
-std::string describe(const void* self) { return static_cast<const PartialSlip*>(self)->text(); }
-std::string digest(const void* self) {
+std::string describe_slip(const void* self) { return static_cast<const PartialSlip*>(self)->text(); }
+std::string digest_of_slip(const void* self) {
   const auto& slip = *static_cast<const PartialSlip*>(self);
   return slip.normal().digest() + "+" + format_exact(slip.friction()) + "+" + format_exact(slip.ratio());
 }
@@ -103,22 +103,31 @@ const Class& shear_class() {
     c.name = "Shear";
     c.article_name = "a shear";
     c.sentence = "A contact under load that is pulled sideways: part of it sticks, the rest slips.";
-    c.describe = describe;
-    c.digest = digest;
+    c.describe = describe_slip;
+    c.digest = digest_of_slip;
     c.fields = {
-        {"load", "number", "force that presses the whole tile", dimension::force, read<&S::load>},
-        {"force", "number", "force that pulls the whole tile sideways", dimension::force, read<&S::force>},
-        {"ratio", "number", "of that force over the one that slides", {}, read<&S::ratio>},
-        {"friction", "number", "Coulomb's coefficient", {}, read<&S::friction>},
-        {"slides", "boolean", "whether all of the contact slips", {}, read<&S::slides>},
-        {"stick_area", "number", "area that sticks", dimension::area, read<&S::stick_area>},
-        {"stick_fraction", "number", "of the contact area that sticks", {}, read<&S::stick_fraction>},
-        {"slip_fraction", "number", "of the contact area that slips", {}, read<&S::slip_fraction>},
+        {"load", "number", "force that presses the whole tile", dimension::force, read_slip_number<&S::load>},
+        {"force", "number", "force that pulls the whole tile sideways", dimension::force,
+         read_slip_number<&S::force>},
+        {"ratio", "number", "of that force over the one that slides", {}, read_slip_number<&S::ratio>},
+        {"friction", "number", "Coulomb's coefficient", {}, read_slip_number<&S::friction>},
+        {"slides", "boolean", "whether all of the contact slips", {}, read_slip_number<&S::slides>},
+        {"stick_area", "number", "area that sticks", dimension::area, read_slip_number<&S::stick_area>},
+        {"stick_fraction",
+         "number",
+         "of the contact area that sticks",
+         {},
+         read_slip_number<&S::stick_fraction>},
+        {"slip_fraction",
+         "number",
+         "of the contact area that slips",
+         {},
+         read_slip_number<&S::slip_fraction>},
         {"displacement", "number", "of the bodies over each other, along the force", dimension::length,
-         read<&S::displacement>},
+         read_slip_number<&S::displacement>},
         {"stiffness", "number",
          "d shear stress / d displacement at this force, over the nominal area; 0 where all slips",
-         dimension::stiffness, read<&S::stiffness>},
+         dimension::stiffness, read_slip_number<&S::stiffness>},
         {"cost",
          "table",
          "seconds, transforms and bytes of the second normal solve",
@@ -127,7 +136,7 @@ const Class& shear_class() {
     };
     c.methods = {
         {.name = "field",
-         .body = field,
+         .body = slip_field,
          .sentence = "A field over the tile: the shear traction along the force, or 1 where it sticks.",
          .parameters = {{"name", "\"shear\"|\"stick\"", "which"}},
          .returns = "Field",

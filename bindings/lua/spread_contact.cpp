@@ -19,7 +19,7 @@ namespace {
 
 // --- the scene
 
-const Block<PlasticityOptions>& plasticity_block() {
+const Block<PlasticityOptions>& spread_plasticity_block() {
   using O = PlasticityOptions;
   static const Block<O> block{"plasticity",
                               {quantity("hardness", &O::hardness, dimension::pressure, above(0).or_never(),
@@ -30,7 +30,7 @@ const Block<PlasticityOptions>& plasticity_block() {
   return block;
 }
 
-struct SceneKeys {
+struct spread_SceneKeys {
   std::optional<SlabSurface> lower;
   std::optional<Material> upper;
   Boundary boundary = Boundary::periodic;
@@ -39,7 +39,7 @@ struct SceneKeys {
   Accuracy accuracy;
 };
 
-const Block<Accuracy>& accuracy_block() {
+const Block<Accuracy>& spread_accuracy_block() {
   using O = Accuracy;
   static const Block<O> block{
       "accuracy",
@@ -50,7 +50,7 @@ const Block<Accuracy>& accuracy_block() {
   return block;
 }
 
-void read_effect(const std::string& name, const Argument& given, SceneKeys& keys, Problems& problems) {
+void read_effect(const std::string& name, const Argument& given, spread_SceneKeys& keys, Problems& problems) {
   if (name == "elasticity") {
     if (given.is_text() && given.text() == "half_space")
       keys.elastic = true;
@@ -59,7 +59,7 @@ void read_effect(const std::string& name, const Argument& given, SceneKeys& keys
                          "; over ranks it is \"half_space\", and lab.contact computes the others");
   } else if (name == "plasticity") {
     if (given.is_table())
-      keys.plasticity = plasticity_block().read(given, "`effects.plasticity`");
+      keys.plasticity = spread_plasticity_block().read(given, "`effects.plasticity`");
     else
       problems.push_back("`effects.plasticity` is " + given.describe() +
                          "; give a table such as { hardness=\"1 GPa\" }, {} for its defaults");
@@ -72,7 +72,8 @@ void read_effect(const std::string& name, const Argument& given, SceneKeys& keys
   }
 }
 
-void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
+void spread_read_effects(const Argument& value, const OptionInfo& info, spread_SceneKeys& keys,
+                         Problems& problems) {
   if (!value.is_table())
     return detail::wrong_type(value, info, "a table such as { elasticity=\"half_space\" }", problems);
   std::vector<std::string> names;
@@ -94,8 +95,8 @@ void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys
     problems.push_back("`effects` names no elasticity; give elasticity=\"half_space\"");
 }
 
-const Block<SceneKeys>& scene_block() {
-  using K = SceneKeys;
+const Block<spread_SceneKeys>& spread_scene_block() {
+  using K = spread_SceneKeys;
   static const Block<K> block{
       "lab.spread.contact",
       {custom<K>(
@@ -136,15 +137,15 @@ const Block<SceneKeys>& scene_block() {
            "effects", "table",
            "what the scene computes: { elasticity=\"half_space\" }, and plasticity={ hardness= } if pressure "
            "is limited",
-           read_effects)
+           spread_read_effects)
            .required(),
-       table_of("accuracy", &K::accuracy, accuracy_block(),
+       table_of("accuracy", &K::accuracy, spread_accuracy_block(),
                 "how close a solve must come, and what if it does not")}};
   return block;
 }
 
-Values make_contact(Call& call) {
-  const SceneKeys keys = call.options(scene_block());
+Values spread_make_contact(Call& call) {
+  const spread_SceneKeys keys = call.options(spread_scene_block());
   const SlabTerms terms = slab_terms(keys.lower->material, *keys.upper, keys.plasticity);
   SpreadContact contact;
   contact.problem.surface = *keys.lower;
@@ -162,7 +163,7 @@ struct SpreadPress {
   std::optional<double> pressure, load, approach, indentation;
 };
 
-const Block<SpreadPress>& press_block() {
+const Block<SpreadPress>& spread_press_block() {
   using K = SpreadPress;
   static const Block<K> block{
       "press",
@@ -193,9 +194,9 @@ std::string digest_of(const SpreadState& state) {
   return digester.hex();
 }
 
-Values press(Call& call) {
+Values spread_press(Call& call) {
   const SpreadContact& contact = call.self<SpreadContact>();
-  const SpreadPress keys = call.options(press_block());
+  const SpreadPress keys = call.options(spread_press_block());
   const SlabSurface& surface = contact.problem.surface;
   if (keys.indentation && surface.peak == surface.valley)
     throw Error(ErrorCode::bad_value, "`indentation` is a fraction of a peak-to-valley that is zero",
@@ -231,7 +232,7 @@ Values press(Call& call) {
   return {object(std::move(state))};
 }
 
-std::string describe_contact(const void* self) {
+std::string describe_spread_contact(const void* self) {
   const SlabSurface& s = static_cast<const SpreadContact*>(self)->problem.surface;
   return "contact of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
          std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks");
@@ -252,11 +253,11 @@ SlabContactAnswer solve(Team& team, const SlabContactProblem& problem, const Spr
 Function spread_contact_function() {
   return {
       .name = "contact",
-      .body = make_contact,
+      .body = spread_make_contact,
       .sentence =
           "A periodic half-space contact over the ranks, under a flat: the problem, the certificates and the "
           "units of lab.contact. Nothing stays on the surface after a press.",
-      .options = &scene_block(),
+      .options = &spread_scene_block(),
       .returns = "SpreadContact",
       .example =
           "local c = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary=\"periodic\", effects={ "
@@ -270,12 +271,12 @@ const Class& spread_contact_class() {
     c.article_name = "a contact over ranks";
     c.sentence = "A surface in slabs under a flat, ready to be pressed by all ranks together.";
     c.shareable = false;
-    c.describe = describe_contact;
+    c.describe = describe_spread_contact;
     c.digest = contact_digest;
     c.methods = {{.name = "press",
-                  .body = press,
+                  .body = spread_press,
                   .sentence = "The state under a load, found by all ranks together, each with its rows.",
-                  .options = &press_block(),
+                  .options = &spread_press_block(),
                   .returns = "SpreadState",
                   .example = "local st = spread:press{ pressure=\"10 MPa\" }",
                   .heavy = true}};

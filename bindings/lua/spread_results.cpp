@@ -13,7 +13,7 @@ namespace asperity::lua {
 
 namespace {
 
-constexpr std::string_view form = "half-space contact over ranks";
+constexpr std::string_view spread_form = "half-space contact over ranks";
 
 template <class Answer, class Visit>
 void numbers_of(Answer& answer, Visit visit) {
@@ -45,7 +45,11 @@ ResultStore* own_store(const Call& call) {
 // The heights' digest tells over how many ranks they are spread, and so which bits come out.
 std::string key_of(const SlabContactProblem& problem, const SpreadRequest& request) {
   Digester digester;
-  digester.add(form).add(problem.surface.digest).add(problem.modulus).add(problem.cap).add(problem.tolerance);
+  digester.add(spread_form)
+      .add(problem.surface.digest)
+      .add(problem.modulus)
+      .add(problem.cap)
+      .add(problem.tolerance);
   digester.add(problem.best_effort ? 1 : 0).add(request.by_approach ? 1 : 0).add(request.value);
   return digester.hex();
 }
@@ -95,7 +99,7 @@ void keep_press(const Call& call, const SlabContactProblem& problem, const Sprea
   });
   facts.texts.emplace_back("solver", found.result.solver);
   facts.cost = found.cost;
-  store->keep(key_of(problem, request), form, facts, {});
+  store->keep(key_of(problem, request), spread_form, facts, {});
 }
 
 }  // namespace asperity::lua

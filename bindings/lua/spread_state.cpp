@@ -16,7 +16,7 @@ namespace {
 const SlabContactAnswer& answer(const Call& call) { return *call.self<SpreadState>().answer; }
 
 template <auto member>
-Values read(Call& call) {
+Values spread_state_read(Call& call) {
   return {Value(answer(call).*member)};
 }
 
@@ -29,7 +29,7 @@ void require_plasticity(const Call& call, const char* name) {
                 "name it in `effects` of lab.spread.contact");
 }
 
-Values certificate_of(Call& call) {
+Values spread_state_certificate_of(Call& call) {
   const Certificate& c = answer(call).certificate;
   Record record;
   record.name = "certificate";
@@ -41,9 +41,9 @@ Values certificate_of(Call& call) {
   return {std::move(record)};
 }
 
-Values cost_of(Call& call) { return {cost_record(call.self<SpreadState>().cost, "cost")}; }
+Values spread_state_cost_of(Call& call) { return {cost_record(call.self<SpreadState>().cost, "cost")}; }
 
-Values write(Call& call) {
+Values spread_state_write(Call& call) {
   SpreadState& state = call.self<SpreadState>();
   const std::string name = call.text(1, "name"), path = writable_path(call, call.text(2, "path"));
   const bool pressure = name == "pressure", contact = name == "contact";
@@ -69,7 +69,7 @@ Values write(Call& call) {
   return {path};
 }
 
-std::string describe_state(const void* self) {
+std::string describe_spread_state(const void* self) {
   const auto& s = *static_cast<const SpreadState*>(self);
   const SlabContactAnswer& a = *s.answer;
   return "state over " + std::to_string(s.ranks) + (s.ranks == 1 ? " rank" : " ranks") + ": pressure " +
@@ -78,7 +78,7 @@ std::string describe_state(const void* self) {
          format_short(static_cast<double>(a.contacts) / s.surface.slab.all_nodes()) +
          (a.converged ? "" : ", not converged");
 }
-std::size_t state_bytes(const void* self) {
+std::size_t spread_state_bytes(const void* self) {
   const SlabContactAnswer& a = *static_cast<const SpreadState*>(self)->answer;
   return (a.pressure.size() + a.gap.size()) * sizeof(double);
 }
@@ -95,16 +95,17 @@ const Class& spread_state_class() {
     c.sentence =
         "A contact under load, its pressures and gaps in slabs: the numbers are the same in every rank.";
     c.shareable = false;
-    c.describe = describe_state;
-    c.native_bytes = state_bytes;
+    c.describe = describe_spread_state;
+    c.native_bytes = spread_state_bytes;
     c.digest = state_digest;
     c.fields = {
         {"load", "number", "force on the whole tile", dimension::force,
          [](Call& call) -> Values {
            return {answer(call).mean_pressure * call.self<SpreadState>().surface.grid.area()};
          }},
-        {"pressure", "number", "load over the nominal area", dimension::pressure, read<&A::mean_pressure>},
-        {"approach", "number", "from first touch", dimension::length, read<&A::approach>},
+        {"pressure", "number", "load over the nominal area", dimension::pressure,
+         spread_state_read<&A::mean_pressure>},
+        {"approach", "number", "from first touch", dimension::length, spread_state_read<&A::approach>},
         {"area", "number", "real contact area", dimension::area,
          [](Call& call) -> Values {
            return {static_cast<double>(answer(call).contacts) *
@@ -115,11 +116,12 @@ const Class& spread_state_class() {
          "nodes in contact over all nodes",
          {},
          [](Call& call) -> Values { return {static_cast<double>(answer(call).contacts) / nodes(call)}; }},
-        {"contacts", "integer", "nodes in contact", {}, read<&A::contacts>},
-        {"peak_pressure", "number", "greatest pressure", dimension::pressure, read<&A::peak_pressure>},
+        {"contacts", "integer", "nodes in contact", {}, spread_state_read<&A::contacts>},
+        {"peak_pressure", "number", "greatest pressure", dimension::pressure,
+         spread_state_read<&A::peak_pressure>},
         {"mean_gap", "number", "mean over the tile of the gap where it is open", dimension::length,
-         read<&A::mean_gap>},
-        {"energy", "number", "elastic energy in the tile", dimension::energy, read<&A::energy>},
+         spread_state_read<&A::mean_gap>},
+        {"energy", "number", "elastic energy in the tile", dimension::energy, spread_state_read<&A::energy>},
         {"plastic_fraction",
          "number",
          "share of the tile at the cap; needs plasticity",
@@ -138,7 +140,7 @@ const Class& spread_state_class() {
          "table",
          "how far the contact conditions are from being met, each relative",
          {},
-         certificate_of},
+         spread_state_certificate_of},
         {"residual",
          "number",
          "greatest entry of the certificate",
@@ -148,13 +150,13 @@ const Class& spread_state_class() {
          "boolean",
          "whether every entry of the certificate is within the tolerance",
          {},
-         read<&A::converged>},
+         spread_state_read<&A::converged>},
         {"iterations",
          "integer",
          "applications of the half-space on the finest grid",
          {},
          [](Call& call) -> Values { return {std::int64_t{answer(call).iterations}}; }},
-        {"solver", "string", "what found the solution", {}, read<&A::solver>},
+        {"solver", "string", "what found the solution", {}, spread_state_read<&A::solver>},
         {"ranks",
          "integer",
          "over which it is spread",
@@ -166,7 +168,7 @@ const Class& spread_state_class() {
          "heights "
          "included",
          {},
-         cost_of},
+         spread_state_cost_of},
         {"digest",
          "string",
          "of the surface and the numbers found",
@@ -174,7 +176,7 @@ const Class& spread_state_class() {
          [](Call& call) -> Values { return {call.self<SpreadState>().digest}; }},
     };
     c.methods = {{.name = "write",
-                  .body = write,
+                  .body = spread_state_write,
                   .sentence =
                       "Writes a field as one NPY file of shape (ny, nx), rank after rank: pressure in Pa, "
                       "gap in metres (0 in contact) or contact (1 where it touches).",

@@ -13,40 +13,40 @@ namespace asperity::lua {
 
 namespace {
 
-Values result(SlabSurface surface, const std::optional<Material>& material) {
+Values spread_result(SlabSurface surface, const std::optional<Material>& material) {
   surface.material = material;
   return {object(std::move(surface))};
 }
 
-const Block<SelfAffineKeys>& self_affine_block() {
+const Block<SelfAffineKeys>& spread_self_affine_block() {
   static const Block<SelfAffineKeys> block{"lab.spread.self_affine", self_affine_keys(),
                                            check_self_affine_keys};
   return block;
 }
-Values self_affine_body(Call& call) {
-  SelfAffineKeys keys = call.options(self_affine_block());
+Values spread_self_affine_body(Call& call) {
+  SelfAffineKeys keys = call.options(spread_self_affine_block());
   keys.grid = keys.make();
-  return result(slab_self_affine(team_of(call), keys, call.session().monitor()), keys.body_material);
+  return spread_result(slab_self_affine(team_of(call), keys, call.session().monitor()), keys.body_material);
 }
 
-const Block<SineKeys>& sine_block() {
+const Block<SineKeys>& spread_sine_block() {
   static const Block<SineKeys> block{"lab.spread.sine", sine_keys()};
   return block;
 }
-Values sine_body(Call& call) {
-  SineKeys keys = call.options(sine_block());
+Values spread_sine_body(Call& call) {
+  SineKeys keys = call.options(spread_sine_block());
   keys.grid = keys.make();
-  return result(slab_sine(team_of(call), keys, call.session().monitor()), keys.body_material);
+  return spread_result(slab_sine(team_of(call), keys, call.session().monitor()), keys.body_material);
 }
 
-const Block<GridKeys>& flat_block() {
+const Block<GridKeys>& spread_flat_block() {
   static const Block<GridKeys> block{"lab.spread.flat",
                                      {cells_key().required(), size_key().required(), material_key()}};
   return block;
 }
-Values flat_body(Call& call) {
-  const GridKeys keys = call.options(flat_block());
-  return result(slab_flat(team_of(call), keys.make(), call.session().monitor()), keys.body_material);
+Values spread_flat_body(Call& call) {
+  const GridKeys keys = call.options(spread_flat_block());
+  return spread_result(slab_flat(team_of(call), keys.make(), call.session().monitor()), keys.body_material);
 }
 
 // While a function of the script is called that other ranks wait for.
@@ -63,12 +63,12 @@ class WaitedFor {
   Session& session_;
 };
 
-const Block<GridKeys>& from_function_block() {
+const Block<GridKeys>& spread_from_function_block() {
   static const Block<GridKeys> block{"lab.spread.from_function", from_function_keys()};
   return block;
 }
-Values from_function_body(Call& call) {
-  const GridKeys keys = call.options(from_function_block());
+Values spread_from_function_body(Call& call) {
+  const GridKeys keys = call.options(spread_from_function_block());
   const Grid grid = keys.make();
   Team& team = team_of(call);
   return with_key(call.argument(1), "height", [&](const Argument& function) {
@@ -77,34 +77,35 @@ Values from_function_body(Call& call) {
     const auto row = [&](int j, double* to) {
       for (int i = 0; i < grid.nx; ++i) to[i] = height({i * grid.hx(), j * grid.hy()}, "height");
     };
-    return result(slab_surface(team, grid, row, call.session().monitor()), keys.body_material);
+    return spread_result(slab_surface(team, grid, row, call.session().monitor()), keys.body_material);
   });
 }
 
-struct ReadKeys : SlabFileOptions {
+struct spread_ReadKeys : SlabFileOptions {
   std::optional<Material> material;
 };
-const Block<ReadKeys>& read_block() {
-  using K = ReadKeys;
+const Block<spread_ReadKeys>& spread_read_block() {
+  using K = spread_ReadKeys;
   static const Block<K> block{
       "lab.spread.read",
       {pair_option("size", &K::size_x, &K::size_y, dimension::length, above(0), "size of the map").required(),
        unit_key(&K::unit).defaults_to("1 m"), material_key(&K::material)}};
   return block;
 }
-Values read_body(Call& call) {
+Values spread_read_body(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
-  const ReadKeys keys = call.options(read_block(), 2);
+  const spread_ReadKeys keys = call.options(spread_read_block(), 2);
   const Ranks* const ranks = call.session().ranks;
   if (ranks == nullptr || ranks->leads()) note_input(call, path);
   // What the run has written lies where the first rank wrote it.
   Team& team = team_of(call);
-  return result(slab_read(team, team.text_of_first(path), keys, call.session().monitor()), keys.material);
+  return spread_result(slab_read(team, team.text_of_first(path), keys, call.session().monitor()),
+                       keys.material);
 }
 
 // --- the class
 
-Values write(Call& call) {
+Values spread_write(Call& call) {
   const SlabSurface& surface = call.self<SlabSurface>();
   const std::string path = writable_path(call, call.text(1, "path"));
   const auto row = [&](int j, double* to) {
@@ -116,7 +117,7 @@ Values write(Call& call) {
   return {path};
 }
 
-std::string describe(const void* self) {
+std::string spread_describe(const void* self) {
   const auto& s = *static_cast<const SlabSurface*>(self);
   return "surface of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
          std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks") + ", rms height " +
@@ -125,7 +126,7 @@ std::string describe(const void* self) {
 std::size_t bytes(const void* self) {
   return static_cast<const SlabSurface*>(self)->heights->size() * sizeof(double);
 }
-std::string digest(const void* self) { return static_cast<const SlabSurface*>(self)->digest; }
+std::string spread_digest(const void* self) { return static_cast<const SlabSurface*>(self)->digest; }
 
 List pair_of(const Value& x, const Value& y) {
   List list;
@@ -134,7 +135,7 @@ List pair_of(const Value& x, const Value& y) {
 }
 
 template <auto member>
-Values read(Call& call) {
+Values spread_read(Call& call) {
   return {Value(call.self<SlabSurface>().*member)};
 }
 
@@ -174,26 +175,28 @@ const Module& spread_module() {
                              .example = example,
                              .heavy = true});
     };
-    add("self_affine", self_affine_body,
+    add("self_affine", spread_self_affine_body,
         "The heights of lab.surface.self_affine, to rounding, made in slabs by a transform over the ranks.",
-        self_affine_block(),
+        spread_self_affine_block(),
         "local s = lab.spread.self_affine{ cells=64, size=\"1 mm\", hurst=0.8, rms_height=\"1 um\", "
         "short_wave=\"50 um\", seed=1, material=al }");
-    add("sine", sine_body, "The heights of lab.surface.sine.", sine_block(),
+    add("sine", spread_sine_body, "The heights of lab.surface.sine.", spread_sine_block(),
         "local s = lab.spread.sine{ cells=64, size=\"1 mm\", amplitude=\"1 um\" }");
-    add("flat", flat_body, "A flat.", flat_block(), "local s = lab.spread.flat{ cells=64, size=\"1 mm\" }");
-    add("from_function", from_function_body,
-        "Heights from a function of x and y, which each rank calls for its own rows.", from_function_block(),
+    add("flat", spread_flat_body, "A flat.", spread_flat_block(),
+        "local s = lab.spread.flat{ cells=64, size=\"1 mm\" }");
+    add("from_function", spread_from_function_body,
+        "Heights from a function of x and y, which each rank calls for its own rows.",
+        spread_from_function_block(),
         "local s = lab.spread.from_function{ cells=64, size=1e-3, height=function(x, y) return 1e-6 * x / "
         "1e-3 "
         "end }");
     m.functions.push_back(
         {.name = "read",
-         .body = read_body,
+         .body = spread_read_body,
          .sentence = "A surface from a NPY file of shape (ny, nx), of which each rank reads "
                      "its own rows.",
          .parameters = {{"path", "string", "the file, which every rank must be able to read"}},
-         .options = &read_block(),
+         .options = &spread_read_block(),
          .returns = "SpreadSurface",
          .example =
              "tile:write \"map.npy\" local s = lab.spread.read(\"map.npy\", { size=\"1 mm\", unit=\"m\" })",
@@ -217,9 +220,9 @@ const Class& spread_surface_class() {
     c.article_name = "a surface over ranks";
     c.sentence = "A rough surface of which each rank holds some rows.";
     c.shareable = false;
-    c.describe = describe;
+    c.describe = spread_describe;
     c.native_bytes = bytes;
-    c.digest = digest;
+    c.digest = spread_digest;
     c.fields = {
         {"cells",
          "integer[]",
@@ -234,20 +237,21 @@ const Class& spread_surface_class() {
            const Grid& grid = call.self<S>().grid;
            return {pair_of(grid.size_x, grid.size_y)};
          }},
-        {"rms_height", "number", "root mean square height about the mean", dimension::length, read<&S::rms>},
-        {"mean", "number", "mean height", dimension::length, read<&S::mean>},
-        {"peak", "number", "greatest height", dimension::length, read<&S::peak>},
-        {"valley", "number", "least height", dimension::length, read<&S::valley>},
+        {"rms_height", "number", "root mean square height about the mean", dimension::length,
+         spread_read<&S::rms>},
+        {"mean", "number", "mean height", dimension::length, spread_read<&S::mean>},
+        {"peak", "number", "greatest height", dimension::length, spread_read<&S::peak>},
+        {"valley", "number", "least height", dimension::length, spread_read<&S::valley>},
         {"ranks",
          "integer",
          "over which it is spread",
          {},
          [](Call& call) -> Values { return {std::int64_t{call.self<S>().slab.ranks}}; }},
-        {"digest", "string", "of its heights and how they are spread", {}, read<&S::digest>},
+        {"digest", "string", "of its heights and how they are spread", {}, spread_read<&S::digest>},
     };
     c.methods = {
         {.name = "write",
-         .body = write,
+         .body = spread_write,
          .sentence = "Writes the heights in metres as one NPY file of shape (ny, nx), rank after rank.",
          .parameters = {{"path", "string", "a .npy under the run directory"}},
          .returns = "string",

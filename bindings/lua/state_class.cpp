@@ -23,7 +23,7 @@ using Contacting = asperity::State;
 
 // A field of a state that is one member function.
 template <auto member>
-Values read(Call& call) {
+Values read_state_number(Call& call) {
   return {Value((call.self<Contacting>().*member)())};
 }
 
@@ -50,17 +50,17 @@ Values certificate_of(Call& call) {
   return {std::move(record)};
 }
 
-List texts(const std::vector<std::string>& items) {
+List text_list(const std::vector<std::string>& items) {
   List list;
   for (const std::string& item : items) list.items.emplace_back(item);
   return list;
 }
 
-Value numbers(const std::vector<double>& values) {
+Value state_numbers(const std::vector<double>& values) {
   return Value::Numbers(std::make_shared<const Array<double>>(values.begin(), values.end()));
 }
 
-Values spot_areas(Call& call) { return {numbers(call.self<Contacting>().spot_areas())}; }
+Values spot_areas(Call& call) { return {state_numbers(call.self<Contacting>().spot_areas())}; }
 
 Dimension field_dimension(const std::string& name) {
   if (name == "pressure") return dimension::pressure;
@@ -90,9 +90,9 @@ Values distribution(Call& call) {
   for (const std::int64_t n : h.counts) counts.items.emplace_back(n);
   Record record;
   record.name = "distribution";
-  record.add("edges", numbers(h.edges))
+  record.add("edges", state_numbers(h.edges))
       .add("counts", std::move(counts))
-      .add("density", numbers(h.density))
+      .add("density", state_numbers(h.density))
       .add("values", h.values)
       .add("mean", h.mean);
   return {std::move(record)};
@@ -121,19 +121,19 @@ const Block<StateFileKeys>& state_file_block() {
                  })}};
   return block;
 }
-Values write(Call& call) {
+Values write_state(Call& call) {
   const StateFileKeys keys = call.options(state_file_block(), 2);
   const std::string path = writable_path(call, call.text(1, "path"));
   write_state(call.self<Contacting>(), path, keys.fields);
   return {path};
 }
 
-std::string describe(const void* self) { return static_cast<const Contacting*>(self)->text(); }
+std::string describe_state(const void* self) { return static_cast<const Contacting*>(self)->text(); }
 std::size_t state_bytes(const void* self) {
   return static_cast<std::size_t>(static_cast<const Contacting*>(self)->bytes_held());
 }
-std::string digest(const void* self) { return static_cast<const Contacting*>(self)->digest(); }
-bool equal(const void* a, const void* b) {
+std::string digest_of_state(const void* self) { return static_cast<const Contacting*>(self)->digest(); }
+bool equal_states(const void* a, const void* b) {
   return static_cast<const Contacting*>(a)->digest() == static_cast<const Contacting*>(b)->digest();
 }
 
@@ -178,60 +178,78 @@ const Class& state_class() {
     c.article_name = "a state";
     c.sentence =
         "A contact under load: an immutable value whose fields are computed when they are first read.";
-    c.describe = describe;
+    c.describe = describe_state;
     c.native_bytes = state_bytes;
-    c.digest = digest;
-    c.equal = equal;
+    c.digest = digest_of_state;
+    c.equal = equal_states;
     c.fields = {
-        {"load", "number", "force on the whole tile", dimension::force, read<&S::load>},
-        {"pressure", "number", "load over the nominal area", dimension::pressure, read<&S::pressure>},
+        {"load", "number", "force on the whole tile", dimension::force, read_state_number<&S::load>},
+        {"pressure", "number", "load over the nominal area", dimension::pressure,
+         read_state_number<&S::pressure>},
         {"attraction", "number",
          "force by which the bodies attract each other; the contacts carry load and this", dimension::force,
-         read<&S::attraction>},
+         read_state_number<&S::attraction>},
         {"drawn_from",
          "number[]",
          "the branch of bodies that attract each other: values of the prescribed quantity gone to in turn "
          "before this one; empty where they were brought together from apart",
          {},
-         [](Call& call) -> Values { return {numbers(call.self<S>().drawn_from())}; }},
-        {"approach", "number", "from first touch", dimension::length, read<&S::approach>},
+         [](Call& call) -> Values { return {state_numbers(call.self<S>().drawn_from())}; }},
+        {"approach", "number", "from first touch", dimension::length, read_state_number<&S::approach>},
         {"indentation",
          "number",
          "approach over the peak-to-valley of the combined heights; of flats none, an error",
          {},
-         read<&S::indentation>},
-        {"flatten", "number", "share of that peak-to-valley pressed away", {}, read<&S::flatten>},
-        {"area", "number", "real contact area", dimension::area, read<&S::area>},
-        {"area_fraction", "number", "nodes in contact over all nodes", {}, read<&S::area_fraction>},
+         read_state_number<&S::indentation>},
+        {"flatten",
+         "number",
+         "share of that peak-to-valley pressed away",
+         {},
+         read_state_number<&S::flatten>},
+        {"area", "number", "real contact area", dimension::area, read_state_number<&S::area>},
+        {"area_fraction",
+         "number",
+         "nodes in contact over all nodes",
+         {},
+         read_state_number<&S::area_fraction>},
         {"corrected_area_fraction",
          "number",
          "area fraction less the excess of its stepped outline",
          {},
-         read<&S::corrected_area_fraction>},
-        {"contacts", "integer", "nodes in contact", {}, read<&S::contacts>},
-        {"spots", "integer", "regions of contact joined by an edge", {}, read<&S::spots>},
-        {"spots8", "integer", "regions of contact joined by an edge or a corner", {}, read<&S::spots8>},
-        {"peak_pressure", "number", "greatest pressure", dimension::pressure, read<&S::peak_pressure>},
+         read_state_number<&S::corrected_area_fraction>},
+        {"contacts", "integer", "nodes in contact", {}, read_state_number<&S::contacts>},
+        {"spots", "integer", "regions of contact joined by an edge", {}, read_state_number<&S::spots>},
+        {"spots8",
+         "integer",
+         "regions of contact joined by an edge or a corner",
+         {},
+         read_state_number<&S::spots8>},
+        {"peak_pressure", "number", "greatest pressure", dimension::pressure,
+         read_state_number<&S::peak_pressure>},
         {"separation", "number",
          "of the mean planes of the bodies, undeformed, as they stand under this load", dimension::length,
-         read<&S::separation>},
+         read_state_number<&S::separation>},
         {"mean_gap", "number", "mean over the tile of the gap where it is open", dimension::length,
-         read<&S::mean_gap>},
+         read_state_number<&S::mean_gap>},
         {"stiffness", "number",
          "d pressure / d approach at this contact set; math.huge where all of a periodic tile touches",
-         dimension::stiffness, read<&S::stiffness>},
+         dimension::stiffness, read_state_number<&S::stiffness>},
         {"secant_stiffness", "number", "pressure over approach", dimension::stiffness,
-         read<&S::secant_stiffness>},
-        {"energy", "number", "elastic energy in the tile", dimension::energy, read<&S::energy>},
+         read_state_number<&S::secant_stiffness>},
+        {"energy", "number", "elastic energy in the tile", dimension::energy, read_state_number<&S::energy>},
         {"plastic_volume", "number", "volume this press took from both bodies; needs plasticity",
-         dimension::volume, read<&S::plastic_volume>},
+         dimension::volume, read_state_number<&S::plastic_volume>},
         {"plastic_fraction",
          "number",
          "share of the tile at the cap; needs plasticity",
          {},
-         read<&S::plastic_fraction>},
-        {"iterations", "integer", "of the solver; 0 for a closed form", {}, read<&S::iterations>},
-        {"residual", "number", "greatest entry of the certificate", {}, read<&S::residual>},
+         read_state_number<&S::plastic_fraction>},
+        {"iterations",
+         "integer",
+         "of the solver; 0 for a closed form",
+         {},
+         read_state_number<&S::iterations>},
+        {"residual", "number", "greatest entry of the certificate", {}, read_state_number<&S::residual>},
         {"certificate",
          "table",
          "how far the contact conditions are from being met, each relative",
@@ -241,7 +259,7 @@ const Class& state_class() {
          "boolean",
          "whether every entry of the certificate is within the tolerance",
          {},
-         read<&S::converged>},
+         read_state_number<&S::converged>},
         {"solver",
          "string",
          "what found the solution",
@@ -251,12 +269,12 @@ const Class& state_class() {
          "string[]",
          "effects that were computed",
          {},
-         [](Call& call) -> Values { return {texts(call.self<S>().effects_run())}; }},
+         [](Call& call) -> Values { return {text_list(call.self<S>().effects_run())}; }},
         {"effects_off",
          "string[]",
          "effects that the scene does not name",
          {},
-         [](Call& call) -> Values { return {texts(call.self<S>().effects_off())}; }},
+         [](Call& call) -> Values { return {text_list(call.self<S>().effects_off())}; }},
         {"error",
          "StateError",
          "how far these numbers are from exact",
@@ -268,7 +286,7 @@ const Class& state_class() {
          {},
          [](Call& call) -> Values { return {chosen_record(call.self<S>())}; }},
         {"cost", "table", "seconds, transforms, bytes, and by effect", {}, cost_of},
-        {"digest", "string", "of pressures and approach", {}, read<&S::digest>},
+        {"digest", "string", "of pressures and approach", {}, read_state_number<&S::digest>},
     };
     c.methods = {
         {.name = "spot_areas",
@@ -290,7 +308,7 @@ const Class& state_class() {
          .returns = "Surface",
          .example = "local flattened = st:deformed \"lower\""},
         {.name = "write",
-         .body = write,
+         .body = write_state,
          .sentence =
              "Writes the fields as maps of shape (ny, nx) into one HDF5 file, with load, approach, area, "
              "certificate and digest as its attributes, and an .xdmf beside it for ParaView.",

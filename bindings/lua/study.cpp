@@ -29,7 +29,7 @@ Map knobs_map(const Knobs& knobs) {
 
 Value finite(double value) { return std::isfinite(value) ? Value(value) : Value(); }
 
-Values rows(Call& call) {
+Values rows_of_study(Call& call) {
   const StudyResult& result = call.self<Study>().result;
   List list;
   for (const StudyRow& row : result.rows) {
@@ -58,7 +58,7 @@ Values rows(Call& call) {
   return {std::move(list)};
 }
 
-Values chart(Call& call) {
+Values chart_study(Call& call) {
   const Study& study = call.self<Study>();
   const std::string file = call.given(1) ? call.text(1, "path") : safe_file_name(study.name) + ".svg";
   picture_format(file);
@@ -179,7 +179,7 @@ const Class& study_class() {
     };
     c.methods = {
         {.name = "rows",
-         .body = rows,
+         .body = rows_of_study,
          .sentence =
              "One table a setting: way, the knobs, value, error (relative to the truth), absolute_error, "
              "held_error "
@@ -193,7 +193,7 @@ const Class& study_class() {
          .example =
              "for _, row in ipairs(study:rows()) do print(row.way, row.cells, row.error, row.seconds) end"},
         {.name = "chart",
-         .body = chart,
+         .body = chart_study,
          .sentence = "Draws error against time on logarithmic axes, a line a way, bars from the fastest to "
                      "the slowest run, "
                      "rings about what nothing beats, and marks at the rim for settings that failed or were "

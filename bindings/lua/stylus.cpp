@@ -52,7 +52,7 @@ Record effect_record(const TipEffect& effect) {
   return record;
 }
 
-Record line_record(const Traverse& line) {
+Record traverse_record(const Traverse& line) {
   Record record;
   record.name = "line";
   record.add("x", line.start.x, dimension::length)
@@ -67,7 +67,7 @@ Values scan(Call& call) {
   StylusScan result = call.self<Stylus>().scan(surface, keys.count, keys.seed, call.session().monitor());
   List traces, lines;
   for (Profile& trace : result.traces) traces.items.push_back(object(std::move(trace)));
-  for (const Traverse& line : result.lines) lines.items.emplace_back(line_record(line));
+  for (const Traverse& line : result.lines) lines.items.emplace_back(traverse_record(line));
   traces.named.emplace_back("tip_effect", effect_record(result.effect));
   traces.named.emplace_back("lines", std::move(lines));
   return {std::move(traces)};
@@ -82,17 +82,17 @@ Values close_map(Call& call) {
       closed(call.object<Surface>(1, "surface"), call.self<Stylus>().tip(), call.session().monitor()))};
 }
 
-std::string describe(const void* self) {
+std::string describe_stylus(const void* self) {
   const auto& s = *static_cast<const Stylus*>(self);
   return "stylus: tip radius " + format_quantity(s.tip(), dimension::length) + ", " +
          std::to_string(s.samples()) + " samples every " + format_quantity(s.spacing(), dimension::length) +
          (s.speed() ? ", at " + format_quantity(*s.speed(), dimension::speed) : "");
 }
 
-bool equal(const void* a, const void* b) {
+bool equal_styluses(const void* a, const void* b) {
   return static_cast<const Stylus*>(a)->digest() == static_cast<const Stylus*>(b)->digest();
 }
-std::string digest(const void* self) { return static_cast<const Stylus*>(self)->digest(); }
+std::string digest_of_stylus(const void* self) { return static_cast<const Stylus*>(self)->digest(); }
 
 }  // namespace
 
@@ -114,9 +114,9 @@ const Class& stylus_class() {
     c.name = "Stylus";
     c.article_name = "a stylus";
     c.sentence = "A stylus profiler; an immutable value.";
-    c.describe = describe;
-    c.equal = equal;
-    c.digest = digest;
+    c.describe = describe_stylus;
+    c.equal = equal_styluses;
+    c.digest = digest_of_stylus;
     c.fields = {
         {"tip", "number", "radius of the tip", dimension::length,
          [](Call& call) -> Values { return {call.self<Stylus>().tip()}; }},

@@ -15,7 +15,9 @@ namespace asperity::lua {
 
 namespace {
 
-Values height(Call& call) { return {call.self<Surface>().height(call.number(1, "i"), call.number(2, "j"))}; }
+Values surface_height(Call& call) {
+  return {call.self<Surface>().height(call.number(1, "i"), call.number(2, "j"))};
+}
 
 Values heights(Call& call) {
   const Surface surface = call.self<Surface>();
@@ -44,7 +46,7 @@ Values level(Call& call) {
 
 // --- files
 
-Values write(Call& call) {
+Values write_surface(Call& call) {
   const std::string path = writable_path(call, call.text(1, "path"));
   write_surface(call.self<Surface>(), path, call.session().monitor());
   return {path};
@@ -57,7 +59,7 @@ Values picture(Call& call) {
   return {path};
 }
 
-std::string describe(const void* self) {
+std::string describe_surface(const void* self) {
   const auto& s = *static_cast<const Surface*>(self);
   const Grid& g = s.grid();
   std::string text = "surface " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " cells, " +
@@ -68,13 +70,13 @@ std::string describe(const void* self) {
   return text;
 }
 
-std::size_t native_bytes(const void* self) {
+std::size_t bytes_of_surface(const void* self) {
   return static_cast<const Surface*>(self)->heights().size() * sizeof(double);
 }
-bool equal(const void* a, const void* b) {
+bool equal_surfaces(const void* a, const void* b) {
   return static_cast<const Surface*>(a)->digest() == static_cast<const Surface*>(b)->digest();
 }
-std::string digest(const void* self) { return static_cast<const Surface*>(self)->digest(); }
+std::string digest_of_surface(const void* self) { return static_cast<const Surface*>(self)->digest(); }
 
 }  // namespace
 
@@ -84,10 +86,10 @@ const Class& surface_class() {
     c.name = "Surface";
     c.article_name = "a surface";
     c.sentence = "Heights on a regular grid of cells; an immutable value whose methods return new ones.";
-    c.describe = describe;
-    c.native_bytes = native_bytes;
-    c.equal = equal;
-    c.digest = digest;
+    c.describe = describe_surface;
+    c.native_bytes = bytes_of_surface;
+    c.equal = equal_surfaces;
+    c.digest = digest_of_surface;
     c.fields = {
         {"cells",
          "{nx, ny}",
@@ -130,7 +132,7 @@ const Class& surface_class() {
     };
     c.methods = {
         {.name = "height",
-         .body = height,
+         .body = surface_height,
          .sentence = "Height of node (i, j) in metres, counted from 0.",
          .parameters = {{"i", "integer", "along x"}, {"j", "integer", "along y"}},
          .returns = "number",
@@ -167,7 +169,7 @@ const Class& surface_class() {
          .returns = "Surface",
          .example = "s:filtered{ short_wave=\"2.5 um\", long_wave=\"0.8 mm\" }"},
         {.name = "write",
-         .body = write,
+         .body = write_surface,
          .sentence = "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
                      "(Gwyddion), .txt, "
                      ".asc or .csv by the extension of the path. All read back bit for bit.",

@@ -42,23 +42,25 @@ Values scale(Call& call) {
 struct ShiftKeys {
   double x = 0, y = 0;
 };
-const Block<ShiftKeys>& shift_block() {
+const Block<ShiftKeys>& shift_surface_block() {
   static const Block<ShiftKeys> block{
       "shifted",
       {quantity("x", &ShiftKeys::x, dimension::length, any(), "way along x"),
        quantity("y", &ShiftKeys::y, dimension::length, any(), "way along y")}};
   return block;
 }
-Values shift(Call& call) {
-  const ShiftKeys keys = call.options(shift_block());
+Values shift_surface(Call& call) {
+  const ShiftKeys keys = call.options(shift_surface_block());
   return {object(shifted(call.self<Surface>(), keys.x, keys.y))};
 }
 
-Values rotate(Call& call) {
+Values rotate_surface(Call& call) {
   return {object(rotated(call.self<Surface>(), call.quantity(1, "angle", dimension::angle)))};
 }
 Values mirror(Call& call) { return {object(mirrored(call.self<Surface>()))}; }
-Values add(Call& call) { return {object(plus(call.self<Surface>(), call.object<Surface>(1, "other")))}; }
+Values add_surfaces(Call& call) {
+  return {object(plus(call.self<Surface>(), call.object<Surface>(1, "other")))};
+}
 Values cut_off(Call& call) { return {object(cut(call.self<Surface>(), call.options(cut_block()).fraction))}; }
 
 struct CropKeys {
@@ -190,14 +192,14 @@ std::vector<Function> surface_operations() {
        .returns = "Surface",
        .example = "s:scaled{ amplitude=\"1 um\" }"},
       {.name = "shifted",
-       .body = shift,
+       .body = shift_surface,
        .sentence = "Moved along x and y, cyclically: whole cells exactly, fractions of a cell on periodic "
                    "surfaces.",
-       .options = &shift_block(),
+       .options = &shift_surface_block(),
        .returns = "Surface",
        .example = "s:shifted{ x=\"10 um\" }"},
       {.name = "rotated",
-       .body = rotate,
+       .body = rotate_surface,
        .sentence = "Turned counter-clockwise seen from above: quarter turns exactly, other angles by "
                    "interpolation.",
        .parameters = {{"angle", "an angle", "to turn by"}},
@@ -222,7 +224,7 @@ std::vector<Function> surface_operations() {
        .returns = "Surface",
        .example = "s:resampled{ cells=512 }"},
       {.name = "plus",
-       .body = add,
+       .body = add_surfaces,
        .sentence = "The sum of two surfaces of equal cells and size.",
        .parameters = {{"other", "Surface", "what to add"}},
        .returns = "Surface",

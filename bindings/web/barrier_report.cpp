@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t ways_out = 4;
 
-const Json& member(const Json& json, const char* name) {
+const Json& report_member(const Json& json, const char* name) {
   const Json* found = json.find(name);
   if (found == nullptr)
     throw Error(ErrorCode::internal, "the trial of the barriers says nothing of " + asperity::quoted(name));
@@ -52,11 +52,12 @@ BarrierReport try_out_barriers(const std::string& folder) {
     const std::size_t before = end == 0 ? std::string::npos : done.output.rfind('\n', end - 1);
     const std::size_t begin = before == std::string::npos ? 0 : before + 1;
     const Json json = Json::parse(done.output.substr(begin, end - begin), "the trial of the barriers");
-    for (const Json& name : member(json, "made").list()) report.made.push_back(name.string());
-    for (const Json& name : member(json, "missing").list()) report.missing.push_back(name.string());
-    for (const Json& barrier : member(json, "barriers").list())
-      report.tried.push_back({member(barrier, "name").string(), member(barrier, "sentence").string(),
-                              member(barrier, "holds").boolean(), member(barrier, "by").string()});
+    for (const Json& name : report_member(json, "made").list()) report.made.push_back(name.string());
+    for (const Json& name : report_member(json, "missing").list()) report.missing.push_back(name.string());
+    for (const Json& barrier : report_member(json, "barriers").list())
+      report.tried.push_back(
+          {report_member(barrier, "name").string(), report_member(barrier, "sentence").string(),
+           report_member(barrier, "holds").boolean(), report_member(barrier, "by").string()});
   } catch (const Error& error) {
     report.problem = error.what();
   }

@@ -27,14 +27,14 @@ namespace {
 constexpr int failed = 1, bad_usage = 2;
 constexpr std::array<const char*, 4> works{"run", "check", "draw", "probe"};
 
-const Json& member(const Json& json, const char* name) {
+const Json& request_member(const Json& json, const char* name) {
   const Json* found = json.find(name);
   if (found == nullptr) throw Error(ErrorCode::bad_file, "the request has no " + asperity::quoted(name));
   return *found;
 }
 
 std::int64_t whole(const Json& json, const char* name) {
-  return static_cast<std::int64_t>(member(json, name).number());
+  return static_cast<std::int64_t>(request_member(json, name).number());
 }
 
 std::string standard_input() {
@@ -120,22 +120,23 @@ Json to_json(const ConfinedRequest& request) {
 
 ConfinedRequest confined_request(const Json& json) {
   ConfinedRequest request;
-  const std::string& work = member(json, "work").string();
+  const std::string& work = request_member(json, "work").string();
   const auto known = std::ranges::find(works, work);
   if (known == works.end()) throw Error(ErrorCode::bad_file, "the request is to " + asperity::quoted(work));
   request.work = static_cast<Work>(known - works.begin());
-  request.confinement.as = member(json, "drawing").boolean() ? Confined::drawing : Confined::script;
+  request.confinement.as = request_member(json, "drawing").boolean() ? Confined::drawing : Confined::script;
   request.confinement.memory_bytes = whole(json, "memory_bytes");
   request.confinement.file_bytes = whole(json, "file_bytes");
   request.confinement.processor_seconds = whole(json, "processor_seconds");
-  request.script = member(json, "script").string();
-  request.name = member(json, "name").string();
+  request.script = request_member(json, "script").string();
+  request.name = request_member(json, "name").string();
   request.seed = whole(json, "seed");
-  request.seconds = member(json, "seconds").number();
+  request.seconds = request_member(json, "seconds").number();
   request.threads = static_cast<int>(whole(json, "threads"));
   request.confinement.threads = request.threads;
-  request.views = member(json, "views").boolean();
-  for (const Json& barrier : member(json, "barriers").list()) request.barriers.push_back(barrier.string());
+  request.views = request_member(json, "views").boolean();
+  for (const Json& barrier : request_member(json, "barriers").list())
+    request.barriers.push_back(barrier.string());
   return request;
 }
 

@@ -35,7 +35,7 @@ const char* stop_name(StopReason reason) {
   return "";
 }
 
-Json member(const Json& fields, std::string_view name) {
+Json field_or_null(const Json& fields, std::string_view name) {
   const Json* found = fields.find(name);
   return found == nullptr ? Json() : *found;
 }
@@ -85,14 +85,14 @@ void EventChannel::progress(std::string_view task, double done, double seconds_l
 
 void EventChannel::recorded(std::string_view event, const Json& fields) {
   if (event == "row") {
-    Json units = member(fields, "units");
-    send("row", Json::object({{"notebook", member(fields, "notebook")},
-                              {"row", member(fields, "row")},
+    Json units = field_or_null(fields, "units");
+    send("row", Json::object({{"notebook", field_or_null(fields, "notebook")},
+                              {"row", field_or_null(fields, "row")},
                               {"units", units.is_null() ? Json::object() : std::move(units)}}));
   } else if (event == "expect") {
-    const Json label = member(fields, "label"), sentence = member(fields, "sentence");
+    const Json label = field_or_null(fields, "label"), sentence = field_or_null(fields, "sentence");
     const std::string text = (label.is_null() ? "" : label.string() + ": ") + sentence.string();
-    send("expectation", Json::object({{"text", text}, {"held", member(fields, "passed")}}));
+    send("expectation", Json::object({{"text", text}, {"held", field_or_null(fields, "passed")}}));
   }
 }
 
@@ -135,7 +135,7 @@ void EventChannel::keep_view(const Seen& seen) {
                       seen.line);
     std::filesystem::create_directories(views_);
     write_aside(std::filesystem::path(views_) / (name + ".json"), view.text());
-    send("view", Json::object({{"name", name}, {"title", member(view, "title")}}));
+    send("view", Json::object({{"name", name}, {"title", field_or_null(view, "title")}}));
   } catch (const std::exception&) {
     views_.clear();  // a full disk must not end the run
   }

@@ -22,8 +22,8 @@ namespace asperity::web {
 namespace {
 
 constexpr auto look_every = std::chrono::milliseconds(300);
-constexpr auto patience = std::chrono::milliseconds(3000);  // after a polite request to end
-constexpr double grace_seconds = 4;                         // for the run's own watch of the clock
+constexpr auto follower_patience = std::chrono::milliseconds(3000);  // after a polite request to end
+constexpr double grace_seconds = 4;                                  // for the run's own watch of the clock
 constexpr std::size_t longest_event = std::size_t{1} << 20;
 
 std::string mebibytes(std::int64_t bytes) {
@@ -181,7 +181,7 @@ void RunFollower::end(RunState as, const std::string& why) {
   ending_ = as;
   reason = why;
   process_.send(SIGTERM);
-  kill_at_ = Clock::now() + patience;
+  kill_at_ = Clock::now() + follower_patience;
 }
 
 void RunFollower::judge(int status) {

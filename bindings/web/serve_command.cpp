@@ -11,6 +11,7 @@
 #include <memory>
 #include <thread>
 
+#include "bindings/cli/exit_status.hpp"
 #include "bindings/web/api.hpp"
 #include "bindings/web/barrier_report.hpp"
 #include "bindings/web/places.hpp"
@@ -25,7 +26,6 @@ namespace asperity::web {
 
 namespace {
 
-constexpr int bad_usage = 2;
 constexpr int usual_port = 8137;  // the same each time: a browser keeps what was written by address and port
 
 // Asked before there is a port, answered after: what Host may say depends on it.
@@ -173,7 +173,7 @@ int serve(const ServeCommand& command) {
     return serve_until_stopped(command);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
+    return cli::bad_usage;
   }
 }
 

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "engine/contact/solution.hpp"
+#include "engine/core/constants.hpp"
 
 namespace asperity {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
 
 // How far a whole number may be from what is certain of it.

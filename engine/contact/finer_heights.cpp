@@ -17,7 +17,7 @@ namespace asperity {
 
 namespace {
 
-using Node = LatticeIsometry::Node;
+using LatticeNode = LatticeIsometry::Node;
 
 // The upper body's heights over the nodes of the finer lower grid, as the lattice part of a pose lays it.
 Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary boundary) {
@@ -25,13 +25,13 @@ Field over_lower(const Field& upper, const LatticeIsometry& lattice, Boundary bo
   const int factor_x = nx / lattice.nx(), factor_y = ny / lattice.ny();
   // Without its shift the isometry is affine in the nodes.
   const LatticeIsometry turned = LatticeIsometry(lattice.nx(), lattice.ny()).turned(lattice.quarters());
-  const Node origin = turned.to_upper(Node{0, 0});
-  const auto step = [&](Node over) {
-    const Node to = turned.to_upper(over);
-    return Node{to.i - origin.i, to.j - origin.j};
+  const LatticeNode origin = turned.to_upper(LatticeNode{0, 0});
+  const auto step = [&](LatticeNode over) {
+    const LatticeNode to = turned.to_upper(over);
+    return LatticeNode{to.i - origin.i, to.j - origin.j};
   };
-  const Node along_x = lattice.nx() > 1 ? step({1, 0}) : Node{1, 0};
-  const Node along_y = lattice.ny() > 1 ? step({0, 1}) : Node{0, 1};
+  const LatticeNode along_x = lattice.nx() > 1 ? step({1, 0}) : LatticeNode{1, 0};
+  const LatticeNode along_y = lattice.ny() > 1 ? step({0, 1}) : LatticeNode{0, 1};
   const int shift_x = factor_x * lattice.shift_x(), shift_y = factor_y * lattice.shift_y();
   const auto on_grid = [&](int k, int n) {
     return boundary == Boundary::periodic ? (k % n + n) % n : std::clamp(k, 0, n - 1);

@@ -42,6 +42,8 @@ const std::array<std::string, 5> names_of_fields = {"pressure", "gap", "contact"
 
 }  // namespace
 
+StateCost elasticity_alone(const Cost& cost) { return {cost, {{"elasticity", cost}}}; }
+
 StateCost& StateCost::operator+=(const StateCost& other) {
   total += other.total;
   for (const auto& entry : other.by_effect) {

@@ -31,6 +31,8 @@ struct StateCost {
 
   StateCost& operator+=(const StateCost& other);
 };
+// All of it taken by the elastic solve.
+StateCost elasticity_alone(const Cost& cost);
 
 class State {
  public:

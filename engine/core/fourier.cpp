@@ -13,6 +13,7 @@
 
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/fourier_blocks.hpp"
 #include "engine/core/fourier_plan.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -21,8 +22,6 @@ namespace asperity {
 namespace {
 
 using Complex = std::complex<double>;
-
-fftw_complex* fftw(Complex* pointer) { return reinterpret_cast<fftw_complex*>(pointer); }
 
 struct RowWork {
   Array<double> signal;
@@ -51,10 +50,6 @@ void inverse(fftw_plan plan, RowWork& work, std::span<const Complex> bins, std::
 std::optional<SingleThreaded> alone_if_small(std::size_t nodes) {
   constexpr std::size_t worth_sharing = 64 * 64;
   return nodes < worth_sharing ? std::optional<SingleThreaded>(std::in_place) : std::nullopt;
-}
-
-std::int64_t block_count(int items, int block) {
-  return (static_cast<std::int64_t>(items) + block - 1) / block;
 }
 
 // Rows a block takes: enough values to be worth a turn, few enough to share out.

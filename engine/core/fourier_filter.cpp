@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/core/error.hpp"
+#include "engine/core/fourier_blocks.hpp"
 #include "engine/core/fourier_plan.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -16,16 +17,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-fftw_complex* fftw(Complex* pointer) { return reinterpret_cast<fftw_complex*>(pointer); }
-
-std::int64_t block_count(int items, int block) {
-  return (static_cast<std::int64_t>(items) + block - 1) / block;
-}
-
-int rows_per_block(int period) { return std::clamp(16384 / period, 1, 64); }
+int filter_rows_per_block(int period) { return std::clamp(16384 / period, 1, 64); }
 
 // Two cache lines, which the processor fetches as a pair, while a block fits the second cache.
-int columns_per_block(int period) { return period <= 4096 ? 8 : 4; }
+int filter_columns_per_block(int period) { return period <= 4096 ? 8 : 4; }
 
 bool aligned(const void* pointer) { return reinterpret_cast<std::uintptr_t>(pointer) % 64 == 0; }
 
@@ -44,9 +39,6 @@ bool in_place(int nx, int period_x) { return nx == period_x && nx % 8 == 0; }
 // A column of odd length would leave the next one unaligned, and columns a power of two apart would
 // compete for the same places of the cache.
 std::size_t column_stride(int period) { return (static_cast<std::size_t>(period) + 3) / 4 * 4 + 4; }
-
-// Below this, waking a helper costs more than it saves.
-constexpr std::int64_t worth_sharing = 64 * 64;
 
 // Rows ahead of the one being gathered that are asked for: their addresses are too far apart for the
 // processor to foresee.
@@ -78,7 +70,7 @@ struct FourierFilter::Scratch {
   Array<Complex> gathered, column, bins;
   Array<double> signal, factors, last_factors;
   Scratch(int period_x, int period_y)
-      : gathered(column_stride(period_y) * static_cast<std::size_t>(columns_per_block(period_y))),
+      : gathered(column_stride(period_y) * static_cast<std::size_t>(filter_columns_per_block(period_y))),
         column(static_cast<std::size_t>(period_y)),
         bins(static_cast<std::size_t>(period_x / 2 + 1)),
         signal(static_cast<std::size_t>(period_x)),
@@ -96,8 +88,8 @@ FourierFilter::FourierFilter(int nx, int ny, int period_x, int period_y)
 FourierFilter::~FourierFilter() = default;
 
 std::int64_t FourierFilter::bytes(int nx, int ny, int period_x, int period_y) {
-  const std::int64_t columns =
-      static_cast<std::int64_t>(column_stride(period_y)) * columns_per_block(period_y) * thread_count();
+  const std::int64_t columns = static_cast<std::int64_t>(column_stride(period_y)) *
+                               filter_columns_per_block(period_y) * thread_count();
   const std::int64_t spectrum =
       in_place(nx, period_x) ? 0 : static_cast<std::int64_t>(own_stride(period_x)) * ny;
   return static_cast<std::int64_t>(sizeof(Complex)) * (spectrum + columns);
@@ -116,7 +108,7 @@ void FourierFilter::apply(std::span<const double> in, std::span<double> out, con
     spectrum_ = own_.data();
   }
   std::optional<SingleThreaded> alone;
-  if (static_cast<std::int64_t>(period_x_) * period_y_ <= worth_sharing) alone.emplace();
+  if (static_cast<std::int64_t>(period_x_) * period_y_ <= nodes_worth_sharing) alone.emplace();
   rows_forward(in);
   columns(multiplier);
   rows_inverse(out);
@@ -124,7 +116,7 @@ void FourierFilter::apply(std::span<const double> in, std::span<double> out, con
 
 void FourierFilter::rows_forward(std::span<const double> in) {
   const fftw_plan plan = fourier_plan(period_x_, FourierPlan::real_forward);
-  const int rows = rows_per_block(period_x_);
+  const int rows = filter_rows_per_block(period_x_);
   const auto nx = static_cast<std::size_t>(nx_);
   parallel_for(block_count(ny_, rows), [&](std::int64_t block) {
     const auto scratch = borrow();
@@ -145,7 +137,7 @@ void FourierFilter::rows_forward(std::span<const double> in) {
 
 void FourierFilter::rows_inverse(std::span<double> out) {
   const fftw_plan plan = fourier_plan(period_x_, FourierPlan::real_inverse);
-  const int rows = rows_per_block(period_x_);
+  const int rows = filter_rows_per_block(period_x_);
   const auto nx = static_cast<std::size_t>(nx_);
   parallel_for(block_count(ny_, rows), [&](std::int64_t block) {
     const auto scratch = borrow();
@@ -184,7 +176,7 @@ void FourierFilter::columns(const Multiplier& multiplier) {
   const fftw_plan forward = fourier_plan(period_y_, FourierPlan::complex_forward);
   const fftw_plan inverse = fourier_plan(period_y_, FourierPlan::complex_inverse);
   const std::size_t stride = column_stride(period_y_);
-  const int width = columns_per_block(period_y_);
+  const int width = filter_columns_per_block(period_y_);
   const double scale = 1 / (static_cast<double>(period_x_) * static_cast<double>(period_y_));
   const bool packed = period_x_ % 2 == 0;
   parallel_for(block_count(bins_, width), [&](std::int64_t block) {

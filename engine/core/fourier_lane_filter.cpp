@@ -11,22 +11,16 @@
 #include <type_traits>
 
 #include "engine/core/error.hpp"
+#include "engine/core/fourier_blocks.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
 
 namespace {
 
-std::int64_t block_count(int items, int block) {
-  return (static_cast<std::int64_t>(items) + block - 1) / block;
-}
-
-// Below this, waking a helper costs more than it saves.
-constexpr std::int64_t worth_sharing = 64 * 64;
-
 // Rows of the spectrum are asked for so many ahead: their addresses are too far apart for the processor
 // to foresee.
-constexpr int rows_ahead = 16;
+constexpr int lane_rows_ahead = 16;
 
 using Singles = Lanes<float>::Vector;
 using Doubles = Lanes<double>::Vector;
@@ -175,7 +169,7 @@ void FourierLaneFilter<Real>::apply(const Source& source, const Sink& sink, std:
   if (!out.empty() && out.size() != static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_))
     throw Error(ErrorCode::internal, "a filter of another grid's values");
   std::optional<SingleThreaded> alone;
-  if (static_cast<std::int64_t>(period_x_) * period_y_ <= worth_sharing) alone.emplace();
+  if (static_cast<std::int64_t>(period_x_) * period_y_ <= nodes_worth_sharing) alone.emplace();
   if constexpr (std::is_same_v<Real, double>) scale = 1;  // has range enough
   spectrum_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(ny_));
   rows_forward(source, scale);
@@ -353,7 +347,7 @@ void FourierLaneFilter<Real>::columns() {
       __builtin_prefetch(&ahead->im, 1);
     };
     for (int j = 0; j < ny_; ++j) {
-      prefetch(j + rows_ahead);
+      prefetch(j + lane_rows_ahead);
       column[j] = spectrum[static_cast<std::ptrdiff_t>(j) * stride_];
     }
     for (int j = ny_; j < period_y_; ++j) column[j] = {Vector{}, Vector{}};
@@ -385,7 +379,7 @@ void FourierLaneFilter<Real>::columns() {
     }
     across_.inverse(column);
     for (int j = 0; j < ny_; ++j) {
-      prefetch(j + rows_ahead);
+      prefetch(j + lane_rows_ahead);
       spectrum[static_cast<std::ptrdiff_t>(j) * stride_] = column[j];
     }
   });

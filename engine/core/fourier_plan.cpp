@@ -16,8 +16,6 @@ namespace asperity {
 namespace {
 using Complex = std::complex<double>;
 
-fftw_complex* fftw(Complex* pointer) { return reinterpret_cast<fftw_complex*>(pointer); }
-
 struct DestroyPlan {
   void operator()(fftw_plan plan) const { fftw_destroy_plan(plan); }
 };

@@ -16,6 +16,9 @@ enum class FourierPlan { real_forward, real_inverse, complex_forward, complex_in
 // Throws Error{internal} if FFTW has no plan.
 fftw_plan fourier_plan(int n, FourierPlan kind);
 
+// The same memory as FFTW names it.
+inline fftw_complex* fftw(std::complex<double>* pointer) { return reinterpret_cast<fftw_complex*>(pointer); }
+
 // Held while plans of other kinds are made or destroyed: FFTW's planner is not thread-safe.
 std::unique_lock<std::mutex> lock_fourier_planner();
 

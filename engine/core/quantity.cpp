@@ -8,18 +8,16 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <span>
 #include <vector>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 struct Unit {
   std::string_view name;

@@ -143,7 +143,7 @@ int wait_for(pid_t child) {
   }
 }
 
-std::string trimmed(std::string text) {
+std::string without_ends(std::string text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
@@ -224,7 +224,7 @@ GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> 
   for (const GnuplotData& item : data) write_aside(folder.path() / item.name, item.bytes);
   const int status = wait_for(start(folder.path()));
   GnuplotResult result{content_of(folder.path() / "picture"),
-                       trimmed(content_of(folder.path() / "messages"))};
+                       without_ends(content_of(folder.path() / "messages"))};
   const bool failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
   // A shell's convention, for systems where a missing program is found out only by the child.
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && result.messages.empty())

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -83,7 +84,6 @@ double Json::number() const {
   if (const auto* whole = std::get_if<std::int64_t>(&value_)) return static_cast<double>(*whole);
   if (const auto* real = std::get_if<double>(&value_)) return *real;
   if (const auto* text = std::get_if<std::string>(&value_)) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     if (*text == "nan") return std::numeric_limits<double>::quiet_NaN();
     if (*text == "inf") return infinity;
     if (*text == "-inf") return -infinity;

@@ -206,7 +206,7 @@ bool LogTable::next_row(std::vector<LogCell>& cells) {
   return false;
 }
 
-Cell LogTable::number(const LogCell& cell) const {
+TextCell LogTable::number(const LogCell& cell) const {
   return read_cell(trimmed(std::string_view(cell.text).substr(0, cell.text.find('#'))), separator_);
 }
 
@@ -214,7 +214,7 @@ std::optional<double> LogTable::quantity(std::size_t k, const LogCell& cell) {
   const Column& column = columns_[k];
   const std::string text(trimmed(std::string_view(cell.text).substr(0, cell.text.find('#'))));
   if (text.empty()) return {};
-  const Cell number = read_cell(text, separator_);
+  const TextCell number = read_cell(text, separator_);
   if (number.kind != CellKind::number)
     return problem(here(k), shown(text) + " is no finite number"), std::nullopt;
   if (column.known->dimension == dimension::number) return number.value;

@@ -61,7 +61,7 @@ class LogTable {
   // The factor from the column's unit to SI.
   double factor(std::size_t k) const { return columns_[k].factor; }
   // A plain number of the cell in the column's unit, or what else it holds.
-  Cell number(const LogCell& cell) const;
+  TextCell number(const LogCell& cell) const;
 
   void problem(const std::string& place, const std::string& finding);
   std::size_t problems() const { return problem_count_; }

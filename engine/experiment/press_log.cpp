@@ -16,15 +16,15 @@ namespace asperity {
 
 namespace {
 
-enum Meaning { time, pressure, load, place, rotation, dwell };
-constexpr std::array<LogColumn, 8> known{{{"time", time, dimension::time, "time [s]"},
-                                          {"pressure", pressure, dimension::pressure, "pressure [MPa]"},
-                                          {"load", load, dimension::force, "load [N]"},
-                                          {"place", place, dimension::number, "place"},
-                                          {"seed", place, dimension::number, "seed"},
-                                          {"rotation", rotation, dimension::angle, "rotation [deg]"},
-                                          {"turn", rotation, dimension::angle, "turn [deg]"},
-                                          {"dwell", dwell, dimension::time, "dwell [min]"}}};
+enum LogMeaning { time, pressure, load, place, rotation, dwell };
+constexpr std::array<LogColumn, 8> log_columns{{{"time", time, dimension::time, "time [s]"},
+                                                {"pressure", pressure, dimension::pressure, "pressure [MPa]"},
+                                                {"load", load, dimension::force, "load [N]"},
+                                                {"place", place, dimension::number, "place"},
+                                                {"seed", place, dimension::number, "seed"},
+                                                {"rotation", rotation, dimension::angle, "rotation [deg]"},
+                                                {"turn", rotation, dimension::angle, "turn [deg]"},
+                                                {"dwell", dwell, dimension::time, "dwell [min]"}}};
 constexpr std::size_t meanings = 6;
 
 class LogReader {
@@ -32,7 +32,7 @@ class LogReader {
   LogReader(const SourceFile& file, Monitor& monitor)
       : file_(file),
         monitor_(monitor),
-        table_(file, known),
+        table_(file, log_columns),
         log_name_(std::filesystem::path(file.path()).filename().string()) {}
 
   Protocol read() {

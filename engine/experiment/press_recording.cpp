@@ -17,16 +17,17 @@ namespace asperity {
 namespace {
 
 // The last three are of a log of events alone.
-enum Meaning { at_time, of_load, of_pressure, of_angle, of_dwell, of_place, of_turn };
-constexpr std::array<LogColumn, 9> known{{{"time", at_time, dimension::time, "time [s]"},
-                                          {"load", of_load, dimension::force, "load [N]"},
-                                          {"pressure", of_pressure, dimension::pressure, "pressure [MPa]"},
-                                          {"angle", of_angle, dimension::angle, "angle [deg]"},
-                                          {"rotation", of_angle, dimension::angle, "rotation [deg]"},
-                                          {"dwell", of_dwell, dimension::time, "dwell [min]"},
-                                          {"place", of_place, dimension::number, "place"},
-                                          {"seed", of_place, dimension::number, "seed"},
-                                          {"turn", of_turn, dimension::angle, "turn [deg]"}}};
+enum RecordedMeaning { at_time, of_load, of_pressure, of_angle, of_dwell, of_place, of_turn };
+constexpr std::array<LogColumn, 9> recording_columns{
+    {{"time", at_time, dimension::time, "time [s]"},
+     {"load", of_load, dimension::force, "load [N]"},
+     {"pressure", of_pressure, dimension::pressure, "pressure [MPa]"},
+     {"angle", of_angle, dimension::angle, "angle [deg]"},
+     {"rotation", of_angle, dimension::angle, "rotation [deg]"},
+     {"dwell", of_dwell, dimension::time, "dwell [min]"},
+     {"place", of_place, dimension::number, "place"},
+     {"seed", of_place, dimension::number, "seed"},
+     {"turn", of_turn, dimension::angle, "turn [deg]"}}};
 
 bool tells_of_events(const LogTable& table) {
   return table.has(of_dwell) || table.has(of_place) || table.has(of_turn);
@@ -35,7 +36,7 @@ bool tells_of_events(const LogTable& table) {
 class RecordingReader {
  public:
   RecordingReader(const SourceFile& file, Monitor& monitor)
-      : file_(file), monitor_(monitor), table_(file, known) {
+      : file_(file), monitor_(monitor), table_(file, recording_columns) {
     recording_.name = std::filesystem::path(file.path()).filename().string();
   }
 
@@ -73,7 +74,7 @@ class RecordingReader {
       table_.problem(table_.here(), "no column `pressure` or `load`" +
                                         (others.empty() ? std::string() : " among others: " + others) +
                                         "; write \"pressure [MPa]\" or \"load [N]\"");
-    for (const Meaning meaning : {of_dwell, of_place, of_turn})
+    for (const RecordedMeaning meaning : {of_dwell, of_place, of_turn})
       if (const auto k = table_.find(meaning))
         table_.problem(table_.here(*k),
                        "a recording has none: dwells and turns are found in it; read the table "
@@ -90,7 +91,7 @@ class RecordingReader {
   // NaN for a cell that is missing, or after a problem.
   double value(std::size_t k, const LogCell& cell) {
     constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-    const Cell number = table_.number(cell);
+    const TextCell number = table_.number(cell);
     if (number.kind == CellKind::hole) return missing;
     const double value = number.value * table_.factor(k);
     if (number.kind == CellKind::number && std::isfinite(value)) return value;
@@ -140,7 +141,7 @@ bool looks_like_recording(const SourceFile& file) {
   try {
     // A rotation other than zero may be a turn of an event or a reading of the stage: it is taken for the
     // former.
-    LogTable table(file, known);
+    LogTable table(file, recording_columns);
     table.read_titles();
     if (!table.has(at_time) || tells_of_events(table) || table.problems() > 0) return false;
     if (table.has(of_load) == table.has(of_pressure)) return false;

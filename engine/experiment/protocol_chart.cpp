@@ -16,7 +16,7 @@ namespace asperity {
 
 namespace {
 
-using Kind = RecordedSpan::Kind;
+using SpanKind = RecordedSpan::Kind;
 
 struct Played {
   PressBy by = PressBy::pressure;
@@ -66,24 +66,24 @@ class Clock {
       if (timed_) now_ = std::max(now_, *event.time);
       if (!played_.in_seconds) now_ = static_cast<double>(k) + 1;
       if (const auto* press = std::get_if<PressRequest>(&event.step)) {
-        span(press->value >= load_ ? Kind::rise : Kind::fall, last_, now_, press->value);
+        span(press->value >= load_ ? SpanKind::rise : SpanKind::fall, last_, now_, press->value);
         double stays = press->dwell.value_or(0);
         if (!played_.in_seconds) stays = 0.8;
         if (timed_ && k + 1 < events_.size())
           stays = std::min(stays, std::max(0.0, *events_[k + 1].time - now_));
-        span(Kind::hold, now_, now_ + stays, press->value);
+        span(SpanKind::hold, now_, now_ + stays, press->value);
         if (press->dwell) played_.spans.back().dwell_error = *press->dwell;
         load_ = press->value;
         now_ += stays;
         last_ = now_;
       } else if (std::holds_alternative<Protocol::Release>(event.step)) {
-        if (load_ > 0) span(Kind::release, now_, now_, 0);
+        if (load_ > 0) span(SpanKind::release, now_, now_, 0);
         load_ = 0;
         last_ = now_;
       } else {
-        if (load_ > 0) span(Kind::release, last_, now_, 0);
+        if (load_ > 0) span(SpanKind::release, last_, now_, 0);
         load_ = 0;
-        span(Kind::turn, now_, now_, 0);
+        span(SpanKind::turn, now_, now_, 0);
         if (const auto* turn = std::get_if<Protocol::Rotate>(&event.step))
           played_.spans.back().angle = turn->angle;
         last_ = now_;
@@ -94,7 +94,7 @@ class Clock {
   }
 
  private:
-  void span(Kind kind, double begin, double end, double load) {
+  void span(SpanKind kind, double begin, double end, double load) {
     RecordedSpan span{kind, std::min(begin, end), end};
     span.load = load;
     played_.spans.push_back(span);
@@ -152,14 +152,14 @@ LineChart protocol_chart(const Protocol& protocol, const std::string& title) {
   for (const RecordedSpan& span : played.spans) highest = std::max(highest, span.load);
   for (const RecordedSpan& span : played.spans) {
     switch (span.kind) {
-      case Kind::rise:
-      case Kind::fall:
+      case SpanKind::rise:
+      case SpanKind::fall:
         add(events, span.begin, load);
-        if (span.kind == Kind::rise) add(rise, span.begin, load);
+        if (span.kind == SpanKind::rise) add(rise, span.begin, load);
         break;
-      case Kind::hold:
-      case Kind::peak: {
-        const bool held = span.kind == Kind::hold;
+      case SpanKind::hold:
+      case SpanKind::peak: {
+        const bool held = span.kind == SpanKind::hold;
         const double middle = 0.5 * (span.begin + span.end);
         add(events, held ? span.begin : middle, span.load);
         if (held) add(events, span.end, span.load);
@@ -170,22 +170,23 @@ LineChart protocol_chart(const Protocol& protocol, const std::string& title) {
         if (held) chart.labels.push_back({middle / clock, span.load, "hold " + text});
         break;
       }
-      case Kind::release:
+      case SpanKind::release:
         add(events, span.begin, load);
         add(release, span.begin, load);
         break;
-      case Kind::turn:
+      case SpanKind::turn:
         add(turn, span.begin, 0);
         chart.labels.push_back({span.begin / clock, 0,
                                 span.angle != 0 ? format_quantity(span.angle, dimension::angle, 4) : "placed",
                                 true});
         break;
-      case Kind::rest:
+      case SpanKind::rest:
         break;
     }
-    if (span.kind != Kind::turn) load = span.kind == Kind::release || span.kind == Kind::rest ? 0 : span.load;
-    if (span.kind == Kind::rise || span.kind == Kind::fall || span.kind == Kind::release ||
-        span.kind == Kind::rest)
+    if (span.kind != SpanKind::turn)
+      load = span.kind == SpanKind::release || span.kind == SpanKind::rest ? 0 : span.load;
+    if (span.kind == SpanKind::rise || span.kind == SpanKind::fall || span.kind == SpanKind::release ||
+        span.kind == SpanKind::rest)
       add(events, span.end, load);
   }
   constexpr std::size_t most = 24;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier.hpp"
 #include "engine/metrology/blocked_sums.hpp"
@@ -14,8 +14,6 @@
 namespace asperity {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Samples of the window along one side; ones where there is a single node.
 Array<double> window_samples(Window window, int n) {

@@ -12,7 +12,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/resampling.hpp"
 
-namespace asperity {
+namespace asperity::asked_errors_test {
 namespace {
 
 TEST(AskedErrors, AreMetOnHeldOutSeeds) {
@@ -64,4 +64,4 @@ TEST(AskedErrors, AreMetOnHeldOutSeeds) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::asked_errors_test

@@ -25,7 +25,7 @@
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 #include "engine/surface/operations/resampling.hpp"
 
-namespace asperity {
+namespace asperity::discretisation_estimates_test {
 namespace {
 
 constexpr int cells = 128, true_cells = 1024;
@@ -281,4 +281,4 @@ TEST(DiscretisationEstimates, FromAFinerGridAreSharp) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::discretisation_estimates_test

@@ -5,7 +5,7 @@
 
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::argument_test {
 namespace {
 
 using FromFunction = LuaTest;
@@ -165,4 +165,4 @@ TEST_F(FromTable, NothingIsNoTable) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::argument_test

@@ -7,7 +7,7 @@
 #include "bindings/lua/catalogue.hpp"
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::completion_test {
 namespace {
 
 Completion at_bar(std::string script, const std::vector<LiveGlobal>& live = {}) {
@@ -254,4 +254,4 @@ TEST(Completion, CostsInProportionToTheScript) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::completion_test

@@ -5,7 +5,7 @@
 
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::discretisation_error_test {
 namespace {
 
 class AccuracyOfContact : public LuaTest {
@@ -120,4 +120,4 @@ TEST_F(AccuracyOfContact, RefusedWithWhatWasReached) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::discretisation_error_test

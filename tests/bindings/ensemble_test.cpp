@@ -21,7 +21,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/experiment/run_directory.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::ensemble_test {
 namespace {
 
 class RecordingMonitor final : public Monitor {
@@ -654,4 +654,4 @@ TEST(Ensemble, EndlessNestingIsRefusedAndShallowNestingRuns) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::ensemble_test

@@ -7,7 +7,7 @@
 #include "bindings/lua/registry.hpp"
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::examples_test {
 namespace {
 
 using Example = LuaTest;
@@ -47,4 +47,4 @@ TEST_F(Example, EveryOneRunsAfterThePreambleAlone) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::examples_test

@@ -6,7 +6,7 @@
 
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::help_test {
 namespace {
 
 using Help = LuaTest;
@@ -171,4 +171,4 @@ TEST_F(Help, TheEditorsTypesAreLuaAndNameEverything) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::help_test

@@ -16,7 +16,7 @@
 #include "bindings/lua/transfer.hpp"
 #include "engine/core/error.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::kept_cases_test {
 namespace {
 
 class Bench {
@@ -219,4 +219,4 @@ TEST(CodeDigest, TakesWhatItDoesNotUnderstandAsItIs) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::kept_cases_test

@@ -6,7 +6,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::lessons_test {
 namespace {
 
 constexpr std::string_view script =
@@ -99,4 +99,4 @@ TEST(Lessons, AreFoundByNameNumberAndFile) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::lessons_test

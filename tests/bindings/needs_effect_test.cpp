@@ -11,7 +11,7 @@
 #include "engine/contact/effects/catalogue.hpp"
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::needs_effect_test {
 namespace {
 
 using NeedsEffect = LuaTest;
@@ -53,4 +53,4 @@ TEST_F(NeedsEffect, TheScriptAsksForAllOfThem) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::needs_effect_test

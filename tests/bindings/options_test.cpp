@@ -4,7 +4,7 @@
 
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::options_test {
 namespace {
 
 using Options = LuaTest;
@@ -194,4 +194,4 @@ TEST_F(Options, AwkwardTextIsQuotedInParts) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::options_test

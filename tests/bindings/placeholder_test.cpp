@@ -5,7 +5,7 @@
 
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::placeholder_test {
 namespace {
 
 class DryRun : public LuaTest {
@@ -182,4 +182,4 @@ TEST(Placeholder, LineOfAMessage) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::placeholder_test

@@ -5,7 +5,7 @@
 #include "bindings/lua/shown_line.hpp"
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::prompt_test {
 namespace {
 
 class PromptTest : public LuaTest {
@@ -142,4 +142,4 @@ TEST_F(PromptTest, CompletesWithWhatLives) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::prompt_test

@@ -6,7 +6,7 @@
 
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::record_test {
 namespace {
 
 class Result : public LuaTest {
@@ -150,4 +150,4 @@ TEST_F(Sweep, CanBePassedAroundAsAValue) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::record_test

@@ -9,7 +9,7 @@
 #include "engine/surface/generators/flat.hpp"
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::registry_test {
 namespace {
 
 using Guard = LuaTest;
@@ -219,4 +219,4 @@ TEST_F(LabModule, GoesThroughPairsAndCannotBeChanged) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::registry_test

@@ -7,7 +7,7 @@
 #include "bindings/lua/surface.hpp"
 #include "engine/surface/surface.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::result_digest_test {
 namespace {
 
 Values result(double mu, double seconds, double third, const char* file = "a.svg") {
@@ -52,4 +52,4 @@ TEST(ResultDigest, OfPlacesAndOfNothingThereIsNone) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::result_digest_test

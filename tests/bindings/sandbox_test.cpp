@@ -3,7 +3,7 @@
 // metatables of native values, and files outside the run.
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::sandbox_test {
 namespace {
 
 class Sandbox : public LuaTest {
@@ -191,4 +191,4 @@ TEST_F(Sandbox, TrustGivesTheWholeOfLua) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::sandbox_test

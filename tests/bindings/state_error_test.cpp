@@ -4,7 +4,7 @@
 
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::state_error_test {
 namespace {
 
 class ErrorOfState : public LuaTest {
@@ -81,4 +81,4 @@ TEST_F(ErrorOfState, IsKnownByNameToADryRun) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::state_error_test

@@ -5,7 +5,7 @@
 
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::state_test {
 namespace {
 
 using StrictGlobals = LuaTest;
@@ -155,4 +155,4 @@ TEST_F(Stop, EndsTheEnginesOwnWork) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::state_test

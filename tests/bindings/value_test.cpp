@@ -8,7 +8,7 @@
 #include "engine/surface/generators/flat.hpp"
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::value_test {
 namespace {
 
 class NativeValue : public LuaTest {
@@ -203,4 +203,4 @@ TEST_F(NativeValue, ReadsFieldsAsPlainSiNumbers) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::value_test

@@ -5,7 +5,7 @@
 
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::variation_test {
 namespace {
 
 class VariationTest : public LuaTest {
@@ -90,4 +90,4 @@ TEST_F(VariationTest, OneThatOtherCallsMeetSaysWhichTheyAre) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::variation_test

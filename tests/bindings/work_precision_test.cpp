@@ -7,7 +7,7 @@
 
 #include "tests/bindings/lua_test.hpp"
 
-namespace asperity::lua {
+namespace asperity::lua::work_precision_test {
 namespace {
 
 class PartsMonitor final : public Monitor {
@@ -214,4 +214,4 @@ TEST_F(WorkPrecisionTest, ACaseOfAnEnsembleTimesNothing) {
 }
 
 }  // namespace
-}  // namespace asperity::lua
+}  // namespace asperity::lua::work_precision_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace asperity {
+namespace asperity::accumulator_test {
 namespace {
 
 TEST(Accumulator, KeepsWhatAPlainSumLoses) {
@@ -37,4 +37,4 @@ TEST(Accumulator, SumsOfSumsKeepBothParts) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::accumulator_test

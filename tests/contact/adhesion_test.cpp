@@ -11,7 +11,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::adhesion_test {
 namespace {
 
 using test::elastic;
@@ -209,4 +209,4 @@ TEST(Adhesion, RequestsThatMakeNoSenseAreRefused) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::adhesion_test

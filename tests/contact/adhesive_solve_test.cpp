@@ -13,7 +13,7 @@
 #include "engine/core/parallel.hpp"
 #include "tests/contact/half_space_problems.hpp"
 
-namespace asperity {
+namespace asperity::adhesive_solve_test {
 namespace {
 
 using half_space_test::dense_displacement;
@@ -235,4 +235,4 @@ TEST(GapTerm, TractionIsTheSlopeOfThePotentialAndTheWorkIsTheWork) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::adhesive_solve_test

@@ -14,7 +14,7 @@
 #include "tests/contact/contacts.hpp"
 #include "tests/contact/half_space_problems.hpp"
 
-namespace asperity {
+namespace asperity::algebraic_error_test {
 namespace {
 
 using half_space_test::rough_problem;
@@ -335,4 +335,4 @@ TEST(AlgebraicError, IsTheSameForEveryReader) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::algebraic_error_test

@@ -5,14 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "tests/contact/half_space_problems.hpp"
 
-namespace asperity {
+namespace asperity::approach_solve_test {
 namespace {
 
 using namespace half_space_test;
-constexpr double pi = std::numbers::pi;
 
 HalfSpaceAnswer by_approach(const HalfSpaceProblem& problem, double approach) {
   return solve_at_approach(problem, approach, Monitor::silent());
@@ -125,4 +125,4 @@ TEST(FlatteningSolve, OneIsFullContactOfAPeriodicTile) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::approach_solve_test

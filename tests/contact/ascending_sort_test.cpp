@@ -8,7 +8,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::ascending_sort_test {
 namespace {
 
 TEST(AscendingSort, AgreesWithTheLibrary) {
@@ -40,4 +40,4 @@ TEST(AscendingSort, ManyEqualValuesAndExtremes) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::ascending_sort_test

@@ -10,7 +10,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::box_solver_test {
 namespace {
 
 using test::boxes;
@@ -322,4 +322,4 @@ TEST(BoxSolver, NothingIsAllocatedOnTheGridByAPressWhoseFieldsNobodyReads) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::box_solver_test

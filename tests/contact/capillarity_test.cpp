@@ -9,7 +9,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::capillarity_test {
 namespace {
 
 using test::elastic;
@@ -110,4 +110,4 @@ TEST(Capillarity, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::capillarity_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace asperity {
+namespace asperity::carried_load_test {
 namespace {
 
 TEST(CarriedLoad, CoversItselfAndWhatIsLighterOrHarder) {
@@ -34,4 +34,4 @@ TEST(CarriedLoad, KeepsNoneThatAnotherCovers) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::carried_load_test

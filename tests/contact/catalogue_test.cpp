@@ -7,7 +7,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::catalogue_test {
 namespace {
 
 using test::error_of;
@@ -57,4 +57,4 @@ TEST(Catalogue, EffectsThatDoNotRunAreListedAsOff) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::catalogue_test

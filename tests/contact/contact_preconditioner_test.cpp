@@ -21,7 +21,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::contact_preconditioner_test {
 namespace {
 
 using Mask = Array<std::uint8_t>;
@@ -412,4 +412,4 @@ TEST(ContactPreconditioner, StatesWhatItHoldsAtMost) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::contact_preconditioner_test

@@ -6,7 +6,7 @@
 
 #include "tests/contact/half_space_problems.hpp"
 
-namespace asperity {
+namespace asperity::contact_stiffness_test {
 namespace {
 
 using namespace half_space_test;
@@ -49,4 +49,4 @@ TEST(ContactStiffness, NothingFreeIsNoneAndFullPeriodicContactIsWithoutBound) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::contact_stiffness_test

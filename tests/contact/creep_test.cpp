@@ -7,7 +7,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::creep_test {
 namespace {
 
 using test::error_of;
@@ -49,4 +49,4 @@ TEST(Creep, OptionsOutOfRangeAreNamed) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::creep_test

@@ -16,7 +16,7 @@
 #include "engine/surface/generators/sphere.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::discretisation_error_test {
 namespace {
 
 using test::elastic;
@@ -375,4 +375,4 @@ TEST(Scene, AskedErrorIsChecked) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::discretisation_error_test

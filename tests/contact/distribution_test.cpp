@@ -7,7 +7,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::distribution_test {
 namespace {
 
 using test::error_of;
@@ -58,4 +58,4 @@ TEST(Histogram, BadBinsAndNoValuesAreRefused) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::distribution_test

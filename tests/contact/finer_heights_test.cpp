@@ -13,7 +13,7 @@
 #include "engine/surface/operations/resampling.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::finer_heights_test {
 namespace {
 
 using test::elastic;
@@ -117,4 +117,4 @@ TEST(FinerHeights, TurnedOffTheLatticeAboutTheSamePlace) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::finer_heights_test

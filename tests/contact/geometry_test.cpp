@@ -4,7 +4,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::geometry_test {
 namespace {
 
 using test::error_of;
@@ -52,4 +52,4 @@ TEST(ContactGeometry, HeightsThatOverflowAreRefused) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::geometry_test

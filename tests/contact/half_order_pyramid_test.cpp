@@ -15,7 +15,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::half_order_pyramid_test {
 namespace {
 
 Field noise(int nx, int ny, std::uint64_t seed) {
@@ -150,4 +150,4 @@ TEST(HalfOrderPyramid, ThreadsDoNotChangeABit) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::half_order_pyramid_test

@@ -16,7 +16,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::half_space_compliance_test {
 namespace {
 
 Field noise(int nx, int ny, std::uint64_t seed) {
@@ -293,4 +293,4 @@ TEST(HalfSpaceCompliance, MovesWithItsWorkSpace) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::half_space_compliance_test

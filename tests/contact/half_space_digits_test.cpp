@@ -5,16 +5,16 @@
 #include <gtest/gtest.h>
 
 #include "engine/contact/elasticity/half_space/approach_solve.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/random.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 #include "tests/contact/half_space_problems.hpp"
 
-namespace asperity {
+namespace asperity::half_space_digits_test {
 namespace {
 
 using namespace half_space_test;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // --- flats
 
@@ -409,4 +409,4 @@ TEST(CloseToHardness, WhatIsSnappedToTheLimitIsJudgedAgain) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::half_space_digits_test

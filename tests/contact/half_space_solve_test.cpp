@@ -5,17 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
 #include "tests/contact/half_space_problems.hpp"
 
-namespace asperity {
+namespace asperity::half_space_solve_test {
 namespace {
 
 using namespace half_space_test;
-constexpr double pi = std::numbers::pi;
 
 Field noise(int nx, int ny, std::uint64_t seed) {
   Field h(nx, ny);
@@ -529,4 +529,4 @@ TEST(HalfSpaceSolve, StartNearbyChangesNothingButTheCost) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::half_space_solve_test

@@ -7,7 +7,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::lattice_isometry_test {
 namespace {
 
 using Node = LatticeIsometry::Node;
@@ -81,4 +81,4 @@ TEST(LatticeIsometry, QuarterTurnOfAnOblongIsRefused) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::lattice_isometry_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace asperity {
+namespace asperity::level_transfer_test {
 namespace {
 
 TEST(LevelTransfer, HalvesSidesDownToThirtyTwo) {
@@ -62,4 +62,4 @@ TEST(LevelTransfer, KeepsALinearFieldOnAFreeTile) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::level_transfer_test

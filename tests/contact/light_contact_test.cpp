@@ -9,7 +9,7 @@
 #include "engine/contact/elasticity/half_space/load_projection.hpp"
 #include "tests/contact/half_space_problems.hpp"
 
-namespace asperity {
+namespace asperity::light_contact_test {
 namespace {
 
 using namespace half_space_test;
@@ -100,4 +100,4 @@ TEST(FreeSet, FewElasticNodesDoNotBalanceTheLoadOfManyThatYield) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::light_contact_test

@@ -11,7 +11,7 @@
 
 #include "engine/core/grid.hpp"
 
-namespace asperity {
+namespace asperity::load_projection_test {
 namespace {
 
 std::vector<double> wavy(std::size_t n) {
@@ -71,4 +71,4 @@ TEST(LoadProjection, ReachesBothEnds) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::load_projection_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace asperity {
+namespace asperity::love_kernel_test {
 namespace {
 
 struct Known {
@@ -102,4 +102,4 @@ TEST(LoveKernel, HasNoSeams) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::love_kernel_test

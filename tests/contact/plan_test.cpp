@@ -7,7 +7,7 @@
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::plan_test {
 namespace {
 
 using test::elastic;
@@ -129,4 +129,4 @@ TEST(Plan, ExplainsItself) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::plan_test

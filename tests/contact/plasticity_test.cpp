@@ -8,7 +8,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::plasticity_test {
 namespace {
 
 using test::elastic;
@@ -179,4 +179,4 @@ TEST(Plasticity, HardeningIsRememberedInEachBodysFrame) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::plasticity_test

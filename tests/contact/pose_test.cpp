@@ -7,7 +7,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::pose_test {
 namespace {
 
 using test::random_surface;
@@ -105,4 +105,4 @@ TEST(Pose, ASingleNodeMayTurn) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::pose_test

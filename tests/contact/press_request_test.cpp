@@ -8,7 +8,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::press_request_test {
 namespace {
 
 using test::error_of;
@@ -74,4 +74,4 @@ TEST(PressRequest, DwellIsNotNegative) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::press_request_test

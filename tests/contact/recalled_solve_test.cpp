@@ -11,7 +11,7 @@
 #include "engine/contact/scene.hpp"
 #include "tests/core/shelf.hpp"
 
-namespace asperity {
+namespace asperity::recalled_solve_test {
 namespace {
 
 HalfSpaceProblem waves() {
@@ -141,4 +141,4 @@ TEST(RecalledSolve, WithoutAStoreNoKeyIsMade) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::recalled_solve_test

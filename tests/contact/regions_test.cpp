@@ -7,7 +7,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::regions_test {
 namespace {
 
 struct Mask {
@@ -126,4 +126,4 @@ TEST(BoundaryEdges, TheRimOfATileIsNoEdgeUnlessItWraps) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::regions_test

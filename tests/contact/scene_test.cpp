@@ -6,7 +6,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::scene_test {
 namespace {
 
 using test::error_of;
@@ -71,4 +71,4 @@ TEST(Scene, FlatMaterialIsChecked) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::scene_test

@@ -14,7 +14,7 @@
 #include "engine/core/random.hpp"
 #include "tests/contact/half_space_problems.hpp"
 
-namespace asperity {
+namespace asperity::single_precision_test {
 namespace {
 
 using half_space_test::rough_problem;
@@ -180,4 +180,4 @@ TEST(SinglePrecisionOf, ATolerancePastRoundingSaysWhatItReached) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::single_precision_test

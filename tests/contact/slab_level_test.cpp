@@ -12,7 +12,7 @@
 #include "engine/contact/elasticity/slabs/slab_transfer.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::slab_level_test {
 namespace {
 
 Array<double> noise(std::size_t n, std::uint64_t seed) {
@@ -116,4 +116,4 @@ TEST(SlabTransfer, IsThatOfAWholeGrid) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::slab_level_test

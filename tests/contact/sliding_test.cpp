@@ -9,7 +9,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::sliding_test {
 namespace {
 
 using test::elastic;
@@ -117,4 +117,4 @@ TEST(Sliding, WhatAnEffectNeedsIsNamed) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::sliding_test

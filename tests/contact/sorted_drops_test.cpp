@@ -8,7 +8,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::sorted_drops_test {
 namespace {
 
 std::vector<double> random_heights(std::size_t n, std::uint64_t seed) {
@@ -98,4 +98,4 @@ TEST(SortedDrops, BytesAreWhatIsHeld) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::sorted_drops_test

@@ -9,7 +9,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::state_test {
 namespace {
 
 using test::boxes;
@@ -182,4 +182,4 @@ TEST(State, TextTellsValuesWithTheirErrorsCostAndResidual) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::state_test

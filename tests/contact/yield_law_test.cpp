@@ -6,7 +6,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::yield_law_test {
 namespace {
 
 TEST(YieldLaw, HardeningReplacesTheCap) {
@@ -43,4 +43,4 @@ TEST(YieldLaw, RefusesWhatIsNotPositive) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::yield_law_test

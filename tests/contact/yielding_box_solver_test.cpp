@@ -13,7 +13,7 @@
 #include "engine/contact/effects/plasticity.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::yielding_box_solver_test {
 namespace {
 
 using test::boxes;
@@ -251,4 +251,4 @@ TEST(YieldingBoxSolver, RefusesWhatHasNoSolution) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::yielding_box_solver_test

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace asperity {
+namespace asperity::digest_test {
 namespace {
 
 TEST(Digest, HasThirtyTwoDigitsAndMayBeReadOften) {
@@ -59,4 +59,4 @@ TEST(Digest, MovedStateGoesOn) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::digest_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace asperity {
+namespace asperity::error_test {
 namespace {
 
 TEST(Error, JoinsSentenceAndHint) {
@@ -39,4 +39,4 @@ TEST(Error, EveryCodeHasItsOwnName) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::error_test

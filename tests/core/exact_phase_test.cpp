@@ -14,7 +14,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::exact_phase_test {
 namespace {
 
 constexpr std::uint64_t half_turn = std::uint64_t{1} << 63;
@@ -211,4 +211,4 @@ TEST(UnitPhase, MatchesLongDoublesAllRoundTheCircle) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::exact_phase_test

@@ -13,7 +13,7 @@
 #include "engine/core/grid.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::fourier_filter_test {
 namespace {
 
 Field noise(int nx, int ny) {
@@ -95,4 +95,4 @@ TEST(GoodFourierLength, IsTheLeastEvenSmoothOne) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::fourier_filter_test

@@ -17,7 +17,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::fourier_lane_filter_test {
 namespace {
 
 struct Shape {
@@ -191,4 +191,4 @@ TEST(FourierLaneFilter, RefusesAnotherGridsValuesAndOutlivesAFailure) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::fourier_lane_filter_test

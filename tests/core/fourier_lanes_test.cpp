@@ -13,7 +13,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::fourier_lanes_test {
 namespace {
 
 template <class Real>
@@ -113,4 +113,4 @@ TEST(LaneFourier, TakesLengthsOfSmallPrimes) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::fourier_lanes_test

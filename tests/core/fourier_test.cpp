@@ -16,7 +16,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::fourier_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -149,4 +149,4 @@ TEST(Fourier, EachTransformIsCounted) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::fourier_test

@@ -13,7 +13,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::grid_test {
 namespace {
 
 std::string refusal(double nx, double ny, double sx, double sy) {
@@ -129,4 +129,4 @@ TEST(BlockSum, RangeIsFoundWhereverItLies) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::grid_test

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace asperity::memory {
+namespace asperity::memory::kept_blocks_test {
 namespace {
 
 constexpr std::size_t kibibyte = 1024, page = 64 * kibibyte;
@@ -90,4 +90,4 @@ TEST(KeptBlocks, ServeManyThreads) {
 }
 
 }  // namespace
-}  // namespace asperity::memory
+}  // namespace asperity::memory::kept_blocks_test

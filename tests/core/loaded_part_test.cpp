@@ -7,7 +7,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::loaded_part_test {
 namespace {
 
 constexpr LoadedPart unknown{"nothing", "nothing is done", "no-package"};
@@ -58,4 +58,4 @@ TEST(LoadedPart, LibraryWithoutTheFunctionIsOfAnotherVersion) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::loaded_part_test

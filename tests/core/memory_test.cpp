@@ -14,7 +14,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 
-namespace asperity {
+namespace asperity::memory_test {
 namespace {
 
 class Memory : public ::testing::Test {
@@ -129,4 +129,4 @@ TEST(Cost, AddsUp) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::memory_test

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace asperity {
+namespace asperity::monitor_test {
 namespace {
 
 class Recorder final : public Monitor {
@@ -104,4 +104,4 @@ TEST(Monitor, SilentTakesEverything) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::monitor_test

@@ -17,7 +17,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
 
-namespace asperity {
+namespace asperity::parallel_test {
 namespace {
 
 class Parallel : public ::testing::TestWithParam<int> {
@@ -168,4 +168,4 @@ TEST(ThreadCount, DefaultsToTheMachineAndNeverToNone) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::parallel_test

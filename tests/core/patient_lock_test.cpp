@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-namespace asperity {
+namespace asperity::patient_lock_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -43,4 +43,4 @@ TEST(PatientLockThreads, IsHadWhenLetGoInTime) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::patient_lock_test

@@ -12,7 +12,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::quantity_test {
 namespace {
 
 std::string refusal(const std::string& text) {
@@ -249,4 +249,4 @@ TEST(Quantity, UsualUnitsAreReadAsTheirDimension) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::quantity_test

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <set>
 
-namespace asperity {
+namespace asperity::random_test {
 namespace {
 
 TEST(Random, SplitMixOfPublishedSeeds) {
@@ -103,4 +103,4 @@ TEST(Random, NormalMoments) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::random_test

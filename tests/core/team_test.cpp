@@ -8,7 +8,7 @@
 #include "engine/core/monitor.hpp"
 #include "engine/core/slabs/row_exchange.hpp"
 
-namespace asperity {
+namespace asperity::team_test {
 namespace {
 
 TEST(Slab, DealsOutEveryRowOnce) {
@@ -86,4 +86,4 @@ TEST(SlabFourier, AloneGoesThereAndBack) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::team_test

@@ -12,7 +12,7 @@
 
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::text_test {
 namespace {
 
 TEST(Text, ExactNumbersReadBack) {
@@ -91,4 +91,4 @@ TEST(Text, PlainTextKeepsWholeCharactersOnly) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::text_test

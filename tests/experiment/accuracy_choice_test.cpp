@@ -20,7 +20,7 @@
 #include "engine/surface/generators/sine.hpp"
 #include "engine/surface/generators/sphere.hpp"
 
-namespace asperity {
+namespace asperity::accuracy_choice_test {
 namespace {
 
 Material elastic() {
@@ -384,4 +384,4 @@ TEST(AccuracyChoice, TwoRoughBodiesLieAsTheyDid) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::accuracy_choice_test

@@ -8,7 +8,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::aside_file_test {
 namespace {
 
 using AsideFileTest = InFolder;
@@ -84,4 +84,4 @@ TEST_F(AsideFileTest, ADeviceOrPipeIsLeftWhatItIs) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::aside_file_test

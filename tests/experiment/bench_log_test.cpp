@@ -13,7 +13,7 @@
 #include "tests/experiment/run_fixture.hpp"
 #include "tests/experiment/synthetic_recording.hpp"
 
-namespace asperity {
+namespace asperity::bench_log_test {
 namespace {
 
 SpecimenPair pair() {
@@ -103,4 +103,4 @@ TEST(BenchLog, AHundredPressesAreNotTakenForARecording) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::bench_log_test

@@ -8,7 +8,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::chart_axis_test {
 namespace {
 
 std::vector<std::string> labels(const AxisLayout& layout) {
@@ -149,4 +149,4 @@ TEST(RoundBelow, IsOneTwoOrFive) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::chart_axis_test

@@ -7,7 +7,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::chart_test {
 namespace {
 
 using ChartTest = InFolder;
@@ -170,4 +170,4 @@ TEST_F(ChartTest, DrawsExtremesWithoutAComplaint) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::chart_test

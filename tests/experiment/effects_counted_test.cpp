@@ -15,7 +15,7 @@
 #include "engine/friction/junction_law.hpp"
 #include "tests/experiment/counted_scenes.hpp"
 
-namespace asperity {
+namespace asperity::effects_counted_test {
 namespace {
 
 using namespace counted;
@@ -323,4 +323,4 @@ TEST_F(EffectsCounted, AnEstimateChangesNoBitAndShowsWhatItCost) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::effects_counted_test

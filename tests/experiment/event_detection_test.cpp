@@ -12,7 +12,7 @@
 #include "tests/experiment/run_fixture.hpp"
 #include "tests/experiment/synthetic_recording.hpp"
 
-namespace asperity {
+namespace asperity::event_detection_test {
 namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
@@ -355,4 +355,4 @@ TEST(EventDetection, OneSampleFarTooHighLeavesEveryPressItsLoad) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::event_detection_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace asperity {
+namespace asperity::expectation_log_test {
 namespace {
 
 Verdict verdict(bool passed, bool should_fail = false) {
@@ -43,4 +43,4 @@ TEST(ExpectationLog, VerdictsBecomeRecords) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::expectation_log_test

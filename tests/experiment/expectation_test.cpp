@@ -7,7 +7,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::expectation_test {
 namespace {
 
 // mu rises with D by 0.1 a step on average; single seeds do not.
@@ -235,4 +235,4 @@ TEST(Expectation, RefusesToSayNothing) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::expectation_test

@@ -7,7 +7,7 @@
 #include "engine/core/monitor.hpp"
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::gnuplot_test {
 namespace {
 
 TEST(GnuplotText, IsALiteralOfExactlyThisText) {
@@ -111,4 +111,4 @@ TEST_F(Gnuplot, StopsWithTheRun) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::gnuplot_test

@@ -10,7 +10,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::journal_test {
 namespace {
 
 using JournalTest = InFolder;
@@ -143,4 +143,4 @@ TEST_F(JournalTest, WhatIsNoJournalIsNotTakenUp) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::journal_test

@@ -7,7 +7,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::json_test {
 namespace {
 
 using Limits = std::numeric_limits<double>;
@@ -72,4 +72,4 @@ TEST(Json, SaysWhatItHoldsInsteadOfWhatWasWanted) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::json_test

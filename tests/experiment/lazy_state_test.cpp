@@ -12,7 +12,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::lazy_state_test {
 namespace {
 
 constexpr int cells = 48;
@@ -179,4 +179,4 @@ TEST_F(LazyState, WithTheContactAndItsStatesAllMemoryGoes) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::lazy_state_test

@@ -7,7 +7,7 @@
 #include <regex>
 #include <thread>
 
-namespace asperity {
+namespace asperity::ledger_test {
 namespace {
 
 using Effects = std::vector<std::pair<std::string, Cost>>;
@@ -138,4 +138,4 @@ TEST(Ledger, TextAndJsonSayTheSame) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::ledger_test

@@ -6,7 +6,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::notebook_chart_test {
 namespace {
 
 Table study() {
@@ -191,4 +191,4 @@ TEST_F(NotebookChartRun, DryRunChecksOnly) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::notebook_chart_test

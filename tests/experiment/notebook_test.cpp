@@ -7,7 +7,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::notebook_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -119,4 +119,4 @@ TEST_F(NotebookTest, TheFileOfARunThatIsTakenUpNeverLosesARow) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::notebook_test

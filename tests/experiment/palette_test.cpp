@@ -6,7 +6,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::palette_test {
 namespace {
 
 // Relative luminance of the sRGB colour, roughly what grey print shows.
@@ -47,4 +47,4 @@ TEST(LineColour, DiffersFromLineToLine) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::palette_test

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace asperity {
+namespace asperity::part_monitor_test {
 namespace {
 
 class Recorder final : public Monitor {
@@ -69,4 +69,4 @@ TEST(PartMonitor, PlainMonitorsSeeTheWhole) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::part_monitor_test

@@ -7,7 +7,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::picture_profile_test {
 namespace {
 
 using PictureProfileTest = InFolder;
@@ -63,4 +63,4 @@ TEST_F(PictureProfileTest, DrawsTracesPointsAndOutlines) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::picture_profile_test

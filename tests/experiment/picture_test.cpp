@@ -8,7 +8,7 @@
 #include "engine/experiment/gnuplot.hpp"
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::picture_test {
 namespace {
 
 using PictureTest = InFolder;
@@ -143,4 +143,4 @@ TEST_F(PictureTest, RefusesWhatItCannotShow) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::picture_test

@@ -6,7 +6,7 @@
 
 #include <set>
 
-namespace asperity {
+namespace asperity::placement_test {
 namespace {
 
 TEST(Placement, IsAFunctionOfTheSeed) {
@@ -46,4 +46,4 @@ TEST(Placement, AFreeBoundaryIsNeverShifted) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::placement_test

@@ -10,7 +10,7 @@
 #include "engine/surface/operations/heights.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::plastic_events_test {
 namespace {
 
 using test::error_of;
@@ -328,4 +328,4 @@ TEST(PlasticEvents, CostIsToldByEffect) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::plastic_events_test

@@ -10,7 +10,7 @@
 #include "engine/friction/junction_law.hpp"
 #include "tests/experiment/counted_scenes.hpp"
 
-namespace asperity {
+namespace asperity::powerless_effects_test {
 namespace {
 
 using namespace counted;
@@ -184,4 +184,4 @@ TEST_F(PowerlessEffects, OfNoStrengthAnEffectLeavesFrictionAsItIs) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::powerless_effects_test

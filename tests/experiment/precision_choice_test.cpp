@@ -12,7 +12,7 @@
 #include "engine/experiment/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
-namespace asperity {
+namespace asperity::precision_choice_test {
 namespace {
 
 using Precision = Accuracy::Precision;
@@ -108,4 +108,4 @@ TEST(PrecisionChoice, IsPartOfTheChoice) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::precision_choice_test

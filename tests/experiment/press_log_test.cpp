@@ -8,7 +8,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::press_log_test {
 namespace {
 
 class Listener final : public Monitor {
@@ -296,4 +296,4 @@ TEST_F(PressLogWriter, NamesWhatALogCannotSay) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::press_log_test

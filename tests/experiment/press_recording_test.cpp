@@ -9,7 +9,7 @@
 #include "engine/surface/io/source_file.hpp"
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::press_recording_test {
 namespace {
 
 PressRecording read(const std::string& text) { return read_press_recording(SourceFile("press.csv", text)); }
@@ -74,4 +74,4 @@ TEST(PressRecording, LooksLikeOneFromAHundredRowsWithoutDwellsOrTurns) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::press_recording_test

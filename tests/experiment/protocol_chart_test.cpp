@@ -9,7 +9,7 @@
 #include "tests/experiment/run_fixture.hpp"
 #include "tests/experiment/synthetic_recording.hpp"
 
-namespace asperity {
+namespace asperity::protocol_chart_test {
 namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
@@ -85,4 +85,4 @@ TEST(ProtocolChart, ManyHoldsGoWithoutLabels) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::protocol_chart_test

@@ -6,7 +6,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::protocol_run_test {
 namespace {
 
 using test::error_of;
@@ -120,4 +120,4 @@ TEST(ProtocolRun, ProgressIsThatOfThePresses) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::protocol_run_test

@@ -8,7 +8,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::protocol_test {
 namespace {
 
 using Event = Protocol::Event;
@@ -127,4 +127,4 @@ TEST(Protocol, RefusesTimesThatMakeNoProtocol) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::protocol_test

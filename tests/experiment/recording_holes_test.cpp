@@ -11,7 +11,7 @@
 #include "tests/experiment/run_fixture.hpp"
 #include "tests/experiment/synthetic_recording.hpp"
 
-namespace asperity {
+namespace asperity::recording_holes_test {
 namespace {
 
 PressRecording recorded(const std::vector<double>& times, const std::function<double(double)>& load,
@@ -218,4 +218,4 @@ TEST(RecordingHoles, StepsTooUnevenToTellGapsAreWarnedOf) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::recording_holes_test

@@ -10,7 +10,7 @@
 #include "engine/core/build_identity.hpp"
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::result_files_test {
 namespace {
 
 class ResultFilesTest : public InFolder {
@@ -195,4 +195,4 @@ TEST(BuildIdentity, IsAlwaysTheSame) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::result_files_test

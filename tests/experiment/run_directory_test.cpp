@@ -13,7 +13,7 @@
 #include "engine/experiment/run_facts.hpp"
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::run_directory_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -308,4 +308,4 @@ TEST_F(RunDirectoryTest, DryRunWritesNothing) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::run_directory_test

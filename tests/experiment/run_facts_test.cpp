@@ -5,7 +5,7 @@
 #include "engine/experiment/aside_file.hpp"
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::run_facts_test {
 namespace {
 
 using RunFactsTest = InFolder;
@@ -36,4 +36,4 @@ TEST_F(RunFactsTest, DigestTellsContentsApart) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::run_facts_test

@@ -9,7 +9,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::slip_growth_test {
 namespace {
 
 using test::error_of;
@@ -229,4 +229,4 @@ TEST(TiltInterlocking, ProbesOfAHalfSpaceTakeItIn) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::slip_growth_test

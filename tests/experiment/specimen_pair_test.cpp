@@ -8,7 +8,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::specimen_pair_test {
 namespace {
 
 using test::error_of;
@@ -180,4 +180,4 @@ TEST(SpecimenPair, AnElasticFlatIsDentedWhereItLies) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::specimen_pair_test

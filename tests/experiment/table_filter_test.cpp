@@ -4,7 +4,7 @@
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::table_filter_test {
 namespace {
 
 Table cases() {
@@ -44,4 +44,4 @@ TEST(TableFilter, NamesTheNearestColumn) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::table_filter_test

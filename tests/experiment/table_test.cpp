@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table: free columns in order of appearance, units, CSV as in RFC 4180.
 #include "engine/experiment/table.hpp"
+#include "engine/core/constants.hpp"
 
 #include <cmath>
 #include <limits>
 
 #include "tests/experiment/run_fixture.hpp"
 
-namespace asperity {
+namespace asperity::table_test {
 namespace {
 
 bool add(Table& table, std::vector<Entry> row) { return table.append(row); }
@@ -105,11 +106,10 @@ TEST(Cell, NumbersAreTheSameWithinARounding) {
   EXPECT_TRUE(same_cell(std::nan(""), std::nan("")));
   EXPECT_FALSE(same_cell(1.0, true));
   EXPECT_FALSE(same_cell(std::string("1"), 1.0));
-  const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(same_cell(infinity, infinity));
   EXPECT_FALSE(same_cell(infinity, 1.0));
   EXPECT_FALSE(same_cell(infinity, -infinity));
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::table_test

@@ -9,7 +9,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::text_picture_test {
 namespace {
 
 Field rising(int nx, int ny) {
@@ -80,4 +80,4 @@ TEST(TextPicture, AChartNamesItsAxesWithTheirUnits) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::text_picture_test

@@ -7,7 +7,7 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::tilt_half_space_test {
 namespace {
 
 using test::error_of;
@@ -137,4 +137,4 @@ TEST(TiltHalfSpace, ProbesOutOfRangeAreNamed) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::tilt_half_space_test

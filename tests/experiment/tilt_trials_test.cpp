@@ -7,7 +7,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::tilt_trials_test {
 namespace {
 
 using test::error_of;
@@ -145,4 +145,4 @@ TEST(TiltTrials, BadOptionsAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::tilt_trials_test

@@ -8,7 +8,7 @@
 #include "engine/friction/junction_law.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::capillary_friction_test {
 namespace {
 
 TEST(CapillaryFriction, TheJunctionsRubWithWhatTheyCarryAndTheAppliedLoadDivides) {
@@ -33,4 +33,4 @@ TEST(CapillaryFriction, TheJunctionsRubWithWhatTheyCarryAndTheAppliedLoadDivides
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::capillary_friction_test

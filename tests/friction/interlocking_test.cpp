@@ -3,14 +3,13 @@
 // that the law allows, then inclines, saw-teeth and wavy half-spaces whose energy must pay for what their
 // slopes resist.
 #include "engine/friction/interlocking.hpp"
+#include "engine/core/constants.hpp"
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::interlocking_test {
 namespace {
 
 using test::error_of;
@@ -18,8 +17,6 @@ using test::press;
 using test::random_surface;
 using test::scene_of;
 using test::surface_of;
-
-constexpr double pi = std::numbers::pi;
 
 Scene interlocking(Scene scene, double direction = 0) {
   scene.sliding.interlocking = InterlockingOptions{direction};
@@ -265,4 +262,4 @@ TEST(Interlocking, AStateThatDoesNotNameItHasNoFieldMade) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::interlocking_test

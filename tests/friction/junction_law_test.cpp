@@ -8,7 +8,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::junction_law_test {
 namespace {
 
 using test::boxes;
@@ -152,4 +152,4 @@ TEST(JunctionLaw, TextNamesItsNumbers) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::junction_law_test

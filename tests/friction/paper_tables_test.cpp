@@ -18,7 +18,7 @@
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::paper_tables_test {
 namespace {
 
 // raw: one length for all surfaces of a preset, the mean peak-to-valley at D = 2.
@@ -544,4 +544,4 @@ TEST(PaperTables, ControlsThatMustFail) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::paper_tables_test

@@ -9,7 +9,7 @@
 #include "engine/contact/effects/tangential.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::partial_slip_test {
 namespace {
 
 using test::elastic;
@@ -231,4 +231,4 @@ TEST(PartialSlip, WhatMakesNoSenseIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::partial_slip_test

@@ -7,7 +7,7 @@
 
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::tilt_stage_test {
 namespace {
 
 using test::error_of;
@@ -146,4 +146,4 @@ TEST(SlipAngle, BadNumbersAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::tilt_stage_test

@@ -18,7 +18,7 @@
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
-namespace asperity {
+namespace asperity::acceptance_test {
 namespace {
 
 constexpr double micrometre = 1e-6, megapascal = 1e6;
@@ -243,4 +243,4 @@ TEST(LaboratoryGrid, RaAfterFourEventsDoesNotDependOnTheGrid) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::acceptance_test

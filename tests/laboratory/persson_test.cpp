@@ -12,7 +12,7 @@
 #include "engine/experiment/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
-namespace asperity {
+namespace asperity::persson_test {
 namespace {
 
 constexpr double slope = 0.1;  // h', so that E* h' = 0.1 with E* = 1
@@ -113,4 +113,4 @@ TEST(Persson, SimulatedCappedAreasAreAsFarFromTheTheoryAsElasticOnes) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::persson_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace asperity {
+namespace asperity::blocked_sums_test {
 namespace {
 
 TEST(BlockedSums, AddEveryTermOnceAroundTheBlockSize) {
@@ -43,4 +43,4 @@ TEST(ScaleExponent, BringsAValueUnderOne) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::blocked_sums_test

@@ -13,7 +13,7 @@
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 #include "tests/metrology/test_fields.hpp"
 
-namespace asperity {
+namespace asperity::dimension_reference_test {
 namespace {
 
 // The published surface of 150 x 150 cells; peak-to-valley 0.1·(cells - 1) cell widths.
@@ -192,4 +192,4 @@ TEST(DimensionReference, OfFractionalBrownianProfiles) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::dimension_reference_test

@@ -5,14 +5,13 @@
 #include "engine/metrology/length_ratio.hpp"
 #include "tests/metrology/test_fields.hpp"
 
-namespace asperity {
+namespace asperity::fractal_dimension_test {
 namespace {
 
 using testing::error_text;
 using testing::fractional_brownian;
 using testing::make_profile;
 using testing::make_surface;
-using testing::pi;
 
 Profile scaled(std::span<const double> heights, double factor, double spacing = 1) {
   Array<double> z(heights.begin(), heights.end());
@@ -351,4 +350,4 @@ TEST(GeometricSteps, RiseWithoutRepeats) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::fractal_dimension_test

@@ -6,13 +6,12 @@
 #include "engine/core/parallel.hpp"
 #include "tests/metrology/test_fields.hpp"
 
-namespace asperity {
+namespace asperity::gaussian_filter_test {
 namespace {
 
 using testing::error_text;
 using testing::make_profile;
 using testing::make_surface;
-using testing::pi;
 
 constexpr auto none = std::nullopt;
 
@@ -183,4 +182,4 @@ TEST(GaussianFilter, RefusesCutOffsThatMeanNothing) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::gaussian_filter_test

@@ -11,7 +11,7 @@
 #include "engine/core/random.hpp"
 #include "engine/metrology/line_fit.hpp"
 
-namespace asperity {
+namespace asperity::length_ratio_test {
 namespace {
 
 // Case V20.
@@ -89,4 +89,4 @@ TEST(LengthSensitivity, RisesFromNothingToOne) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::length_ratio_test

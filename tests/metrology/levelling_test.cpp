@@ -3,7 +3,7 @@
 
 #include "tests/metrology/test_fields.hpp"
 
-namespace asperity {
+namespace asperity::levelling_test {
 namespace {
 
 using testing::error_text;
@@ -102,4 +102,4 @@ TEST(Levelling, OfAClosedOutlineIsItsMeanOnly) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::levelling_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace asperity {
+namespace asperity::line_fit_test {
 namespace {
 
 TEST(LineFit, FindsALineExactly) {
@@ -35,4 +35,4 @@ TEST(LineFit, OfALevelLineIsPerfect) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::line_fit_test

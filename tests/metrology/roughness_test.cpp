@@ -5,12 +5,11 @@
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 #include "tests/metrology/test_fields.hpp"
 
-namespace asperity {
+namespace asperity::roughness_test {
 namespace {
 
 using testing::make_profile;
 using testing::make_surface;
-using testing::pi;
 
 // Case V9.
 TEST(Roughness, OfACosineProfile) {
@@ -163,4 +162,4 @@ TEST(Roughness, SameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::roughness_test

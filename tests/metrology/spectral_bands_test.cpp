@@ -11,7 +11,7 @@
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 #include "tests/metrology/test_fields.hpp"
 
-namespace asperity {
+namespace asperity::spectral_bands_test {
 namespace {
 
 FractalDimension by_spectrum(const Surface& surface) {
@@ -46,8 +46,8 @@ TEST(LogMeanDeficit, OfKnownDigammas) {
 
 // ψ'(1) = π²/6, ψ'(3/2) = π²/2 - 4; 1/ν + 1/(2ν²) + 1/(6ν³) far out.
 TEST(LogMeanScatter, OfKnownTrigammas) {
-  EXPECT_NEAR(log_mean_scatter(1), testing::pi / std::sqrt(6.0), 1e-14);
-  EXPECT_NEAR(log_mean_scatter(1.5), std::sqrt(testing::pi * testing::pi / 2 - 4), 1e-14);
+  EXPECT_NEAR(log_mean_scatter(1), pi / std::sqrt(6.0), 1e-14);
+  EXPECT_NEAR(log_mean_scatter(1.5), std::sqrt(pi * pi / 2 - 4), 1e-14);
   EXPECT_NEAR(log_mean_scatter(1e4), std::sqrt(1e-4 + 0.5e-8 + 1e-12 / 6), 1e-15);
 }
 
@@ -103,7 +103,7 @@ TEST(EmptyBand, IsTheFarthestBelowWhatChanceAllows) {
   std::vector<double> above_line(bands.size());
   EXPECT_FALSE(empty_band(512, false, above_line));
   ASSERT_EQ(bands.front().ordinates(), 1);
-  above_line.front() = -1 - 3.5 * testing::pi / std::sqrt(6.0) + 1e-12;
+  above_line.front() = -1 - 3.5 * pi / std::sqrt(6.0) + 1e-12;
   EXPECT_FALSE(empty_band(512, false, above_line));
   above_line.front() -= 2e-12;
   EXPECT_EQ(empty_band(512, false, above_line), 0u);
@@ -177,4 +177,4 @@ TEST(SpectralDimension, OfSelfAffineSurfaces) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::spectral_bands_test

@@ -9,13 +9,12 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/metrology/test_fields.hpp"
 
-namespace asperity {
+namespace asperity::spectrum_test {
 namespace {
 
 using testing::error_text;
 using testing::make_profile;
 using testing::make_surface;
-using testing::pi;
 
 double sum_of_modes(const Spectrum& s) {
   double sum = 0;
@@ -173,4 +172,4 @@ TEST(Spectrum, RefusesANegativeNumberOfShells) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::spectrum_test

@@ -13,12 +13,11 @@
 #include "engine/metrology/roughness.hpp"
 #include "tests/metrology/test_fields.hpp"
 
-namespace asperity {
+namespace asperity::spherical_tip_test {
 namespace {
 
 using testing::make_surface;
 using testing::periodic;
-using testing::pi;
 using testing::white_noise;
 
 // Rough on every scale: the neighbouring heights are independent.
@@ -304,4 +303,4 @@ TEST(Dilation, SameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::spherical_tip_test

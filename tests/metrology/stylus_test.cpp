@@ -13,12 +13,11 @@
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/metrology/test_fields.hpp"
 
-namespace asperity {
+namespace asperity::stylus_test {
 namespace {
 
 using testing::make_surface;
 using testing::periodic;
-using testing::pi;
 
 Surface specimen(int cells = 128) {
   SelfAffineOptions o;
@@ -278,4 +277,4 @@ TEST(Stylus, RefusesWhatIsNoInstrument) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::stylus_test

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier.hpp"
 #include "engine/core/random.hpp"
@@ -16,8 +16,6 @@
 #include "engine/surface/surface.hpp"
 
 namespace asperity::testing {
-
-inline constexpr double pi = std::numbers::pi;
 
 // height(i, j) on nx x ny cells.
 template <class Height>

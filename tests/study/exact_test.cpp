@@ -5,10 +5,10 @@
 
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <numbers>
 #include <sstream>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/study/exact/box_paraboloid.hpp"
 #include "engine/study/exact/hertz.hpp"
@@ -16,10 +16,8 @@
 #include "engine/study/exact/wavy.hpp"
 #include "engine/study/exact/weierstrass_mandelbrot_height.hpp"
 
-namespace asperity::exact {
+namespace asperity::exact::exact_test {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Work of a load that grows along `approach`, by Simpson's rule in √approach, which both Hertz and the box
 // paraboloid are polynomials of.
@@ -185,4 +183,4 @@ TEST(Exact, GoldenHeightsToTheLastDigit) {
 }
 
 }  // namespace
-}  // namespace asperity::exact
+}  // namespace asperity::exact::exact_test

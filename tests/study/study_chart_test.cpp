@@ -6,7 +6,7 @@
 
 #include "tests/study/study_fixture.hpp"
 
-namespace asperity {
+namespace asperity::study_chart_test {
 namespace {
 
 const ChartSeries* series_of(const LineChart& chart, const std::string& name) {
@@ -69,4 +69,4 @@ TEST_F(Drawn, WithNothingMeasuredIsRefused) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::study_chart_test

@@ -8,7 +8,7 @@
 #include "engine/study/study_text.hpp"
 #include "tests/study/study_fixture.hpp"
 
-namespace asperity {
+namespace asperity::study_result_test {
 namespace {
 
 // A way `grid` over as many cells as there are errors, from 64 on by doubling.
@@ -155,4 +155,4 @@ TEST(StudyTable, HasAColumnForEachKnob) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::study_result_test

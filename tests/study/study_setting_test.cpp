@@ -8,7 +8,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::study_setting_test {
 namespace {
 
 std::string failure_of(std::vector<KnobSweep> knobs) {
@@ -82,4 +82,4 @@ TEST(KnobSource, NamesThatAreNoNamesStandInBrackets) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::study_setting_test

@@ -10,7 +10,7 @@
 
 #include "tests/study/study_fixture.hpp"
 
-namespace asperity {
+namespace asperity::work_precision_test {
 namespace {
 
 class Study : public testing::Test {
@@ -289,4 +289,4 @@ TEST_F(Study, RefusesWhatCannotBeStudied) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::work_precision_test

@@ -19,7 +19,7 @@
 #include "engine/surface/operations/placement.hpp"
 #include "engine/surface/operations/resampling.hpp"
 
-namespace asperity {
+namespace asperity::at_cells_test {
 namespace {
 
 // Greatest difference at the nodes of the coarser grid, over the peak-to-valley.
@@ -187,4 +187,4 @@ TEST(AtCells, MeasuredHeightsAreSampledAndInterpolated) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::at_cells_test

@@ -8,7 +8,7 @@
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 
-namespace asperity {
+namespace asperity::bcr_test {
 namespace {
 
 using testing::Bytes;
@@ -94,4 +94,4 @@ TEST(Bcr, DamageIsAnErrorOrAnotherSurface) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::bcr_test

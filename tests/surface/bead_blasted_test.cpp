@@ -2,22 +2,20 @@
 // Bead-blasted surfaces: a single dent by its definition, requested numbers met exactly, the same surface
 // on every grid, and each refusal.
 #include "engine/surface/generators/bead_blasted.hpp"
+#include "engine/core/constants.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 
-namespace asperity {
+namespace asperity::bead_blasted_test {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 BeadBlastedOptions example(int nx = 128, int ny = 128) {
   BeadBlastedOptions options;
@@ -246,4 +244,4 @@ TEST(BeadBlasted, RefusesWhatNoBeadMakes) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::bead_blasted_test

@@ -6,7 +6,7 @@
 #include "engine/surface/io/source_file.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::claims_test {
 namespace {
 
 using testing::little;
@@ -95,4 +95,4 @@ TEST(Claims, TheTreeOfMainXmlIsCountedAndBounded) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::claims_test

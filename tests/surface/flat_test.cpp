@@ -6,7 +6,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::flat_test {
 namespace {
 
 TEST(Flat, IsZeroEverywhereAndPeriodic) {
@@ -24,4 +24,4 @@ TEST(Flat, RefusesWhatIsNoGrid) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::flat_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The grain of the paper's Fig. 1: its circular structure function is known for every set of phases.
 #include "engine/surface/generators/grain_profile.hpp"
+#include "engine/core/constants.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 
-namespace asperity {
+namespace asperity::grain_profile_test {
 namespace {
 
 GrainProfileOptions example(int points = 360) {
@@ -63,7 +64,6 @@ TEST(GrainProfile, StructureFunctionIsExactForEverySeed) {
 
 TEST(GrainProfile, StructureFunctionIsTheWrittenSum) {
   GrainProfileOptions options = example(20);  // k = 3, 5, 7; 10 is half the points and left out
-  const double pi = std::numbers::pi;
   for (const int q : {1, 4, 19}) {
     const auto term = [&](int k, int n) {
       return std::pow(1.5, 2 * (1.3 - 2) * n) * (1 - std::cos(2 * pi * k * q / 20));
@@ -168,4 +168,4 @@ TEST(GrainProfile, Refusals) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::grain_profile_test

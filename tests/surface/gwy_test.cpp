@@ -9,7 +9,7 @@
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 
-namespace asperity {
+namespace asperity::gwy_test {
 namespace {
 
 using testing::gwy_example;
@@ -126,4 +126,4 @@ TEST(Gwy, DamageIsAnErrorOrAnotherSurface) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::gwy_test

@@ -13,7 +13,7 @@
 #include "engine/surface/io/source_file.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::hdf5_file_test {
 namespace {
 
 using testing::Scratch;
@@ -254,4 +254,4 @@ TEST_F(Hdf5File, NothingIsLeftWhereItCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::hdf5_file_test

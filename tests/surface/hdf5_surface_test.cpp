@@ -12,7 +12,7 @@
 #include "engine/surface/io/xdmf.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::hdf5_surface_test {
 namespace {
 
 using testing::message_of;
@@ -157,4 +157,4 @@ TEST(Xdmf, NumbersOfEveryKindHaveTheirWidth) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::hdf5_surface_test

@@ -10,7 +10,7 @@
 #include "engine/core/random.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::holes_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -194,4 +194,4 @@ TEST(Holes, StopFlagEndsTheWork) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::holes_test

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Materials: names, ranges, and the moduli made from them.
 #include "engine/surface/material.hpp"
+#include "engine/core/constants.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::material_test {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Call>
 std::string refusal(Call call, ErrorCode code) {
@@ -101,4 +99,4 @@ TEST(Material, Ranges) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::material_test

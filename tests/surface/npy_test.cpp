@@ -5,7 +5,7 @@
 #include "engine/surface/io/read.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::npy_test {
 namespace {
 
 using testing::little;
@@ -139,4 +139,4 @@ TEST(Npy, MeasuredFile) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::npy_test

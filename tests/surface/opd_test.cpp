@@ -8,7 +8,7 @@
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 
-namespace asperity {
+namespace asperity::opd_test {
 namespace {
 
 using testing::message_of;
@@ -107,4 +107,4 @@ TEST(Opd, DamageIsAnErrorOrAnotherSurface) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::opd_test

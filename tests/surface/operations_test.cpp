@@ -7,7 +7,7 @@
 #include "engine/core/parallel.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::operations_test {
 namespace {
 
 using std::numbers::pi;
@@ -376,4 +376,4 @@ TEST(Sections, LinesWrapOnPeriodicSurfacesOnly) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::operations_test

@@ -13,7 +13,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::plane_waves_test {
 namespace {
 
 std::vector<PlaneWave> random_waves(int count, std::uint64_t seed) {
@@ -123,4 +123,4 @@ TEST(PlaneWaves, StopWhenAsked) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::plane_waves_test

@@ -10,7 +10,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::profile_test {
 namespace {
 
 std::string refusal(double spacing, Array<double> heights) {
@@ -61,4 +61,4 @@ TEST(Profile, DigestSeesSpacingAndHeights) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::profile_test

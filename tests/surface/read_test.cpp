@@ -7,7 +7,7 @@
 
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::read_test {
 namespace {
 
 using testing::error_of;
@@ -224,4 +224,4 @@ TEST(Read, MeasuredFilesThatAreNotWhatTheyClaim) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::read_test

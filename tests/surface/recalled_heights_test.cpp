@@ -10,7 +10,7 @@
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
 #include "tests/core/shelf.hpp"
 
-namespace asperity {
+namespace asperity::recalled_heights_test {
 namespace {
 
 SelfAffineOptions waves() {
@@ -118,4 +118,4 @@ TEST(RecalledHeights, AreKeptOnlyIfTheyTookASecond) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::recalled_heights_test

@@ -8,7 +8,7 @@
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 
-namespace asperity {
+namespace asperity::sdf_test {
 namespace {
 
 using testing::message_of;
@@ -135,4 +135,4 @@ TEST(Sdf, DamageIsAnErrorOrAnotherSurface) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::sdf_test

@@ -2,13 +2,13 @@
 // Self-affine surfaces: requested numbers met exactly, the same surface on every grid, and the
 // spectrum of theory (case V10).
 #include "engine/surface/generators/self_affine.hpp"
+#include "engine/core/constants.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 #include <cstring>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,10 +17,8 @@
 #include "engine/core/fourier.hpp"
 #include "engine/core/parallel.hpp"
 
-namespace asperity {
+namespace asperity::self_affine_test {
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 SelfAffineOptions example(int nx = 64, int ny = 64) {
   SelfAffineOptions options;
@@ -319,4 +317,4 @@ TEST(SelfAffine, BandIsInOrder) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::self_affine_test

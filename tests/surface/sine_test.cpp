@@ -2,20 +2,19 @@
 // Cosine surfaces and their known statistics (case V9: amplitude A has Rq = A/√2, Ra = 2A/π,
 // kurtosis 1.5; a product of height h has Sq = h/2 and rms gradient πh√2/L).
 #include "engine/surface/generators/sine.hpp"
+#include "engine/core/constants.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::sine_test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::string refusal(const SineOptions& options) {
@@ -123,4 +122,4 @@ TEST(Sine, Refusals) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::sine_test

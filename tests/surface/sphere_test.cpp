@@ -9,7 +9,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::sphere_test {
 namespace {
 
 std::string refusal(const SphereOptions& options) {
@@ -73,4 +73,4 @@ TEST(Sphere, RadiusMustBePositive) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::sphere_test

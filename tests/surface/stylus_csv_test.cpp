@@ -6,7 +6,7 @@
 #include "engine/surface/io/read.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::stylus_csv_test {
 namespace {
 
 using testing::measured;
@@ -162,4 +162,4 @@ TEST(StylusCsv, MeasuredFile) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::stylus_csv_test

@@ -6,7 +6,7 @@
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 
-namespace asperity {
+namespace asperity::sur_test {
 namespace {
 
 using testing::message_of;
@@ -124,4 +124,4 @@ TEST(Sur, DamageIsAnErrorOrAnotherSurface) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::sur_test

@@ -10,7 +10,7 @@
 
 #include "engine/core/error.hpp"
 
-namespace asperity {
+namespace asperity::surface_test {
 namespace {
 
 const Grid grid{3, 2, 3e-6, 2e-6};
@@ -112,4 +112,4 @@ TEST(Surface, OfOneNode) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::surface_test

@@ -5,7 +5,7 @@
 #include "engine/surface/io/text_table.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::text_matrix_test {
 namespace {
 
 using testing::measured;
@@ -179,4 +179,4 @@ TEST(TextMatrix, MeasuredFile) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::text_matrix_test

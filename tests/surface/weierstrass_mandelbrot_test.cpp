@@ -21,7 +21,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
 
-namespace asperity {
+namespace asperity::weierstrass_mandelbrot_test {
 namespace {
 
 using Options = WeierstrassMandelbrotOptions;
@@ -502,4 +502,4 @@ TEST(WeierstrassMandelbrot, LetsAPhaseFunctionFail) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::weierstrass_mandelbrot_test

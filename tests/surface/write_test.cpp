@@ -9,7 +9,7 @@
 #include "engine/surface/io/read.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::write_test {
 namespace {
 
 using testing::message_of;
@@ -142,4 +142,4 @@ TEST(Write, FailureLeavesWhatWasThere) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::write_test

@@ -7,7 +7,7 @@
 #include "engine/surface/io/write.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::x3p_test {
 namespace {
 
 using testing::measured;
@@ -287,4 +287,4 @@ TEST(X3p, MeasuredFileCutShort) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::x3p_test

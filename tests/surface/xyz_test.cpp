@@ -5,7 +5,7 @@
 #include "engine/surface/io/read.hpp"
 #include "tests/surface/files.hpp"
 
-namespace asperity {
+namespace asperity::xyz_test {
 namespace {
 
 using testing::measured;
@@ -204,4 +204,4 @@ TEST(Xyz, MeasuredFile) {
 }
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::xyz_test

@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace asperity::web {
+namespace asperity::web::access_test {
 namespace {
 
 HttpRequest request(std::multimap<std::string, std::string> headers, std::string path = "/api/about") {
@@ -71,4 +71,4 @@ TEST(SameText, IsSameLengthAndEveryByte) {
 }
 
 }  // namespace
-}  // namespace asperity::web
+}  // namespace asperity::web::access_test

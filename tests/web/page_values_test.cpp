@@ -17,7 +17,7 @@
 #include "bindings/web/positions.hpp"
 #include "bindings/web/views.hpp"
 
-namespace asperity::web {
+namespace asperity::web::page_values_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TEST(Frame, ComesAsItWentAndNotLonger) {
 }
 
 }  // namespace
-}  // namespace asperity::web
+}  // namespace asperity::web::page_values_test

@@ -5,7 +5,7 @@
 
 #include <thread>
 
-namespace asperity::web {
+namespace asperity::web::shares_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -35,4 +35,4 @@ TEST(Shares, AreWaitedFor) {
 }
 
 }  // namespace
-}  // namespace asperity::web
+}  // namespace asperity::web::shares_test

@@ -10,9 +10,9 @@ namespace asperity {
 
 namespace {
 
-class Alone final : public SlabFourier {
+class SlabFourierOfOne final : public SlabFourier {
  public:
-  Alone(int nx, int ny) {
+  SlabFourierOfOne(int nx, int ny) {
     waves_ = nx / 2 + 1;
     step_b_ = waves_;
     stride_ = 2 * step_b_;
@@ -24,13 +24,13 @@ class Alone final : public SlabFourier {
     if (forward_ == nullptr || back_ == nullptr)
       throw Error(ErrorCode::internal, "FFTW has no plan for a transform of this grid");
   }
-  ~Alone() override {
+  ~SlabFourierOfOne() override {
     const auto lock = lock_fourier_planner();
     if (forward_ != nullptr) fftw_destroy_plan(forward_);
     if (back_ != nullptr) fftw_destroy_plan(back_);
   }
-  Alone(const Alone&) = delete;
-  Alone& operator=(const Alone&) = delete;
+  SlabFourierOfOne(const SlabFourierOfOne&) = delete;
+  SlabFourierOfOne& operator=(const SlabFourierOfOne&) = delete;
   void forward() override { fftw_execute(forward_); }
   void inverse() override { fftw_execute(back_); }
 
@@ -40,6 +40,8 @@ class Alone final : public SlabFourier {
 
 }  // namespace
 
-std::unique_ptr<SlabFourier> fourier_alone(int nx, int ny) { return std::make_unique<Alone>(nx, ny); }
+std::unique_ptr<SlabFourier> fourier_alone(int nx, int ny) {
+  return std::make_unique<SlabFourierOfOne>(nx, ny);
+}
 
 }  // namespace asperity

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t marks = 2;
 constexpr std::size_t text_room = 2000;
 
-class Alone final : public Team {
+class TeamOfOne final : public Team {
  public:
   std::unique_ptr<SlabFourier> fourier(int nx, int ny) override {
     std::unique_ptr<SlabFourier> made;
@@ -46,7 +46,7 @@ void put(const std::string& text, char* to) {
 }  // namespace
 
 Team& Team::alone() {
-  static thread_local Alone team;
+  static thread_local TeamOfOne team;
   return team;
 }
 

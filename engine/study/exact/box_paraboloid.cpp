@@ -10,7 +10,7 @@ namespace asperity::exact {
 
 namespace {
 
-BoxParaboloid complete(double radius, double load, double approach) {
+BoxParaboloid complete_boxes(double radius, double load, double approach) {
   BoxParaboloid contact{load, approach, 2 * std::numbers::pi * radius * approach, load * approach / 3};
   in_range({contact.load, contact.approach, contact.area, contact.energy});
   return contact;
@@ -19,11 +19,11 @@ BoxParaboloid complete(double radius, double load, double approach) {
 }  // namespace
 
 BoxParaboloid box_paraboloid_under_load(double radius, double stiffness, double load) {
-  return complete(radius, load, std::sqrt(load / (std::numbers::pi * stiffness)) / std::sqrt(radius));
+  return complete_boxes(radius, load, std::sqrt(load / (std::numbers::pi * stiffness)) / std::sqrt(radius));
 }
 
 BoxParaboloid box_paraboloid_at_approach(double radius, double stiffness, double approach) {
-  return complete(radius, std::numbers::pi * stiffness * (radius * approach * approach), approach);
+  return complete_boxes(radius, std::numbers::pi * stiffness * (radius * approach * approach), approach);
 }
 
 }  // namespace asperity::exact

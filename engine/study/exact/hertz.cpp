@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "engine/core/constants.hpp"
 #include "engine/study/exact/in_range.hpp"
 
 namespace asperity::exact {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 Hertz complete(double radius, double load, double approach) {
   Hertz contact;

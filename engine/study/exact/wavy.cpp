@@ -4,14 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/text.hpp"
 #include "engine/study/exact/in_range.hpp"
 
 namespace asperity::exact {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 WavyContact full_contact(double amplitude, double full, double pressure, double share_of_energy) {
   WavyContact contact{full, 1, pressure + full, 0, amplitude, share_of_energy * full * amplitude};

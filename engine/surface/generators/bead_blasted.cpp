@@ -16,6 +16,7 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/random.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/generators/option_checks.hpp"
 #include "engine/surface/generators/recalled_heights.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
@@ -27,17 +28,6 @@ constexpr double floor_reach = 2.2;  // of r²/a²
 constexpr double rim_radius = 1.15, rim_width = 0.2, rim_share = 0.5;
 // Past 4.3 widths the rim is 1e-8 of its crest.
 constexpr double rim_reach = rim_radius + 4.3 * rim_width;
-
-std::string metres(double value) { return format_quantity(value, dimension::length); }
-
-[[noreturn]] void refuse(std::string sentence, std::string hint) {
-  throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
-}
-
-void check_positive(const char* key, double value) {
-  if (!(std::isfinite(value) && value > 0))
-    refuse(quoted(key) + " is " + format_short(value), "give a finite value above zero");
-}
 
 void check_pair(const char* key, double low, double high) {
   check_positive(key, low);

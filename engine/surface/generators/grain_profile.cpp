@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
@@ -16,7 +16,6 @@ namespace asperity {
 
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
 constexpr int fewest_points = 7;  // the first term has three waves
 constexpr int most_points = 1 << 24;
 

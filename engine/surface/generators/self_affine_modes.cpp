@@ -5,29 +5,15 @@
 #include <string>
 #include <utility>
 
-#include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
-#include "engine/core/text.hpp"
+#include "engine/core/constants.hpp"
+#include "engine/surface/generators/option_checks.hpp"
 
 namespace asperity {
 
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
-
 // A wave whose length differs from a bound by rounding alone lies on the bound.
 constexpr double on_the_bound = 1e-12;
-
-std::string metres(double value) { return format_quantity(value, dimension::length); }
-
-[[noreturn]] void refuse(std::string sentence, std::string hint) {
-  throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
-}
-
-void check_positive(const char* key, double value) {
-  if (std::isfinite(value) && value > 0) return;
-  refuse(quoted(key) + " is " + format_short(value), "give a finite value above zero");
-}
 
 void check_scale(const SelfAffineOptions& options) {
   const int given =

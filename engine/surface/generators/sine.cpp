@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -18,7 +18,6 @@ namespace {
 
 // cos(2π turns) for turns in [0, 1/2], exact at every eighth where the cosine is.
 double cosine_of_turns(double turns) {
-  constexpr double two_pi = 2 * std::numbers::pi;
   if (turns > 0.25) return -cosine_of_turns(0.5 - turns);
   return turns > 0.125 ? std::sin(two_pi * (0.25 - turns)) : std::cos(two_pi * turns);
 }

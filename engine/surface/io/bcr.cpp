@@ -33,7 +33,7 @@ std::pair<std::string, std::string_view> statement(std::string_view line) {
   return {lower_case(trimmed(line.substr(0, sign))), trimmed(line.substr(sign + 1))};
 }
 
-bool recognises(const SourceFile& file) {
+bool recognises_bcr(const SourceFile& file) {
   LineReader reader(file.bytes().substr(0, 64));
   std::string_view line;
   if (!reader.next(line)) return false;
@@ -42,7 +42,7 @@ bool recognises(const SourceFile& file) {
 }
 
 Lines read_lines(const SourceFile& file) {
-  if (!recognises(file))
+  if (!recognises_bcr(file))
     refuse_file(file,
                 "is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = bcrf`",
                 "if it is another format, name it with `format`");
@@ -73,7 +73,7 @@ std::optional<double> length_of(const SourceFile& file, const Lines& lines, cons
                                 const std::string& unit_key) {
   const auto found = lines.find(key);
   if (found == lines.end()) return {};
-  const Cell cell = read_cell(found->second, Separator::blank);
+  const TextCell cell = read_cell(found->second, Separator::blank);
   if (cell.kind != CellKind::number || !(cell.value > 0))
     refuse_file(file, "has no length for " + key + " in its header: " + shown(found->second));
   const auto unit = lines.find(unit_key);
@@ -91,7 +91,7 @@ Field heights_of(std::string_view data, int nx, int ny, bool big_endian, Monitor
   return field_of_numbers<T>({swapped.data(), swapped.size()}, nx, ny, monitor, is_hole);
 }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) {
+HeightMap read_bcr(const SourceFile& file, Monitor& monitor) {
   const Lines lines = read_lines(file);
   const std::string& kind = lines.at("fileformat");
   const bool integers = lower_case(kind) == "bcrstm";
@@ -124,7 +124,8 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
 
 const Format& bcr_format() {
   static constexpr std::array<std::string_view, 2> endings{"bcr", "bcrf"};
-  static const Format format{"bcr", "`fileformat = bcrstm` or bcrf at the start", endings, recognises, read};
+  static const Format format{"bcr", "`fileformat = bcrstm` or bcrf at the start", endings, recognises_bcr,
+                             read_bcr};
   return format;
 }
 

@@ -202,7 +202,7 @@ std::map<std::uint32_t, Channel>::const_iterator chosen(const SourceFile& file,
       "name one by its number or its title with `channel`");
 }
 
-HeightMap read_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
+HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
   const auto channels = read_channels(file);
   const auto& [number, entry] = *chosen(file, channels, channel);
   const DataField field = read_field(file, entry.field);
@@ -232,9 +232,9 @@ HeightMap read_channel(const SourceFile& file, const std::string& channel, Monit
   return map;
 }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) { return read_channel(file, {}, monitor); }
+HeightMap read_gwy(const SourceFile& file, Monitor& monitor) { return read_gwy_channel(file, {}, monitor); }
 
-bool recognises(const SourceFile& file) { return file.bytes().starts_with(mark); }
+bool recognises_gwy(const SourceFile& file) { return file.bytes().starts_with(mark); }
 
 // --- writing
 
@@ -252,7 +252,7 @@ std::string metre() { return object("GwySIUnit", ended("unitstr") + "s" + ended(
 
 const Format& gwy_format() {
   static constexpr std::array<std::string_view, 1> endings{"gwy"};
-  static const Format format{"gwy", "GWYP at the start", endings, recognises, read, read_channel};
+  static const Format format{"gwy", "GWYP at the start", endings, recognises_gwy, read_gwy, read_gwy_channel};
   return format;
 }
 

@@ -71,7 +71,7 @@ const Hdf5Array& heights_of(const SourceFile& file, const Hdf5Content& content, 
               "a surface is an array of numbers of shape (ny, nx)");
 }
 
-HeightMap read_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
+HeightMap read_hdf5_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
   const Hdf5Content content = read_hdf5(file, monitor);
   const Hdf5Array& array = heights_of(file, content, channel);
   const std::size_t ny = array.shape.size() == 2 ? array.shape[0] : 1, nx = array.shape.back();
@@ -114,7 +114,7 @@ HeightMap read_channel(const SourceFile& file, const std::string& channel, Monit
   return map;
 }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) { return read_channel(file, {}, monitor); }
+HeightMap read_hdf5(const SourceFile& file, Monitor& monitor) { return read_hdf5_channel(file, {}, monitor); }
 
 }  // namespace
 
@@ -136,7 +136,8 @@ void write_hdf5_surface(const Surface& surface, const std::filesystem::path& pat
 
 const Format& hdf5_format() {
   static constexpr std::array<std::string_view, 3> endings{"h5", "hdf5", "he5"};
-  static const Format format{"hdf5", "\\x89HDF at the start", endings, looks_like_hdf5, read, read_channel};
+  static const Format format{"hdf5",    "\\x89HDF at the start", endings, looks_like_hdf5,
+                             read_hdf5, read_hdf5_channel};
   return format;
 }
 

@@ -125,9 +125,9 @@ bool NpyHeader::swapped() const {
 
 namespace {
 
-bool recognises(const SourceFile& file) { return file.bytes().starts_with(magic); }
+bool recognises_npy(const SourceFile& file) { return file.bytes().starts_with(magic); }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) {
+HeightMap read_npy(const SourceFile& file, Monitor& monitor) {
   const NpyHeader header = read_npy_header(file);
   if (header.shape.empty() || header.shape.size() > 2)
     refuse_file(file, "holds an array of " + std::to_string(header.shape.size()) + " dimensions",
@@ -165,7 +165,7 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
 
 const Format& npy_format() {
   static constexpr std::array<std::string_view, 1> endings{"npy"};
-  static const Format format{"npy", "\\x93NUMPY at the start", endings, recognises, read};
+  static const Format format{"npy", "\\x93NUMPY at the start", endings, recognises_npy, read_npy};
   return format;
 }
 

@@ -17,7 +17,7 @@ namespace asperity {
 
 namespace {
 
-constexpr std::string_view mark(
+constexpr std::string_view opd_mark(
     "\x01\x00"
     "Directory",
     11);
@@ -33,7 +33,7 @@ struct Block {
 
 std::vector<Block> read_directory(const SourceFile& file) {
   const std::string_view bytes = file.bytes();
-  if (!bytes.starts_with(mark))
+  if (!bytes.starts_with(opd_mark))
     refuse_file(file, "is not an OPD file: it does not start with a directory",
                 "if it is another format, name it with `format`");
   BinaryCursor head(file, bytes.substr(start), "its directory");
@@ -127,7 +127,7 @@ Field turned(std::string_view data, int nx, int ny, Monitor& monitor, IsHole&& i
   return heights;
 }
 
-HeightMap read_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
+HeightMap read_opd_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
   const std::vector<Block> blocks = read_directory(file);
   const Block& block = map_block(file, blocks, channel);
   BinaryCursor cursor(file, block.data, "its block " + plain_text(block.name));
@@ -159,15 +159,16 @@ HeightMap read_channel(const SourceFile& file, const std::string& channel, Monit
   return map;
 }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) { return read_channel(file, {}, monitor); }
+HeightMap read_opd(const SourceFile& file, Monitor& monitor) { return read_opd_channel(file, {}, monitor); }
 
-bool recognises(const SourceFile& file) { return file.bytes().starts_with(mark); }
+bool recognises_opd(const SourceFile& file) { return file.bytes().starts_with(opd_mark); }
 
 }  // namespace
 
 const Format& opd_format() {
   static constexpr std::array<std::string_view, 1> endings{"opd"};
-  static const Format format{"opd", "a directory of blocks", endings, recognises, read, read_channel};
+  static const Format format{"opd",    "a directory of blocks", endings, recognises_opd,
+                             read_opd, read_opd_channel};
   return format;
 }
 

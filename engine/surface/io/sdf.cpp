@@ -46,7 +46,7 @@ bool is_text_form(const SourceFile& file) {
   return false;
 }
 
-bool recognises(const SourceFile& file) { return is_version(file.bytes(), 'b') || is_text_form(file); }
+bool recognises_sdf(const SourceFile& file) { return is_version(file.bytes(), 'b') || is_text_form(file); }
 
 void check_header(const SourceFile& file, const SdfHeader& header) {
   if (header.compression != 0)
@@ -105,7 +105,7 @@ HeightMap read_binary(const SourceFile& file, Monitor& monitor) {
 }
 
 double header_number(const SourceFile& file, std::string_view key, std::string_view text) {
-  const Cell cell = read_cell(text, Separator::blank);
+  const TextCell cell = read_cell(text, Separator::blank);
   if (cell.kind != CellKind::number)
     refuse_file(file, "has no number for " + shown(key) + " in its header: " + shown(text));
   return cell.value;
@@ -174,7 +174,7 @@ HeightMap read_text(const SourceFile& file, Monitor& monitor) {
     const std::size_t before = count;
     for (const std::string_view text : cells_of(trimmed(line), Separator::blank)) {
       if (text.empty()) continue;
-      const Cell cell = read_cell(text, Separator::blank);
+      const TextCell cell = read_cell(text, Separator::blank);
       if (cell.kind != CellKind::number && cell.kind != CellKind::hole)
         refuse_file(file, "has no height in line " + std::to_string(lines.number()) + ": " + shown(text));
       if (count == heights.size())
@@ -192,7 +192,7 @@ HeightMap read_text(const SourceFile& file, Monitor& monitor) {
   return described(header, std::move(heights));
 }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) {
+HeightMap read_sdf(const SourceFile& file, Monitor& monitor) {
   if (is_version(file.bytes(), 'b')) return read_binary(file, monitor);
   if (is_text_form(file)) return read_text(file, monitor);
   refuse_file(file, "is not an SDF file: it starts with neither aISO, aBCR, bISO nor bBCR",
@@ -203,7 +203,8 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
 
 const Format& sdf_format() {
   static constexpr std::array<std::string_view, 1> endings{"sdf"};
-  static const Format format{"sdf", "aISO-1.0, bISO-1.0 or BCR at the start", endings, recognises, read};
+  static const Format format{"sdf", "aISO-1.0, bISO-1.0 or BCR at the start", endings, recognises_sdf,
+                             read_sdf};
   return format;
 }
 

@@ -27,7 +27,7 @@ bool is_scan_mark(std::string_view line) {
   return text == "scan data";
 }
 
-bool recognises(const SourceFile& file) {
+bool recognises_stylus_csv(const SourceFile& file) {
   if (!file.looks_like_text()) return false;
   LineReader lines(file.text());
   std::string_view line;
@@ -84,7 +84,7 @@ Line fitted(std::span<const double> positions) {
   return {spacing, average - spacing * middle};
 }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) {
+HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
   if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
   LineReader lines(file.text());
   std::string_view line;
@@ -119,7 +119,7 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
     const std::vector<std::string_view> cells = cells_of(line, separator);
     const std::string where = " in line " + std::to_string(lines.number());
     if (cells.size() < 2) refuse_file(file, "has no height" + where, "the file is cut short");
-    const Cell position = read_cell(cells[0], separator), height = read_cell(cells[1], separator);
+    const TextCell position = read_cell(cells[0], separator), height = read_cell(cells[1], separator);
     if (position.kind != CellKind::number)
       refuse_file(file, "has no position" + where + ": " + shown(cells[0]));
     if (height.kind != CellKind::number && height.kind != CellKind::hole)
@@ -159,7 +159,8 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& stylus_csv_format() {
-  static const Format format{"stylus-csv", "a line \"Scan Data\"", {}, recognises, read};
+  static const Format format{
+      "stylus-csv", "a line \"Scan Data\"", {}, recognises_stylus_csv, read_stylus_csv};
   return format;
 }
 

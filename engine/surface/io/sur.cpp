@@ -18,9 +18,9 @@ namespace asperity {
 namespace {
 
 constexpr std::string_view plain_mark = "DIGITAL SURF", compressed_mark = "DSCOMPRESSED";
-constexpr std::size_t header_bytes = 512;
+constexpr std::size_t sur_header_bytes = 512;
 
-struct Axis {
+struct SurAxis {
   double spacing;
   std::optional<double> unit;
   std::string word;  // of the unit, as written
@@ -31,7 +31,7 @@ struct SurHeader {
   bool special = false;
   std::int32_t least = 0;
   std::int64_t nx = 0, ny = 0;
-  std::array<Axis, 3> axes;
+  std::array<SurAxis, 3> axes;
   double offset = 0;
   std::size_t data_at = 0;
 };
@@ -60,9 +60,9 @@ SurHeader read_header(const SourceFile& file) {
   header.nx = cursor.number<std::int32_t>();
   header.ny = cursor.number<std::int32_t>();
   cursor.skip(4);
-  for (Axis& axis : header.axes) axis.spacing = std::abs(static_cast<double>(cursor.number<float>()));
+  for (SurAxis& axis : header.axes) axis.spacing = std::abs(static_cast<double>(cursor.number<float>()));
   cursor.skip(3 * 16);
-  for (Axis& axis : header.axes) {
+  for (SurAxis& axis : header.axes) {
     axis.word = std::string(cursor.text(16));
     axis.unit = length_unit(axis.word);
   }
@@ -70,18 +70,18 @@ SurHeader read_header(const SourceFile& file) {
   const std::size_t comment = cursor.number<std::uint16_t>(), own = cursor.number<std::uint16_t>();
   cursor.skip(128 + 2 * 4);
   header.offset = static_cast<double>(cursor.number<float>());
-  cursor.skip(header_bytes - cursor.position());
+  cursor.skip(sur_header_bytes - cursor.position());
   cursor.skip(comment);
   cursor.skip(own);
   header.data_at = cursor.position();
   return header;
 }
 
-bool recognises(const SourceFile& file) {
+bool recognises_sur(const SourceFile& file) {
   return file.bytes().starts_with(plain_mark) || file.bytes().starts_with(compressed_mark);
 }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) {
+HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
   const SurHeader header = read_header(file);
   // 1 a profile, 2 a surface, 4 and 5 series of them.
   if (header.type == 3 || header.type < 1 || header.type > 5)
@@ -123,7 +123,7 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
 
 const Format& sur_format() {
   static constexpr std::array<std::string_view, 2> endings{"sur", "pro"};
-  static const Format format{"sur", "DIGITAL SURF at the start", endings, recognises, read};
+  static const Format format{"sur", "DIGITAL SURF at the start", endings, recognises_sur, read_sur};
   return format;
 }
 

@@ -25,13 +25,13 @@ struct Header {
 };
 
 std::optional<double> plain_number(std::string_view text) {
-  const Cell cell = read_cell(trimmed(text), Separator::blank);
+  const TextCell cell = read_cell(trimmed(text), Separator::blank);
   if (cell.kind != CellKind::number) return {};
   return cell.value;
 }
 
 // "3.7e-007 m", "10 um" or a plain number of metres.
-std::optional<double> length_of(std::string_view text) {
+std::optional<double> length_with_unit(std::string_view text) {
   if (const auto number = plain_number(text)) return number;
   try {
     return parse_quantity_as(trimmed(text), dimension::length);
@@ -56,7 +56,7 @@ void take_in(Header& header, const SourceFile& file, std::string_view key_text, 
   } else if (key == "w") {
     header.columns = needed(plain_number(value), file, key, value);
   } else if (key == "pixel size") {
-    header.pixel = needed(length_of(value), file, key, value);
+    header.pixel = needed(length_with_unit(value), file, key, value);
   } else if (key.starts_with("height conversion factor")) {
     header.unit = needed(plain_number(value), file, "height conversion factor", value);
   } else if (key == "unit [m]") {
@@ -75,9 +75,9 @@ void take_in(Header& header, const SourceFile& file, std::string_view key_text, 
   } else if (key == "closed radius [m]") {
     header.closed_radius = needed(plain_number(value), file, key, value);
   } else if (key == "width") {
-    header.size_x = needed(length_of(value), file, key, value);
+    header.size_x = needed(length_with_unit(value), file, key, value);
   } else if (key == "height") {
-    header.size_y = needed(length_of(value), file, key, value);
+    header.size_y = needed(length_with_unit(value), file, key, value);
   } else if (key == "value units") {
     try {
       const Quantity unit = parse_unit(trimmed(value));
@@ -132,7 +132,7 @@ Header read_header(LineReader& lines, const SourceFile& file) {
   return header;
 }
 
-bool recognises(const SourceFile& file) {
+bool recognises_text_matrix(const SourceFile& file) {
   if (!file.looks_like_text()) return false;
   LineReader lines(file.text());
   std::string_view line;
@@ -154,7 +154,7 @@ void check_count(const SourceFile& file, const std::optional<double>& said, int 
                 "the file is cut short or its header is wrong");
 }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) {
+HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
   if (file.bytes().starts_with("\xFF\xFE") || file.bytes().starts_with("\xFE\xFF"))
     refuse_file(file, "is UTF-16 text", "save it as UTF-8");
   if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
@@ -194,7 +194,8 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
 
 const Format& text_format() {
   static constexpr std::array<std::string_view, 5> endings{"txt", "csv", "asc", "dat", "tsv"};
-  static const Format format{"text", "a line of numbers first", endings, recognises, read};
+  static const Format format{"text", "a line of numbers first", endings, recognises_text_matrix,
+                             read_text_matrix};
   return format;
 }
 

@@ -127,8 +127,8 @@ std::vector<std::string_view> cells_of(std::string_view line, Separator separato
   }
 }
 
-Cell read_cell(std::string_view text, Separator separator) {
-  const Cell hole{CellKind::hole, std::numeric_limits<double>::quiet_NaN()};
+TextCell read_cell(std::string_view text, Separator separator) {
+  const TextCell hole{CellKind::hole, std::numeric_limits<double>::quiet_NaN()};
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
   if (text.empty()) return hole;
   if (text.size() > longest_number) return {};
@@ -206,7 +206,7 @@ TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor
                   "every line of a table needs the same number of cells");
     }
     for (std::size_t k = 0; k < cells.size(); ++k) {
-      const Cell cell = read_cell(cells[k], separator);
+      const TextCell cell = read_cell(cells[k], separator);
       if (cell.kind != CellKind::number && cell.kind != CellKind::hole)
         refuse_cell(file, lines.number(), k, cells[k], cell.kind);
       table.values.push_back(cell.value);

@@ -45,12 +45,12 @@ Separator separator_of(std::string_view line);
 std::vector<std::string_view> cells_of(std::string_view line, Separator separator);
 
 enum class CellKind { number, hole, infinite, too_large, unreadable };
-struct Cell {
+struct TextCell {
   CellKind kind = CellKind::unreadable;
   double value = 0;  // NaN for a hole
 };
 // A hole is an empty cell, nan, bad, na, n/a, null, none, or a run of '-' or '*'.
-Cell read_cell(std::string_view text, Separator separator);
+TextCell read_cell(std::string_view text, Separator separator);
 
 // True if every cell of the line is a number or a hole and one at least is not empty.
 bool is_row_of_numbers(std::string_view line);

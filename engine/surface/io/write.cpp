@@ -19,7 +19,7 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t piece = std::size_t{1} << 16;
+constexpr std::size_t bytes_a_piece = std::size_t{1} << 16;
 
 [[noreturn]] void refuse_extension(const std::string& path, const std::string& known) {
   const std::string extension = file_extension(path);
@@ -66,7 +66,7 @@ void write_matrix(const Surface& surface, const std::string& path, char separato
       text += format_exact(surface.heights()(i, j));
     }
     text += '\n';
-    if (text.size() >= piece || j + 1 == grid.ny) {
+    if (text.size() >= bytes_a_piece || j + 1 == grid.ny) {
       file.write(text);
       text.clear();
     }
@@ -87,7 +87,7 @@ void write_trace(const Profile& profile, const std::string& path, char separator
   for (std::size_t k = 0; k < heights.size(); ++k) {
     text += format_exact(static_cast<double>(k) * profile.spacing()) + separator + format_exact(heights[k]) +
             '\n';
-    if (text.size() >= piece || k + 1 == heights.size()) {
+    if (text.size() >= bytes_a_piece || k + 1 == heights.size()) {
       file.write(text);
       text.clear();
     }

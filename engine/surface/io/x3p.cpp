@@ -56,7 +56,7 @@ std::optional<long double> number_of(pugi::xml_node node) {
   return value;
 }
 
-struct Axis {
+struct X3pAxis {
   bool absolute = false;  // its coordinate stands with every point
   char type = 'D';        // I, L, F, D
   long double increment = 1, offset = 0;
@@ -64,10 +64,10 @@ struct Axis {
   std::size_t width() const { return type == 'I' ? 2 : type == 'D' ? 8 : 4; }
 };
 
-Axis axis_of(const SourceFile& file, pugi::xml_node axes, const std::string& name) {
+X3pAxis axis_of(const SourceFile& file, pugi::xml_node axes, const std::string& name) {
   const pugi::xml_node node = child(axes, name);
   if (!node) refuse_file(file, "has no axis " + name + " in its main.xml");
-  Axis axis;
+  X3pAxis axis;
   const std::string_view kind = text_of(child(node, "AxisType"));
   if (kind != "A" && kind != "I")
     refuse_file(file, "has an axis " + name + " of type " + shown(kind), "axis types I and A are read");
@@ -105,7 +105,7 @@ std::uint64_t count_of(const SourceFile& file, pugi::xml_node dimension, const c
 
 struct Map {
   std::uint64_t nx = 0, ny = 0;
-  std::array<Axis, 3> axes;
+  std::array<X3pAxis, 3> axes;
   Array<double> x, y;  // coordinates of the first row and column where absolute
   Field heights;
 
@@ -114,7 +114,7 @@ struct Map {
   }
   // Takes in coordinate `axis` of point k.
   void put(std::size_t axis, std::uint64_t k, double raw) {
-    const Axis& a = axes[axis];
+    const X3pAxis& a = axes[axis];
     const double value =
         a.has_increment || a.offset != 0 ? static_cast<double>(raw * a.increment + a.offset) : raw;
     if (axis == 2) heights[k] = value;
@@ -161,7 +161,7 @@ void read_binary(const SourceFile& file, const Archive& archive, pugi::xml_node 
   const std::int64_t index = archive.find(name);
   if (index < 0) refuse_file(file, "has no entry " + shown(name) + ", which its main.xml names");
   std::size_t record = 0;
-  for (const Axis& axis : map.axes) record += axis.absolute ? axis.width() : 0;
+  for (const X3pAxis& axis : map.axes) record += axis.absolute ? axis.width() : 0;
   const std::uint64_t expected = map.nx * map.ny * record;
   if (const std::uint64_t claimed = archive.claimed_size(index); claimed != expected)
     refuse_file(file,
@@ -222,7 +222,7 @@ void read_inline(const SourceFile& file, pugi::xml_node list, Map& map) {
       std::size_t column = 0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!map.axes[axis].absolute) continue;
-        const Cell cell = read_cell(cells[column++], Separator::comma);
+        const TextCell cell = read_cell(cells[column++], Separator::comma);
         if (cell.kind != CellKind::number && cell.kind != CellKind::hole)
           refuse_file(file, where + shown(text));
         map.put(axis, k, cell.value);
@@ -233,7 +233,7 @@ void read_inline(const SourceFile& file, pugi::xml_node list, Map& map) {
 }
 
 // Nodes times spacing of one axis, m.
-double size_of(const SourceFile& file, const Axis& axis, std::span<const double> coordinates,
+double size_of(const SourceFile& file, const X3pAxis& axis, std::span<const double> coordinates,
                std::uint64_t count, const char* name) {
   if (!axis.absolute) return static_cast<double>(axis.increment * static_cast<long double>(count));
   const double spacing =
@@ -267,7 +267,7 @@ class TreeMemory {
   std::int64_t bytes_;
 };
 
-bool recognises(const SourceFile& file) {
+bool recognises_x3p(const SourceFile& file) {
   if (!file.bytes().starts_with(std::string_view("PK\x03\x04", 4))) return false;
   try {
     return Archive(file).find("main.xml") >= 0;
@@ -277,7 +277,7 @@ bool recognises(const SourceFile& file) {
   }
 }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) {
+HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
   const Archive archive(file);
   const std::int64_t index = archive.find("main.xml");
   if (index < 0) refuse_file(file, "is a zip archive without main.xml, so it is not X3P");
@@ -331,7 +331,7 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
 
 const Format& x3p_format() {
   static constexpr std::array<std::string_view, 1> endings{"x3p"};
-  static const Format format{"x3p", "a zip archive with main.xml", endings, recognises, read};
+  static const Format format{"x3p", "a zip archive with main.xml", endings, recognises_x3p, read_x3p};
   return format;
 }
 

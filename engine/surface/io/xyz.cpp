@@ -20,7 +20,7 @@ namespace asperity {
 
 namespace {
 
-struct Axis {
+struct LatticeAxis {
   double first = 0, spacing = 0;
   int lines = 0;      // distinct coordinates
   bool even = false;  // each within a quarter of the spacing of its place
@@ -38,12 +38,12 @@ struct Axis {
   }
 };
 
-Axis axis_of(const TextTable& table, std::size_t column) {
+LatticeAxis axis_of(const TextTable& table, std::size_t column) {
   Array<double> values(static_cast<std::size_t>(table.rows));
   for (std::size_t k = 0; k < values.size(); ++k) values[k] = table.values[3 * k + column];
   std::sort(values.begin(), values.end());
   const double same = 1e-6 * (values.back() - values.front());
-  Axis axis;
+  LatticeAxis axis;
   Array<double>& distinct = axis.distinct;
   for (const double value : values)
     if (distinct.empty() || value - distinct.back() > same) distinct.push_back(value);
@@ -113,7 +113,7 @@ struct Coverage {
   bool equally_often = true;  // each as often as the others
 };
 
-Coverage coverage_of(const TextTable& table, const Axis& x, const Axis& y) {
+Coverage coverage_of(const TextTable& table, const LatticeAxis& x, const LatticeAxis& y) {
   Array<std::uint64_t> pairs(static_cast<std::size_t>(table.rows));
   for (std::size_t k = 0; k < pairs.size(); ++k)
     pairs[k] = x.rank(table.values[3 * k]) << 32 | y.rank(table.values[3 * k + 1]);
@@ -132,10 +132,10 @@ Coverage coverage_of(const TextTable& table, const Axis& x, const Axis& y) {
 
 // Three columns whose first two form a lattice, each point once. A full lattice of 2 x 2 or more is
 // never by chance; with points missing only a larger one is believed.
-bool recognises(const SourceFile& file) {
+bool recognises_xyz(const SourceFile& file) {
   const std::optional<TextTable> table = triples_of(file);
   if (!table) return false;
-  const Axis x = axis_of(*table, 0), y = axis_of(*table, 1);
+  const LatticeAxis x = axis_of(*table, 0), y = axis_of(*table, 1);
   if (!x.even || !y.even || x.lines < 2 || y.lines < 2) return false;
   const double places = static_cast<double>(x.lines) * y.lines;
   if (places != table->rows && !(table->rows >= 16 && places > table->rows && places < 2.0 * table->rows))
@@ -152,7 +152,7 @@ bool names_a_width(const SourceFile& file) {
   return false;
 }
 
-HeightMap read(const SourceFile& file, Monitor& monitor) {
+HeightMap read_xyz(const SourceFile& file, Monitor& monitor) {
   if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
   LineReader lines(file.text());
   skip_names(lines);
@@ -160,7 +160,7 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
   if (table.columns != 3)
     refuse_file(file, "has " + std::to_string(table.columns) + " numbers a line", "x y z triples have three");
   if (!coordinates_present(table)) refuse_file(file, "has a point without x or y");
-  const Axis x = axis_of(table, 0), y = axis_of(table, 1);
+  const LatticeAxis x = axis_of(table, 0), y = axis_of(table, 1);
   for (const auto& [axis, name] : {std::pair{&x, "x"}, std::pair{&y, "y"}})
     if (!axis->even)
       refuse_file(file,
@@ -205,7 +205,7 @@ HeightMap read(const SourceFile& file, Monitor& monitor) {
 bool almost_triples(const SourceFile& file) {
   const std::optional<TextTable> table = triples_of(file);
   if (!table || table->rows < 5 || names_a_width(file)) return false;
-  const Axis x = axis_of(*table, 0), y = axis_of(*table, 1);
+  const LatticeAxis x = axis_of(*table, 0), y = axis_of(*table, 1);
   const double rows = table->rows;
   if (x.lines < 2 || y.lines < 2 || 1.5 * x.lines >= rows || 1.5 * y.lines >= rows) return false;
   const Coverage coverage = coverage_of(*table, x, y);
@@ -226,7 +226,7 @@ bool many_triples(const SourceFile& file) {
 
 const Format& xyz_format() {
   static constexpr std::array<std::string_view, 1> endings{"xyz"};
-  static const Format format{"xyz", "x y z triples on a lattice", endings, recognises, read};
+  static const Format format{"xyz", "x y z triples on a lattice", endings, recognises_xyz, read_xyz};
   return format;
 }
 

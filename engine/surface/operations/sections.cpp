@@ -14,7 +14,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double most_points = 16777216;
+constexpr double most_profile_points = 16777216;
 
 int line_number(double wanted, int count, const char* key) {
   if (!(wanted >= 0 && wanted < count && wanted == std::floor(wanted)))
@@ -97,9 +97,9 @@ Profile profile_between(const Surface& surface, Point from, Point to, std::optio
     throw Error(ErrorCode::bad_value, "`from` and `to` are the same point", "give the two ends of a line");
   // The slack keeps a line of exactly n cells from becoming n + 1 through rounding.
   const double count = points.value_or(std::ceil(length / std::min(g.hx(), g.hy()) - 1e-9) + 1);
-  if (!(count >= 2 && count <= most_points && count == std::floor(count)))
+  if (!(count >= 2 && count <= most_profile_points && count == std::floor(count)))
     throw Error(ErrorCode::bad_value, "`points` is " + format_short(count, 10),
-                "give a whole number from 2 to " + format_short(most_points, 10));
+                "give a whole number from 2 to " + format_short(most_profile_points, 10));
   if (!surface.traits().periodic) {
     const double slack = 1e-9;
     for (const Point& end : {from, to}) {

@@ -9,7 +9,7 @@
 
 #include "tests/scripts/runner/process.hpp"
 
-namespace asperity::scripts {
+namespace asperity::scripts::command_line_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -226,4 +226,4 @@ TEST_F(CommandLine, OutputThatNobodyReadsIsNoCrash) {
 }
 
 }  // namespace
-}  // namespace asperity::scripts
+}  // namespace asperity::scripts::command_line_test

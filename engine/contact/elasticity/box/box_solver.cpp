@@ -12,13 +12,6 @@
 
 namespace asperity {
 
-namespace {
-StateCost elastic(const CostScope& scope) {
-  const Cost cost = scope.so_far();
-  return {cost, {{"elasticity", cost}}};
-}
-}  // namespace
-
 struct BoxSolver::Ready {
   std::shared_ptr<const ContactGeometry> geometry;
   BoxOperator box;
@@ -32,7 +25,7 @@ struct BoxSolver::Ready {
                                            const BoxOperator& box) {
     const CostScope scope;
     auto ready = std::make_shared<Ready>(std::move(geometry), box);
-    ready->cost = elastic(scope);
+    ready->cost = elasticity_alone(scope.so_far());
     return ready;
   }
 };
@@ -268,7 +261,7 @@ State BoxSolver::press(const PressRequest& request, Monitor&) const {
   const CostScope scope;
   const Load load = resolve(request);
   auto solution = std::make_shared<const UnderLoad>(ready_, load);
-  const State state(solution, plan_, elastic(scope));
+  const State state(solution, plan_, elasticity_alone(scope.so_far()));
 
   // The closed form is exact but for rounding, whose size is known beforehand: a sum of shortenings
   // cannot be resolved below an ulp of the depth on every node touched, nor a gap below an ulp of the

@@ -18,12 +18,7 @@ namespace asperity {
 
 namespace {
 
-StateCost elastic(const CostScope& scope) {
-  const Cost cost = scope.so_far();
-  return {cost, {{"elasticity", cost}}};
-}
-
-constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double box_rounding = 8 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -48,7 +43,7 @@ struct YieldingBoxSolver::Ready {
                                            const BoxOperator& box, const PlannedYield& yield) {
     const CostScope scope;
     auto ready = std::make_shared<Ready>(std::move(geometry), box, yield);
-    ready->cost = elastic(scope);
+    ready->cost = elasticity_alone(scope.so_far());
     return ready;
   }
 
@@ -244,10 +239,10 @@ SolutionError YieldingBoxSolver::UnderLoad::error() const {
   if (contacts_ == 0) return error;
   const double depth = approach(), least = std::numeric_limits<double>::denorm_min();
   const ElementLaw& law = elements_->law();
-  double off = std::max(rounding * depth, 2 * least);
+  double off = std::max(box_rounding * depth, 2 * least);
   const auto brackets = [&] {
-    return elements_->mean_pressure(depth - off) <= pressure_ * (1 - rounding) &&
-           elements_->mean_pressure(depth + off) >= pressure_ * (1 + rounding);
+    return elements_->mean_pressure(depth - off) <= pressure_ * (1 - box_rounding) &&
+           elements_->mean_pressure(depth + off) >= pressure_ * (1 + box_rounding);
   };
   const double furthest = depth + drops().peak_to_valley() + law.depth_at_yield(peak_pressure_);
   while (!brackets() && off < furthest) off *= 2;
@@ -256,21 +251,21 @@ SolutionError YieldingBoxSolver::UnderLoad::error() const {
   const auto yields = [](const Element& e) { return e.pressure > 0 && e.pressure >= e.yield; };
   const auto between = [&](auto function) { return sum_at(high, function) - sum_at(low, function); };
 
-  error.load =
-      rounding * load_ + std::abs(sum([](const Element& e) { return e.pressure; }) / nodes() - pressure_) *
-                             geometry().grid().area();
+  error.load = box_rounding * load_ +
+               std::abs(sum([](const Element& e) { return e.pressure; }) / nodes() - pressure_) *
+                   geometry().grid().area();
   error.approach = off;
   error.mean_gap =
       (drops().remaining_gap(std::max(0.0, depth - off)) - drops().remaining_gap(depth + off)) / nodes() +
-      rounding * mean_gap();
-  error.energy =
-      0.5 * cell() * between([](const Element& e) { return e.pressure * e.elastic; }) + rounding * energy();
+      box_rounding * mean_gap();
+  error.energy = 0.5 * cell() * between([](const Element& e) { return e.pressure * e.elastic; }) +
+                 box_rounding * energy();
   error.peak_pressure =
       std::max(0.0, greatest_at(high, [](const Element& e) { return e.pressure; }) - peak_pressure_) +
-      rounding * peak_pressure_;
+      box_rounding * peak_pressure_;
   error.plastic_volume =
       fits_ ? 0.0
-            : cell() * between([](const Element& e) { return e.plastic; }) + rounding * plastic_volume();
+            : cell() * between([](const Element& e) { return e.plastic; }) + box_rounding * plastic_volume();
   error.contacts = {count_at(low, touches), count_at(high, touches)};
   error.yielded = {count_at(low, yields), count_at(high, yields)};
   error.may_differ = error.contacts.high - error.contacts.low;
@@ -331,7 +326,7 @@ State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
     throw Error(ErrorCode::bad_value,
                 asked + ", so large that the numbers of the solution leave the range of a double",
                 "check its unit");
-  const State state(std::move(solution), plan_, elastic(scope));
+  const State state(std::move(solution), plan_, elasticity_alone(scope.so_far()));
   if (plan_.accuracy.on_failure == Accuracy::OnFailure::error && !state.converged())
     throw Error(ErrorCode::not_converged,
                 "the residual of the closed form is " + format_short(state.residual(), 3) +

@@ -16,7 +16,7 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t block = 256;
+constexpr std::size_t elements_a_block = 256;
 
 // count · depth − Σ drops, with all the digits that the sums have.
 Accumulator depth_below(double depth, std::size_t count, const Accumulator& drops) {
@@ -29,18 +29,18 @@ Accumulator depth_below(double depth, std::size_t count, const Accumulator& drop
 }  // namespace
 
 void YieldingElements::FirstSums::build(std::span<const double> values) {
-  every_block_.resize(values.size() / block + 1);
+  every_block_.resize(values.size() / elements_a_block + 1);
   Accumulator sum;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    if (k % block == 0) every_block_[k / block] = sum;
+    if (k % elements_a_block == 0) every_block_[k / elements_a_block] = sum;
     sum.add(values[k]);
   }
-  if (values.size() % block == 0) every_block_[values.size() / block] = sum;
+  if (values.size() % elements_a_block == 0) every_block_[values.size() / elements_a_block] = sum;
 }
 
 Accumulator YieldingElements::FirstSums::of(std::span<const double> values, std::size_t count) const {
-  Accumulator sum = every_block_[count / block];
-  for (std::size_t k = count / block * block; k < count; ++k) sum.add(values[k]);
+  Accumulator sum = every_block_[count / elements_a_block];
+  for (std::size_t k = count / elements_a_block * elements_a_block; k < count; ++k) sum.add(values[k]);
   return sum;
 }
 
@@ -146,7 +146,7 @@ RestingPlane YieldingElements::plane_under(double mean_pressure) const {
 }
 
 std::int64_t YieldingElements::bytes(std::size_t elements) {
-  return static_cast<std::int64_t>((elements / block + 1) * sizeof(Accumulator));
+  return static_cast<std::int64_t>((elements / elements_a_block + 1) * sizeof(Accumulator));
 }
 
 }  // namespace asperity

@@ -24,9 +24,9 @@ constexpr int most_passes = 400;          // of one tangent's contact
 constexpr int most_applications = 20000;  // of K, all tangents together
 
 // Lengths in cells, pressures in E*: u = K p.
-class Descent {
+class AdhesiveDescent {
  public:
-  Descent(const AdhesiveProblem& problem, Monitor& monitor)
+  AdhesiveDescent(const AdhesiveProblem& problem, Monitor& monitor)
       : problem_(problem),
         grid_(problem.contact.grid),
         nodes_(grid_.nodes()),
@@ -124,7 +124,7 @@ class Descent {
 // the gap. With a load, mean p = target, and δ is what makes the mean gap in contact 0. Projected conjugate
 // gradients on the nodes that touch or overlap (Polonsky & Keer 1999), preconditioned, begun again whenever
 // that set changes.
-double Descent::contact(double close, double target) {
+double AdhesiveDescent::contact(double close, double target) {
   const bool fixed = load.has_value();
   if (fixed) scale_to(target);
   find_gap();
@@ -215,7 +215,7 @@ double Descent::contact(double close, double target) {
   return worst;
 }
 
-void Descent::run(double tolerance) {
+void AdhesiveDescent::run(double tolerance) {
   // The certificate measures gaps by the rms height; the attraction sees them by its range.
   const double rms = problem_.contact.rms / length_;
   const double tightest = 0.5 * tolerance * (rms > 0 ? std::min(shortest_, rms) : shortest_);
@@ -271,7 +271,7 @@ void Descent::run(double tolerance) {
   --steps_;
 }
 
-AdhesiveAnswer Descent::answer() const {
+AdhesiveAnswer AdhesiveDescent::answer() const {
   AdhesiveAnswer result;
   HalfSpaceAnswer& at = result.contact;
   at.pressure = Field(grid_.nx, grid_.ny);
@@ -350,7 +350,7 @@ AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approac
                       format_quantity(most, dimension::length) + ", and more load brings it no nearer",
                   "ask for a smaller `approach`, or press by `pressure`");
   }
-  Descent descent(problem, monitor);
+  AdhesiveDescent descent(problem, monitor);
   if (start != nullptr) descent.begin_from(*start);
   descent.approach = approach / contact.grid.hx();
   descent.run(contact.tolerance);
@@ -364,7 +364,7 @@ AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pr
   if (!std::isfinite(mean_pressure))
     throw Error(ErrorCode::bad_value, "the mean pressure is " + format_short(mean_pressure) + " Pa",
                 "give a finite pressure");
-  Descent descent(problem, monitor);
+  AdhesiveDescent descent(problem, monitor);
   if (start != nullptr)
     descent.begin_from(*start);
   else

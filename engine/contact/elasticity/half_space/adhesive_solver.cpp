@@ -20,7 +20,7 @@ namespace asperity {
 
 namespace {
 
-double rms_of(const Field& heights) {
+double rms_height_of(const Field& heights) {
   const double middle = mean(heights.values());
   return std::sqrt(over_nodes<1>(heights.size(),
                                  [&](std::size_t k, double* v) {
@@ -172,7 +172,7 @@ AdhesiveSolver::AdhesiveSolver(const Plan& plan, const HalfSpaceOperator& half_s
   contact.boundary = ready->geometry->boundary();
   contact.modulus = half_space.modulus;
   contact.heights = {ready->geometry, &ready->geometry->combined()};
-  contact.rms = rms_of(*contact.heights);
+  contact.rms = rms_height_of(*contact.heights);
   contact.tolerance = plan.accuracy.tolerance;
   contact.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
   for (const GapTerm& term : plan.attraction)

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/level_transfer.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -19,13 +19,12 @@
 namespace asperity {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_solves = 80;
 // Roots are sought on grids of at least so many nodes.
 constexpr std::size_t coarse_nodes = 64 * 64;
 
 // What is prescribed: a measure of an answer that never falls as the load rises, 0 at first touch.
-struct Prescribed {
+struct WantedLength {
   std::function<double(const HalfSpaceProblem&, const HalfSpaceAnswer&)> measure;
   double target = 0;
   double length = 1;     // how far the bodies must close for each of the measure, where nothing gives way
@@ -81,7 +80,8 @@ struct Search {
 
 // Where every node in contact is at the cap the load says nothing of the offset: any that lets the nodes at
 // the cap overlap and the others gape is a solution. Takes the one nearest to what is wanted.
-void close_within_reach(const HalfSpaceProblem& problem, const Prescribed& wanted, HalfSpaceAnswer& answer) {
+void close_within_reach(const HalfSpaceProblem& problem, const WantedLength& wanted,
+                        HalfSpaceAnswer& answer) {
   const auto nodes = static_cast<std::int64_t>(problem.grid.nodes());
   if (!problem.yield.caps() || answer.contacts != answer.yielded || answer.contacts == nodes) return;
   const auto ends = over_nodes<0, 2>(problem.grid.nodes(), [&](std::size_t k, double* v) {
@@ -109,7 +109,7 @@ double whole_nodes(const HalfSpaceProblem& problem, double pressure, double low,
   return 0;
 }
 
-Search search(const HalfSpaceProblem& problem, const Prescribed& wanted, Root root, double accuracy,
+Search search(const HalfSpaceProblem& problem, const WantedLength& wanted, Root root, double accuracy,
               double loosest, Monitor& monitor) {
   const double highest = problem.yield.caps() ? problem.yield.cap * (1 - 1e-12) : infinity;
   HalfSpaceProblem now = problem;
@@ -195,7 +195,7 @@ Search search(const HalfSpaceProblem& problem, const Prescribed& wanted, Root ro
   return result;
 }
 
-HalfSpaceAnswer solve_for(const HalfSpaceProblem& problem, const Prescribed& wanted, double length,
+HalfSpaceAnswer solve_for(const HalfSpaceProblem& problem, const WantedLength& wanted, double length,
                           Monitor& monitor) {
   if (wanted.target == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
   std::vector<HalfSpaceProblem> grids;
@@ -250,7 +250,7 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
                       format_quantity(most, dimension::length) + ", and more load brings it no nearer",
                   "ask for a smaller `approach`, or press by `pressure`");
   }
-  Prescribed wanted;
+  WantedLength wanted;
   // Coarser grids miss the highest node: their approach is counted from it all the same.
   wanted.measure = [peak = span.max](const HalfSpaceProblem& on, const HalfSpaceAnswer& answer) {
     return answer.approach + (peak - range(on.heights->values()).max);
@@ -309,7 +309,7 @@ double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer)
 HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double fraction, Monitor& monitor) {
   if (!(fraction >= 0 && fraction <= 1))
     throw Error(ErrorCode::bad_value, "`flatten` is " + format_short(fraction), "it is a share from 0 to 1");
-  Prescribed wanted;
+  WantedLength wanted;
   wanted.measure = [](const HalfSpaceProblem& on, const HalfSpaceAnswer& answer) {
     return flattened(on, answer);
   };

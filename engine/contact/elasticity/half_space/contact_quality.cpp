@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/contact/elasticity/half_space/lane_terms.hpp"
+#include "engine/core/constants.hpp"
 
 namespace asperity {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Complementarity averages over the load: a single node in contact may be far off. But where ground that
 // yields carries nearly all of the load, the few other nodes fix the offset and with it all that yields: so
 // each node's opening counts for itself too, by this much.

@@ -15,7 +15,7 @@ namespace asperity {
 namespace {
 // Σx, the result, is in error by the square of this.
 constexpr double residual_reduction = 1e-5;
-constexpr int most_applications = 400;
+constexpr int most_solver_steps = 400;
 }  // namespace
 
 double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Monitor& monitor) {
@@ -51,8 +51,8 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   Array<double> x(nodes), r(nodes), z(nodes), d(nodes), image(nodes);
   for_nodes(nodes, [&](std::size_t k) { r[k] = in(k) ? 1.0 : 0.0; });
   double squares = free, old_rz = 0;
-  Task task(monitor, "stiffness", most_applications);
-  for (int step = 0; step < most_applications && squares > residual_reduction * residual_reduction * free;
+  Task task(monitor, "stiffness", most_solver_steps);
+  for (int step = 0; step < most_solver_steps && squares > residual_reduction * residual_reduction * free;
        ++step) {
     task.advance();
     preconditioner.apply(r, z);

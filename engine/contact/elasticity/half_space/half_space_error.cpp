@@ -7,14 +7,14 @@
 
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/core/constants.hpp"
 
 namespace asperity {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Of a sum or a transform, whose errors do not all point the same way.
-constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double relative_rounding = 8 * std::numeric_limits<double>::epsilon();
 
 // The greatest a with a² <= linear·a + rest.
 double greatest_root(double linear, double rest) {
@@ -64,7 +64,7 @@ class Bounds {
       bracket_approach();
     near_gap_ = product(std::sqrt(spectrum_.node), distance_) + approach_error_ + gap_rounding_;
     near_pressure_ = product(std::sqrt(spectrum_.inverse_node), distance_) +
-                     (periodic_ ? load_error_ / n_ : 0) + moved_most_ + rounding;
+                     (periodic_ ? load_error_ / n_ : 0) + moved_most_ + relative_rounding;
     return result();
   }
 
@@ -153,14 +153,14 @@ void Bounds::take_gaps() {
   });
   norm_ = std::sqrt(std::max(0.0, sums[0]));
   const double from_pressures = std::sqrt(spectrum_.greatest * spectrum_.node * sums[1] / n_);
-  gap_rounding_ = rounding * (-sums[2] + at_.approach / metre_ + from_pressures);
+  gap_rounding_ = relative_rounding * (-sums[2] + at_.approach / metre_ + from_pressures);
   const Field& h = *problem_.heights;
   const double peak = range(h.values()).max;
   for_nodes(nodes_, [&](std::size_t k) { gap_[k] += ((peak - h[k]) - at_.approach) / metre_; });
   // What rounding alone does to the pressures counts as distance, and so does a load that is still not right.
   const double miss =
       std::abs(total_ / n_ * pascal_ - at_.mean_pressure) / std::max(at_.mean_pressure, 1e-300);
-  distance_ = rounding * std::sqrt(spectrum_.node * sums[1]) + miss * norm_;
+  distance_ = relative_rounding * std::sqrt(spectrum_.node * sums[1]) + miss * norm_;
 }
 
 void Bounds::take_residual() {
@@ -311,7 +311,7 @@ SolutionError Bounds::result() {
   const bool caps = std::isfinite(cap_), hardens = give_ > 0;
   const auto counts = over_nodes<9>(nodes_, [&](std::size_t k, double* v) {
     const double p = pressure(k), gap = gap_[k], bound = limit(k);
-    const double unsure = near_gap_ + rounding * std::abs(gap);
+    const double unsure = near_gap_ + relative_rounding * std::abs(gap);
     const bool touches = p > near_pressure_ || (gap < -unsure && (caps || hardens));
     const bool open = gap > unsure;
     const bool yields = (gap < -unsure && (caps || hardens)) || (hardens && p - bound > near_pressure_);
@@ -332,9 +332,10 @@ SolutionError Bounds::result() {
   error.contacts = {whole(counts[0]), whole(counts[1])};
   error.may_differ = whole(counts[2]);
 
-  error.approach = approach_error_ * metre_ + rounding * at_.approach;
+  error.approach = approach_error_ * metre_ + relative_rounding * at_.approach;
   error.energy = joule_ * distance_ * (norm_ + 0.5 * distance_) +
-                 std::abs(reported_.energy - 0.5 * joule_ * norm_ * norm_) + rounding * reported_.energy;
+                 std::abs(reported_.energy - 0.5 * joule_ * norm_ * norm_) +
+                 relative_rounding * reported_.energy;
   const double least_peak = caps && counts[3] > 0 ? cap_ : std::max(0.0, 1 - near_pressure_);
   const double greatest_peak = std::min(cap_, 1 + near_pressure_);
   error.peak_pressure = pascal_ * std::max(1 - least_peak, greatest_peak - 1);
@@ -346,7 +347,7 @@ SolutionError Bounds::result() {
     openings = counts[7] + product(counts[6], approach_error_ + gap_rounding_);
     if (counts[6] > 0) {
       for_nodes(nodes_, [&](std::size_t k) {
-        work_[k] = gap_[k] < -(near_gap_ + rounding * std::abs(gap_[k])) ? 1.0 : 0.0;
+        work_[k] = gap_[k] < -(near_gap_ + relative_rounding * std::abs(gap_[k])) ? 1.0 : 0.0;
       });
       openings += step_norm(work_) * distance_;
     }
@@ -356,22 +357,22 @@ SolutionError Bounds::result() {
     // Hardening makes the energy convex in w itself: Σ (Δw)²/give is bounded, too.
     if (hardens && reported_.prescribed != Prescribed::approach) {
       const double convex = std::sqrt(counts[4] * give_ * (0.25 * residual_ * residual_ + rest_)) +
-                            give_ * (moved_ + rounding * n_);
+                            give_ * (moved_ + relative_rounding * n_);
       plastic = std::min(plastic, convex);
       openings = std::min(openings, convex + apart);
     }
-    error.plastic_volume = plastic * volume + rounding * reported_.plastic_volume;
+    error.plastic_volume = plastic * volume + relative_rounding * reported_.plastic_volume;
   }
   // mean(g⁺) = mean(g) + mean(g⁻), and the mean of K d is no more than the longest wave of it.
   const double sunk = periodic_ ? 0 : std::sqrt(spectrum_.greatest / n_) * distance_;
   const double reported = reported_.mean_gap / metre_;
   const double gap_error = approach_error_ + sunk + openings / n_ + std::abs(counts[8] / n_ - reported);
-  error.mean_gap = gap_error * metre_ + rounding * (reported_.mean_gap + at_.approach);
+  error.mean_gap = gap_error * metre_ + relative_rounding * (reported_.mean_gap + at_.approach);
 
   const double load = at_.mean_pressure * problem_.grid.area();
-  if (reported_.prescribed == Prescribed::load) error.load = rounding * load;
+  if (reported_.prescribed == Prescribed::load) error.load = relative_rounding * load;
   if (reported_.prescribed == Prescribed::approach)
-    error.load = load_error_ * pascal_ * problem_.grid.cell_area() + rounding * load;
+    error.load = load_error_ * pascal_ * problem_.grid.cell_area() + relative_rounding * load;
   return error;
 }
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/nested_descent.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/unconverged.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -17,7 +17,6 @@
 namespace asperity {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string pascals(double p) { return format_quantity(p, dimension::pressure); }
 

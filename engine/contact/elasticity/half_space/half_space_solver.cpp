@@ -29,8 +29,6 @@ double rms_of(const Field& heights) {
   return std::sqrt(block_sum(squares) / static_cast<double>(heights.size()));
 }
 
-StateCost elastic(const Cost& cost) { return {cost, {{"elasticity", cost}}}; }
-
 }  // namespace
 
 struct HalfSpaceSolver::Ready {
@@ -59,7 +57,7 @@ struct HalfSpaceSolver::Ready {
     problem.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
     if (ready->yield && ready->yield->hardens())
       ready->hardness = local_hardness(*ready->geometry, *ready->yield);
-    ready->cost = elastic(scope.so_far());
+    ready->cost = elasticity_alone(scope.so_far());
     return ready;
   }
 };
@@ -258,7 +256,7 @@ State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) cons
   });
   auto solution =
       std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(solved.result), factor, asked);
-  return State(std::move(solution), plan_, elastic(solved.cost));
+  return State(std::move(solution), plan_, elasticity_alone(solved.cost));
 }
 
 }  // namespace asperity

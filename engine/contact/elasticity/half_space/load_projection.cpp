@@ -7,11 +7,11 @@
 #include <type_traits>
 
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/core/constants.hpp"
 
 namespace asperity {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // No sum of a grid is better than this.
 constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
 constexpr double noticed = 1e-13;  // of the load

@@ -11,6 +11,7 @@
 #include "engine/contact/elasticity/half_space/contact_quality.hpp"
 #include "engine/contact/elasticity/half_space/descent_directions.hpp"
 #include "engine/contact/elasticity/half_space/descent_nodes.hpp"
+#include "engine/contact/elasticity/half_space/descent_rules.hpp"
 #include "engine/contact/elasticity/half_space/free_set.hpp"
 #include "engine/contact/elasticity/half_space/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/set_preconditioner.hpp"
@@ -18,12 +19,13 @@
 namespace asperity {
 
 namespace {
+using namespace descent_rules;
+
 // Applications of K in a pass that settles. Where one costs several times as much as the preconditioner, or
 // ground hardens, that of settling also carries a fixed step of the preconditioner. A pass without settling
 // takes one: more, on a free set that is not the last, took up to two thirds more in all. Not where ground
 // hardens: there three times as many random scenes stalled with one, six of 20 000.
 constexpr int steps_a_pass = 3, steps_of_dear_pass = 2;
-constexpr double richardson_step = 0.65;
 // With a tolerance no less than this, single precision serves for what steps change. Directions take half the
 // memory to move; they leave pressures of mirrored contacts some 1e-9 of the greatest apart.
 constexpr double single_enough = 5e-9;
@@ -33,12 +35,6 @@ constexpr std::size_t worth_rounding = std::size_t{256} * 256;  // nodes; images
 // at no cost.
 constexpr double rounding_of_steps = 2e-6, rounding_share = 0.1;  // of the tolerance, without harm
 constexpr double load_slack = 1e-6;  // of the load, that a pass leaves to a later one
-constexpr int passes_without_gain = 4;
-constexpr double slow = 0.7;  // a pass that leaves more than this of the best residual is slow
-constexpr int slow_passes = 2;
-constexpr double jump = 10;  // a pass whose residual is so many times the one before has gone back
-constexpr int jumps_in_a_cycle = 2;
-constexpr int most_renewals = 50;
 
 template <class Limit, class Stored>
 class Descent {

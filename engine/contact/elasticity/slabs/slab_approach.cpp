@@ -10,6 +10,7 @@
 
 #include "engine/contact/elasticity/slabs/slab_solve.hpp"
 #include "engine/contact/elasticity/slabs/slab_transfer.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -59,7 +60,6 @@ struct Found {
 // `target` is the approach of the planes, from the first touch of the finest grid's `peak`.
 Found search(Team& team, const SlabContactProblem& problem, double target, double peak, Root root,
              double accuracy, Monitor& monitor) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   SlabContactProblem now = problem;
   now.best_effort = true;
   const double share = std::min(1.0, target / problem.surface.rms);

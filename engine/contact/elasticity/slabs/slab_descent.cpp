@@ -7,26 +7,22 @@
 #include <optional>
 #include <utility>
 
+#include "engine/contact/elasticity/half_space/descent_rules.hpp"
 #include "engine/contact/elasticity/slabs/slab_gradient.hpp"
 #include "engine/contact/elasticity/slabs/slab_preconditioner.hpp"
 #include "engine/contact/elasticity/slabs/slab_quality.hpp"
+#include "engine/core/constants.hpp"
 
 namespace asperity {
 
 namespace {
-// As in half_space/set_descent.cpp.
-constexpr double richardson_step = 0.65;
-constexpr int steps_a_pass = 2;
-constexpr int passes_without_gain = 4;
-constexpr double slow = 0.7;
-constexpr int slow_passes = 2;
-constexpr double jump = 10;
-constexpr int jumps_in_a_cycle = 2;
-constexpr int most_renewals = 50;
+using namespace descent_rules;
 
-class Descent {
+constexpr int steps_a_slab_pass = 2;  // applications of K, as of a dear pass in half_space/set_descent.cpp
+
+class SlabDescent {
  public:
-  Descent(SlabLevel& level, SlabFields& fields, double tolerance, int most, bool exact)
+  SlabDescent(SlabLevel& level, SlabFields& fields, double tolerance, int most, bool exact)
       : level_(level),
         f_(fields),
         preconditioner_(level),
@@ -61,7 +57,7 @@ class Descent {
 
 // target = p clipped, the interior shifted to the load; where it cannot carry it all nodes move, in the order
 // of their gaps. Spoils the marks of the pass before.
-void Descent::project(const SlabQuality& at, Array<double>& target) {
+void SlabDescent::project(const SlabQuality& at, Array<double>& target) {
   const double upper = level_.cap;
   level_.each([=, p = f_.pressure.data(), to = target.data(), marks = f_.old_free.data()](std::size_t k) {
     marks[k] = ((p[k] > 0) & (p[k] < upper)) ? 1 : 0;
@@ -74,7 +70,7 @@ void Descent::project(const SlabQuality& at, Array<double>& target) {
 }
 
 // Two Newton steps of that shift from none; nothing where what it misses of the load is not small.
-std::optional<double> Descent::shift_to_load(const SlabQuality& at) {
+std::optional<double> SlabDescent::shift_to_load(const SlabQuality& at) {
   const double load = level_.total_load(), upper = level_.cap;
   if (at.interior == 0) return {};
   const double first = (load - at.load) / at.interior;
@@ -91,7 +87,7 @@ std::optional<double> Descent::shift_to_load(const SlabQuality& at) {
 
 // Those strictly between the bounds, and those at a bound whose gap says they should leave it; a node clipped
 // in this pass may not come back on its stale gap.
-void Descent::mark_free(const SlabQuality& at) {
+void SlabDescent::mark_free(const SlabQuality& at) {
   const double upper = level_.cap, offset = at.interior_gap;
   const auto sums = level_.over<3>([=, p = f_.pressure.data(), g = f_.gap.data(), before = f_.old_free.data(),
                                     free = f_.free.data()](std::size_t k, double* v) {
@@ -113,7 +109,7 @@ void Descent::mark_free(const SlabQuality& at) {
 }
 
 // The few nodes nearest to leaving their bound.
-void Descent::free_the_nearest(double offset) {
+void SlabDescent::free_the_nearest(double offset) {
   constexpr std::size_t few = 9;
   std::array<double, few> least;
   least.fill(std::numeric_limits<double>::infinity());
@@ -137,7 +133,7 @@ void Descent::free_the_nearest(double offset) {
   if (free_count_ > 0) mean_gap_ = sums[1] / free_count_;
 }
 
-void Descent::balance() {
+void SlabDescent::balance() {
   const auto sum = level_.over<1>([g = f_.gap.data(), free = f_.free.data()](std::size_t k, double* v) {
     v[0] = free[k] != 0 ? g[k] : 0.0;
   });
@@ -145,7 +141,7 @@ void Descent::balance() {
 }
 
 // r·(M r), r what the gaps of the free nodes lack of their mean.
-double Descent::precondition() {
+double SlabDescent::precondition() {
   preconditioner_.apply([g = f_.gap.data(), mean = mean_gap_](std::size_t k) { return mean - g[k]; });
   const auto sums = level_.over<2>([z = preconditioner_.values(), g = f_.gap.data(), free = f_.free.data(),
                                     mean = mean_gap_](std::size_t k, double* v) {
@@ -157,7 +153,7 @@ double Descent::precondition() {
 }
 
 // What clipping changes and a fixed step of the preconditioner, at the cost of one application.
-void Descent::settle_step(const SlabQuality& at) {
+void SlabDescent::settle_step(const SlabQuality& at) {
   const double upper = level_.cap;
   const std::optional<double> shift = shift_to_load(at);
   if (!shift) project(at, f_.image);
@@ -182,8 +178,8 @@ void Descent::settle_step(const SlabQuality& at) {
 }
 
 // Conjugate gradients on the free set, `steps` of the pass being taken already; false where no step could be.
-bool Descent::descend(int steps) {
-  const int enough = steps == 0 ? 1 : steps_a_pass;
+bool SlabDescent::descend(int steps) {
+  const int enough = steps == 0 ? 1 : steps_a_slab_pass;
   while (steps < enough) {
     const double rz = precondition();
     const double keep = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
@@ -217,8 +213,7 @@ bool Descent::descend(int steps) {
   return steps > 0;
 }
 
-bool Descent::run() {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
+bool SlabDescent::run() {
   level_.gap(f_.pressure, f_.gap);
   bool fresh = true, have_old = false;
   double best = infinity, least = infinity, before = infinity;
@@ -293,7 +288,7 @@ SlabEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance,
   for (int stage = 0; stage < (effort == ChainEffort::full ? 5 : 3) && !end.converged; ++stage) {
     if (stage % 2 == 0 && stage < 4) {
       end.stage = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
-      end.converged = Descent(level, fields, tolerance, quick, effort != ChainEffort::start).run();
+      end.converged = SlabDescent(level, fields, tolerance, quick, effort != ChainEffort::start).run();
     } else {
       end.stage = "spectral projected gradients";
       end.converged = slab_gradient(level, fields, tolerance, stage == 4 ? last_resort : shake);

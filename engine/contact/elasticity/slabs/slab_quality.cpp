@@ -5,10 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/constants.hpp"
+
 namespace asperity {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // As in half_space/contact_quality.cpp: an open node counts for itself too, by this much.
 constexpr double open_weight = 0.125;
 constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();

@@ -7,6 +7,7 @@
 
 #include "engine/contact/elasticity/half_space/unconverged.hpp"
 #include "engine/contact/elasticity/slabs/slab_nest.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -14,7 +15,6 @@
 namespace asperity {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string pascals(double p) { return format_quantity(p, dimension::pressure); }
 

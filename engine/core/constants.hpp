@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers that many sources name.
+#pragma once
+
+#include <limits>
+#include <numbers>
+
+namespace asperity {
+
+inline constexpr double pi = std::numbers::pi, two_pi = 2 * pi;
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace asperity
