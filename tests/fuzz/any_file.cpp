@@ -3,13 +3,10 @@
 #include "engine/surface/io/hdf5_objects.hpp"
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerInitialize(int*, char***) {
-  asperity::hdf5_checksums_are_compared = false;
-  return 0;
-}
-
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_any_file(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   read_every_way(view(data, size), {.name = "input.txt"});
-  return 0;
 }
+
+static const asperity::fuzz::Target any_file_target{"any_file", fuzz_any_file,
+                                                    [] { asperity::hdf5_checksums_are_compared = false; }};

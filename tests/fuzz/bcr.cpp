@@ -2,8 +2,9 @@
 // Image Metrology's files: a header in text whose counts and units need not be those of what follows.
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_bcr(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   read_every_way(view(data, size), {.format = "bcr"});
-  return 0;
 }
+
+static const asperity::fuzz::Target bcr_target{"bcr", fuzz_bcr};

@@ -2,8 +2,9 @@
 // Gwyddion's files: objects within objects, whose lengths and counts may lie.
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_gwy(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   read_every_way(view(data, size), {.format = "gwy"});
-  return 0;
 }
+
+static const asperity::fuzz::Target gwy_target{"gwy", fuzz_gwy};

@@ -6,12 +6,7 @@
 #include "engine/surface/io/hdf5_objects.hpp"
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerInitialize(int*, char***) {
-  asperity::hdf5_checksums_are_compared = false;
-  return 0;
-}
-
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_hdf5(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   constexpr std::size_t bytes_per_byte = 1032 * 24, beside = std::size_t{48} << 20;
   ListeningMonitor monitor;
@@ -28,5 +23,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
                                     .bytes_per_byte = bytes_per_byte,
                                     .beside = beside,
                                     .fill = asperity::HoleFill::with(0)});
-  return 0;
 }
+
+static const asperity::fuzz::Target hdf5_target{"hdf5", fuzz_hdf5,
+                                                [] { asperity::hdf5_checksums_are_compared = false; }};

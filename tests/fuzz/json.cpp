@@ -4,7 +4,7 @@
 
 #include "tests/fuzz/target.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_json(const std::uint8_t* data, std::size_t size) {
   using namespace asperity;
   fuzz::refused(0, [&] {
     const Json value = Json::parse({reinterpret_cast<const char*>(data), size}, "input.json");
@@ -12,5 +12,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::require(Json::parse(text, "text") == value, "a record reads back as it was written: " + text);
     fuzz::require(Json::parse(value.text(2), "text") == value, "also with line ends");
   });
-  return 0;
 }
+
+static const asperity::fuzz::Target json_target{"json", fuzz_json};

@@ -2,8 +2,9 @@
 // NumPy arrays: a header in text whose shape and type need not be those of the bytes after it.
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_npy(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   read_every_way(view(data, size), {.format = "npy"});
-  return 0;
 }
+
+static const asperity::fuzz::Target npy_target{"npy", fuzz_npy};

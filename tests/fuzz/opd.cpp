@@ -2,8 +2,9 @@
 // Wyko's files: a directory of blocks whose lengths may overlap the end, and blocks of the wrong kind.
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_opd(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   read_every_way(view(data, size), {.format = "opd"});
-  return 0;
 }
+
+static const asperity::fuzz::Target opd_target{"opd", fuzz_opd};

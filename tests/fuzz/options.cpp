@@ -16,7 +16,7 @@ void stop(lua_State* L, lua_Debug*) { luaL_error(L, "too long"); }
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_options(const std::uint8_t* data, std::size_t size) {
   static fuzz::World world;
   static const std::vector<const lua::Function*> functions = fuzz::functions_with_options();
   lua_State* const L = world.state.get();
@@ -44,5 +44,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   }
   lua_settop(L, 1);
   lua_gc(L, LUA_GCCOLLECT);
-  return 0;
 }
+
+static const asperity::fuzz::Target options_target{"options", fuzz_options};

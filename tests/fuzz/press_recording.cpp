@@ -8,7 +8,7 @@
 #include "engine/surface/io/source_file.hpp"
 #include "tests/fuzz/target.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_press_recording(const std::uint8_t* data, std::size_t size) {
   using namespace asperity;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   fuzz::ListeningMonitor monitor;
@@ -32,5 +32,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const Protocol again = read_press_log(SourceFile("log.csv", written));
     fuzz::require(again.digest() == protocol.digest(), "a log reads back as it was written:\n" + written);
   });
-  return 0;
 }
+
+static const asperity::fuzz::Target press_recording_target{"press_recording", fuzz_press_recording};

@@ -9,7 +9,7 @@
 #include "engine/core/text.hpp"
 #include "tests/fuzz/target.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_quantity(const std::uint8_t* data, std::size_t size) {
   using namespace asperity;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   fuzz::refused(0, [&] {
@@ -32,5 +32,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr Dimension dimensions[] = {dimension::number, dimension::length, dimension::pressure,
                                       dimension::angle};
   fuzz::refused(0, [&] { (void)parse_quantity_as(text, dimensions[size % std::size(dimensions)]); });
-  return 0;
 }
+
+static const asperity::fuzz::Target quantity_target{"quantity", fuzz_quantity};

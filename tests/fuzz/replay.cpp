@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs a target over every file of the folders given, for builds without libFuzzer: what was once found
 // stays found. A file that breaks a promise ends the program, its name the last one written.
+//
+//   PROGRAM --target=NAME FOLDER..
 #include <algorithm>
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
-#include "tests/fuzz/target.hpp"
+extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments);
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 int main(int count, char** arguments) {
   namespace fs = std::filesystem;
+  LLVMFuzzerInitialize(&count, &arguments);
   std::vector<fs::path> files;
   for (int k = 1; k < count; ++k) {
+    if (std::string(arguments[k]).starts_with("--")) continue;
     const fs::path place(arguments[k]);
     if (!fs::is_directory(place))
       files.push_back(place);

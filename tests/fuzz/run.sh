@@ -2,25 +2,38 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds the fuzzing targets and runs each for a while from its corpus; stops at the first crash, broken
 # promise, leak, time-out or excess of memory, keeps the input that made it and says how to run it again.
-# What grows out of a corpus stays in the build folder, where the next run goes on.
-# usage: run.sh [--seconds N] [--build FOLDER] [--jobs N] [TARGET...]
+# What grows out of a corpus stays in the build folder, where the next run goes on. As many run at once as there are
+# processors.
+# usage: run.sh [--seconds N] [--build FOLDER] [--jobs N] [--floors "surface experiment bindings"] [TARGET...]
 set -eu
 cd "$(dirname -- "$0")/../.."
 
-seconds=10 build=build/sanitize jobs=$(nproc) targets=
+seconds=10 build=build/sanitize jobs=$(nproc) targets= floors="surface experiment bindings" one=
 while [ $# -gt 0 ]; do
   case $1 in
     --seconds) seconds=$2; shift 2 ;;
     --build) build=$2; shift 2 ;;
     --jobs) jobs=$2; shift 2 ;;
+    --floors) floors=$2; shift 2 ;;
+    --one) one=$2; shift 2 ;; # what this script calls itself with
     -*) sed -n 's/^# usage: //p' "$0"; exit 2 ;;
     *) targets="$targets $1"; shift ;;
   esac
 done
 
-[ -f "$build/CMakeCache.txt" ] || cmake --preset sanitize -B "$build" >/dev/null
-[ -n "$targets" ] || targets=$(ls tests/fuzz/corpus)
-cmake --build "$build" --parallel "$jobs" --target $(printf 'fuzz_%s ' $targets)
+program_of() { sed -n "s/^$1 //p" "$build/tests/fuzz/programs.txt"; }
+if [ -z "$one" ]; then
+  [ -f "$build/CMakeCache.txt" ] || cmake --preset sanitize -B "$build" >/dev/null
+  cmake "$build" >/dev/null
+  if [ -z "$targets" ]; then
+    for floor in $floors; do targets="$targets $(sed -n "s/ fuzz_$floor\$//p" "$build/tests/fuzz/programs.txt")"; done
+  fi
+  programs=
+  for target in $targets; do programs="$programs $(program_of "$target")"; done
+  cmake --build "$build" --parallel "$jobs" --target $(printf '%s\n' $programs | sort -u) >/dev/null
+  printf '%s\n' $targets | xargs -P "$jobs" -I {} "$0" --seconds "$seconds" --build "$build" --one {}
+  exit
+fi
 
 # The words of the language, as its own pages have them.
 words() {
@@ -30,7 +43,7 @@ words() {
 
 run() {
   target=$1
-  program=$build/tests/fuzz/fuzz_$target
+  program=$build/tests/fuzz/$(program_of "$target")
   place=$build/fuzz/$target
   mkdir -p "$place/corpus"
   set -- "$place/corpus" "tests/fuzz/corpus/$target"
@@ -43,7 +56,7 @@ run() {
   esac
   if [ -f "$dictionary" ]; then set -- "-dict=$dictionary" "$@"; fi
   if ASAN_OPTIONS=quarantine_size_mb=32 "$program" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 \
-    -malloc_limit_mb=512 -artifact_prefix="$place/" -close_fd_mask=1 -print_final_stats=1 "$@" \
+    -malloc_limit_mb=512 -artifact_prefix="$place/" -close_fd_mask=1 -print_final_stats=1 "--target=$target" "$@" \
     </dev/null >/dev/null 2>"$place/log.txt"; then
     awk -v target="$target" '
       / cov: / {
@@ -62,7 +75,7 @@ run() {
   found=$(sed -n 's/.*Test unit written to //p' "$place/log.txt" | tail -n 1)
   grep -av '^#[0-9]*[[:space:]]' "$place/log.txt" | tail -n 60
   echo "fuzz_$target found something: ${found:-see above}"
-  echo "again: $program $found"
+  echo "again: $program --target=$target $found"
   return 1
 }
-for target in $targets; do run "$target"; done
+run "$one"

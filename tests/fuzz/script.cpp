@@ -38,7 +38,7 @@ void run(std::string_view script, bool dry) {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_script(const std::uint8_t* data, std::size_t size) {
   set_thread_count(1);
   for (const bool dry : {true, false}) {
     const std::int64_t before = memory::held();
@@ -48,5 +48,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     stop_flag().clear();
     fuzz::require(memory::held() == before, "all memory is given back");
   }
-  return 0;
 }
+
+static const asperity::fuzz::Target script_target{"script", fuzz_script};

@@ -3,8 +3,9 @@
 // of what follows.
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_sdf(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   read_every_way(view(data, size), {.format = "sdf"});
-  return 0;
 }
+
+static const asperity::fuzz::Target sdf_target{"sdf", fuzz_sdf};

@@ -2,8 +2,9 @@
 // Traces of stylus profilers: a header of keys, then positions and heights.
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_stylus_csv(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   read_every_way(view(data, size), {.format = "stylus-csv"});
-  return 0;
 }
+
+static const asperity::fuzz::Target stylus_csv_target{"stylus_csv", fuzz_stylus_csv};

@@ -2,8 +2,9 @@
 // Digital Surf's files: a header of 512 bytes whose sizes, zones and units need not be those of what follows.
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_sur(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   read_every_way(view(data, size), {.format = "sur"});
-  return 0;
 }
+
+static const asperity::fuzz::Target sur_target{"sur", fuzz_sur};

@@ -15,12 +15,17 @@
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
 
-// Called by libFuzzer, or by replay.cpp for every file of a corpus.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-// Called once before by libFuzzer, where a target has it.
-extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments);
-
 namespace asperity::fuzz {
+
+// A reader and what prepares it; a static one in each source is how the program knows of it (program.cpp).
+struct Target {
+  using Run = void (*)(const std::uint8_t* data, std::size_t size);
+  using Prepare = void (*)();
+  Target(const char* its_name, Run runs, Prepare prepares = nullptr);
+  const char* name;
+  Run run;
+  Prepare prepare;
+};
 
 inline void require(bool holds, const std::string& promise) {
   if (holds) return;

@@ -2,8 +2,9 @@
 // Text matrices with their headers, decimal commas, comments and missing cells.
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_text_matrix(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   read_every_way(view(data, size), {.format = "text"});
-  return 0;
 }
+
+static const asperity::fuzz::Target text_matrix_target{"text_matrix", fuzz_text_matrix};

@@ -5,7 +5,7 @@
 #include "tests/fuzz/height_map.hpp"
 #include "tests/surface/stored_zip.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_x3p_parts(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   const std::string_view input = view(data, size);
   const std::size_t end = std::min(input.find('\0'), size);
@@ -21,5 +21,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
                                  {"points", std::string(rest.substr(std::min(valid, rest.size())))},
                                  {"valid", std::string(rest.substr(0, valid))}});
   read_every_way(archive, {.format = "x3p"});
-  return 0;
 }
+
+static const asperity::fuzz::Target x3p_parts_target{"x3p_parts", fuzz_x3p_parts};

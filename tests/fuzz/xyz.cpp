@@ -2,8 +2,9 @@
 // x y z triples, whose coordinates have to make a lattice.
 #include "tests/fuzz/height_map.hpp"
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static void fuzz_xyz(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
   read_every_way(view(data, size), {.format = "xyz"});
-  return 0;
 }
+
+static const asperity::fuzz::Target xyz_target{"xyz", fuzz_xyz};
