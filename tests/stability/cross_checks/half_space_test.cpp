@@ -10,7 +10,7 @@
 #include "tests/stability/cross_checks/dense_contact.hpp"
 #include "tests/stability/properties/scene.hpp"
 
-namespace asperity::stability {
+namespace asperity::stability::half_space_test {
 namespace {
 
 DenseProblem dense(const Trial& trial, const State& state) {
@@ -71,4 +71,4 @@ INSTANTIATE_TEST_SUITE_P(Seeds, AgainstDense, testing::Values(1, 2, 3, 4),
                          [](const auto& seed) { return "Seed" + std::to_string(seed.param); });
 
 }  // namespace
-}  // namespace asperity::stability
+}  // namespace asperity::stability::half_space_test

@@ -11,7 +11,7 @@
 #include "engine/core/random.hpp"
 #include "engine/study/exact/weierstrass_mandelbrot_height.hpp"
 
-namespace asperity::stability {
+namespace asperity::stability::weierstrass_mandelbrot_test {
 namespace {
 
 struct Case {
@@ -55,4 +55,4 @@ INSTANTIATE_TEST_SUITE_P(Orders, Multiprecision,
                          });
 
 }  // namespace
-}  // namespace asperity::stability
+}  // namespace asperity::stability::weierstrass_mandelbrot_test

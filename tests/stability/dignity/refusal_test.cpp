@@ -6,21 +6,20 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/experiment/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 
-namespace asperity {
+namespace asperity::refusal_test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double hardness = 1.1e9, megapascal = 1e6;
 
 Surface specimen(std::uint64_t seed) {
@@ -233,4 +232,4 @@ std::string name_of(const testing::TestParamInfo<Path>& path) {
 INSTANTIATE_TEST_SUITE_P(Dignity, Refusals, testing::ValuesIn(paths()), name_of);
 
 }  // namespace
-}  // namespace asperity
+}  // namespace asperity::refusal_test

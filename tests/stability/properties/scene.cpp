@@ -4,19 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/geometry.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/random.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
 namespace asperity::stability {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Draws in sequence, one scene a stream.
 class Draws {

@@ -2,15 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 
+#include "engine/core/constants.hpp"
 #include "tests/stability/properties/scene.hpp"
 
 namespace asperity::stability {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Field upper_heights(const Scene& scene) {
   const auto* rough = std::get_if<Surface>(&scene.upper);
