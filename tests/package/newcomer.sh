@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # From a clone to a first chart with the README alone, in a root that holds nothing but Debian: the commands of the
 # README, then a script of one's own. The transcript must be the one in docs/newcomer.md, which --write puts there.
-# Needs root, mmdebstrap and ten minutes; ends with 77 where no root can be made.
+# Needs root, mmdebstrap and ten minutes, or one where ccache knows the sources already (CCACHE_DIR); ends with 77 where
+# no root can be made.
 #
 #   tests/package/newcomer.sh FOLDER [--write]
 set -euo pipefail
 cd "$(dirname -- "$0")/../.."
 folder=$1
-! mountpoint --quiet "$folder/root/proc" || umount "$folder/root/proc"
+for place in $(awk -v root="$PWD/$folder/root/" 'index($2, root) == 1 { print $2 }' /proc/mounts); do umount "$place"; done
 rm -rf "$folder"
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
@@ -16,13 +17,19 @@ root=$folder/root
 fail() { echo "newcomer: $*" >&2; exit 1; }
 . tests/package/debian_root.sh
 
-debian_root "$root" mounted
-mkdir "$root/root/asperity"
+debian_root "$root" /proc ${CCACHE_DIR:+"$CCACHE_DIR"}
+# Where compilations are kept, what was compiled the same way under the same path is not compiled again.
+if [ -n "${CCACHE_DIR:-}" ]; then
+  chroot "$root" apt-get install -qq -y --no-install-recommends ccache > "$folder/ccache.log" 2>&1 ||
+    { cat "$folder/ccache.log"; fail "ccache cannot be installed"; }
+fi
+clone=$root$PWD
+mkdir -p "$clone"
 # A copy without its history does as well.
 git archive --output="$folder/clone.tar" HEAD || tar -c -f "$folder/clone.tar" --exclude=./build --exclude=./runs .
-tar -x -C "$root/root/asperity" -f "$folder/clone.tar"
+tar -x -C "$clone" -f "$folder/clone.tar"
 
-cat > "$root/root/asperity/first.lua" <<'LUA'
+cat > "$clone/first.lua" <<'LUA'
 -- How does the area of contact grow with the load?
 local lab = require "asperity"
 local plate = lab.surface.self_affine{ cells=256, size="1 mm", hurst=0.8, rms_slope=0.1, short_wave="16 um",
@@ -37,12 +44,19 @@ book:chart{ x="pressure", y="area" }
 LUA
 
 # The transcript: each command, and what it says without the noise of package tools and compilers.
-inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 sh -c "cd /root/asperity && $1"; }
+kept=()
+for name in CCACHE_DIR CCACHE_BASEDIR CCACHE_COMPILERCHECK CMAKE_BUILD_PARALLEL_LEVEL ASPERITY_CMAKE_FLAGS; do
+  [ -z "${!name:-}" ] || kept+=("$name=${!name}")
+done
+inside() {
+  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 "${kept[@]}" sh -c "cd '$PWD' && $1"
+}
 step() {
   printf '\n```console\n$ %s\n' "$1"
   inside "$1" > "$folder/step.log" 2>&1 || { cat "$folder/step.log" >&2; fail "$1"; }
   grep -vE '^(Selecting|Preparing|Unpacking|Setting up|Processing|Get:|Fetched|Reading|Building|\(Reading|-- |debconf:|\[ *[0-9]+%\]|Preset|$)' "$folder/step.log" |
-    grep -vE '^ {2}[A-Z]+=|^Preconfig|^update-alternatives|^invoke-rc.d|^Extracting|^Created symlink|% done:|about .* left$' | tail -n "${2:-25}"
+    grep -vE '^ {2}[A-Z]+=|^Preconfig|^update-alternatives|^invoke-rc.d|^Extracting|^Created symlink|% done:|about .* left$' |
+    sed "s|$PWD|/root/asperity|g" | tail -n "${2:-25}"
   printf '```\n'
 }
 {
@@ -52,14 +66,14 @@ step() {
   echo "\`tests/package/newcomer.sh\`; what package tools and compilers say is left out."
   step "./lab demo" 3
   printf '\nA script of their own, `first.lua`:\n\n```lua\n'
-  cat "$root/root/asperity/first.lua"
+  cat "$clone/first.lua"
   printf '```\n'
   step "./lab run first.lua" 6
   step "ls runs/first-1"
   printf '\nThe chart, `runs/first-1/%s`:\n\n![Area of contact against pressure](pictures/newcomer.svg)\n' \
-    "$(basename "$root"/root/asperity/runs/first-1/*.svg)"
+    "$(basename "$clone"/runs/first-1/*.svg)"
 } > "$folder/newcomer.md"
-cp "$root"/root/asperity/runs/first-1/*.svg "$folder/newcomer.svg"
+cp "$clone"/runs/first-1/*.svg "$folder/newcomer.svg"
 
 if [ "${2:-}" = --write ]; then
   cp "$folder/newcomer.svg" docs/pictures/newcomer.svg

@@ -1,0 +1,283 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which checks a change calls for, from the paths it touches.
+
+usage: select_checks.py [--since COMMIT] [--why]    the paths of the difference from COMMIT; without it from the commit in .ci/checked
+       select_checks.py --paths PATH..              these paths
+       select_checks.py --everything
+
+Prints a line for each part of .ci/run: `release`, `sanitize` and `thread` with a regular expression of CTest's names, and
+`sanitize_targets`, `thread_targets`, `fuzz`, `packages`, `newcomer`, `selection` with words. An empty word means: not at all.
+Where the difference is not known, everything is called for.
+"""
+import argparse
+import functools
+import os
+import re
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+# Rooms and those they are built on, as CMake links them.
+CORE = ("engine/core",)
+SURFACE = CORE + ("engine/surface",)
+METROLOGY = SURFACE + ("engine/metrology",)
+CONTACT = SURFACE + ("engine/contact",)
+FRICTION = CONTACT + ("engine/metrology", "engine/friction")
+EXPERIMENT = FRICTION + ("engine/experiment",)
+STUDY = EXPERIMENT + ("engine/study",)
+LUA = STUDY + ("bindings/lua", "scripts")
+PROGRAM = LUA + ("bindings/cli",)
+WEB = PROGRAM + ("bindings/web",)
+
+# Tests of CTest: what their names begin with, the rooms they are made of, and where they stand.
+GROUPS = {
+    "core": ("core: ?", CORE, ("tests/core",)),
+    "surface": ("surface: ?", SURFACE, ("tests/surface",)),
+    "metrology": ("metrology: ?", METROLOGY, ("tests/metrology",)),
+    "contact": ("contact: ?", CONTACT, ("tests/contact",)),
+    "friction": ("friction: ?", FRICTION, ("tests/friction",)),
+    "experiment": ("experiment: ?", EXPERIMENT, ("tests/experiment",)),
+    "study": ("study: ?", STUDY, ("tests/study",)),
+    "bindings": ("bindings(_c)?: ?", LUA, ("tests/bindings",)),
+    "web": ("web: ?", WEB, ("tests/web",)),
+    "laboratory": ("laboratory: ", EXPERIMENT, ("tests/laboratory",)),
+    "accuracy": ("accuracy: ", EXPERIMENT, ("tests/accuracy",)),
+    "stability": ("stability: ?", PROGRAM, ("tests/stability",)),
+    "fuzz": ("fuzz: ", LUA, ("tests/fuzz",)),
+    "scripts": ("(scripts|module): ", PROGRAM, ("tests/scripts",)),
+    "command_line": ("command line: ?(CommandLine|replay|prompt|completion|shards|resume)", PROGRAM, ("tests/scripts/runner",)),
+    "ranks": ("command line: (ranks|spread)", (), ("tests/scripts/runner/ranks.sh", "tests/scripts/runner/spread.sh")),
+    "examples": ("examples: ", PROGRAM, ("examples",)),
+    "lessons": ("lessons: ", PROGRAM, ("scripts/lessons",)),
+    "serve": ("serve: ", ("bindings/lua", "bindings/cli", "bindings/web", "scripts"), ("tests/web",)),
+    "page": ("page:", ("bindings/web", "scripts/lessons"), ("tests/page",)),
+    "package": ("package: ", STUDY, ("tests/package", "examples/library")),
+    "checks": ("checks:", PROGRAM, ("tests/checks", "docs", "examples", "bench", "tests")),
+}
+
+# What is compiled again with sanitizers for a change: the programs of tests that belong to a room, and only those.
+# The rooms above meet the change in the release build's tests.
+SANITIZED = {
+    "core": ("engine/core",),
+    "surface": ("engine/surface",),
+    "metrology": ("engine/metrology",),
+    "contact": ("engine/contact",),
+    "friction": ("engine/friction",),
+    "experiment": ("engine/experiment",),
+    "study": ("engine/study",),
+    "bindings": ("bindings/lua",),
+    "web": ("bindings/web",),
+    "dignity": ("engine/contact", "engine/experiment"),
+}
+SANITIZED_NAMES = {"bindings": "bindings(_c)?: shard", "dignity": "stability: shard"}
+SANITIZED_TARGETS = {"bindings": ("test_bindings", "test_bindings_c")}
+# What the thread sanitizer watches of them: the targets of the preset `thread`.
+THREADED = ("core", "surface", "metrology", "contact", "experiment", "bindings", "dignity")
+# Readers, by the room that reads.
+FUZZED = {"surface": ("engine/surface/io", "engine/core/text", "engine/core/quantity"),
+          "experiment": ("engine/experiment",),
+          "bindings": ("bindings/lua",)}
+# What runs over the ranks of mpirun.
+RANKS = re.compile("slab|mpi|spread|ranks|ensemble|crew|parcel|^engine/core/|^bindings/cli/")
+# A path under one of these, or of one of these names, may change anything.
+BUILD = (".ci/", "cmake/", "CMakePresets.json", "lab", ".clang-format", "tests/support/")
+# Says which commit was checked as a whole, and nothing else.
+CHECKED = ".ci/checked"
+
+
+def under(path, folders):
+    return any(path == f or path.startswith(f + "/") or (not os.path.splitext(f)[1] and path.startswith(f + ".")) for f in folders)
+
+
+def may_change_anything(path):
+    return path != CHECKED and (path.endswith("CMakeLists.txt") and not path.startswith("examples/")
+                                or path.endswith(".cmake") or path.startswith(BUILD[:2] + BUILD[5:]) or path in BUILD)
+
+
+def sources():
+    found = []
+    for folder in ("engine", "bindings", "tests", "bench"):
+        for where, _, names in os.walk(os.path.join(ROOT, folder)):
+            if "node_modules" not in where:
+                found += [os.path.relpath(os.path.join(where, n), ROOT) for n in names if n.endswith((".cpp", ".hpp", ".h"))]
+    return sorted(found)
+
+
+@functools.cache
+def include_graph():
+    """Each source with the files of this project that it includes."""
+    graph = {}
+    for path in sources():
+        with open(os.path.join(ROOT, path), encoding="utf-8") as text:
+            graph[path] = re.findall(r'^\s*#\s*include\s+"([^"]+)"', text.read(), re.M)
+    return graph
+
+
+@functools.cache
+def included_by():
+    """Each file with the sources that include it."""
+    turned = {}
+    for path, targets in include_graph().items():
+        for target in targets:
+            turned.setdefault(target, []).append(path)
+    return turned
+
+
+def includers(paths):
+    """The sources that include one of the paths, directly or not."""
+    reached, todo = set(), list(paths)
+    while todo:
+        for path in included_by().get(todo.pop(), []):
+            if path not in reached:
+                reached.add(path)
+                todo.append(path)
+    return reached
+
+
+def group_of(path):
+    """The group whose program a file of tests/ belongs to."""
+    best = None
+    for name, (_, _, places) in GROUPS.items():
+        for place in places:
+            if under(path, (place,)) and name != "checks" and (best is None or len(place) > best[1]):
+                best = (name, len(place))
+    return best and best[0]
+
+
+class Selection:
+    """`release` names groups; `names` single tests; the others what is built and run beside the release build."""
+
+    def __init__(self):
+        self.everything = False
+        self.release, self.names = {"checks"}, set()
+        self.sanitize, self.fuzz = set(), set()
+        self.packages = self.newcomer = False
+
+    def add(self, path):
+        if path == CHECKED:
+            return
+        if may_change_anything(path):
+            self.everything = True
+            return
+        stem = os.path.splitext(os.path.basename(path))[0]
+        for name, (_, rooms, _) in GROUPS.items():
+            if under(path, rooms):
+                self.release.add(name)
+        for name, rooms in SANITIZED.items():
+            if under(path, rooms):
+                self.sanitize.add(name)
+        for name, places in FUZZED.items():
+            if under(path, places):
+                self.fuzz.add(name)
+        if RANKS.search(path):
+            self.release.add("ranks")
+        if path.startswith("tests/"):
+            self.add_test(path, stem)
+        elif path.startswith("examples/"):
+            if path.endswith(".lua"):
+                self.names.add(f"examples: (check )?{stem}")
+            else:
+                self.release |= {"examples", "package", "command_line"}
+        elif path.startswith("docs/"):
+            self.release.add("stability" if "stability" in stem else "checks")
+            self.newcomer |= stem == "newcomer"
+            if stem == "asperity":
+                self.release |= {"command_line"}
+
+    def add_test(self, path, stem):
+        for source in includers([path]) | {path}:
+            group = group_of(source)
+            if group is None:
+                self.everything = True  # a place that nobody has told of
+                continue
+            if group == "scripts" and source == path and path.endswith(".lua"):
+                self.names |= {f"scripts: {stem}", f"module: {stem}"}
+                continue
+            self.release.add(group)
+            if "/dignity/" in source:
+                self.sanitize.add("dignity")
+            if group in SANITIZED:
+                self.sanitize.add(group)
+            if group == "fuzz":
+                self.fuzz |= set(FUZZED)
+        if path.startswith("tests/data/") or path.startswith("tests/reference/"):
+            self.release |= {"surface", "metrology", "friction", "contact", "experiment", "bindings", "scripts", "examples"}
+        if path.startswith("tests/package/"):
+            self.packages = self.newcomer = True
+
+    def lines(self):
+        if self.everything:
+            return {"release": ".", "sanitize": ".", "sanitize_targets": "all", "thread": ".", "thread_targets": "all",
+                    "fuzz": "surface experiment bindings", "packages": "yes", "newcomer": "yes", "selection": "everything"}
+        patterns = [GROUPS[name][0] for name in GROUPS if name in self.release]
+        release = "^(" + "|".join(patterns) + ")"
+        release += "".join(f"|^{name}$" for name in sorted(self.names))
+
+        def shards(groups):
+            patterns = [SANITIZED_NAMES.get(name, f"{name}: shard") for name in sorted(groups)]
+            return "^(" + "|".join(patterns) + ")" if patterns else ""
+
+        def targets(groups):
+            return " ".join(t for name in sorted(groups) for t in SANITIZED_TARGETS.get(name, (f"test_{name}",)))
+
+        threads = self.sanitize & set(THREADED)
+        return {"release": release, "sanitize": shards(self.sanitize), "sanitize_targets": targets(self.sanitize),
+                "thread": shards(threads).replace("(_c)?", ""),
+                "thread_targets": targets(threads).replace(" test_bindings_c", ""),
+                "fuzz": " ".join(sorted(self.fuzz)), "packages": "yes" if self.packages else "",
+                "newcomer": "yes" if self.newcomer else "", "selection": " ".join(sorted(self.release)) or "checks"}
+
+
+def git(*words):
+    answer = subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True, check=False)
+    return answer.stdout if answer.returncode == 0 else None
+
+
+def changed_since(commit):
+    """The paths that differ from the commit, also those not yet committed; None where that is not known."""
+    if not commit or git("merge-base", "--is-ancestor", commit, "HEAD") is None:
+        return None
+    differing = git("diff", "--name-only", "--no-renames", commit)
+    untracked = git("ls-files", "--others", "--exclude-standard")
+    return None if differing is None or untracked is None else differing.split("\n")[:-1] + untracked.split("\n")[:-1]
+
+
+def last_checked():
+    try:
+        with open(os.path.join(ROOT, CHECKED), encoding="utf-8") as text:
+            found = re.search(r"^[0-9a-f]{40}$", text.read(), re.M)
+            return found and found[0]
+    except OSError:
+        return None
+
+
+def select(paths):
+    selection = Selection()
+    if paths is None:
+        selection.everything = True
+    else:
+        for path in paths:
+            selection.add(path)
+    return selection
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--since")
+    parser.add_argument("--paths", nargs="*")
+    parser.add_argument("--everything", action="store_true")
+    parser.add_argument("--why", action="store_true", help="say on standard error what differs")
+    given = parser.parse_args()
+    paths = None
+    if not given.everything:
+        paths = given.paths if given.paths is not None else changed_since(given.since or last_checked())
+    if given.why:
+        print("the difference is not known" if paths is None else "\n".join(paths), file=sys.stderr)
+    for key, value in select(paths).lines().items():
+        print(key, value)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Sources that differ from a commit compile each by itself, with every warning an error: builds that compile several at
+# once do not see an #include that is missing, nor what shadows what. Headers too; and where a header gave up an
+# #include, all sources that include it.
+#
+#   alone.sh COMMIT        what differs from the commit, committed or not
+#   alone.sh --everything  every source, in ten minutes
+set -euo pipefail
+cd "$(dirname -- "$0")/../.."
+
+graph() {  # paths: those of the sources that include one of them
+  python3 -c 'import sys; sys.path.insert(0, ".ci"); import select_checks as s
+print("\n".join(p for p in s.includers(sys.argv[1:])))' "$@"
+}
+sources() { grep -E '^(engine|bindings|tests|bench)/.*\.(cpp|hpp)$' || true; }
+if [ "$1" = --everything ]; then
+  files=$(git ls-files engine bindings tests bench | sources)
+else
+  files=$({ git diff --name-only --diff-filter=d --no-renames "$1"; git ls-files --others --exclude-standard; } | sources)
+  poorer=$(git diff --no-renames "$1" -- '*.hpp' | awk '/^--- a\// { path = substr($2, 3) } /^-#include/ { print path }' | sort -u)
+  # shellcheck disable=SC2086  # a list of words
+  if [ -n "$poorer" ]; then files=$(printf '%s\n' $files $(graph $poorer) | sort -u); fi
+fi
+[ -n "$files" ] || { echo "no source differs"; exit 0; }
+
+flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  -Wno-restrict -Wno-maybe-uninitialized -Wno-unused-const-variable -Werror -DEIGEN_DONT_PARALLELIZE -DOMPI_SKIP_MPICXX
+  -DASPERITY_BUILD_FOLDER=\"\" -DASPERITY_PARTS_FOLDER=\"\" -DASPERITY_SOURCE_FOLDER=\"\" -DASPERITY_TEST_DATA=\"\"
+  -DASPERITY_PROGRAM=\"\" -DASPERITY_VERSION=\"\" -DASPERITY_BUILD_TYPE=\"\" -DASPERITY_COMPILER=\"\"
+  -DASPERITY_FFTW_VERSION=\"\" -DASPERITY_EIGEN_VERSION=\"\" -I. -isystem /usr/include/eigen3"
+for package in lua5.4 hdf5-serial libseccomp pugixml libzip; do
+  flags="$flags $(pkg-config --cflags "$package" 2> /dev/null | sed 's/-I/-isystem /g')"
+done
+flags="$flags $(mpicxx --showme:compile 2> /dev/null | sed 's/-I/-isystem /g' || true)"
+export flags
+compile() {
+  case $1 in
+    *.hpp) printf '#include "%s"\n' "$1" | c++ $flags -x c++ - ;;
+    *) c++ $flags "$1" ;;
+  esac || { echo "$1 does not compile by itself"; return 1; }
+}
+export -f compile
+# shellcheck disable=SC2016  # for the shell that xargs starts
+printf '%s\n' $files | xargs -P "$(nproc)" -I {} bash -c 'compile {}'
+echo "$(printf '%s\n' $files | wc -l) sources compile each by itself"
