@@ -49,7 +49,7 @@ for name in CCACHE_DIR CCACHE_BASEDIR CCACHE_COMPILERCHECK CMAKE_BUILD_PARALLEL_
   [ -z "${!name:-}" ] || kept+=("$name=${!name}")
 done
 inside() {
-  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 "${kept[@]}" sh -c "cd '$PWD' && $1"
+  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 LC_ALL=C.UTF-8 "${kept[@]}" sh -c "cd '$PWD' && $1"
 }
 step() {
   printf '\n```console\n$ %s\n' "$1"

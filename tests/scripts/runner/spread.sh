@@ -143,7 +143,7 @@ cmp again/pressure.npy again-2/pressure.npy || fail "the fields are not those of
 # So does one that was killed in the middle, and it ends as the run that nobody disturbed.
 cat > thirty.lua <<'LUA'
 local lab = require "asperity"
-local s = lab.spread.self_affine{ cells = 512, size = 1e-4, hurst = 0.7, rms_height = 1e-6, short_wave = 1e-6,
+local s = lab.spread.self_affine{ cells = 256, size = 1e-4, hurst = 0.7, rms_height = 1e-6, short_wave = 2e-6,
   material = lab.material{ young = "70 GPa", poisson = 0.33 } }
 local c = lab.spread.contact{ lower = s, upper = lab.rigid, boundary = "periodic",
   effects = { elasticity = "half_space" } }
