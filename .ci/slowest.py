@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The twenty slowest tests of the reports that CTest and GoogleTest left in a folder.
+"""The twenty slowest tests of the reports that CTest and GoogleTest left in folders.
 
-usage: slowest.py FOLDER
+usage: slowest.py FOLDER..
 """
 import pathlib
 import sys
@@ -15,7 +15,8 @@ def cases(folder):
             root = xml.parse(path).getroot()
         except xml.ParseError:
             continue  # of a test that was killed
-        build = path.relative_to(folder).parts[0].removesuffix(".xml")
+        # build/reports/release.xml, build/sanitize/reports/test_core-0.xml
+        build = path.stem if path.parent.parent.name == "build" else path.parent.parent.name
         for case in root.iter("testcase"):
             name = case.get("name", "")
             if ": shard " in name:
@@ -24,7 +25,7 @@ def cases(folder):
             yield float(case.get("time") or 0), build, name if suite in ("", name) else f"{suite}.{name}"
 
 
-found = sorted(cases(sys.argv[1]), reverse=True)
+found = sorted((case for folder in sys.argv[1:] for case in cases(folder)), reverse=True)
 print(f"\n== the twenty slowest of {len(found)} tests")
 for seconds, build, name in found[:20]:
     print(f"{seconds:8.2f} s  {build:9} {name.split('  # GetParam')[0]}")
