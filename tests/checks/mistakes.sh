@@ -53,7 +53,7 @@ mistake example examples/stylus_and_tip.lua 's/short_wave = short_wave/short_wav
 mistake digest engine/core/digest.cpp "s/raw('i', 1,/raw('d', 1,/" \
   "its tests" "core:.*Digest.*Failed"
 mistake package lab 's/ libzip-dev / /' \
-  "a newcomer's first chart in a clean root" "libzip"
+  "a newcomer's first chart in a clean root (beside the others)" "libzip"
 mistake lesson scripts/lessons/01_roughness.lua 's/ra="0.5 um"/ra="0.5 mm"/' \
   "its tests" "lessons: 01_roughness.*Failed"
 mistake descriptor engine/experiment/journal.cpp 's/^  if (descriptor_ >= 0) ::close(descriptor_);$//' \
