@@ -208,13 +208,6 @@ class Selection:
             self.packages = self.newcomer = True
 
     def lines(self):
-        if self.everything:
-            return {"release": ".", "sanitize": ".", "sanitize_targets": "all", "thread": ".", "thread_targets": "all",
-                    "fuzz": "surface experiment bindings", "packages": "yes", "newcomer": "yes", "selection": "everything"}
-        patterns = [GROUPS[name][0] for name in GROUPS if name in self.release]
-        release = "^(" + "|".join(patterns) + ")"
-        release += "".join(f"|^{name}$" for name in sorted(self.names))
-
         def shards(groups):
             patterns = [SANITIZED_NAMES.get(name, f"{name}: shard") for name in sorted(groups)]
             return "^(" + "|".join(patterns) + ")" if patterns else ""
@@ -222,12 +215,18 @@ class Selection:
         def targets(groups):
             return " ".join(t for name in sorted(groups) for t in SANITIZED_TARGETS.get(name, (f"test_{name}",)))
 
-        threads = self.sanitize & set(THREADED)
+        def threads(groups):
+            groups = set(groups) & set(THREADED)
+            return {"thread": shards(groups).replace("(_c)?", ""), "thread_targets": targets(groups).replace(" test_bindings_c", "")}
+
+        if self.everything:
+            return {"release": ".", "sanitize": ".", "sanitize_targets": "all", **threads(THREADED), "fuzz": " ".join(FUZZED),
+                    "packages": "yes", "newcomer": "yes", "selection": "everything"}
+        release = "^(" + "|".join(GROUPS[name][0] for name in GROUPS if name in self.release) + ")"
+        release += "".join(f"|^{name}$" for name in sorted(self.names))
         return {"release": release, "sanitize": shards(self.sanitize), "sanitize_targets": targets(self.sanitize),
-                "thread": shards(threads).replace("(_c)?", ""),
-                "thread_targets": targets(threads).replace(" test_bindings_c", ""),
-                "fuzz": " ".join(sorted(self.fuzz)), "packages": "yes" if self.packages else "",
-                "newcomer": "yes" if self.newcomer else "", "selection": " ".join(sorted(self.release)) or "checks"}
+                **threads(self.sanitize), "fuzz": " ".join(sorted(self.fuzz)), "packages": "yes" if self.packages else "",
+                "newcomer": "yes" if self.newcomer else "", "selection": " ".join(sorted(self.release))}
 
 
 def git(*words):
