@@ -81,19 +81,19 @@ FUZZED = {"surface": ("engine/surface/io", "engine/core/text", "engine/core/quan
           "bindings": ("bindings/lua",)}
 # What runs over the ranks of mpirun.
 RANKS = re.compile("slab|mpi|spread|ranks|ensemble|crew|parcel|^engine/core/|^bindings/cli/")
-# A path under one of these, or of one of these names, may change anything.
-BUILD = (".ci/", "cmake/", "CMakePresets.json", "lab", ".clang-format", "tests/support/")
+# Files of the build: what differs there may change anything.
+BUILD = re.compile(r"\.ci/|cmake/|tests/support/|(?!examples/)(.*/)?CMakeLists\.txt$|.*\.cmake$|(CMakePresets\.json|lab|\.clang-format)$")
 # Says which commit was checked as a whole, and nothing else.
 CHECKED = ".ci/checked"
 
 
-def under(path, folders):
-    return any(path == f or path.startswith(f + "/") or (not os.path.splitext(f)[1] and path.startswith(f + ".")) for f in folders)
+def under(path, places):
+    """Whether the path is one of the places, lies in one, or is a source of that name."""
+    return any(path == place or path.startswith((place + "/", place + ".")) for place in places)
 
 
 def may_change_anything(path):
-    return path != CHECKED and (path.endswith("CMakeLists.txt") and not path.startswith("examples/")
-                                or path.endswith(".cmake") or path.startswith(BUILD[:2] + BUILD[5:]) or path in BUILD)
+    return path != CHECKED and BUILD.match(path) is not None
 
 
 def sources():
