@@ -224,7 +224,9 @@ class Selection:
                     "packages": "yes", "newcomer": "yes", "selection": "everything"}
         release = "^(" + "|".join(GROUPS[name][0] for name in GROUPS if name in self.release) + ")"
         release += "".join(f"|^{name}$" for name in sorted(self.names))
-        return {"release": release, "sanitize": shards(self.sanitize), "sanitize_targets": targets(self.sanitize),
+        corpora = f"^fuzz: ({'|'.join(sorted(self.fuzz))}): " if self.fuzz else ""
+        sanitize = "|".join(filter(None, (shards(self.sanitize), corpora)))
+        return {"release": release, "sanitize": sanitize, "sanitize_targets": targets(self.sanitize),
                 **threads(self.sanitize), "fuzz": " ".join(sorted(self.fuzz)), "packages": "yes" if self.packages else "",
                 "newcomer": "yes" if self.newcomer else "", "selection": " ".join(sorted(self.release))}
 
