@@ -23,11 +23,13 @@ if(CMAKE_UNITY_BUILD)
   target_compile_options(asperity_options INTERFACE -Wno-shadow
                          $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
+# For code that waits for the engine: bindings and tests. Their builds take half as long, a third with sanitizers.
+set(ASPERITY_LIGHT_OPTIMISATION $<IF:$<BOOL:${ASPERITY_SANITIZE}>,-O0,$<$<CONFIG:Release>:-O1>>)
 # Contraction of a*b+c would make debug, release and clang builds disagree in the last bit.
 target_compile_options(asperity_options INTERFACE -ffp-contract=off)
 target_compile_definitions(asperity_options INTERFACE EIGEN_DONT_PARALLELIZE)
 # Results that are kept for later name the build they come from.
-target_link_options(asperity_options INTERFACE -Wl,--build-id)
+target_link_options(asperity_options INTERFACE -Wl,--build-id=sha1)
 if(ASPERITY_WARNINGS_AS_ERRORS)
   target_compile_options(asperity_options INTERFACE -Werror)
 endif()
