@@ -5,7 +5,7 @@
 # #include, all sources that include it.
 #
 #   alone.sh COMMIT        what differs from the commit, committed or not
-#   alone.sh --everything  every source, in ten minutes
+#   alone.sh --everything  every source
 set -euo pipefail
 cd "$(dirname -- "$0")/../.."
 

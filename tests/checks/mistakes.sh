@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Ten deliberate mistakes, each in a clone of what is committed, and whether the short run of the room it is in finds it:
-# .ci/run must fail at the step named, in words that name the mistake. An hour and a half; by hand, not by CTest.
+# .ci/run must fail at the step named, in words that name the mistake. By hand, not by CTest: each is a build and its tests.
 # Prints for each what was selected, the step that failed, and the seconds it took.
 #
 #   mistakes.sh FOLDER [NAME..]
