@@ -99,7 +99,7 @@ const Block<ReadProfileOptions>& read_profile_block() {
   return block;
 }
 
-Values read_profile_number(Call& call) {
+Values read_profile_file(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
   const ReadProfileOptions options = call.options(read_profile_block(), 2);
   note_input(call, path);
@@ -239,7 +239,7 @@ const Module& profile_module() {
     m.sentence = "Profiles: stylus traces from files. Surfaces give others with s:profile and s:profiles.";
     m.functions = {
         {.name = "read",
-         .body = read_profile_number,
+         .body = read_profile_file,
          .sentence = "A stylus trace from a file: a profiler's CSV, NPY, or text of one or two columns.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_profile_block(),
