@@ -75,6 +75,22 @@ TEST(Quantity, OtherUnits) {
   EXPECT_EQ(parse_quantity_as("36 km/h", dimension::speed), 10.0);
 }
 
+// F8: by their definitions: lb = 0.45359237 kg, in = 25.4 mm, standard gravity 9.80665 m/s².
+TEST(Quantity, F8UnitsOfScalesAndGaugesOfPresses) {
+  const double pound = 0.45359237 * 9.80665, square_inch = 0.0254 * 0.0254;
+  const auto force = [](const char* text) { return parse_quantity_as(text, dimension::force); };
+  const auto pressure = [](const char* text) { return parse_quantity_as(text, dimension::pressure); };
+  EXPECT_DOUBLE_EQ(force("1 lbf"), pound);
+  EXPECT_DOUBLE_EQ(force("2 kip"), 2000 * pound);
+  EXPECT_EQ(force("1 kgf"), 9.80665);
+  EXPECT_EQ(force("1 tf"), 9806.65);
+  EXPECT_EQ(force("1 daN"), 10.0);
+  EXPECT_DOUBLE_EQ(pressure("1 psi"), pound / square_inch);
+  EXPECT_DOUBLE_EQ(pressure("1 ksi"), 1000 * pound / square_inch);
+  EXPECT_EQ(pressure("1 atm"), 101325.0);
+  EXPECT_DOUBLE_EQ(parse_quantity_as("0.5 rev", dimension::angle), std::numbers::pi);
+}
+
 TEST(Quantity, MicroSignsAndSpacesOfTextEditors) {
   EXPECT_EQ(length("250 \u00B5m"), 250e-6);
   EXPECT_EQ(length("250 \u03BCm"), 250e-6);

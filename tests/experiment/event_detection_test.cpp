@@ -200,6 +200,78 @@ TEST(EventDetection, FindsShortHoldsOnSlowRamps) {
   }
 }
 
+// Four presses with turns, as a logger at 10 Hz writes them.
+SyntheticPress four_presses() {
+  SyntheticPress press;
+  press.step = 0.1;
+  for (int k = 0; k < 4; ++k) press.holds.push_back({100.0 + 40 * k, 60, 3, 2, 0, 30, quarter});
+  return press;
+}
+
+// F8: noise that went through a filter, y(k) = r y(k-1) + e, is no white noise: its slow waves are no holds.
+TEST(EventDetection, F8FilteredNoiseMakesNoGhosts) {
+  for (const double share : {0.003, 0.01, 0.02}) {
+    int exact = 0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      const SyntheticPress press = four_presses();
+      SyntheticTruth truth;
+      PressRecording recording = play(press, seed, truth);
+      std::mt19937_64 random(1000 + seed);
+      std::normal_distribution<double> normal;
+      constexpr double r = 0.9;
+      const double deviation = share * 220;
+      double noise = deviation * normal(random);
+      for (double& load : recording.load) {
+        noise = r * noise + std::sqrt(1 - r * r) * deviation * normal(random);
+        load += noise;
+      }
+      Listener listener;
+      std::string found;
+      try {
+        const Protocol protocol = detect_events(recording, {}, listener);
+        found = kinds(protocol);
+        EXPECT_NEAR(protocol.recording()->noise, deviation, 0.35 * deviation) << share << ", seed " << seed;
+      } catch (const Error& error) {
+        found = error.what();
+      }
+      exact += found == "prreroprreroprreroprrero" ? 1 : 0;
+      EXPECT_TRUE(found == "prreroprreroprreroprrero" || !listener.warnings.empty())
+          << share << ", seed " << seed << ": " << found;
+    }
+    EXPECT_GE(exact, share > 0.015 ? 17 : 20) << share;
+  }
+}
+
+// F8: a sensor at its limit says 50 kN of a hold of 78 kN; that it says nothing else is what tells.
+TEST(EventDetection, F8AClippedSensorIsNamed) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SyntheticPress press = four_presses();
+    press.noise = 0.5;
+    SyntheticTruth truth;
+    PressRecording recording = play(press, seed, truth);
+    Listener whole, clipped;
+    detect_events(recording, {}, whole);
+    EXPECT_FALSE(whole.told("a sensor at its limit"));
+    for (double& load : recording.load) load = std::min(load, 0.5 * 220);
+    detect_events(recording, {}, clipped);
+    EXPECT_TRUE(clipped.told("the load stays at its greatest reading, 110 N, to the last digit in lines "));
+    EXPECT_TRUE(clipped.told("so reads a sensor at its limit, and the load may have been higher"));
+  }
+}
+
+// F8: compression recorded as negative is not told as a turn under load.
+TEST(EventDetection, F8NegativeCompressionIsSaid) {
+  SyntheticPress press = four_presses();
+  press.noise = 0.5;
+  SyntheticTruth truth;
+  PressRecording recording = play(press, 1, truth);
+  for (double& load : recording.load) load = -load;
+  const std::string error = error_of([&] { detect_events(recording); });
+  EXPECT_NE(error.find("it counts compression as negative; change the sign of its column of loads"),
+            std::string::npos)
+      << error;
+}
+
 // A recording of samples at one a second, with an angle where it is given.
 struct Sample {
   double load;

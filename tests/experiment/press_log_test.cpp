@@ -105,6 +105,113 @@ TEST_F(PressLog, NoPressureTakesTheLoadOff) {
   EXPECT_EQ(events("pressure [MPa]; dwell [s]\n1;\n0;\n;\n;0\n"), "press 1 MPa\nrelease\nrelease\n");
 }
 
+// F8: a forgotten number and a release look the same.
+TEST_F(PressLog, F8AnEmptyLoadIsAReleaseWithAWarning) {
+  EXPECT_EQ(events("pressure [MPa],rotation [deg]\n1,0\n,90\n1,0\n,45\n"),
+            "press 1 MPa\nrelease\nrotate 90 deg\npress 1 MPa\nrelease\nrotate 45 deg\n");
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_EQ(listener.warnings[0],
+            "\"" + path() +
+                "\": the cell of the pressure is empty in line 3, and so in 1 more: it is "
+                "taken for zero, which takes the load off; write 0 to say so");
+  listener.warnings.clear();
+  events("pressure [MPa],rotation [deg]\n1,0\n0,90\n1,0\n");
+  EXPECT_TRUE(listener.warnings.empty());
+}
+
+// F8: twenty minutes do not fit between two presses ten minutes apart.
+TEST_F(PressLog, F8ADwellThatGoesOnPastTheNextRowIsWarnedOf) {
+  events("time [min],pressure [MPa],dwell [min]\n0,1,20\n10,1,5\n15,2,30\n20,0,\n");
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_EQ(listener.warnings[0],
+            "\"" + path() +
+                "\": the dwell of 1200 s in line 2 goes on after line 3, which begins 600 s "
+                "later, and so in 1 more: times are kept, and nothing waits for them");
+  listener.warnings.clear();
+  events("time [min],pressure [MPa],dwell [min]\n0,1,10\n10,1,5\n");
+  EXPECT_TRUE(listener.warnings.empty());
+}
+
+// F8: in half of all laboratories 1,250 is twelve hundred and fifty.
+TEST_F(PressLog, F8ACommaThatMayPartThousandsIsWarnedOf) {
+  EXPECT_EQ(events("pressure [MPa];dwell [s]\n1,250;5\n100;5\n"),
+            "press 1.25 MPa for 5 s\npress 100 MPa for 5 s\n");
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_EQ(
+      listener.warnings[0],
+      "\"" + path() +
+          "\": the comma of \"1,250\" in line 2, column 1 (pressure) is read as a decimal sign; if it parts "
+          "thousands, leave it out");
+  listener.warnings.clear();
+  for (const char* log : {"pressure [MPa];dwell [s]\n1,250;5\n1,5;5\n", "pressure [MPa];dwell [s]\n0,250;5\n",
+                          "pressure [MPa];dwell [s]\n1234,250;5\n", "pressure [MPa],dwell [s]\n1.250,5\n"})
+    events(log);
+  EXPECT_TRUE(listener.warnings.empty());
+}
+
+TEST_F(PressLog, F8UnitsOfGaugesAndScalesAreRead) {
+  EXPECT_EQ(events("pressure [ksi]\n1\n"), "press 6.89476 MPa\n");
+  EXPECT_EQ(events("load [lbf]\n1\n"), "press 4.44822 N\n");
+  EXPECT_EQ(events("load [kgf],turn [rev]\n1,0.25\n"), "rotate 90 deg\npress 9.80665 N\n");
+}
+
+// F8: forms that are not read are refused with what to write.
+TEST_F(PressLog, F8OtherFormsAreRefusedWithTheWordsToMendThem) {
+  const std::vector<std::pair<std::string, std::string>> forms{
+      {"time,pressure [MPa]\n2026-11-23T10:00:00,1\n",
+       "column 1 (time): holds dates or times of day, such as \"2026-11-23T10:00:00\", which are not read; "
+       "write "
+       "\"time [s]\" and seconds from the start"},
+      {"time;pressure [MPa]\n23.11.2026 10:00:00;1\n", "such as \"23.11.2026 10:00:00\""},
+      {"time,pressure [MPa]\n11/23/2026 10:00 AM,1\n", "such as \"11/23/2026 10:00 AM\""},
+      {"time,pressure [MPa]\n46349.4167,1\n", "\"46349.4167\" looks like a day of a spreadsheet"},
+      {"time [s],pressure [MPa]\n10:00:03,1\n",
+       "line 2, column 1 (time): \"10:00:03\" is no finite number: it is a date or a time of day; write "
+       "times as "
+       "seconds from the start"},
+      {"time,pressure\ns,MPa\n0,1\n",
+       "column 2 (pressure): has no unit; units stand in the line below, \"MPa\": write them into the "
+       "titles, "
+       "\"pressure [MPa]\", and delete that line"},
+      {"time;load\n[s];[kN]\n0;1\n", "write them into the titles, \"load [kN]\", and delete that line"},
+      {"Zeit [s];Kraft [kN]\n0;1\n", "\"Kraft [kN]\" (did you mean `load [kN]`?)"},
+      {"time / s,pressure / MPa\n0,1\n",
+       "\"time / s\" (did you mean `time [s]`?), \"pressure / MPa\" (did you mean "
+       "`pressure [MPa]`?)"},
+      {"time_s,force_kN\n0,1\n", "\"force_kN\" (did you mean `load [kN]`?)"},
+      {"Druck\n1\n", "\"Druck\" (did you mean `pressure [MPa]`?)"},
+      {"Machine 7\nOperator Li\n\ntime [s],pressure [MPa]\n0,1\n",
+       "begins with words, in line 1; the titles of its columns stand in line 4; put # before the lines "
+       "above"},
+      {"time [s] pressure [MPa]\n0 1\n", "parts its columns by blanks, in line 1"},
+      {"pressure [MPa],dwell [s]\n\"1,5\",1\n",
+       "\"1,5\" is no finite number: commas part the cells here; write the decimal sign as a point"},
+      {"pressure [MPa],dwell [s]\n10 MPa,1\n",
+       "\"10 MPa\" is no finite number: write its unit into the title of the column alone"},
+      {"pressure [MPa],dwell [s]\n1,1\nTotal\n",
+       "line 3: there is 1 cell under 2 columns; put # before a line that is no row"},
+      {"load [N],pressure [Pa]\n1,1\n", "begin the title of the other with \"result \""},
+      {"load [N],load [kN]\n1,1\n",
+       "column 2 (load): means the same as column 1; leave one of them out, or begin its title with \"result "
+       "\""},
+      {std::string("\xFF\xFEp\0r\0", 6), "is not text that can be read: it is UTF-16 text; save it as UTF-8"},
+  };
+  for (const auto& [log, words] : forms) {
+    const std::string error = refusal(log);
+    EXPECT_NE(error.find(words), std::string::npos) << log << "\n" << error;
+  }
+  // The call chooses between two columns by their titles.
+  EXPECT_EQ(events("load [N],result pressure [Pa]\n1,1\n"), "press 1 N\n");
+  EXPECT_TRUE(listener.warnings.empty());
+}
+
+// F8: an angle is a reading of a stage; in a table of events the turn is called otherwise.
+TEST_F(PressLog, F8AnAngleAmongEventsIsAskedAbout) {
+  events("pressure [MPa],angle [deg],dwell [s]\n1,90,1\n");
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_NE(listener.warnings[0].find("\"angle [deg]\" (did you mean `rotation [deg]`?)"), std::string::npos);
+}
+
 TEST_F(PressLog, BodiesUnderLoadAreReleasedBeforeTheyAreMoved) {
   EXPECT_EQ(events("pressure [Pa],rotation [deg],place\n0,90,\n5,0,\n5,90,\n,90,\n5,,2\n5,90,3\n"),
             "rotate 90 deg\n"
@@ -154,10 +261,11 @@ TEST_F(PressLog, ColumnsThatMeanNothingCertainAreRefused) {
   EXPECT_NE(refusal("pressure [MPaa]\n1\n").find("line 1, column 1 (pressure): "), std::string::npos);
   EXPECT_NE(refusal("pressure [MPaa]\n1\n").find("(did you mean `MPa`?)"), std::string::npos);
   EXPECT_EQ(refusal("turn [deg],pressure [Pa],rotation [deg]\n0,1,0\n"),
-            "bad_file: line 1, column 3 (rotation): means the same as column 1; leave one of them out");
+            "bad_file: line 1, column 3 (rotation): means the same as column 1; leave one of them out, or "
+            "begin its title with \"result \"");
   EXPECT_EQ(refusal("pressure [Pa],load [N]\n1,1\n"),
-            "bad_file: line 1: both `pressure` and `load` are given; leave one of them out, or name it "
-            "otherwise");
+            "bad_file: line 1: both `pressure` and `load` are given; choose one, and begin the title of the "
+            "other with \"result \" or leave it out");
   EXPECT_EQ(refusal("time [s],presure [MPa]\n0,1\n"),
             "bad_file: line 1: no column `pressure` or `load` among others: \"presure [MPa]\" (did you mean "
             "`pressure`?); write \"pressure [MPa]\" or \"load [N]\"");
@@ -196,7 +304,8 @@ TEST_F(PressLog, AllProblemsAreNamedByLineAndColumn) {
 
 TEST_F(PressLog, ThousandsAreNotGuessed) {
   EXPECT_EQ(refusal("pressure [Pa],dwell [s]\n\"1,500\",1\n"),
-            "bad_file: line 2, column 1 (pressure): \"1,500\" is no finite number");
+            "bad_file: line 2, column 1 (pressure): \"1,500\" is no finite number: commas part the cells "
+            "here; write the decimal sign as a point, or part cells by semicolons");
 }
 
 TEST_F(PressLog, FilesThatAreNoLogs) {

@@ -38,7 +38,7 @@ TEST(PressRecording, UnitsAreThoseOfTheTitles) {
 TEST(PressRecording, TimesIncreaseOrTheirLinesAreNamed) {
   EXPECT_EQ(refusal("time [s],load [N]\n1,1\n1,1\n0.5,1\n,1\nx,1\n2,y\n"),
             "bad_file: \"press.csv\" has 5 problems\n"
-            "  line 3, column 1 (time): the time 1 s stands in line 2 too\n"
+            "  line 3, column 1 (time): the time 1 s stands in line 2 too; write more of its digits\n"
             "  line 4, column 1 (time): the time 0.5 s runs backwards: 1 s stands before it\n"
             "  line 5, column 1 (time): the time is missing\n"
             "  line 6, column 1 (time): \"x\" is no finite number\n"
@@ -55,6 +55,24 @@ TEST(PressRecording, ColumnsOfEventsAndLackOfTimesAreRefused) {
               std::string::npos);
   EXPECT_TRUE(refusal("time [s]\n1\n").find("no column `pressure` or `load`") != std::string::npos);
   EXPECT_TRUE(refusal("time [s],load [N]\n").find("names columns but holds no row") != std::string::npos);
+}
+
+// F8: a recording with a unit that is not read is none the less a recording.
+TEST(PressRecording, F8AUnitThatIsNotReadIsToldAndNotTheRows) {
+  std::string text = "time [s],load [kN],angle [gon]\n";
+  for (int k = 0; k < 120; ++k)
+    text += std::to_string(k) + "," + std::to_string(k % 2 == 0 ? -0.1 : 0.1) + ",0\n";
+  EXPECT_TRUE(looks_like_recording(SourceFile("press.csv", text)));
+  EXPECT_NE(refusal(text).find("line 1, column 3 (angle): \"gon\": unknown unit `gon`"), std::string::npos)
+      << refusal(text);
+  text.replace(text.find("gon"), 3, "rev");
+  EXPECT_EQ(refusal(text), "");
+  EXPECT_DOUBLE_EQ(read("time [s],load [N],angle [rev]\n0,1,0.25\n").angle[0], 0.5 * std::numbers::pi);
+}
+
+TEST(PressRecording, F8OtherNamesOfTheTimeAreAskedAbout) {
+  EXPECT_NE(refusal("Zeit [s];load [N]\n0;1\n").find("among others: \"Zeit [s]\" (did you mean `time [s]`?)"),
+            std::string::npos);
 }
 
 TEST(PressRecording, LooksLikeOneFromAHundredRowsWithoutDwellsOrTurns) {

@@ -35,13 +35,19 @@ inline void read_every_way(std::string_view bytes, const Knobs& knobs) {
   ReadProfileOptions profile;
   surface.format = profile.format = knobs.format;
   // Nothing, what is usual, and what nobody means but may write.
-  for (const int told : {0, 1, 2}) {
+  for (const int told : {0, 1, 2, 3}) {
     if (told > 0) {
       surface.size_x = told == 1 ? 1e-3 : 5e-324;
       surface.size_y = told == 1 ? 1e-3 : 1e308;
       surface.unit = profile.unit = told == 1 ? 1e-6 : 1.0;
       profile.spacing = surface.size_x;
       surface.fill = profile.fill = knobs.fill;
+    }
+    if (told == 3) {  // of files that hold positions
+      surface.size_x.reset();
+      surface.size_y.reset();
+      profile.spacing.reset();
+      surface.unit_xy = profile.unit_xy = 1e-6;
     }
     refused(room, [&] {
       const Surface found = read_surface(SourceFile(knobs.name, bytes), surface, monitor);

@@ -5,7 +5,10 @@
 
 #include <cmath>
 
+#include "engine/core/memory.hpp"
+#include "engine/surface/io/source_file.hpp"
 #include "tests/surface/files.hpp"
+#include "tests/surface/warnings.hpp"
 
 namespace asperity::read_test {
 namespace {
@@ -183,13 +186,20 @@ TEST(Read, ProfileFromEveryShape) {
   EXPECT_EQ(read_profile(row, options).digest(), read_profile(column, options).digest());
   ReadProfileOptions only_unit;
   only_unit.unit = 1e-6;
-  const Profile pairs = read_profile(scratch.write("pairs.csv", "0,1\n2,2\n4,3\n6,4\n"), only_unit);
+  // B2: the unit of heights is not that of positions.
+  EXPECT_NE(message_of([&] {
+              read_profile(scratch.write("pairs.csv", "0,1\n2,2\n4,3\n6,4\n"), only_unit);
+            }).find("does not say the unit of its positions; give `unit_xy` in the call"),
+            std::string::npos);
+  ReadProfileOptions both = only_unit;
+  both.unit_xy = 1e-6;
+  const Profile pairs = read_profile(scratch.write("pairs.csv", "0,1\n2,2\n4,3\n6,4\n"), both);
   EXPECT_NEAR(pairs.spacing(), 2e-6, 1e-21);
   EXPECT_EQ(pairs.heights()[3], 4e-6);
   EXPECT_NE(message_of([&] { read_profile(row, only_unit); }).find("does not say its spacing"),
             std::string::npos);
   EXPECT_NE(message_of([&] {
-              read_profile(scratch.write("uneven.csv", "0,1\n2,2\n9,3\n"), only_unit);
+              read_profile(scratch.write("uneven.csv", "0,1\n2,2\n9,3\n"), both);
             }).find("not evenly spaced at sample"),
             std::string::npos);
   EXPECT_NE(
@@ -199,6 +209,80 @@ TEST(Read, ProfileFromEveryShape) {
   const Profile filled = read_profile(scratch.write("gap.txt", "1 nan nan 4\n"), options);
   EXPECT_NEAR(filled.heights()[1], 2e-6, 1e-17);
   EXPECT_NEAR(filled.heights()[2], 3e-6, 1e-17);
+}
+
+// B2, F7: two columns under a head are a trace, whether read as a profile or as a surface.
+TEST(Read, F7B2TwoColumnsUnderAHeadAreATrace) {
+  for (const char* head : {"x [mm],z [um]\n", "x (mm);z (um)\n", "x/mm\tz/um\n", "# x [mm], z [um]\n",
+                           "Position [mm];Height [um]\n"}) {
+    const std::string text = std::string(head) + "0 1\n0.1 2\n0.2 4\n";
+    const Profile trace = read_profile(SourceFile("trace.csv", text));
+    EXPECT_DOUBLE_EQ(trace.spacing(), 1e-4) << head;
+    EXPECT_EQ(trace.heights()[2], 4e-6) << head;
+    EXPECT_EQ(read_surface(SourceFile("trace.csv", text)).grid(),
+              (Grid{3, 1, trace.spacing() * 3, trace.spacing()}))
+        << head;
+  }
+  ReadProfileOptions options;
+  options.unit = 1e-3;
+  EXPECT_NE(message_of([&] {
+              read_profile(SourceFile("trace.csv", "x [mm],z [um]\n0,1\n1,2\n2,4\n"), options);
+            }).find("its heights are in units of 1 um, and `unit` is 1 mm"),
+            std::string::npos);
+  EXPECT_NE(message_of([&] {
+              read_profile(SourceFile("trace.csv", "x [mm],z [um]\n0,1,5\n1,2,6\n"));
+            }).find("has 3 columns under a head that names two"),
+            std::string::npos);
+}
+
+// F13: a size that no instrument has comes from a head or a unit that is wrong.
+TEST(Read, F13LengthsOutOfAllProportionAreWarnedOf) {
+  const auto warnings = [](const std::string& text, const ReadOptions& options) {
+    testing::Warnings heard;
+    read_surface(SourceFile("map.txt", text), options, heard);
+    return heard.all;
+  };
+  const std::string four = "1 2\n3 4\n";
+  EXPECT_TRUE(warnings(four, square(1e-6, 1e-9)).empty());
+  EXPECT_TRUE(warnings(four, square(1, 1)).empty());
+  const auto said = [&](const std::string& text, const ReadOptions& options, const char* part) {
+    const std::vector<std::string> all = warnings(text, options);
+    return all.size() == 1 && all[0].find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(
+      said("h=2 w=2\npixel size=1e-43 m\n" + four, square(2e-43, 1e-60), "points that lie 1e-31 pm apart"));
+  EXPECT_TRUE(said(four, square(1e4, 1), "is 10 km long"));
+  EXPECT_TRUE(said(four, square(1e-6, 1), "heights that span 3 m over 1 um: check its size and its unit"));
+  ReadOptions narrow = square(1, 1e-9);
+  narrow.size_y = 1e-8;
+  EXPECT_TRUE(said(four, narrow, "lie 500 mm apart along x and 5 nm along y"));
+}
+
+// F13: "152" cut to "15" looks like a number.
+TEST(Read, F13ALastLineWithoutEndIsWarnedOf) {
+  for (const auto& [text, warned] :
+       {std::pair{"1 2\n3 4\n", false}, std::pair{"1 2\n3 4", true}, std::pair{"1 2\r3 4\r", false},
+        std::pair{"0 0 1\n1 0 2\n0 1 3\n1 1 4", true}, std::pair{"x [mm],z [um]\n0,1\n1,2\n2,3", true}}) {
+    testing::Warnings heard;
+    ReadOptions options;
+    options.size_x = options.size_y = 1;
+    if (!std::string_view(text).starts_with("x")) options.unit = 1;
+    read_surface(SourceFile("map.txt", text), options, heard);
+    EXPECT_EQ(heard.told("the last line has no line end"), warned) << text;
+  }
+}
+
+// S9: a sparse file takes no time to be refused.
+TEST(Read, S9AFileThatDoesNotFitIsRefusedByItsSize) {
+  const Scratch scratch;
+  const std::string path = scratch.write("large.npy", "\x93NUMPY");
+  std::filesystem::resize_file(path, std::uintmax_t{10} << 30);
+  memory::set_limit(memory::held() + (std::int64_t{1} << 20));
+  const auto error = error_of([&] { read_surface(path); });
+  memory::set_limit(0);
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code(), ErrorCode::out_of_memory);
+  EXPECT_EQ(error->sentence(), "\"" + path + "\" has 10 GiB, and the limit of memory leaves 1 MiB");
 }
 
 TEST(Read, LimitOfCells) {

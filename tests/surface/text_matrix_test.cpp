@@ -19,6 +19,7 @@ Surface read_text(const std::string& text, const std::string& name = "table.txt"
   options.size_x = options.size_y = 1;
   options.unit = 1;
   options.fill = HoleFill::with(-99);
+  options.format = "text";  // three columns without a mark could be points as well (B3)
   return read_surface(scratch.write(name, text), options);
 }
 

@@ -148,6 +148,46 @@ TEST(X3p, Md5IsCompared) {
             std::string::npos);
 }
 
+std::string md5_of(const std::string& bytes) {
+  Md5 md5;
+  md5.add(bytes);
+  return md5.hex();
+}
+
+// F5: one bit of the mask makes a point of a hole, and of it a height that was never measured.
+TEST(X3p, F5EveryByteOfItsBinaryEntriesCounts) {
+  const std::string mask("\x3B", 1);
+  Recipe recipe;
+  recipe.content =
+      "<DataLink><PointDataLink>bindata/data.bin</PointDataLink><MD5ChecksumPointData>" + md5_of(six) +
+      "</MD5ChecksumPointData><ValidPointsLink>bindata/valid.bin</ValidPointsLink><MD5ChecksumValidPoints>" +
+      md5_of(mask) + "</MD5ChecksumValidPoints></DataLink>";
+  const auto message = [&](const std::string& points, const std::string& valid) {
+    return message_of([&] {
+      ReadOptions options;
+      options.fill = HoleFill::with(0);
+      const Scratch scratch;
+      read_surface(scratch.write("map.x3p", zip_of({{"main.xml", recipe.xml()},
+                                                    {"bindata/data.bin", points},
+                                                    {"bindata/valid.bin", valid}})),
+                   options);
+    });
+  };
+  EXPECT_EQ(message(six, mask), "no error");
+  for (std::size_t k = 0; k < six.size(); ++k) {
+    std::string damaged = six;
+    damaged[k] = static_cast<char>(damaged[k] ^ 0x10);
+    EXPECT_NE(message(damaged, mask).find("is damaged: the MD5 of its data is "), std::string::npos) << k;
+  }
+  for (const char flip : {'\x01', '\x04', '\xFF'}) {
+    const std::string damaged(1, static_cast<char>(mask[0] ^ flip));
+    EXPECT_NE(
+        message(six, damaged)
+            .find("is damaged: the MD5 of its valid points is " + md5_of(damaged) + ", not " + md5_of(mask)),
+        std::string::npos);
+  }
+}
+
 TEST(X3p, AChecksumThatIsNoneIsShownAsPlainText) {
   Recipe recipe;
   recipe.content =

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
+#include "engine/core/text.hpp"
 #include "engine/surface/io/read.hpp"
+#include "engine/surface/io/source_file.hpp"
 #include "tests/surface/files.hpp"
+#include "tests/surface/warnings.hpp"
 
 namespace asperity::xyz_test {
 namespace {
@@ -14,6 +19,12 @@ using testing::sample;
 using testing::Scratch;
 
 ReadOptions in_micrometres() {
+  ReadOptions options;
+  options.unit = options.unit_xy = 1e-6;
+  return options;
+}
+// Of a matrix, which has no positions.
+ReadOptions heights_in_micrometres() {
   ReadOptions options;
   options.unit = 1e-6;
   return options;
@@ -31,17 +42,40 @@ TEST(Xyz, GridInAnyOrder) {
 
 TEST(Xyz, LineOfNamesAndRoundedCoordinates) {
   const Scratch scratch;
-  const Surface surface = read_surface(
-      scratch.write("named.csv",
-                    "x [um],y [um],z [um]\n0,0,1\n0.33,0,2\n0.67,0,3\n0,1,4\n0.33,1,5\n0.67,1,6\n"),
-      in_micrometres());
+  const Surface surface = read_surface(scratch.write(
+      "named.csv", "x [um],y [um],z [um]\n0,0,1\n0.33,0,2\n0.67,0,3\n0,1,4\n0.33,1,5\n0.67,1,6\n"));
   EXPECT_EQ(surface.grid().nx, 3);
   EXPECT_DOUBLE_EQ(surface.height(2, 1), 6e-6);
 }
 
-TEST(Xyz, UnitIsNeededAndCoversAllThree) {
-  EXPECT_NE(message_of([] { read_surface(sample("points.xyz")); }).find("does not say its unit"),
-            std::string::npos);
+// B2: heights in um over positions in mm are common; nobody's unit is guessed.
+TEST(Xyz, B2UnitsOfHeightsAndOfPositionsAreAskedForApart) {
+  const std::string file = "\"" + sample("points.xyz") + "\" does not say ";
+  EXPECT_EQ(
+      message_of([] { read_surface(sample("points.xyz")); }),
+      file +
+          "its unit and the unit of its positions; give `unit` and `unit_xy` in the call: `unit` is the "
+          "length of one number, such as \"um\", `unit_xy` that of a position, which may be another");
+  ReadOptions options;
+  options.unit = 1e-6;
+  EXPECT_EQ(message_of([&] { read_surface(sample("points.xyz"), options); }),
+            file +
+                "the unit of its positions; give `unit_xy` in the call: `unit_xy` that of a position, "
+                "which may be another");
+  options.unit_xy = 1e-3;
+  EXPECT_DOUBLE_EQ(read_surface(sample("points.xyz"), options).grid().size_x, 2e-3);
+  EXPECT_DOUBLE_EQ(read_surface(sample("points.xyz"), options).height(3, 2), 23e-6);
+}
+
+// The size of the call is enough, and then the file says nothing that could be overruled.
+TEST(Xyz, B2ASizeOfTheCallIsNoContradiction) {
+  testing::Warnings warnings;
+  ReadOptions options;
+  options.unit = 1e-6;
+  options.size_x = 4e-4;
+  options.size_y = 3e-4;
+  EXPECT_EQ(read_surface(sample("points.xyz"), options, warnings).grid().size_x, 4e-4);
+  EXPECT_TRUE(warnings.all.empty());
 }
 
 TEST(Xyz, MissingPointIsAHole) {
@@ -59,6 +93,187 @@ TEST(Xyz, MissingPointIsAHole) {
   ReadOptions options = in_micrometres();
   options.fill = HoleFill::interpolate();
   EXPECT_NEAR(read_surface(path, options).height(3, 2), 3e-6, 1e-17);
+}
+
+struct NamedUnit {
+  const char* name;
+  double metres;
+};
+constexpr NamedUnit units_of_heads[] = {{"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3}, {"m", 1}};
+
+// B2: own.csv of an experimenter, 3 x 2 points 0.1 apart, in every unit, spelling and separator.
+TEST(Xyz, B2EveryTableOfUnitsIsTheSameSurface) {
+  const std::vector<double> x{0, 1e-4, 2e-4}, y{0, 1e-4};
+  const std::vector<double> z{1.2e-6, 1.5e-6, 1.1e-6, 0.9e-6, 2.0e-6, 1.7e-6};
+  int tables = 0;
+  for (const NamedUnit& of_x : units_of_heads)
+    for (const NamedUnit& of_z : units_of_heads)
+      for (const auto& [open, close] : {std::pair{" [", "]"}, std::pair{" (", ")"}, std::pair{"/", ""}})
+        for (const std::string separator : {";", ",", "\t"}) {
+          const auto title = [&, o = open, c = close](const char* name, const NamedUnit& unit) {
+            return std::string(name) + o + unit.name + c;
+          };
+          std::string text =
+              title("x", of_x) + separator + title("y", of_x) + separator + title("z", of_z) + "\n";
+          for (std::size_t k = 0; k < z.size(); ++k) {
+            std::string line = format_exact(x[k % 3] / of_x.metres) + separator +
+                               format_exact(y[k / 3] / of_x.metres) + separator +
+                               format_exact(z[k] / of_z.metres);
+            if (separator == ";") std::replace(line.begin(), line.end(), '.', ',');
+            text += line + "\n";
+          }
+          const Surface surface = read_surface(SourceFile("own.csv", text));
+          ASSERT_EQ(surface.grid().nx, 3) << text;
+          ASSERT_EQ(surface.grid().ny, 2) << text;
+          EXPECT_NEAR(surface.grid().size_x, 3e-4, 1e-15) << text;
+          EXPECT_NEAR(surface.grid().size_y, 2e-4, 1e-15) << text;
+          for (int k = 0; k < 6; ++k)
+            EXPECT_NEAR(surface.height(k % 3, k / 3), z[static_cast<std::size_t>(k)], 1e-20) << text;
+          ++tables;
+        }
+  EXPECT_EQ(tables, 4 * 4 * 3 * 3);
+}
+
+TEST(Xyz, B2HeadsOfOtherForms) {
+  const std::string points = "0 0 1\n0.1 0 2\n0 0.1 3\n0.1 0.1 4\n";
+  for (const char* head :
+       {"x [mm] y [mm] z [um]\n", "X (mm) Y (mm) Z (um)\n", "x/mm y/mm z/um\n", "x / mm y / mm z / um\n",
+        "# x [mm] y [mm] z [um]\n", "% by hand\n# X [mm], Y [mm], Z [\xC2\xB5m]\n", "x_mm;y_mm;z_um\n",
+        "\"x [mm]\";\"y [mm]\";\"z [um]\"\n", "x mm;y mm;z um;\n",
+        "\xEF\xBB\xBFx axis [mm],y axis [mm],z [micron]\n"}) {
+    const Surface surface = read_surface(SourceFile("own.txt", head + points));
+    EXPECT_DOUBLE_EQ(surface.grid().size_x, 2e-4) << head;
+    EXPECT_DOUBLE_EQ(surface.height(1, 1), 4e-6) << head;
+  }
+  // x and y in units of their own.
+  const Surface oblong = read_surface(SourceFile("own.txt", "x [mm];y [um];z [nm]\n" + points));
+  EXPECT_DOUBLE_EQ(oblong.grid().size_x, 2e-4);
+  EXPECT_DOUBLE_EQ(oblong.grid().size_y, 2e-7);
+  // A line that names the columns decides where the points alone would not.
+  EXPECT_EQ(
+      read_surface(SourceFile("own.txt", "x [mm] y [mm] z [um]\n0 0 1\n1 0 2\n0 1 3\n1 1 4\n2 0 1\n2 1 2\n"))
+          .grid()
+          .nx,
+      3);
+}
+
+TEST(Xyz, B2HeadAndCallAgreeOrAreRefused) {
+  const std::string text = "x [mm];y [mm];z [um]\n0;0;1,2\n0,1;0;1,5\n0;0,1;0,9\n0,1;0,1;2,0\n";
+  ReadOptions options;
+  options.unit = 1e-6;
+  options.unit_xy = 1e-3;
+  EXPECT_DOUBLE_EQ(read_surface(SourceFile("own.csv", text), options).height(0, 0), 1.2e-6);
+  options.unit = 1e-9;
+  EXPECT_EQ(message_of([&] { read_surface(SourceFile("own.csv", text), options); }),
+            "\"own.csv\" says in the line that names its columns that its heights are in units of 1 um, and "
+            "`unit` is 1 nm; leave `unit` out, or correct that line");
+  options.unit.reset();
+  options.unit_xy = 1e-6;
+  EXPECT_NE(message_of([&] {
+              read_surface(SourceFile("own.csv", text), options);
+            }).find("its positions are in units of 1 mm, and `unit_xy` is 1 um"),
+            std::string::npos);
+  // Half a head asks for the other half.
+  const std::string half = "x,y,z [um]\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n";
+  EXPECT_NE(message_of([&] {
+              read_surface(SourceFile("own.csv", half));
+            }).find("does not say the unit of its positions"),
+            std::string::npos);
+  EXPECT_DOUBLE_EQ(read_surface(SourceFile("own.csv", half), options).grid().size_x, 2e-6);
+  EXPECT_NE(message_of([&] {
+              read_surface(SourceFile("own.csv", "x [mm],y,z [um]\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n"));
+            }).find("says the unit of its x and not that of its y"),
+            std::string::npos);
+  testing::Warnings warnings;
+  options.unit = 1e-6;
+  read_surface(SourceFile("own.csv", "x [px],y [px],z [V]\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n"), options, warnings);
+  ASSERT_EQ(warnings.all.size(), 3U);
+  EXPECT_NE(warnings.all[0].find("gives its \"x\" in \"px\", which is no unit of length"), std::string::npos);
+}
+
+// `unit_xy` is of positions: a file without any does not pass it over.
+TEST(Xyz, B2UnitOfPositionsIsRefusedWhereThereAreNone) {
+  ReadOptions options = in_micrometres();
+  options.size_x = options.size_y = 1;
+  EXPECT_EQ(message_of([&] { read_surface(SourceFile("m.txt", "1 2 3 4\n5 6 7 8\n"), options); }),
+            "`unit_xy` is 1 um, and \"m.txt\" holds no positions, only heights; leave it out: it is of x y z "
+            "points and of profiles in two columns");
+}
+
+// B3: what is left of a lattice is the map with holes or an error, and never a map of its own coordinates.
+TEST(Xyz, B3LatticesWithPointsMissingAreNeverMatrices) {
+  const Stream stream(11, "lattices");
+  std::uint64_t draw = 0;
+  int maps = 0, refused = 0, wrong = 0;
+  ReadOptions options = in_micrometres();
+  options.fill = HoleFill::with(-1);
+  for (int nx = 2; nx <= 20; ++nx)
+    for (int ny = 2; ny <= 20; ++ny)
+      for (int attempt = 0; attempt < 4; ++attempt) {
+        const std::uint64_t left = 1 + stream.below(draw++, static_cast<std::uint64_t>(nx * ny));
+        std::vector<int> places(static_cast<std::size_t>(nx * ny));
+        std::iota(places.begin(), places.end(), 0);
+        for (std::size_t k = 0; k < left; ++k)
+          std::swap(places[k], places[k + stream.below(draw++, places.size() - k)]);
+        places.resize(left);
+        std::sort(places.begin(), places.end());
+        const double dx = 0.5 * attempt + 0.25, x0 = 7.5 * attempt;
+        std::string text;
+        for (const int place : places)
+          text += format_exact(x0 + dx * (place % nx)) + "\t" + std::to_string(place / nx) + "\t" +
+                  std::to_string(place) + "\n";
+        const auto error = testing::error_of([&] {
+          const Surface found = read_surface(SourceFile("left.txt", text), options);
+          ++maps;
+          // Every point lies where it was measured, seen from the first column and row that are left.
+          int first_i = nx, first_j = ny;
+          for (const int place : places) {
+            first_i = std::min(first_i, place % nx);
+            first_j = std::min(first_j, place / nx);
+          }
+          for (const int place : places) {
+            const double i = dx * (place % nx - first_i) * 1e-6 / found.grid().hx(),
+                         j = (place / nx - first_j) * 1e-6 / found.grid().hy();
+            const int column = static_cast<int>(std::round(i)), row = static_cast<int>(std::round(j));
+            const bool there = std::abs(i - column) < 1e-9 && std::abs(j - row) < 1e-9 &&
+                               column < found.grid().nx && row < found.grid().ny &&
+                               std::abs(found.height(column, row) - place * 1e-6) < 1e-12;
+            wrong += there ? 0 : 1;
+          }
+          wrong += found.grid().nx > nx || found.grid().ny > ny ? 1 : 0;
+        });
+        if (error) ++refused;
+        if (error) EXPECT_EQ(error->code(), ErrorCode::bad_file) << error->what() << "\n" << text;
+        const bool size_asked = error && error->sentence().find("does not say its size") != std::string::npos;
+        EXPECT_FALSE(size_asked) << text;
+      }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(maps, 300);
+  EXPECT_GT(refused, 300);
+}
+
+TEST(Xyz, B3ThreePointsOfFourAndUnevenOnesAreAskedAbout) {
+  ReadOptions options = in_micrometres();
+  options.size_x = options.size_y = 1e-3;
+  const std::string three = "0\t0\t1\n1\t0\t2\n0\t1\t3\n";
+  for (const std::string& text :
+       {three, three + "1.2 1 3\n", std::string("0 0 1\n"), std::string("0 0 1\n1 1 4\n")}) {
+    const std::string message = message_of([&] { read_surface(SourceFile("hx3.txt", text), options); });
+    EXPECT_NE(message.find("`format` = \"text\""), std::string::npos) << text << message;
+  }
+  options.format = "xyz";
+  options.size_x.reset(), options.size_y.reset();
+  options.fill = HoleFill::interpolate();
+  EXPECT_EQ(read_surface(SourceFile("hx3.txt", three), options).grid(), (Grid{2, 2, 2e-6, 2e-6}));
+}
+
+// What no lattice leaves: a place twice, places on no lattice, or a jumble of them.
+TEST(Xyz, B3MatricesOfThreeColumnsStayMatrices) {
+  ReadOptions options = heights_in_micrometres();
+  options.size_x = options.size_y = 1e-3;
+  for (const char* text : {"5 1 2\n3 9 4\n8 2 7\n6 4 4\n0 0 1\n", "1 1 2\n1 1 3\n1 2 2\n1 1 1\n",
+                           "0.31831 1.5708 3\n-2.7183 1.4142 2\n0.57722 -1.6180 1\n9.8 0.3 4\n"})
+    EXPECT_EQ(read_surface(SourceFile("narrow.txt", text), options).grid().nx, 3) << text;
 }
 
 TEST(Xyz, WhatIsNoGrid) {
@@ -82,7 +297,7 @@ TEST(Xyz, WhatIsNoGrid) {
 
 TEST(Xyz, ThreeColumnsOfHeightsAreAMatrix) {
   const Scratch scratch;
-  ReadOptions options = in_micrometres();
+  ReadOptions options = heights_in_micrometres();
   options.size_x = options.size_y = 1e-3;
   const Surface surface =
       read_surface(scratch.write("narrow.txt", "5 1 2\n3 9 4\n8 2 7\n6 4 4\n0 0 1\n"), options);
@@ -95,7 +310,7 @@ TEST(Xyz, ScatteredPointsAreNoMapOfThreeColumns) {
   std::string text;
   for (int k = 0; k < 150; ++k)
     text += std::to_string(std::sin(k)) + " " + std::to_string(std::cos(1.7 * k)) + " 0.5\n";
-  ReadOptions options = in_micrometres();
+  ReadOptions options = heights_in_micrometres();
   options.size_x = options.size_y = 1e-3;
   const auto answer = [&](const std::string& name) {
     return message_of([&] { read_surface(scratch.write(name, text), options); });
@@ -120,7 +335,7 @@ std::string lattice(int nx, int ny, Copies&& copies) {
 TEST(Xyz, AlmostALatticeHasToBeNamed) {
   const Scratch scratch;
   const auto answer = [&](const std::string& text, const std::string& format) {
-    ReadOptions options = in_micrometres();
+    ReadOptions options = heights_in_micrometres();
     options.size_x = options.size_y = 1e-3;
     options.fill = HoleFill::interpolate();
     options.format = format;
@@ -155,7 +370,7 @@ TEST(Xyz, AlmostALatticeHasToBeNamed) {
 // Heights of an instrument with few steps, drawn independently or along a smooth surface.
 TEST(Xyz, MatricesOfFewDistinctHeightsStayMatrices) {
   const Scratch scratch;
-  ReadOptions options = in_micrometres();
+  ReadOptions options = heights_in_micrometres();
   options.size_x = options.size_y = 1e-3;
   const Stream stream(9, "matrix");
   for (const int steps : {4, 10, 31}) {
