@@ -27,11 +27,14 @@ struct Bends {
 // Within pieces, their ends left out: a corner may lie there.
 Bends bends_of(std::span<const double> value, std::span<const StraightPiece> pieces, int stride) {
   Array<double> magnitudes;
+  // A sensor at its limit has no noise.
+  const double top = *std::max_element(value.begin(), value.end());
   const auto reach = static_cast<std::size_t>(stride);
   constexpr std::size_t rim = 1;
   for (const StraightPiece& piece : pieces)
     for (std::size_t k = piece.first + rim + reach; k + reach + rim <= piece.last; ++k)
-      magnitudes.push_back(std::abs(value[k] - 0.5 * (value[k - reach] + value[k + reach])));
+      if (value[k] != top || value[k - reach] != top || value[k + reach] != top)
+        magnitudes.push_back(std::abs(value[k] - 0.5 * (value[k - reach] + value[k + reach])));
   if (magnitudes.empty()) return {};
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
   std::nth_element(magnitudes.begin(), middle, magnitudes.end());

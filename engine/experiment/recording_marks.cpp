@@ -186,14 +186,16 @@ void RecordingMarks::find_zero() {
 std::vector<bool> RecordingMarks::find_rests() {
   constexpr double near_zero = 0.05;
   double zero = first_zero_.value_or(zeros_.empty() ? 0 : zeros_.front().level);
+  double zero_doubt = 0;  // 1/n of the rest before; white noise leaves it too small to count beside `drift_`
   std::vector<bool> is_rest;
   std::vector<Mark> rests;
   for (const StraightPiece& piece : pieces_) {
-    const double load = piece.line.y - zero, error = piece_noise() / std::sqrt(piece.line.n);
+    const double load = piece.line.y - zero, error = piece_noise() * std::sqrt(1 / piece.line.n + zero_doubt);
     const bool after_rest = !is_rest.empty() && is_rest.back();
     is_rest.push_back(load <= std::max(drift_, 4 * error) && is_level(piece, drift_));
     if (!is_rest.back() || std::abs(load) > near_zero * range_ || !first_zero_) continue;
     zero = piece.line.y;
+    if (independent_ < 1) zero_doubt = 1 / piece.line.n;
     if (after_rest && !rests.empty())
       rests.back().last = piece.last;
     else

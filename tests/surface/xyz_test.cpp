@@ -60,8 +60,8 @@ TEST(Xyz, B2UnitsOfHeightsAndOfPositionsAreAskedForApart) {
   options.unit = 1e-6;
   EXPECT_EQ(message_of([&] { read_surface(sample("points.xyz"), options); }),
             file +
-                "the unit of its positions; give `unit_xy` in the call: `unit_xy` that of a position, "
-                "which may be another");
+                "the unit of its positions; give `unit_xy` in the call: the length of one number of a "
+                "position, such as \"mm\"");
   options.unit_xy = 1e-3;
   EXPECT_DOUBLE_EQ(read_surface(sample("points.xyz"), options).grid().size_x, 2e-3);
   EXPECT_DOUBLE_EQ(read_surface(sample("points.xyz"), options).height(3, 2), 23e-6);
