@@ -123,6 +123,7 @@ TEST(FileLengths, F13TrailersAndFurtherObjectsAreNoBytesOver) {
   const std::string one = testing::SurExample{.nx = 5, .ny = 4}(twenty);
   const std::string two = testing::SurExample{.objects = 2, .nx = 5, .ny = 4}(twenty);
   EXPECT_EQ(refusal("a.sur", two + one), "no error");
+  EXPECT_EQ(refusal("a.sur", two), "no error");  // the first of those that were cut off
   EXPECT_NE(refusal("a.sur", testing::SurExample{.objects = 2, .nx = 4, .ny = 4}(twenty) + one)
                 .find("holds 2 objects, and no second one after the 4 x 4 heights"),
             std::string::npos);

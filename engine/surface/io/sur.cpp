@@ -97,7 +97,7 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
   if (header.objects > 1) {
     require_numbers(file, side(header.nx), side(header.ny), width, data.size());
     const std::string_view next = data.substr(side(header.nx) * side(header.ny) * width);
-    if (!next.starts_with(plain_mark) && !next.starts_with(compressed_mark))
+    if (!next.empty() && !next.starts_with(plain_mark) && !next.starts_with(compressed_mark))
       refuse_file(file,
                   "holds " + std::to_string(header.objects) + " objects, and no second one after the " +
                       std::to_string(header.nx) + " x " + std::to_string(header.ny) + " heights of the first",
