@@ -240,8 +240,9 @@ std::optional<std::string> LogTable::meant(const Column& column) const {
                                   [&](const LogColumn& c) { return means(title.name, c.name); });
   if (found == known_.end() || has(found->meaning)) return {};
   if (found->dimension == dimension::number) return std::string(found->name);
-  const std::optional<Quantity> unit = unit_in_cell(readable_unit(title.unit));
-  return unit && unit->dimension == found->dimension ? std::string(found->name) + " [" + title.unit + "]"
+  const std::string written = readable_unit(title.unit);
+  const std::optional<Quantity> unit = unit_in_cell(written);
+  return unit && unit->dimension == found->dimension ? std::string(found->name) + " [" + written + "]"
                                                      : std::string(found->example);
 }
 
