@@ -76,7 +76,7 @@ const Block<ProfilePictureKeys>& profile_picture_block() {
 Values picture_of_profile(Call& call) {
   const ProfilePictureKeys keys = call.options(profile_picture_block(), 2);
   const std::string path = writable_path(call, call.text(1, "path"));
-  draw(call.self<Profile>(), keys.title, path);
+  warn_of(call, draw(call.self<Profile>(), keys.title, path));
   return {path};
 }
 

@@ -14,6 +14,7 @@
 #include "engine/contact/geometry.hpp"
 #include "engine/contact/state_file.hpp"
 #include "engine/core/node_value.hpp"
+#include "engine/surface/io/xdmf.hpp"
 
 namespace asperity::lua {
 
@@ -123,7 +124,9 @@ const Block<StateFileKeys>& state_file_block() {
 }
 Values write_state(Call& call) {
   const StateFileKeys keys = call.options(state_file_block(), 2);
-  const std::string path = writable_path(call, call.text(1, "path"));
+  const std::string name = call.text(1, "path");
+  const std::string path = writable_path(call, name);
+  if (has_xdmf_beside(path)) writable_path(call, xdmf_path(name).string());
   write_state(call.self<Contacting>(), path, keys.fields);
   return {path};
 }
@@ -153,7 +156,7 @@ Values field_picture(Call& call) {
   if (options.palette == PictureOptions{}.palette && f.name == "contact") options.palette = "contact";
   if (options.palette == PictureOptions{}.palette && f.name == "pressure") options.palette = "heat";
   const std::string path = writable_path(call, call.text(1, "path"));
-  draw(f.grid, *f.values, options, path);
+  warn_of(call, draw(f.grid, *f.values, options, path));
   return {path};
 }
 
