@@ -68,10 +68,10 @@ Array<std::uint8_t> taken_out(Field& heights) {
 // The combined heights, missing on the coarser grid where a node of the finer one beside is.
 Field combined_on_cells(const ContactGeometry& geometry, const Grid& grid, bool periodic) {
   const Grid& given = geometry.grid();
+  if (!geometry.overhangs()) return on_cells(geometry.combined(), given, grid, periodic);
   Field known = geometry.combined();
   const Array<std::uint8_t> uncovered = taken_out(known);
   Field heights = on_cells(known, given, grid, periodic);
-  if (uncovered.empty()) return heights;
   const auto beside = [](int k, int coarse, int fine) {
     const double at = static_cast<double>(k) * fine / coarse;
     const int low = std::min(static_cast<int>(at), fine - 1);

@@ -243,7 +243,8 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     const double mu = half_space ? std::max(0.0, mean_of(probes, &TiltProbe::mu)) : 0;
     // What the probes resolve is solved; what is lighter follows from them.
     const double resolved = half_space ? least_pressure(probes) : 0;
-    if (half_space && weight_pressure > resolved && (!weight || !flat))
+    if (!flat) weight.reset();
+    if (half_space && weight_pressure > resolved && !weight)
       weight.emplace(*solver, law, options, resolved, weight_pressure, monitor);
     std::int64_t contacts = 0;  // under the greatest load of the trial
     const auto friction = [&](double normal_force) {

@@ -150,10 +150,9 @@ double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.
 
 double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {
   const Grid& grid = problem.grid;
-  // Love's kernel at the middle of its own cell, where it is greatest.
-  const double hx = grid.hx(), hy = grid.hy();
-  const double own =
-      2 / (std::numbers::pi * problem.modulus) * (hx * std::asinh(hy / hx) + hy * std::asinh(hx / hy));
+  // Love's kernel is greatest at the middle of its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy)), and
+  // asinh x is below x.
+  const double own = 2 * (grid.hx() + grid.hy()) / (std::numbers::pi * problem.modulus);
   const double give = problem.yield.hardens() ? 1 / problem.yield.hardening : 0.0;
   const double most = mean_pressure * static_cast<double>(grid.nodes());
   const double height = known_range(problem.heights->values()).span();

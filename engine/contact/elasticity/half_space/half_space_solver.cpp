@@ -23,17 +23,20 @@ namespace asperity {
 namespace {
 
 double rms_of(std::span<const double> heights) {
-  const double middle = mean(heights);
-  // Squares of heights as small as this underflow.
-  constexpr double small = 1e-140;
-  const double most = range(heights).span();
-  const int power = most > 0 && most < small ? -std::ilogb(most) : 0;
+  const double middle = mean(heights), n = static_cast<double>(heights.size());
   Array<double> squares(heights.size());
+  std::transform(heights.begin(), heights.end(), squares.begin(),
+                 [&](double h) { return (h - middle) * (h - middle); });
+  const double sum = block_sum(squares), most = range(heights).span();
+  // Heights so small that their squares underflow are taken times a power of two.
+  constexpr double least = 1e-140;
+  if (!(most > 0 && most < least)) return std::sqrt(sum / n);
+  const int power = -std::ilogb(most);
   std::transform(heights.begin(), heights.end(), squares.begin(), [&](double h) {
     const double from_middle = std::ldexp(h - middle, power);
     return from_middle * from_middle;
   });
-  return std::ldexp(std::sqrt(block_sum(squares) / static_cast<double>(heights.size())), -power);
+  return std::ldexp(std::sqrt(block_sum(squares) / n), -power);
 }
 
 }  // namespace
