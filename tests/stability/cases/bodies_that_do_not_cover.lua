@@ -64,7 +64,8 @@ for _, angle in ipairs{ 1, 10, 45, 80 } do
     return lab.surface.self_affine{ cells = 48, size = "1 mm", hurst = 0.8, rms_slope = 0.05, short_wave = "125 um",
       seed = seed, material = al }
   end
-  local c = lab.contact{ lower = rough(1), upper = rough(2), boundary = "free", effects = { elasticity = "half_space" } }
+  local c = lab.contact{ lower = rough(1), upper = rough(2), boundary = "free",
+    effects = { elasticity = "half_space" } }
   c:rotate(angle .. " deg")
   for _, p in ipairs{ 1e6, 1e9, 1e13 } do
     local st = c:press{ pressure = p }
