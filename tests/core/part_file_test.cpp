@@ -63,7 +63,7 @@ TEST_F(PartFile, F11NoTwoNamesAreOne) {
 }
 
 TEST_F(PartFile, HasANameThatFileSystemsTake) {
-  for (const std::string stem : {std::string("a"), std::string(250, 'x')})
+  for (const std::string& stem : {std::string("a"), std::string(250, 'x')})
     for (const std::string& extension : {std::string(), std::string(".npy"), "." + std::string(200, 'y')}) {
       const fs::path part = part_beside(folder / (stem + extension));
       EXPECT_LE(part.filename().native().size(), 255U);
