@@ -160,8 +160,8 @@ Option<O> where_key(TableFilter O::*member) {
                    });
 }
 
-// A plain number, or a quantity of any dimension.
-Option<Expectation> bound_key(const char* name, std::optional<double> Expectation::*member,
+// A plain number, in the column's unit, or a quantity of any dimension, which the column's unit must share.
+Option<Expectation> bound_key(const char* name, std::optional<ExpectedValue> Expectation::*member,
                               const char* sentence) {
   return custom<Expectation>(
       name, "number", sentence,
@@ -170,7 +170,7 @@ Option<Expectation> bound_key(const char* name, std::optional<double> Expectatio
           e.*member = value.number();
         } else if (value.is_text()) {
           try {
-            e.*member = parse_quantity(value.text()).value;
+            e.*member = ExpectedValue(value.text());
           } catch (const Error& error) {
             problems.push_back(quoted(info.name) + ": " + error.what());
           }
@@ -184,7 +184,9 @@ const Block<Expectation>& expect_block() {
   using E = Expectation;
   static const Block<E> block{
       "expect",
-      {where_key(&E::where), bound_key("near", &E::near, "the value wanted, with `within` or `rel`"),
+      {where_key(&E::where), bound_key("near", &E::near,
+                 "the value wanted, with `within` or `rel`: a number in the column's unit, or a quantity such as "
+                 "\"10 MPa\", which is converted to it"),
        bound_key("within", &E::within, "greatest distance from `near`"),
        number("rel", &E::relative, at_least(0), "greatest distance from `near`, relative to it"),
        bound_key("at_least", &E::at_least, "lowest value accepted"),
