@@ -250,7 +250,8 @@ Function contact_function() {
           .sentence = "Puts two bodies on the bench. Only the effects that are named are computed.",
           .options = &scene_keys(),
           .returns = "Contact",
-          .example = "local c = lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity=\"box\" } }"};
+          .example = "local c = lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity=\"box\" } }",
+          .look = look_at_scene};
 }
 
 const Class& contact_class() {

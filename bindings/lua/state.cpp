@@ -9,6 +9,7 @@
 
 #include "bindings/lua/embedded.hpp"
 #include "bindings/lua/ensemble_case.hpp"
+#include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/registry.hpp"
 #include "engine/core/error.hpp"
@@ -119,6 +120,15 @@ int unknown_global_body(lua_State* L) {
 
 int unknown_global(lua_State* L) { return unknown_global_body(L) < 0 ? lua_error(L) : 1; }
 
+// host.mistaken(message) -> true and a placeholder in a dry run that goes on past mistakes; else false
+int mistaken(lua_State* L) {
+  const bool noted = noted_as_mistake(L);
+  lua_pushboolean(L, noted ? 1 : 0);
+  if (!noted) return 1;
+  push_unknown(L);
+  return 2;
+}
+
 // Ends the process; where it must not, why.
 const char* exit_body(lua_State* L, int code) {
   const Session& session = Session::of(L);
@@ -189,6 +199,8 @@ int set_up(lua_State* L) {
   lua_setfield(L, -2, "input_path");
   lua_pushcfunction(L, unknown_global);
   lua_setfield(L, -2, "unknown_global");
+  lua_pushcfunction(L, mistaken);
+  lua_setfield(L, -2, "mistaken");
   lua_pushboolean(L, session.trusted ? 1 : 0);
   lua_call(L, 2, 0);
   return 0;
