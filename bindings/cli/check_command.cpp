@@ -56,8 +56,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
       return failed;
     }
     for (const std::string& mistake : mistakes) std::fprintf(stderr, "asperity: %s\n", mistake.c_str());
-    if (!reached.empty())
-      std::fprintf(stderr, "%s: checked %s\n", command.script.c_str(), reached.c_str());
+    if (!reached.empty()) std::fprintf(stderr, "%s: checked %s\n", command.script.c_str(), reached.c_str());
     return failed;
   };
   session.run = std::make_shared<RunDirectory>(RunDirectory::Without::dry);

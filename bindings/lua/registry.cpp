@@ -150,7 +150,8 @@ Values dry_call(const Call& call, const Function& function) {
   call.session().gave_placeholders = true;
   Values results = placeholders_of(function);
   if (function.returns == surface_class().name)
-    if (auto* surface = std::get_if<Object>(&results.front().data)) surface->known = known_result(call, function);
+    if (auto* surface = std::get_if<Object>(&results.front().data))
+      surface->known = known_result(call, function);
   return results;
 }
 
@@ -165,6 +166,7 @@ Values call_function(lua_State* L, const Entry& entry) {
                   entry.name + " was called on " + Argument(L, 1).describe() + ", not on " +
                       entry.owner->article_name,
                   "write a colon: x:" + function.name + "(...)");
+    if (self->closed && function.name == "close") return {};  // twice does no harm
     if (self->closed)
       throw Error(ErrorCode::bad_state, entry.owner->article_name + " was used after it was closed");
     placeholder_self = self->is_placeholder();

@@ -71,7 +71,8 @@ const char* const taken[] = {
     "contact{ lower=rough(), upper=rough(), effects={ elasticity={ model='box', stiffness='1 MPa/um' } } }",
     "contact{ lower=rough(), upper=lab.rigid, effects={ elasticity='rigid', plasticity={ hardness='1 GPa' } "
     "} }",
-    "contact{ lower=rough{ material=al }, upper=rough{ cells=16 }:resampled{ cells=32 }, boundary='periodic', "
+    "contact{ lower=rough{ material=al }, upper=rough{ cells=16 }:resampled{ cells=32 }, "
+    "boundary='periodic', "
     "effects={ elasticity='half_space', adhesion={ work='1 mJ/m^2', range='1 um' } } }",
     "contact{ lower=rough{ material=al }, upper=lab.rigid, boundary='periodic', effects={ "
     "elasticity='half_space' }, accuracy={ estimate=true } }",
