@@ -207,13 +207,13 @@ void count_in_unit(std::optional<ExpectedValue>& wanted, std::string_view key, c
     const std::string had = column.unit.empty() ? "has no unit" : "is in " + column.unit;
     const std::string kind =
         given.dimension == dimension::number ? "has no unit" : "is " + describe(given.dimension);
-    throw Error(
-        ErrorCode::bad_unit,
-        quoted(key) + " is \"" + wanted->quantity + "\", which " + kind + ", and column " + quoted(column.name) + " " + had,
-        column.unit.empty()
-            ? "give a plain number, or the column its unit: book:units{ " + column.name + "=\"" +
-                  si_unit(given.dimension) + "\" } before the first row"
-            : "give a plain number, which is counted in " + column.unit + ", or " + describe(unit));
+    throw Error(ErrorCode::bad_unit,
+                quoted(key) + " is \"" + wanted->quantity + "\", which " + kind + ", and column " +
+                    quoted(column.name) + " " + had,
+                column.unit.empty()
+                    ? "give a plain number, or the column its unit: book:units{ " + column.name + "=\"" +
+                          si_unit(given.dimension) + "\" } before the first row"
+                    : "give a plain number, which is counted in " + column.unit + ", or " + describe(unit));
   }
   wanted->value = parse_quantity_in(wanted->quantity, column.unit);
   wanted->quantity = format_short(wanted->value) + (column.unit.empty() ? "" : " " + column.unit);
@@ -242,7 +242,8 @@ void check(const Expectation& e) {
   if (e.near && e.within.has_value() == e.relative.has_value())
     refuse(e.within ? "`near` is given both `within` and `rel`" : "`near` needs a width",
            "give `within` (absolute) or `rel` (a fraction of `near`)");
-  if (e.near && e.near->value == 0 && e.relative) refuse("`near` is 0, of which `rel` leaves no width", "give `within`");
+  if (e.near && e.near->value == 0 && e.relative)
+    refuse("`near` is 0, of which `rel` leaves no width", "give `within`");
   if (!e.near && (e.within || e.relative))
     refuse(std::string(e.within ? "`within`" : "`rel`") + " needs `near`",
            "say what the value should be near");

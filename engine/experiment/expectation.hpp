@@ -61,8 +61,8 @@ void check(const Expectation& expectation);
 // with a unit where the column has none.
 Expectation in_column_unit(const Expectation& expectation, const Table& table);
 
-// After check(). Throws as in_column_unit does. Rows are numbered from 1 in sentences, as in the notebook; differences get the
-// slack of a few last digits that their own subtraction needs. Cost: rows × conditions.
+// After check(). Throws as in_column_unit does. Rows are numbered from 1 in sentences, as in the notebook;
+// differences get the slack of a few last digits that their own subtraction needs. Cost: rows × conditions.
 Verdict evaluate(const Expectation& expectation, const Table& table, std::string_view notebook);
 
 }  // namespace asperity
