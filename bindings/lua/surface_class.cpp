@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fields of a surface, and its methods that measure and record; those that make other surfaces and
 // profiles are in surface_operations.cpp.
+#include <algorithm>
+
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/measure.hpp"

@@ -160,6 +160,11 @@ class Reader {
     return quantity;
   }
 
+  bool at_end() {
+    skip_space();
+    return rest_.empty();
+  }
+
   // The same number counted in `unit`; the powers of metre and so on stay those of this text.
   void count_in(const Reader& unit) {
     numerator_ *= unit.denominator_;
@@ -361,11 +366,14 @@ double parse_quantity_in(std::string_view text, std::string_view unit) {
   if (unit == "-") unit = "";
   Reader reader(text), one(unit);
   reader.read_number();
+  const bool has_unit = !reader.at_end();
   reader.read_unit();
   one.take_number_one();
   one.read_unit();
   const Dimension given = reader.result().dimension, wanted = one.result().dimension;
-  if (given != wanted) {
+  // "10" beside "%" may mean 10 % or ten times everything: no unit is guessed.
+  const bool untold = !has_unit && !unit.empty() && unit != "1";
+  if (given != wanted || untold) {
     const std::string in = unit.empty() ? "without a unit" : "in " + std::string(unit);
     refuse(text, describe(given) + " where a number " + in + " is wanted",
            unit.empty() ? "give a plain number" : "write it such as \"1 " + std::string(unit) + "\"");

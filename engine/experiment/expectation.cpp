@@ -203,19 +203,21 @@ void count_in_unit(std::optional<ExpectedValue>& wanted, std::string_view key, c
   if (!wanted || wanted->quantity.empty()) return;
   const Quantity given = parse_quantity(wanted->quantity);
   const Dimension unit = parse_unit(column.unit).dimension;
-  if (given.dimension != unit) {
+  try {
+    wanted->value = parse_quantity_in(wanted->quantity, column.unit);
+  } catch (const Error&) {
     const std::string had = column.unit.empty() ? "has no unit" : "is in " + column.unit;
     const std::string kind =
         given.dimension == dimension::number ? "has no unit" : "is " + describe(given.dimension);
+    const std::string other = unit == dimension::number ? "a share such as \"5 %\"" : describe(unit);
     throw Error(ErrorCode::bad_unit,
                 quoted(key) + " is \"" + wanted->quantity + "\", which " + kind + ", and column " +
                     quoted(column.name) + " " + had,
                 column.unit.empty()
                     ? "give a plain number, or the column its unit: book:units{ " + column.name + "=\"" +
                           si_unit(given.dimension) + "\" } before the first row"
-                    : "give a plain number, which is counted in " + column.unit + ", or " + describe(unit));
+                    : "give a plain number, which is counted in " + column.unit + ", or " + other);
   }
-  wanted->value = parse_quantity_in(wanted->quantity, column.unit);
   wanted->quantity = format_short(wanted->value) + (column.unit.empty() ? "" : " " + column.unit);
 }
 

@@ -58,7 +58,9 @@ TEST(Quantity, B6IsCountedInAnotherUnitOfItsKind) {
   EXPECT_EQ(parse_quantity_in("90 min", "h"), 1.5);
   EXPECT_EQ(parse_quantity_in("5 %", ""), 0.05);
   EXPECT_EQ(parse_quantity_in("5 %", "-"), 0.05);
-  EXPECT_EQ(parse_quantity_in("0.05", "%"), 5);
+  EXPECT_EQ(parse_quantity_in("0.05", ""), 0.05);
+  EXPECT_EQ(parse_quantity_in("0.05 1", "%"), 5);
+  EXPECT_THROW(parse_quantity_in("5", "%"), Error);
   EXPECT_THROW(parse_quantity_in("10 N", "MPa"), Error);
   EXPECT_THROW(parse_quantity_in("10 MPa", ""), Error);
   EXPECT_THROW(parse_quantity_in("10", "deg"), Error);

@@ -240,24 +240,15 @@ struct UnitCase {
   const char* quantity;  // of the bound
   double cell;           // the same in the column's unit
 };
-constexpr UnitCase same_kind[] = {{"MPa", "10 MPa", 10},
-                                  {"MPa", "0.01 GPa", 10},
-                                  {"kPa", "10 MPa", 10000},
-                                  {"Pa", "10 MPa", 1e7},
-                                  {"um", "0.1 um", 0.1},
-                                  {"nm", "0.1 um", 100},
-                                  {"m", "250 um", 250e-6},
-                                  {"h", "90 min", 1.5},
-                                  {"min", "2 h", 120},
-                                  {"deg", "30 deg", 30},
-                                  {"turn", "180 deg", 0.5},
-                                  {"%", "10 %", 10},
-                                  {"%", "0.1", 10},
-                                  {"", "0.1", 0.1},
-                                  {"", "10 %", 0.1},
-                                  {"N", "3 kN", 3000},
-                                  {"MPa/um", "80 MPa/um", 80},
-                                  {"kg m^-3", "2 g/cm^3", 2000}};
+constexpr UnitCase same_kind[] = {{"MPa", "10 MPa", 10},       {"MPa", "0.01 GPa", 10},
+                                  {"kPa", "10 MPa", 10000},    {"Pa", "10 MPa", 1e7},
+                                  {"um", "0.1 um", 0.1},       {"nm", "0.1 um", 100},
+                                  {"m", "250 um", 250e-6},     {"h", "90 min", 1.5},
+                                  {"min", "2 h", 120},         {"deg", "30 deg", 30},
+                                  {"turn", "180 deg", 0.5},    {"%", "10 %", 10},
+                                  {"%", "0.1 1", 10},          {"", "0.1", 0.1},
+                                  {"", "10 %", 0.1},           {"N", "3 kN", 3000},
+                                  {"MPa/um", "80 MPa/um", 80}, {"kg m^-3", "2 g/cm^3", 2000}};
 
 TEST(Expectation, B6QuantitiesAreCountedInTheUnitOfTheColumn) {
   for (const UnitCase& one : same_kind) {
@@ -305,6 +296,7 @@ TEST(Expectation, B6AnotherKindIsAnError) {
       "`at_least` is \"10 um\", which is a length, and column `v` has no unit; give a plain number, or the "
       "column its unit: book:units{ v=\"m\" } before the first row");
   EXPECT_NE(refused("deg", "0.1").find("has no unit"), std::string::npos);
+  EXPECT_NE(refused("%", "10").find("has no unit"), std::string::npos);
 }
 
 TEST(Expectation, B6SaysWhatWasWantedInTheUnitOfTheColumn) {
