@@ -127,7 +127,12 @@ end
 -- Strict globals: a name that was never set is a slip, not nil; a function may not make new ones.
 local meta = getmetatable(_G) or {}
 function meta.__index(_, name)
-  error(host.unknown_global(name, _G), 2)
+  local message = host.unknown_global(name, _G)
+  local frame = getinfo(2, "Sl")
+  local place = frame and frame.currentline > 0 and frame.short_src .. ":" .. frame.currentline .. ": " or ""
+  local noted, instead = host.mistaken(place .. message)
+  if noted then return instead end
+  error(message, 2)
 end
 function meta.__newindex(globals, name, value)
   local frame = getinfo(2, "S")

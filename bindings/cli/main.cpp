@@ -118,8 +118,10 @@ void add_store_options(CLI::App& command, cli::RunCommand& run, std::string& lim
       "go on with the run in this directory where it was cut off; its script, arguments and seed are its own "
       "(a directory that is not there yet is begun)");
   resume->excludes(command.get_option("--out"));
-  command.add_option("--reuse", run.reuse,
-                     "take the results of heavy calls that are the same from this run; may be given again");
+  command
+      .add_option("--reuse", run.reuse,
+                  "take the results of heavy calls that are the same from this run; may be given again")
+      ->allow_extra_args(false);  // one value each time: the next word may be the script
   command.add_option("--store-limit", limit,
                      "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
   command.add_option(
@@ -203,10 +205,11 @@ int main(int argc, char** argv) {
       "--from", replay.from,
       "take the results of heavy calls before this line of its journal from its store, and "
       "compute from there on");
-  replay_command.add_option(
-      "--set", replay.settings,
-      "key=value or call.key=value: another value where calls give this key (from --from "
-      "on), e.g. --set press.pressure=\"200 MPa\"; may be given again");
+  replay_command
+      .add_option("--set", replay.settings,
+                  "key=value or call.key=value: another value where calls give this key (from --from "
+                  "on), e.g. --set press.pressure=\"200 MPa\"; may be given again")
+      ->allow_extra_args(false);
   add_run_options(replay_command, replay.run, replay_memory);
   add_trust(replay_command, replay.run.trust);
   replay_command.add_option("--limit-time", replay_time, "end it after this long, e.g. 60s or \"2 min\"");

@@ -330,7 +330,7 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   const lua::State state = make_state(session, context.command);
   const Watchdog::Watching watching(context.watchdog, state.get());
   if (execute(state.get(), context.command, context.text, 0) == LUA_OK) return "";
-  return lua::error_text(state.get(), -1);
+  return lua::placed_memory_error(lua::error_text(state.get(), -1));
 }
 
 int run(const RunCommand& asked) {

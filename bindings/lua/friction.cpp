@@ -289,9 +289,12 @@ const Class& stage_class() {
     c.methods = {
         {.name = "raise",
          .body = raise_stage,
-         .sentence = "Raises the stage until the specimen slides, several times. angle is exact; "
-                     "held is the last step that "
-                     "held, the source paper's measure; mu = tan(held).",
+         .sentence =
+             "Raises the stage until the specimen slides, several times. angle is exact; "
+             "held is the last step that "
+             "held, the source paper's measure; mu = tan(held), so mu goes in the steps of the stage "
+             "and tan(angle) does not. trials holds angle and held of each trial, spread the standard "
+             "deviation of their mu.",
          .options = &raise_block(),
          .options_optional = true,
          .returns = "table",

@@ -26,6 +26,9 @@ const Block<Material>& material_block() {
 Values make_material(Call& call) {
   const Argument first = call.argument(1);
   if (first.is_text()) return {object(named_material(first.text()))};
+  if (first.is_nil())
+    throw Error(ErrorCode::bad_value, "lab.material was given nothing (nil)",
+                "give a name, such as lab.material \"Al-2011\", or a table of properties");
   Material material = call.options(material_block());
   if (material.name.empty()) material.name = "unnamed";
   check(material);

@@ -26,6 +26,7 @@ class RunDirectory;
 namespace asperity::lua {
 
 class Explanation;
+class Mistakes;
 class Ranks;
 struct CaseInput;
 struct Refinement;
@@ -75,6 +76,8 @@ class Session {
   std::shared_ptr<RunDirectory> run;  // null when nothing is recorded
   // Of a dry run that makes surfaces and plans contacts, to say what the script will compute; else null.
   std::shared_ptr<Explanation> explanation;
+  // Of a dry run that goes on past mistakes and tells all of them; else null.
+  std::shared_ptr<Mistakes> mistakes;
   // What this state's calls cost; the states of cases write into that of their ensemble.
   std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
   std::function<void(int)> exit_hook;      // what os.exit(code) does before the process ends

@@ -198,10 +198,16 @@ const Class& state_class() {
          "before this one; empty where they were brought together from apart",
          {},
          [](Call& call) -> Values { return {state_numbers(call.self<S>().drawn_from())}; }},
-        {"approach", "number", "from first touch", dimension::length, read_state_number<&S::approach>},
+        {"approach", "number",
+         "from first touch of the bodies as they are now; after yielding that is the touch of the worn "
+         "faces, and "
+         "`separation` is what one event compares with the next",
+         dimension::length, read_state_number<&S::approach>},
         {"indentation",
          "number",
-         "approach over the peak-to-valley of the combined heights; of flats none, an error",
+         "approach over the peak-to-valley of the combined heights; flats have none: an error. The key "
+         "`flatten` "
+         "counts another thing, the share by which the peak-to-valley under load has fallen",
          {},
          read_state_number<&S::indentation>},
         {"flatten",
@@ -265,7 +271,9 @@ const Class& state_class() {
         {"residual", "number", "greatest entry of the certificate", {}, read_state_number<&S::residual>},
         {"certificate",
          "table",
-         "how far the contact conditions are from being met, each relative",
+         "how far the contact conditions are from being met, each relative; with `adhesion` these bound "
+         "tractions "
+         "and not lengths: gaps and approaches may be off by more",
          {},
          certificate_of},
         {"converged",

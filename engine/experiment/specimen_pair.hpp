@@ -51,6 +51,8 @@ class SpecimenPair {
   // Frees the memory of every state pressed here that is still held; what was read of one stays
   // (State::close).
   void close();
+  // Whether it was closed; a copy is not.
+  bool closed() const { return closed_; }
   // The same bodies, lying and loaded alike, that are pressed and closed by themselves.
   SpecimenPair copy() const;
 
@@ -112,6 +114,7 @@ class SpecimenPair {
   std::shared_ptr<const Solver> solver_;          // none until the first press after a placement
   std::shared_ptr<const ChosenAccuracy> chosen_;  // none until the first press under load, or none asked for
   bool under_load_ = false;
+  bool closed_ = false;
   std::optional<State> pressed_;
   std::vector<State::Watch> states_;  // those pressed here
   std::vector<Done> history_;

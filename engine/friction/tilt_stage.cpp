@@ -73,6 +73,11 @@ SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, 
         if (!(low < middle && middle < high)) break;
         (holds(middle) ? low : high) = middle;
       }
+      if (held == 0 && low > 0)
+        throw Error(ErrorCode::bad_value,
+                    "`step` is " + degrees(step) + ", above the angle of slip of " + degrees(low) +
+                        ": no step would be held, and mu would be 0",
+                    "give a finer step, such as \"0.1 deg\"; a number without a unit is in radians");
       return {low, held, true};
     }
     held = angle;
