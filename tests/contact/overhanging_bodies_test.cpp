@@ -134,7 +134,9 @@ TEST(OverhangingBodies, NoLoadIsGreatEnoughToReachGroundThatNothingFaces) {
     EXPECT_NEAR(state.overlap_fraction(), 0.83, 0.03);
     EXPECT_LE(state.contacts(), state.geometry().facing());
     EXPECT_NEAR(block_sum(state.field("pressure")->values()) / 1024, pressure, 1e-7 * pressure);
-    if (pressure > 1e9) EXPECT_EQ(state.contacts(), state.geometry().facing());
+    if (pressure > 1e9) {
+      EXPECT_EQ(state.contacts(), state.geometry().facing());
+    }
   }
   // Flats, too.
   const Surface flat = surface_of(grid, [](int, int) { return 0.0; }).with_material(metal(1e9));
@@ -181,8 +183,9 @@ TEST_P(CrossedBars, CarryAsTheirCommonSquareDoes) {
       EXPECT_NEAR(all.area(), part.area(), 1e-9 * part.area());
       EXPECT_NEAR(all.pressure(), part.pressure() / 4, 1e-9 * part.pressure());
       EXPECT_NEAR(all.stiffness(), part.stiffness() / 4, 1e-7 * part.stiffness());
-      if (scene.plasticity)
+      if (scene.plasticity) {
         EXPECT_NEAR(all.plastic_volume(), part.plastic_volume(), 1e-8 * part.plastic_volume() + 1e-30);
+      }
       const auto p = all.field("pressure"), q = part.field("pressure");
       const double tolerance = GetParam() < 2 ? 1e-12 : 1e-7;
       for (int j = 0; j < 16; ++j)
@@ -221,7 +224,9 @@ TEST(OverhangingBodies, WhatYieldsIsTakenWhereTheBodiesFaceEachOther) {
       const State state = turned.press(PressBy::pressure, 1e8);
       const auto plastic = state.field("plastic");
       for (std::size_t k = 0; k < plastic->size(); ++k)
-        if (std::isnan(state.geometry().combined()[k])) ASSERT_EQ((*plastic)[k], 0);
+        if (std::isnan(state.geometry().combined()[k])) {
+          ASSERT_EQ((*plastic)[k], 0);
+        }
       const auto change = state.plastic_change();
       ASSERT_TRUE(change.has_value());
       EXPECT_NEAR(block_sum(change->approach.values()) * grid.cell_area(), state.plastic_volume(),
@@ -295,7 +300,8 @@ TEST(OverhangingBodies, AnAttractionPullsOnlyWhereTheBodiesFaceEachOther) {
     scene.accuracy.tolerance = 1e-8;
     scene.adhesion = AdhesionOptions{0.05, 2e-5, law};
     Scene cropped = scene;
-    cropped.lower = cropped.upper = dome_of(square);
+    cropped.lower = dome_of(square);
+    cropped.upper = dome_of(square);
     const Turned bars(scene, 90 * degree), squares(cropped, 90 * degree);
     for (const PressBy by : {PressBy::load, PressBy::approach}) {
       const double value = by == PressBy::load ? 1e-5 : -1e-6;
@@ -308,7 +314,9 @@ TEST(OverhangingBodies, AnAttractionPullsOnlyWhereTheBodiesFaceEachOther) {
       EXPECT_EQ(all.contacts(), part.contacts());
       const auto pressure = all.field("pressure");
       for (std::size_t k = 0; k < pressure->size(); ++k)
-        if (std::isnan(bars.geometry->combined()[k])) ASSERT_EQ((*pressure)[k], 0);
+        if (std::isnan(bars.geometry->combined()[k])) {
+          ASSERT_EQ((*pressure)[k], 0);
+        }
     }
   }
 }
