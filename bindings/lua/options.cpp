@@ -125,8 +125,17 @@ std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo
     found = format_short(value.number(), 10);
   } else if (value.is_text()) {
     // As for any other number: "64" is 64, and "64 um" a length where a number is wanted.
+    std::optional<Quantity> quantity;
     try {
-      const double given = parse_quantity_as(value.text(), dimension::number);
+      quantity = parse_quantity(value.text());
+    } catch (const Error&) {
+      wrong_type(value, info, wanted, problems);
+      return {};
+    }
+    try {
+      const double given = quantity->dimension == dimension::number
+                               ? quantity->value
+                               : parse_quantity_as(value.text(), dimension::number);
       constexpr double exact = 9007199254740992;  // 2^53
       if (given == std::floor(given) && std::abs(given) <= exact) number = static_cast<std::int64_t>(given);
     } catch (const Error& error) {

@@ -57,8 +57,9 @@ const char* const refused[] = {
     "precision='single' } }",
     // Bodies that do not fit.
     "contact{ lower=rough{ material=al }, upper=rough{ cells=64 }, effects={ elasticity='box' } }",
-    "contact{ lower=rough{ material=al }, upper=rough{ size='2 mm' }:mirrored(), effects={ elasticity='box' "
-    "} }",
+    "contact{ lower=rough{ material=al }, upper=rough{ size='2 mm', short_wave='200 um' }:mirrored(), "
+    "effects={ "
+    "elasticity='box' } }",
     "contact{ lower=rough{ material=al }, upper=lab.surface.flat{ cells=16, size='1 mm' }, effects={ "
     "elasticity='box' } }",
 };
@@ -71,7 +72,7 @@ const char* const taken[] = {
     "contact{ lower=rough(), upper=rough(), effects={ elasticity={ model='box', stiffness='1 MPa/um' } } }",
     "contact{ lower=rough{ material=al }, upper=lab.rigid, effects={ elasticity='rigid', plasticity={ "
     "hardness='1 GPa' } } }",
-    "contact{ lower=rough{ material=al }, upper=rough{ cells=64 }:resampled{ cells=32 }, "
+    "contact{ lower=rough{ material=al }, upper=rough{ cells=64, material=al }:resampled{ cells=32 }, "
     "boundary='periodic', "
     "effects={ elasticity='half_space', adhesion={ work='1 mJ/m^2', range='1 um' } } }",
     "contact{ lower=rough{ material=al }, upper=lab.rigid, boundary='periodic', effects={ "

@@ -109,7 +109,8 @@ TEST_F(Help, ExplainsFunctionsAndValuesThemselves) {
 }
 
 TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {
-  EXPECT_NE(run("lab.help 'wierstrass'").find("(did you mean `weierstrass_mandelbrot`?)"), std::string::npos);
+  EXPECT_NE(run("lab.help 'weierstrass_mandlebrot'").find("(did you mean `weierstrass_mandelbrot`?)"),
+            std::string::npos);
   EXPECT_EQ(
       run("lab.help 'surfase'"),
       "script.lua:1: lab.help: there is no help on `surfase` (did you mean `surface`?); help without a topic "
