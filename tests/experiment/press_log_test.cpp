@@ -154,10 +154,11 @@ TEST_F(PressLog, ColumnsThatMeanNothingCertainAreRefused) {
   EXPECT_NE(refusal("pressure [MPaa]\n1\n").find("line 1, column 1 (pressure): "), std::string::npos);
   EXPECT_NE(refusal("pressure [MPaa]\n1\n").find("(did you mean `MPa`?)"), std::string::npos);
   EXPECT_EQ(refusal("turn [deg],pressure [Pa],rotation [deg]\n0,1,0\n"),
-            "bad_file: line 1, column 3 (rotation): means the same as column 1; leave one of them out");
+            "bad_file: line 1, column 3 (rotation): means the same as column 1; leave one of them out, "
+            "or begin its title with \"result \"");
   EXPECT_EQ(refusal("pressure [Pa],load [N]\n1,1\n"),
-            "bad_file: line 1: both `pressure` and `load` are given; leave one of them out, or name it "
-            "otherwise");
+            "bad_file: line 1: both `pressure` and `load` are given; choose one, and begin the title "
+            "of the other with \"result \" or leave it out");
   EXPECT_EQ(refusal("time [s],presure [MPa]\n0,1\n"),
             "bad_file: line 1: no column `pressure` or `load` among others: \"presure [MPa]\" (did you mean "
             "`pressure`?); write \"pressure [MPa]\" or \"load [N]\"");
@@ -196,7 +197,8 @@ TEST_F(PressLog, AllProblemsAreNamedByLineAndColumn) {
 
 TEST_F(PressLog, ThousandsAreNotGuessed) {
   EXPECT_EQ(refusal("pressure [Pa],dwell [s]\n\"1,500\",1\n"),
-            "bad_file: line 2, column 1 (pressure): \"1,500\" is no finite number");
+            "bad_file: line 2, column 1 (pressure): \"1,500\" is no finite number: commas part the cells "
+            "here; write the decimal sign as a point, or part cells by semicolons");
 }
 
 TEST_F(PressLog, FilesThatAreNoLogs) {

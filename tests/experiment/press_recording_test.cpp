@@ -38,7 +38,7 @@ TEST(PressRecording, UnitsAreThoseOfTheTitles) {
 TEST(PressRecording, TimesIncreaseOrTheirLinesAreNamed) {
   EXPECT_EQ(refusal("time [s],load [N]\n1,1\n1,1\n0.5,1\n,1\nx,1\n2,y\n"),
             "bad_file: \"press.csv\" has 5 problems\n"
-            "  line 3, column 1 (time): the time 1 s stands in line 2 too\n"
+            "  line 3, column 1 (time): the time 1 s stands in line 2 too; write more of its digits\n"
             "  line 4, column 1 (time): the time 0.5 s runs backwards: 1 s stands before it\n"
             "  line 5, column 1 (time): the time is missing\n"
             "  line 6, column 1 (time): \"x\" is no finite number\n"

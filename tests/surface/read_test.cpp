@@ -2,6 +2,7 @@
 // Reading as a whole: which format a file is, what is missing, what becomes of holes, what is wrong
 // with a path. Each format has its own test beside this one.
 #include "engine/surface/io/read.hpp"
+#include "engine/surface/io/source_file.hpp"
 
 #include <cmath>
 
@@ -183,9 +184,16 @@ TEST(Read, ProfileFromEveryShape) {
   EXPECT_EQ(read_profile(row, options).digest(), read_profile(column, options).digest());
   ReadProfileOptions only_unit;
   only_unit.unit = 1e-6;
-  const Profile pairs = read_profile(scratch.write("pairs.csv", "0,1\n2,2\n4,3\n6,4\n"), only_unit);
+  ReadProfileOptions both_units = only_unit;
+  both_units.unit_xy = 1e-6;
+  const std::string two_columns = scratch.write("pairs.csv", "0,1\n2,2\n4,3\n6,4\n");
+  const Profile pairs = read_profile(two_columns, both_units);
   EXPECT_NEAR(pairs.spacing(), 2e-6, 1e-21);
   EXPECT_EQ(pairs.heights()[3], 4e-6);
+  EXPECT_EQ(message_of([&] { read_profile(two_columns, only_unit); }),
+            file_name(two_columns) +
+                " does not say the unit of its positions; give `unit_xy` in the call: "
+                "the length of one number of a position, such as \"mm\"");
   EXPECT_NE(message_of([&] { read_profile(row, only_unit); }).find("does not say its spacing"),
             std::string::npos);
   EXPECT_NE(message_of([&] {

@@ -13,13 +13,14 @@ using testing::message_of;
 using testing::sample;
 using testing::Scratch;
 
-Surface read_text(const std::string& text, const std::string& name = "table.txt") {
+Surface read_text(const std::string& text, const std::string& format = "") {
   const Scratch scratch;
   ReadOptions options;
+  options.format = format;
   options.size_x = options.size_y = 1;
   options.unit = 1;
   options.fill = HoleFill::with(-99);
-  return read_surface(scratch.write(name, text), options);
+  return read_surface(scratch.write("table.txt", text), options);
 }
 
 std::vector<double> heights_of(const Surface& surface) {
@@ -29,8 +30,9 @@ std::vector<double> heights_of(const Surface& surface) {
 
 using Heights = std::vector<double>;
 
+// Two lines of three numbers may as well be two points, so the call says what they are.
 TEST(TextMatrix, FirstLineIsRowZero) {
-  const Surface surface = read_text("1 2 3\n4 5 6\n");
+  const Surface surface = read_text("1 2 3\n4 5 6\n", "text");
   EXPECT_EQ(surface.grid().nx, 3);
   EXPECT_EQ(surface.grid().ny, 2);
   EXPECT_EQ(surface.height(2, 0), 3);
@@ -44,7 +46,7 @@ TEST(TextMatrix, Separators) {
         "1\t-2.5\t3e-3\n4\t5\t6", "  1  -2.5\t 3e-003 \n\n 4 5 6 \n\n", "1;-2,5;3e-3\n4;5;6\n",
         "1 -2,5 3e-3\n4 5 6\n", "+1 -2.5 +3E-3\n4. 5.0 6e0\n", "1,-2.5,3e-3,\n4,5,6,\n",
         "1\t-2,5\t0,003\t\n4\t5\t6\t\n", "\"1\",\"-2.5\",\"0.003\"\n4,5,6\n"}) {
-    const Surface surface = read_text(text);
+    const Surface surface = read_text(text, "text");
     EXPECT_EQ(surface.grid().nx, 3) << text;
     EXPECT_EQ(heights_of(surface), expected) << text;
   }

@@ -19,8 +19,14 @@ ReadOptions in_micrometres() {
   return options;
 }
 
+ReadOptions points_in_micrometres() {
+  ReadOptions options = in_micrometres();
+  options.unit_xy = 1e-6;
+  return options;
+}
+
 TEST(Xyz, GridInAnyOrder) {
-  const Surface surface = read_surface(sample("points.xyz"), in_micrometres());
+  const Surface surface = read_surface(sample("points.xyz"), points_in_micrometres());
   EXPECT_EQ(surface.grid().nx, 4);
   EXPECT_EQ(surface.grid().ny, 3);
   EXPECT_DOUBLE_EQ(surface.grid().size_x, 2e-6);
@@ -39,9 +45,20 @@ TEST(Xyz, LineOfNamesAndRoundedCoordinates) {
   EXPECT_DOUBLE_EQ(surface.height(2, 1), 6e-6);
 }
 
-TEST(Xyz, UnitIsNeededAndCoversAllThree) {
-  EXPECT_NE(message_of([] { read_surface(sample("points.xyz")); }).find("does not say its unit"),
+TEST(Xyz, UnitsOfHeightsAndOfPositionsAreNeeded) {
+  EXPECT_NE(message_of([] {
+              read_surface(sample("points.xyz"));
+            }).find("does not say its unit and the unit of its positions"),
             std::string::npos);
+  EXPECT_NE(message_of([] {
+              read_surface(sample("points.xyz"), in_micrometres());
+            }).find("does not say the unit of its positions; give `unit_xy` in the call"),
+            std::string::npos);
+  ReadOptions options = points_in_micrometres();
+  options.unit_xy = 1e-3;
+  const Surface wide = read_surface(sample("points.xyz"), options);
+  EXPECT_DOUBLE_EQ(wide.grid().size_x, 2e-3);
+  EXPECT_DOUBLE_EQ(wide.height(3, 0), 3e-6);
 }
 
 TEST(Xyz, MissingPointIsAHole) {
@@ -53,10 +70,10 @@ TEST(Xyz, MissingPointIsAHole) {
         text += std::to_string(i) + " " + std::to_string(j) + " " + std::to_string(i) + "\n";
   const std::string path = scratch.write("hole.dat", text);
   EXPECT_NE(message_of([&] {
-              read_surface(path, in_micrometres());
+              read_surface(path, points_in_micrometres());
             }).find("1 missing height of 25, the first at node (3, 2)"),
             std::string::npos);
-  ReadOptions options = in_micrometres();
+  ReadOptions options = points_in_micrometres();
   options.fill = HoleFill::interpolate();
   EXPECT_NEAR(read_surface(path, options).height(3, 2), 3e-6, 1e-17);
 }
@@ -183,7 +200,7 @@ TEST(Xyz, DamagedBytesGiveErrors) {
   const Scratch scratch;
   int read = 0;
   testing::damage(testing::bytes_of(sample("points.xyz")), 3, 200, [&](const std::string& bytes) {
-    ReadOptions options = in_micrometres();
+    ReadOptions options = points_in_micrometres();
     options.fill = HoleFill::interpolate();
     options.format = "xyz";
     read_surface(scratch.write("damaged.xyz", bytes), options);
@@ -194,7 +211,7 @@ TEST(Xyz, DamagedBytesGiveErrors) {
 
 TEST(Xyz, MeasuredFile) {
   if (measured("").empty()) GTEST_SKIP() << "ASPERITY_MEASURED is not set: no measured files here";
-  const Surface surface = read_surface(measured("xyz-1.txt"), in_micrometres());
+  const Surface surface = read_surface(measured("xyz-1.txt"), points_in_micrometres());
   EXPECT_EQ(surface.grid().nx, 4);
   EXPECT_EQ(surface.grid().ny, 4);
   EXPECT_DOUBLE_EQ(surface.grid().size_x, 4e-6);

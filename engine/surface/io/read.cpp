@@ -66,9 +66,9 @@ std::optional<double> settled(const std::optional<double>& asked, const std::opt
   throw Error(ErrorCode::bad_value, file_name(file.path()) + " does not say " + joined(things, " and "),
               "give " + joined(keys, " and ") + " in the call" +
                   (lacks("unit") ? ": `unit` is the length of one number, such as \"um\"" : "") +
-                  (lacks("unit_xy") ? std::string(lacks("unit") ? ", " : ": ") +
-                                          "`unit_xy` that of a position, which may be another"
-                                    : ""));
+                  (!lacks("unit_xy") ? ""
+                   : lacks("unit")   ? ", `unit_xy` that of a position, which may be another"
+                                     : ": the length of one number of a position, such as \"mm\""));
 }
 
 // A unit that the line over the columns says is not overruled: one of the two is a slip.
