@@ -93,7 +93,7 @@ for damage in ": >" "head -c 20 whole/FILE >" "tr '\\0-\\176' '\\1-\\177' < whol
   rm -rf R3
   cp -r whole R3
   for file in n.csv n.svg maps/a.h5 maps/a.xdmf; do
-    eval "$(echo "$damage" | sed "s|FILE|$file|") R3/$file"
+    eval "$(printf '%s\n' "$damage" | sed "s|FILE|$file|") R3/$file"
   done
   ends 0 "every file is again as it was recorded" "$program" run --resume R3
   [ "$(grep -c "the run is made again" output)" = 4 ] || { cat output; fail "damages are not named"; }
