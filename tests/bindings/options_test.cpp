@@ -122,10 +122,11 @@ TEST_F(Options, WholeNumbersMustBeWhole) {
   EXPECT_EQ(run("lab.surface.flat{ cells=4.0, size=1 }"), "");
   EXPECT_NE(run("lab.surface.flat{ cells=4.5, size=1 }").find("`cells` is 4.5; give a whole number"),
             std::string::npos);
-  EXPECT_EQ(value("lab.surface.flat{ cells='4', size=1 }.cells.x"), "4");  // as a tolerance of "1e-6"
+  EXPECT_EQ(value("lab.surface.flat{ cells='4', size=1 }.cells[1]"), "4");  // as a tolerance of "1e-6"
   EXPECT_NE(run("lab.surface.flat{ cells='4.5', size=1 }").find("`cells` is \"4.5\"; give a whole number"),
             std::string::npos);
-  EXPECT_NE(run("lab.surface.flat{ cells='4 um', size=1 }").find("a length where a number is wanted"),
+  EXPECT_NE(run("lab.surface.flat{ cells='4 um', size=1 }")
+                .find("\"4 um\": a length where a plain number is wanted"),
             std::string::npos);
   EXPECT_NE(
       run("lab.surface.flat{ cells='four', size=1 }").find("`cells` is the string \"four\"; give a whole"),

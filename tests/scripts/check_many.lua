@@ -4,7 +4,8 @@
 --! exit: 1
 --! error: check_many.lua:19: lab.surface has no field `self_afine` (did you mean `self_affine`?)
 --! error: check_many.lua:20: lab.surface has no field `sin` (did you mean `sine`?)
---! error: check_many.lua:21: lab.surface.sine: unknown key `amplitud` (did you mean `amplitude`?)
+--! error: check_many.lua:21: lab.surface.sine: 2 problems
+--! error: unknown key `amplitud` (did you mean `amplitude`?)
 --! error: check_many.lua:22: lab.surface.sine: `amplitude`: "1 MPa": a pressure where a length is wanted
 --! error: check_many.lua:24: contact:press: unknown key `presure` (did you mean `pressure`?)
 --! error: check_many.lua:25: a state has no field `aera` (did you mean `area`?)
