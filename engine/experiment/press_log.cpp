@@ -142,9 +142,11 @@ class LogReader {
                     table_.here());
   }
 
-  // A press that stays for longer than until the next row begins did not happen as it stands.
+  // A press that stays for longer than until the next row begins did not happen as it stands; a little longer
+  // it may, for times and dwells are rounded.
   void check_dwell(const std::optional<double>& now) {
-    if (now && held_.begun && held_.dwell && *held_.begun + *held_.dwell > *now + 1e-9 * std::abs(*now) &&
+    constexpr double rounded_by = 0.01;
+    if (now && held_.begun && held_.dwell && *held_.begun + (1 - rounded_by) * *held_.dwell > *now &&
         ++long_dwells_ == 1)
       first_long_dwell_ = "the dwell of " + format_quantity(*held_.dwell, dimension::time) + " in " +
                           held_.line + " goes on after " + table_.here() + ", which begins " +
