@@ -318,8 +318,7 @@ void stop_hook(lua_State* L, lua_Debug* frame) {
     lua_pushfstring(L, "%s:%d: %s", running.short_src, running.currentline, sentence);
     lua_error(L);
   }
-  lua_pushstring(L, sentence);
-  lua_error(L);
+  // No line runs: the script has ended, of this very stop it may be, whose message would be lost.
 }
 }  // namespace
 
