@@ -14,17 +14,18 @@ namespace asperity {
 
 namespace {
 
-// By forward differences between neighbours, never across the rim.
+// By forward differences between neighbours, never across the rim, where the bodies face each other.
 double combined_rms_slope(const ContactGeometry& geometry) {
   const Field& z = geometry.combined();
   const Grid& grid = geometry.grid();
-  double squares = 0;
+  double squares = 0, nodes = 0;
   for (int j = 0; j + 1 < grid.ny; ++j)
     for (int i = 0; i + 1 < grid.nx; ++i) {
       const double along = (z(i + 1, j) - z(i, j)) / grid.hx(), up = (z(i, j + 1) - z(i, j)) / grid.hy();
+      if (!std::isfinite(along) || !std::isfinite(up)) continue;
       squares += along * along + up * up;
+      ++nodes;
     }
-  const double nodes = static_cast<double>(grid.nx - 1) * (grid.ny - 1);
   return nodes > 0 ? std::sqrt(squares / nodes) : 0;
 }
 
