@@ -141,7 +141,8 @@ if not trusted then
     function(name)
       local file, message = searchpath(name, path_of.path)
       if not file then return message end
-      local chunk, problem = loadfile_any(file, "t")
+      -- Known to be a module: where a case takes it from the script's folder, its name there counts.
+      local chunk, problem = loadfile_original(host.input_path(file, true) or file, "t")
       if not chunk then error(problem, 0) end
       return chunk, file
     end,

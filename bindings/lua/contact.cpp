@@ -314,7 +314,9 @@ const Class& contact_class() {
         {.name = "rotate",
          .body = rotate,
          .sentence = "Turns the upper body about the centre of the nodes, counter-clockwise seen from above; "
-                     "turns add up. A periodic contact turns by multiples of 90 degrees only.",
+                     "turns add up. A periodic contact turns by multiples of 90 degrees only; on a free "
+                     "boundary nothing "
+                     "presses where the turned body no longer covers the lower one.",
          .parameters = {{"angle", "an angle", "to turn by"}},
          .example = "c:rotate \"90 deg\""},
         {.name = "shift",

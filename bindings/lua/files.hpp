@@ -4,6 +4,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bindings/lua/options.hpp"
 #include "bindings/lua/registry.hpp"
@@ -16,19 +18,30 @@ namespace asperity::lua {
 std::string writable_path(const Call& call, const std::string& name);
 // Where a file that the script reads lies: as named, or else the one the run wrote under that name.
 std::string readable_path(const Call& call, const std::string& name);
+// Tells the run of warnings, as drawing returns them.
+void warn_of(const Call& call, const std::vector<std::string>& warnings);
 // Enters a file that is about to be read, with its digest, in the run's manifest.
 void note_input(const Call& call, const std::string& path);
 
 // A length, or the name of a unit alone: "um" is short for "1 um".
 std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems);
 template <class O>
-Option<O> unit_key(std::optional<double> O::*member) {
-  Option<O> option = quantity("unit", member, dimension::length, above(0),
-                              "length of one number of the file, where it has no unit, e.g. \"um\"");
+Option<O> length_of_one(std::string name, std::optional<double> O::*member, std::string sentence) {
+  Option<O> option = quantity(std::move(name), member, dimension::length, above(0), std::move(sentence));
   option.read = [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
     if (const auto length = read_unit(value, info, problems)) options.*member = *length;
   };
   return option;
+}
+template <class O>
+Option<O> unit_key(std::optional<double> O::*member) {
+  return length_of_one("unit", member, "length of one height of the file, where it has no unit, e.g. \"um\"");
+}
+template <class O>
+Option<O> unit_xy_key(std::optional<double> O::*member) {
+  return length_of_one("unit_xy", member,
+                       "length of one number of a position, in x y z points and in profiles of two columns "
+                       "that do not say it, e.g. \"mm\"");
 }
 void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Problems& problems);
 template <class O>

@@ -16,7 +16,7 @@ const Block<Material>& material_block() {
           quantity("young", &Material::young, dimension::pressure, above(0), "Young's modulus"),
           number("poisson", &Material::poisson, {-1, 0.5, true, false, false}, "Poisson's ratio"),
           quantity("hardness", &Material::hardness, dimension::pressure, above(0).or_never(),
-                   "indentation hardness"),
+                   "indentation hardness; effects.plasticity tells how two bodies share what yields"),
           quantity("density", &Material::density, dimension::density, above(0), "mass per volume"),
           text("name", &Material::name, "what to call it"),
       }};

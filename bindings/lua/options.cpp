@@ -200,7 +200,9 @@ void read_table(const Argument& table, const std::string& caller,
     const Argument::StackGuard guard(table.state());
     if (variation != nullptr && variation->replaces(table.state(), caller, names[k], seen[k])) {
       seen[k] = true;
+      const std::size_t before = problems.size();
       read(k, Argument(table.state(), lua_gettop(table.state())), problems);
+      if (problems.size() > before) variation->note_refused(caller, names[k], problems.back());
       continue;
     }
     if (!seen[k]) continue;

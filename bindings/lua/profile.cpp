@@ -11,6 +11,7 @@
 #include "engine/experiment/picture_profile.hpp"
 #include "engine/metrology/levelling.hpp"
 #include "engine/surface/io/read.hpp"
+#include "engine/surface/io/source_file.hpp"
 #include "engine/surface/io/write.hpp"
 #include "engine/surface/operations.hpp"
 
@@ -80,7 +81,7 @@ const Block<ProfilePictureKeys>& profile_picture_block() {
 Values picture_of_profile(Call& call) {
   const ProfilePictureKeys keys = call.options(profile_picture_block(), 2);
   const std::string path = writable_path(call, call.text(1, "path"));
-  draw(call.self<Profile>(), keys.title, path);
+  warn_of(call, draw(call.self<Profile>(), keys.title, path));
   return {path};
 }
 
@@ -97,7 +98,7 @@ const Block<ReadProfileOptions>& read_profile_block() {
       "lab.profile.read",
       {quantity("spacing", &O::spacing, dimension::length, above(0),
                 "distance between samples, where the file has none"),
-       unit_key(&O::unit), fill_key(&O::fill),
+       unit_key(&O::unit), unit_xy_key(&O::unit_xy), fill_key(&O::fill),
        text("format", &O::format, "read as this format whatever the file looks like"),
        text("channel", &O::channel, "which of several arrays in an HDF5, GWY or OPD file, by its name")}};
   return block;
@@ -106,8 +107,10 @@ const Block<ReadProfileOptions>& read_profile_block() {
 Values read_profile_file(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
   const ReadProfileOptions options = call.options(read_profile_block(), 2);
+  // Its size is known before its digest: what does not fit into memory is not read through for nothing.
+  const SourceFile file(path, call.session().monitor());
   note_input(call, path);
-  return {object(read_profile(path, options, call.session().monitor()))};
+  return {object(read_profile(file, options, call.session().monitor()))};
 }
 
 std::string describe_profile(const void* self) {

@@ -152,9 +152,9 @@ Protocol over_area(const Protocol& protocol, const std::optional<double>& area) 
 Values read_protocol(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
   const ReadProtocolKeys keys = call.options(read_protocol_block(), 2);
-  note_input(call, path);
   Monitor& monitor = call.session().monitor();
   const SourceFile file(path, monitor);
+  note_input(call, path);
   const bool looks = keys.events == ReadAs::as_it_looks && !keys.detects() && looks_like_recording(file);
   if (keys.events == ReadAs::rows || (keys.events == ReadAs::as_it_looks && !keys.detects() && !looks))
     return {object(over_area(read_press_log(file, monitor), keys.area))};

@@ -103,7 +103,7 @@ void refuse_pipe(const std::string& name, const std::string& place) {
                 "write what it gives into a file first");
 }
 
-// host.output_path(name) and host.input_path(name) -> path, or nil and why not.
+// host.output_path(name) and host.input_path(name, is_module) -> path, or nil and why not.
 int path_body(lua_State* L, bool to_write) {
   std::string result;
   bool good = true;
@@ -113,7 +113,13 @@ int path_body(lua_State* L, bool to_write) {
     if (!to_write) {
       result = session.run == nullptr ? name : session.run->place_to_read(name).string();
       refuse_pipe(name, result);
-      if (session.notes != nullptr) session.notes->inputs.push_back(input_of_case(result));
+      if (session.notes != nullptr) {
+        CaseInput input = input_of_case(result);
+        const std::string folder = session.script.folder + "/";
+        if (lua_toboolean(L, 2) != 0 && folder.size() > 1 && result.starts_with(folder))
+          input.beside_script = result.substr(folder.size());
+        session.notes->inputs.push_back(std::move(input));
+      }
     } else {
       if (session.is_case)
         throw Error(ErrorCode::not_permitted, "a case of an ensemble writes no files",
@@ -208,7 +214,7 @@ int exit_run(lua_State* L) {
 
 struct Setup {
   Session* session;
-  const char* script_folder;
+  const char* search_path;  // "" leaves Lua's own
 };
 
 // Raises Lua errors; runs under lua_pcall.
@@ -230,9 +236,9 @@ int set_up(lua_State* L) {
   lua_pop(L, 1);
   preload_embedded_scripts(L);
 
-  if (setup.script_folder[0] != '\0') {
+  if (setup.search_path[0] != '\0') {
     lua_getglobal(L, "package");
-    lua_pushfstring(L, "%s/?.lua;%s/?/init.lua", setup.script_folder, setup.script_folder);
+    lua_pushstring(L, setup.search_path);
     lua_setfield(L, -2, "path");
     lua_pop(L, 1);
   }
@@ -267,12 +273,17 @@ std::string placed_memory_error(const std::string& message) {
 
 bool memory_limit_met() { return memory::exceeded() || refused.has_value(); }
 
+std::string search_path(const std::string& script_folder) {
+  return script_folder + "/?.lua;" + script_folder + "/?/init.lua";
+}
+
 State make_state(Session& session, const std::string& script_folder) {
   State state(lua_newstate(allocate, nullptr));
   if (state == nullptr) throw Error(ErrorCode::out_of_memory, "there is no memory for a Lua state");
   lua_State* L = state.get();
   lua_setallocf(L, allocate, L);
-  Setup setup{&session, script_folder.c_str()};
+  const std::string path = script_folder.empty() ? std::string() : search_path(script_folder);
+  Setup setup{&session, path.c_str()};
   lua_pushcfunction(L, set_up);
   lua_pushlightuserdata(L, &setup);
   if (lua_pcall(L, 1, 0, 0) != LUA_OK) {

@@ -17,6 +17,9 @@ struct StateCloser {
 };
 using State = std::unique_ptr<lua_State, StateCloser>;
 
+// The pattern by which `require` looks in a folder.
+std::string search_path(const std::string& script_folder);
+
 // `script_folder` is where require looks for a script's own modules; may be empty. The session must
 // outlive the state. Throws Error{out_of_memory}.
 State make_state(Session& session, const std::string& script_folder);

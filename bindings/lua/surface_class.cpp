@@ -12,6 +12,7 @@
 #include "bindings/lua/surface_operations.hpp"
 #include "engine/metrology/levelling.hpp"
 #include "engine/surface/io/write.hpp"
+#include "engine/surface/io/xdmf.hpp"
 
 namespace asperity::lua {
 
@@ -54,7 +55,9 @@ Values level(Call& call) {
 // --- files
 
 Values write_surface(Call& call) {
-  const std::string path = writable_path(call, call.text(1, "path"));
+  const std::string name = call.text(1, "path");
+  const std::string path = writable_path(call, name);
+  if (has_xdmf_beside(path)) writable_path(call, xdmf_path(name).string());
   write_surface(call.self<Surface>(), path, call.session().monitor());
   return {path};
 }
@@ -62,7 +65,7 @@ Values write_surface(Call& call) {
 Values picture(Call& call) {
   const PictureOptions options = call.options(picture_block(), 2);
   const std::string path = writable_path(call, call.text(1, "path"));
-  draw(call.self<Surface>(), options, path);
+  warn_of(call, draw(call.self<Surface>(), options, path));
   return {path};
 }
 

@@ -12,6 +12,7 @@
 #include "engine/surface/generators/grain_profile.hpp"
 #include "engine/surface/generators/sphere.hpp"
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
+#include "engine/surface/io/source_file.hpp"
 
 namespace asperity::lua {
 
@@ -255,7 +256,7 @@ const Block<ReadOptions>& read_block() {
       "lab.surface.read",
       {pair_option("size", &O::size_x, &O::size_y, dimension::length, above(0),
                    "size of the map, where the file has none"),
-       unit_key(&O::unit), fill_key(&O::fill),
+       unit_key(&O::unit), unit_xy_key(&O::unit_xy), fill_key(&O::fill),
        text("format", &O::format,
             "read as this format whatever the file looks like: \"x3p\", \"sdf\", \"sur\", \"opd\", \"bcr\", "
             "\"gwy\", "
@@ -267,8 +268,10 @@ const Block<ReadOptions>& read_block() {
 Values read_body(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
   const ReadOptions options = call.options(read_block(), 2);
+  // Its size is known before its digest: what does not fit into memory is not read through for nothing.
+  const SourceFile file(path, call.session().monitor());
   note_input(call, path);
-  return {object(read_surface(path, options, call.session().monitor()))};
+  return {object(read_surface(file, options, call.session().monitor()))};
 }
 
 }  // namespace
@@ -329,9 +332,11 @@ const Module& surface_module() {
     m.functions.push_back(
         {.name = "read",
          .body = read_body,
-         .sentence = "A measured surface from a file: X3P, SDF, SUR, OPD, BCR, GWY, HDF5, NPY, text matrix, "
-                     "x y z triples or a "
-                     "profiler's CSV, known by its content, then by its extension.",
+         .sentence =
+             "A measured surface from a file: X3P, SDF, SUR, OPD, BCR, GWY, HDF5, NPY, text matrix, "
+             "x y z triples or a "
+             "profiler's CSV, known by its content, then by its extension. Over x y z triples a line such "
+             "as \"x [mm];y [mm];z [um]\" says their units.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_block(),
          .options_optional = true,

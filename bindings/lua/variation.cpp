@@ -63,8 +63,20 @@ bool Variation::replaces(lua_State* L, std::string_view caller, std::string_view
   return false;
 }
 
+void Variation::note_refused(std::string_view caller, std::string_view key, const std::string& problem) {
+  const std::lock_guard lock(mutex_);
+  if (!refused_.empty()) return;
+  for (const Setting& setting : settings_)
+    if (setting.key == key && is_of(caller, setting.caller)) {
+      refused_ = "`--set` gives " + quoted(caller) + " the value \"" + setting.value + "\": " + problem;
+      return;
+    }
+}
+
 void Variation::check_all_met() const {
   const std::lock_guard lock(mutex_);
+  if (!refused_.empty())
+    throw Error(ErrorCode::bad_value, refused_, "give a value as the script would write it");
   for (const Setting& setting : settings_) {
     if (setting.met) continue;
     // The keys of the calls that are meant, or of all where there is none.

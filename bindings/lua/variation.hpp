@@ -31,7 +31,11 @@ class Variation {
   // Called where the options of a call are read: whether `key` is to be set anew, given by the script or not.
   // Raises no Lua error: the value is left on the stack of `L`, which has room for it.
   bool replaces(lua_State* L, std::string_view caller, std::string_view key, bool given);
-  // Throws Error{unknown_name} for a setting that no call met, naming the nearest key that one gave.
+  // Called where a value that was set anew is none that the key takes: what happened then is no difference
+  // between two runs.
+  void note_refused(std::string_view caller, std::string_view key, const std::string& problem);
+  // Throws Error{bad_value} for a value that a call refused, Error{unknown_name} for a setting that no call
+  // met, naming the nearest key that one gave.
   void check_all_met() const;
   // "pressure = 200 MPa and seed = 7"
   std::string text() const;
@@ -43,6 +47,7 @@ class Variation {
     bool met = false;
   };
   std::vector<Setting> settings_;
+  std::string refused_;       // the first value that a call refused, and why; empty: none
   mutable std::mutex mutex_;  // of what was met
   std::map<std::string, std::set<std::string>, std::less<>>
       keys_;  // that were given, and the calls that gave them

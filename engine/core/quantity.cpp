@@ -26,6 +26,9 @@ struct Unit {
   int ten = 0;
 };
 
+// 1e-13 N: lb = .45359237 kg under 9.80665 m/s²; and 1e-8 m² in a square inch of 25.4 mm a side.
+constexpr double lb = 44482216152605, in2 = 64516;
+
 // Among equally near names the first is proposed, so the common one stands first.
 constexpr Unit units[] = {
     {"m", dimension::length, 1, 1, 0},        {"um", dimension::length, 1, 1, -6},
@@ -58,6 +61,11 @@ constexpr Unit units[] = {
     {"turn", dimension::angle, 2 * pi, 1, 0}, {"Hz", dimension::frequency, 1, 1, 0},
     {"kHz", dimension::frequency, 1, 1, 3},   {"MHz", dimension::frequency, 1, 1, 6},
     {"%", dimension::number, 1, 1, -2},       {"1", dimension::number, 1, 1, 0},
+    {"kgf", dimension::force, 980665, 1, -5}, {"tf", dimension::force, 980665, 1, -2},
+    {"lbf", dimension::force, lb, 1, -13},    {"kip", dimension::force, lb, 1, -10},
+    {"daN", dimension::force, 1, 1, 1},       {"psi", dimension::pressure, lb, in2, -5},
+    {"atm", dimension::pressure, 101325},     {"ksi", dimension::pressure, lb, in2, -2},
+    {"rev", dimension::angle, 2 * pi, 1, 0},
 };
 
 // The text in double quotes for a message: at most 40 bytes, one line, whole UTF-8 characters only.

@@ -240,7 +240,10 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
 std::vector<std::string> draw(const LineChart& chart, const std::filesystem::path& file) {
   std::vector<std::string> warnings;
   const std::string script = chart_script(chart, picture_format(file), warnings);
-  write_aside(file, run_gnuplot(script).picture);
+  const GnuplotResult drawn = run_gnuplot(script);
+  write_aside(file, drawn.picture);
+  const std::vector<std::string> complaints = complaints_of(drawn, file);
+  warnings.insert(warnings.end(), complaints.begin(), complaints.end());
   return warnings;
 }
 

@@ -67,12 +67,12 @@ class EventMaker {
     found_.evidence = marks_.evidence();
     // What a cut must save, spread over the samples of the shortest hold and as many beside it.
     const double fewest = std::max(4.0, found_.shortest_hold / found_.interval);
-    found_.least_load = std::max(found_.zero_drift, found_.noise * std::sqrt(2 * found_.evidence / fewest));
+    const double by_chance = marks_.independent_noise() * std::sqrt(2 * found_.evidence / fewest);
+    found_.least_load = std::max(found_.zero_drift, by_chance);
     double lowest = INFINITY;
     for (const Mark& mark : marks_.marks())
       if (mark.loaded()) lowest = std::min(lowest, load_of(mark));
-    found_.least_step = std::max(std::isinf(lowest) ? 0 : options_.same_load * lowest,
-                                 found_.noise * std::sqrt(2 * found_.evidence / fewest));
+    found_.least_step = std::max(std::isinf(lowest) ? 0 : options_.same_load * lowest, by_chance);
     for (const Mark& mark : marks_.marks()) {
       if (mark.loaded()) {
         found_.highest = std::max(found_.highest, load_of(mark));
@@ -171,9 +171,9 @@ class EventMaker {
       Span span{on ? mark.kind == Mark::Kind::peak ? Span::Kind::peak : Span::Kind::hold : Span::Kind::rest,
                 mark.begin, mark.end};
       span.load = on ? load_of(mark) : 0;
-      span.load_error = marks_.noise() / std::sqrt(std::max(1.0, mark.line.n));
+      span.load_error = marks_.independent_noise() / std::sqrt(std::max(1.0, mark.line.n));
       if (const Mark* rest = nearest_rest(k); rest != nullptr && !options_.zero)
-        span.load_error = std::hypot(span.load_error, marks_.noise() / std::sqrt(rest->line.n));
+        span.load_error = std::hypot(span.load_error, marks_.independent_noise() / std::sqrt(rest->line.n));
       span.dwell_error = mark.dwell_error;
       span.first_line = first;
       span.last_line = last;
@@ -294,6 +294,7 @@ class EventMaker {
              " for a moment; the noise does not tell, and it is left out");
     if (doubts > 5) warn("and " + std::to_string(doubts - 5) + " more such moments are left out");
     warn_of_scatter();
+    warn_of_limit();
     if (!marks_.disturbances().empty()) {
       std::string list;
       constexpr std::size_t enough = 5;
@@ -304,6 +305,32 @@ class EventMaker {
       warn("readings for a moment out of line are left out as disturbances: " + list +
            (count > enough ? " and " + std::to_string(count - enough) + " more" : ""));
     }
+  }
+
+  // A sensor at its limit gives one number where others scatter: how high the load was above it nobody knows.
+  void warn_of_limit() {
+    if (!(marks_.noise() > 0)) return;
+    const auto row = marks_.row();
+    double top = -INFINITY;
+    for (const std::uint32_t k : row) top = std::max(top, recording_.load[k]);
+    constexpr std::size_t fewest = 8;
+    constexpr double most_of_it = 0.8;
+    std::size_t count = 0;
+    std::string where;
+    for (const Mark& mark : marks_.marks()) {
+      if (!mark.loaded()) continue;
+      std::size_t equal = 0;
+      for (std::size_t k = mark.first; k <= mark.last; ++k) equal += recording_.load[row[k]] == top ? 1 : 0;
+      if (equal < fewest ||
+          static_cast<double>(equal) < most_of_it * static_cast<double>(mark.last - mark.first + 1))
+        continue;
+      if (++count == 1) where = lines(marks_.line(mark.first), marks_.line(mark.last));
+    }
+    if (count > 0)
+      warn("the load stays at its greatest reading, " + marks_.quantity(top) + ", to the last digit in " +
+           where + (count > 1 ? " and in " + std::to_string(count - 1) + " more holds" : "") +
+           ", while readings scatter by " + marks_.quantity(marks_.noise()) +
+           " elsewhere: so reads a sensor at its limit, and the load may have been higher");
   }
 
   // Noise that is not white, or a load that wanders, scatters more than its steps say.

@@ -3,14 +3,16 @@
 // rises, holds, peaks, releases, and turns of the body while it lay without load.
 //
 // The noise is read off second differences: the median of their magnitude, over 0.6745, which neither ramps
-// nor a few jumps move; the greater of that above and below half of the highest load. The recording is cut
-// into straight pieces (straight_pieces.hpp). Pieces that stay level, and neighbours of one level, are rests
-// where they lie within `zero_drift` of the last rest, which the sensor's zero follows, and holds elsewhere.
-// A hold begins and ends where the straight pieces beside it meet its level. What rises above the holds at
-// both its sides is a peak: flattening goes by the highest load reached, so it becomes a press of its own,
-// with the time above its half height for dwell; creep goes by the dwell of the hold after it.
+// nor a few jumps move; the greater of that above and below half of the highest load. Where neighbouring
+// readings are alike, as after a filter, the scatter and the number of independent readings follow from how
+// alike (noise_correlation.hpp). The recording is cut into straight pieces (straight_pieces.hpp). Pieces that
+// stay level, and neighbours of one level, are rests where they lie within `zero_drift` of the last rest,
+// which the sensor's zero follows, and holds elsewhere. A hold begins and ends where the straight pieces
+// beside it meet its level. What rises above the holds at both its sides is a peak: flattening goes by the
+// highest load reached, so it becomes a press of its own, with the time above its half height for dwell;
+// creep goes by the dwell of the hold after it.
 //
-// It takes noise for white, and ramps for straight near the holds. Loads closer than `same_load` without a
+// It takes ramps for straight near the holds. Loads closer than `same_load` without a
 // rest between are one hold; a hold under `zero_drift` of the highest load is a rest. Whatever it cannot tell
 // it says, with numbers, as a warning or an error.
 #pragma once

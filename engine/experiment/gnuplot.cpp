@@ -202,6 +202,16 @@ std::string gnuplot_terminal(PictureFormat format, int width, int height, double
   return "set terminal svg size " + size + " dynamic" + look + " background '#ffffff'\n";
 }
 
+std::vector<std::string> complaints_of(const GnuplotResult& result, const fs::path& file) {
+  if (result.messages.empty()) return {};
+  constexpr std::size_t longest = 300;
+  std::string said;
+  for (const char c : result.messages.substr(0, longest)) said += c == '\n' ? ' ' : c;
+  return {asperity::quoted(file.filename().string()) +
+          " may look otherwise than it should; gnuplot, which drew it, says: " + said +
+          (result.messages.size() > longest ? " …" : "")};
+}
+
 namespace {
 std::function<GnuplotDrawer>& drawer() {
   static std::function<GnuplotDrawer> other;

@@ -3,7 +3,8 @@
 // The first line that is neither blank nor a comment (#) names the columns in any order and case, with the
 // unit of each quantity in [] or (). Cells are parted by commas, semicolons or tabs, whichever that line
 // uses, and may be quoted; with any but commas a decimal comma is read. What the columns mean is for its
-// users: press_log.hpp (a row an event) and press_recording.hpp (a row a sample).
+// users: press_log.hpp (a row an event) and press_recording.hpp (a row a sample). Other forms that loggers
+// and spreadsheets have are not read: an error says what was met and how to write it (log_forms.hpp).
 #pragma once
 
 #include <array>
@@ -52,8 +53,9 @@ class LogTable {
   // The column of that meaning.
   std::optional<std::size_t> find(int meaning) const;
   bool has(int meaning) const { return find(meaning).has_value(); }
-  // Titles of the columns that are left out, "" if there are none; those whose title begins with "result "
-  // do not count: they are what was measured, beside what was done.
+  // Titles of the columns that are left out, each with the title that may have been meant; "" if there are
+  // none. Those whose title begins with "result " do not count: they are what was measured, beside what was
+  // done.
   std::string others() const;
 
   // A number with its column's unit, in SI and exact; nothing for an empty cell, or after a problem.
@@ -62,6 +64,12 @@ class LogTable {
   double factor(std::size_t k) const { return columns_[k].factor; }
   // A plain number of the cell in the column's unit, or what else it holds.
   TextCell number(const LogCell& cell) const;
+  // Why a cell that is no number of column k is none, and what to write: for problem().
+  std::string complaint(const LogCell& cell) const;
+  // To be told of each number that was read: whether the comma in it parts thousands is looked at.
+  void note_comma(std::size_t k, const LogCell& cell);
+  // Of columns in which every comma stands before three digits, as it does where it parts thousands.
+  std::vector<std::string> comma_warnings() const;
 
   void problem(const std::string& place, const std::string& finding);
   std::size_t problems() const { return problem_count_; }
@@ -78,8 +86,13 @@ class LogTable {
     const LogColumn* known = nullptr;
     std::string title, unit;
     double factor = 1;
+    std::string thousands;  // the first number whose comma may part thousands, and its place
+    bool decimals = false;  // there is one whose comma cannot
   };
-  void read_title(const std::string& title);
+  void read_title(const std::string& title, const std::vector<LogCell>& below);
+  std::string lack_of_unit(const LogColumn& column, const std::vector<LogCell>& below) const;
+  std::optional<std::string> meant(const Column& column) const;
+  void refuse_other_forms(std::string_view line) const;
 
   const SourceFile& file_;
   std::span<const LogColumn> known_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/log_table.hpp"
 
@@ -49,6 +50,7 @@ class LogReader {
     table_.fail_if_any();
     if (events_.empty()) refuse_file(file_, "names columns but holds no row", "a row is an event");
     warn_if_sampled();
+    warn_of_cells();
     return Protocol(std::move(events_));
   }
 
@@ -56,8 +58,10 @@ class LogReader {
   void check_columns() {
     const std::string others = table_.others();
     if (table_.has(pressure) && table_.has(load))
-      table_.problem(table_.here(),
-                     "both `pressure` and `load` are given; leave one of them out, or name it otherwise");
+      table_.problem(
+          table_.here(),
+          "both `pressure` and `load` are given; choose one, and begin the title of the other with "
+          "\"result \" or leave it out");
     else if (!table_.has(pressure) && !table_.has(load))
       table_.problem(table_.here(), "no column `pressure` or `load`" +
                                         (others.empty() ? std::string() : " among others: " + others) +
@@ -113,6 +117,8 @@ class LogReader {
     const bool by_load = table_.has(load);
     const double value = row[by_load ? load : pressure].value_or(0);
     const std::size_t before = events_.size();
+    if (!row[by_load ? load : pressure] && ++empty_loads_ == 1) first_empty_load_ = table_.here();
+    check_dwell(now);
     if (under_load_ && (seed || angle != 0)) {
       add(Protocol::Release{}, now);
       under_load_ = false;
@@ -124,6 +130,7 @@ class LogReader {
     if (value > 0) {
       add(PressRequest{by_load ? PressBy::load : PressBy::pressure, value, stay}, now);
       under_load_ = true;
+      held_ = {now, stay, table_.here()};
       return;
     }
     if (events_.size() == before) {
@@ -133,6 +140,31 @@ class LogReader {
     if (stay.value_or(0) > 0)
       monitor_.warn(file_name(file_.path()) + ": a dwell without load changes nothing, as in " +
                     table_.here());
+  }
+
+  // A press that stays for longer than until the next row begins did not happen as it stands.
+  void check_dwell(const std::optional<double>& now) {
+    if (now && held_.begun && held_.dwell && *held_.begun + *held_.dwell > *now + 1e-9 * std::abs(*now) &&
+        ++long_dwells_ == 1)
+      first_long_dwell_ = "the dwell of " + format_quantity(*held_.dwell, dimension::time) + " in " +
+                          held_.line + " goes on after " + table_.here() + ", which begins " +
+                          format_quantity(*now - *held_.begun, dimension::time) + " later";
+    held_ = {};
+  }
+
+  void warn_of_cells() const {
+    const auto more = [](std::size_t count) {
+      return count > 1 ? ", and so in " + std::to_string(count - 1) + " more" : std::string();
+    };
+    const std::string file = file_name(file_.path()) + ": ";
+    if (empty_loads_ > 0)
+      monitor_.warn(file + "the cell of the " + (table_.has(load) ? "load" : "pressure") + " is empty in " +
+                    first_empty_load_ + more(empty_loads_) +
+                    ": it is taken for zero, which takes the load off; write 0 to say so");
+    if (long_dwells_ > 0)
+      monitor_.warn(file + first_long_dwell_ + more(long_dwells_) +
+                    ": times are kept, and nothing waits for them");
+    for (const std::string& warning : table_.comma_warnings()) monitor_.warn(warning);
   }
 
   void warn_if_sampled() const {
@@ -151,6 +183,13 @@ class LogReader {
   std::optional<double> last_time_;
   bool under_load_ = false;
   std::size_t rows_ = 0, rows_with_more_ = 0;
+  std::size_t empty_loads_ = 0, long_dwells_ = 0;
+  std::string first_empty_load_, first_long_dwell_;
+  struct Held {
+    std::optional<double> begun{}, dwell{};
+    std::string line{};
+  };
+  Held held_;  // the press of the row before
 };
 
 }  // namespace

@@ -59,6 +59,7 @@ class RecordingReader {
     }
     table_.fail_if_any();
     if (recording_.time.empty()) refuse_file(file_, "names columns but holds no row", "a row is a sample");
+    for (const std::string& warning : table_.comma_warnings()) monitor_.warn(warning);
     return std::move(recording_);
   }
 
@@ -66,10 +67,14 @@ class RecordingReader {
   void check_columns() {
     const std::string others = table_.others();
     if (!table_.has(at_time))
-      table_.problem(table_.here(), "no column `time`, without which no event is found; write \"time [s]\"");
+      table_.problem(table_.here(), "no column `time`, without which no event is found" +
+                                        (others.empty() ? std::string() : ", among others: " + others) +
+                                        "; write \"time [s]\"");
     if (table_.has(of_load) && table_.has(of_pressure))
-      table_.problem(table_.here(),
-                     "both `pressure` and `load` are given; leave one of them out, or name it otherwise");
+      table_.problem(
+          table_.here(),
+          "both `pressure` and `load` are given; choose one, and begin the title of the other with "
+          "\"result \" or leave it out");
     else if (!table_.has(of_load) && !table_.has(of_pressure))
       table_.problem(table_.here(), "no column `pressure` or `load`" +
                                         (others.empty() ? std::string() : " among others: " + others) +
@@ -94,8 +99,11 @@ class RecordingReader {
     const TextCell number = table_.number(cell);
     if (number.kind == CellKind::hole) return missing;
     const double value = number.value * table_.factor(k);
-    if (number.kind == CellKind::number && std::isfinite(value)) return value;
-    table_.problem(table_.here(k), shown(cell.text) + " is no finite number");
+    if (number.kind == CellKind::number && std::isfinite(value)) {
+      table_.note_comma(k, cell);
+      return value;
+    }
+    table_.problem(table_.here(k), table_.complaint(cell));
     return missing;
   }
 
@@ -112,7 +120,8 @@ class RecordingReader {
       const double last = recording_.time.back();
       table_.problem(table_.here(time_),
                      "the time " + format_short(now, 10) + " s " +
-                         (now == last ? "stands in line " + std::to_string(recording_.line.back()) + " too"
+                         (now == last ? "stands in line " + std::to_string(recording_.line.back()) +
+                                            " too; write more of its digits"
                                       : "runs backwards: " + format_short(last, 10) + " s stands before it"));
       return;
     }
@@ -143,7 +152,8 @@ bool looks_like_recording(const SourceFile& file) {
     // former.
     LogTable table(file, recording_columns);
     table.read_titles();
-    if (!table.has(at_time) || tells_of_events(table) || table.problems() > 0) return false;
+    // A unit that cannot be read makes no log of a recording: its reader says what is wrong.
+    if (!table.has(at_time) || tells_of_events(table)) return false;
     if (table.has(of_load) == table.has(of_pressure)) return false;
     const std::optional<std::size_t> angle = table.find(of_angle);
     const bool rotation = angle && table.column(*angle)->name == "rotation";

@@ -8,6 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/noise_correlation.hpp"
 
 namespace asperity {
 
@@ -36,8 +37,10 @@ RecordingMarks::RecordingMarks(const PressRecording& recording, const DetectionO
                                Monitor& monitor)
     : recording_(recording), options_(options), monitor_(monitor) {
   take_samples();
+  refuse_negative_compression();
   measure_noise();
   pieces_ = straight_pieces(t_, y_, effective_noise_, evidence_, monitor_);
+  follow_correlation();
   find_zero();
   find_levels();
   join_levels();
@@ -79,6 +82,17 @@ void RecordingMarks::take_samples() {
   range_ = top_ - bottom_;
 }
 
+// Loads that go down from rest, and hardly up, are those of a sensor that counts pulls.
+void RecordingMarks::refuse_negative_compression() const {
+  constexpr std::size_t some = 5;
+  Array<double> begin(y_.begin(), y_.begin() + std::min<std::ptrdiff_t>(some, std::ssize(y_)));
+  const double first = median_of(begin);
+  if (!(-bottom_ > 2 * std::max(top_, 0.0)) || !(first - bottom_ > top_ - first)) return;
+  refuse("goes down from " + quantity(first) + " to " + quantity(bottom_) + ", and up to " + quantity(top_) +
+             " only: it counts compression as negative",
+         "change the sign of its column of loads");
+}
+
 void RecordingMarks::measure_noise() {
   Array<double> above, below;
   double resolution = INFINITY;
@@ -105,13 +119,27 @@ void RecordingMarks::measure_noise() {
            "give the noise as `noise` if it is less");
 }
 
+// A filter makes neighbouring readings alike: they scatter more than second differences tell, and so many of
+// them say less. Cuts are then made anew, for they followed the noise.
+void RecordingMarks::follow_correlation() {
+  if (options_.noise || effective_noise_ > noise_) return;
+  constexpr int rounds = 2;
+  for (int round = 0; round < rounds; ++round) {
+    const std::optional<NoiseCorrelation> found = noise_correlation(y_, pieces_);
+    if (!found || !(range_ > 8 * found->deviation)) return;
+    effective_noise_ = noise_ = found->deviation;
+    independent_ = found->independent;
+    pieces_ = straight_pieces(t_, y_, piece_noise(), evidence_, monitor_);
+  }
+}
+
 double RecordingMarks::change_of(const StraightPiece& piece) const {
   return std::abs(piece.line.slope()) * (t_[piece.last] - t_[piece.first]);
 }
 
 bool RecordingMarks::is_level(const StraightPiece& piece, double tolerance) const {
   constexpr double fewest = 3;
-  const double by_chance = effective_noise_ * std::sqrt(12 * evidence_ / piece.line.n);
+  const double by_chance = piece_noise() * std::sqrt(12 * evidence_ / piece.line.n);
   return piece.line.n >= fewest && change_of(piece) <= std::max(tolerance, by_chance);
 }
 
@@ -161,7 +189,7 @@ std::vector<bool> RecordingMarks::find_rests() {
   std::vector<bool> is_rest;
   std::vector<Mark> rests;
   for (const StraightPiece& piece : pieces_) {
-    const double load = piece.line.y - zero, error = effective_noise_ / std::sqrt(piece.line.n);
+    const double load = piece.line.y - zero, error = piece_noise() / std::sqrt(piece.line.n);
     const bool after_rest = !is_rest.empty() && is_rest.back();
     is_rest.push_back(load <= std::max(drift_, 4 * error) && is_level(piece, drift_));
     if (!is_rest.back() || std::abs(load) > near_zero * range_ || !first_zero_) continue;
@@ -199,7 +227,7 @@ void RecordingMarks::find_levels() {
 
 bool RecordingMarks::one_level(const Mark& a, const Mark& b) {
   if (a.kind != b.kind) return false;
-  const double level = a.line.y, error = effective_noise_ * std::sqrt(1 / a.line.n + 1 / b.line.n);
+  const double level = a.line.y, error = piece_noise() * std::sqrt(1 / a.line.n + 1 / b.line.n);
   const double tolerance =
       std::max(4 * error, a.kind == Mark::Kind::rest ? drift_ : options_.same_load * std::abs(level));
   if (std::abs(b.line.y - level) > tolerance) return false;

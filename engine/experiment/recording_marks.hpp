@@ -3,6 +3,7 @@
 // the order of time, with the levels and times that were made out. O(n log n) in the samples.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -60,7 +61,10 @@ class RecordingMarks {
   std::span<const std::uint32_t> row() const { return row_; }
   std::size_t line(std::size_t sample) const { return recording_.line[row_[sample]]; }
 
+  // Of a reading, and of each of as many independent readings as there are: greater where neighbours are
+  // alike.
   double noise() const { return noise_; }
+  double independent_noise() const { return noise_ / std::sqrt(independent_); }
   double effective_noise() const { return effective_noise_; }
   double interval() const { return interval_; }
   double shortest_hold() const { return shortest_hold_; }
@@ -78,7 +82,11 @@ class RecordingMarks {
     std::size_t sample;
   };
   void take_samples();
+  void refuse_negative_compression() const;
   void measure_noise();
+  void follow_correlation();
+  // What tells in means and fits over many readings.
+  double piece_noise() const { return effective_noise_ / std::sqrt(independent_); }
   void find_zero();
   std::vector<bool> find_rests();
   void find_levels();
@@ -103,6 +111,7 @@ class RecordingMarks {
   Array<double> t_, y_;
   Array<std::uint32_t> row_;
   double interval_ = 0, shortest_hold_ = 0, evidence_ = 0, noise_ = 0, effective_noise_ = 0;
+  double independent_ = 1;  // the share of independent readings among all
   double top_ = 0, bottom_ = 0, range_ = 0;
   double drift_ = 0;                  // how far a rest may lie from the one before
   std::optional<double> first_zero_;  // none: there is no rest, or it was given

@@ -20,17 +20,18 @@ RecordingMarks::Corner RecordingMarks::corner(const Mark& mark, int step) const 
   if (step < 0 ? rim == 0 : rim + 1 == t_.size()) return {t_[rim], 0, 0, rim};
   const auto beside = [step](std::size_t k) { return step < 0 ? k - 1 : k + 1; };
   // A hold that drifts for certain has another level here than in its middle.
-  const bool slopes = std::abs(mark.line.slope()) * std::sqrt(mark.line.tt) > 4 * effective_noise_;
+  const bool slopes = std::abs(mark.line.slope()) * std::sqrt(mark.line.tt) > 4 * piece_noise();
   const double level = mark.line.y + (slopes ? mark.line.slope() * (t_[rim] - mark.line.t) : 0);
   const StraightPiece& piece = piece_at(beside(rim));
   const LineMoments& line = piece.line;
   constexpr double enough = 4;
   const double slope = line.slope();
-  if (line.n >= enough && std::abs(slope) * std::sqrt(line.tt) > enough * effective_noise_ &&
+  if (line.n >= enough && std::abs(slope) * std::sqrt(line.tt) > enough * piece_noise() &&
       change_of(piece) > drift_) {
     const double meets = line.t + (level - line.y) / slope;
     const double error =
-        noise_ * std::sqrt(1 / line.n + (meets - line.t) * (meets - line.t) / line.tt + 1 / mark.line.n) /
+        independent_noise() *
+        std::sqrt(1 / line.n + (meets - line.t) * (meets - line.t) / line.tt + 1 / mark.line.n) /
         std::abs(slope);
     const double low = step < 0 ? t_[piece.first] : t_[mark.first];
     const double high = step < 0 ? t_[mark.last] : t_[piece.last];
@@ -48,7 +49,7 @@ RecordingMarks::Corner RecordingMarks::corner(const Mark& mark, int step) const 
 // The samples in which a change between neighbouring holds may lie that the noise hides: a ramp of m samples
 // taken for a step costs m/12 of the squared change.
 std::pair<std::size_t, std::size_t> RecordingMarks::window(const Mark& a, const Mark& b) const {
-  const double change = std::abs(a.line.y - b.line.y) / effective_noise_;
+  const double change = std::abs(a.line.y - b.line.y) / piece_noise();
   const double hidden = change > 0 ? 12 * evidence_ / (change * change) : 1e9;
   const double between = static_cast<double>(b.first - a.last);
   const auto reach = static_cast<std::size_t>(std::clamp(std::max(1.5 * hidden, 1.5 * between), 8.0, 400.0));
@@ -79,7 +80,7 @@ void RecordingMarks::drop_stairs() {
                           step_misfit(y.subspan(middle + 1, last - middle), b.line.y, c.line.y);
     const HiddenRamp ramp = fit_hidden_ramp(t.subspan(first, last - first + 1),
                                             y.subspan(first, last - first + 1), a.line.y, c.line.y);
-    if (ramp.misfit > stairs + evidence_ * effective_noise_ * effective_noise_) {
+    if (ramp.misfit > stairs + evidence_ * piece_noise() * piece_noise()) {
       ++k;
       continue;
     }
@@ -135,7 +136,7 @@ void RecordingMarks::time_each() {
   constexpr double plain = 30;  // times the noise: such a change is well met by the straight pieces
   for (std::size_t k = 0; k + 1 < marks_.size(); ++k) {
     Mark &a = marks_[k], &b = marks_[k + 1];
-    const double change = std::abs(a.line.y - b.line.y) / effective_noise_;
+    const double change = std::abs(a.line.y - b.line.y) / piece_noise();
     if (a.kind == Mark::Kind::peak || b.kind == Mark::Kind::peak || a.kind == Mark::Kind::rest) {
       if (a.kind != Mark::Kind::rest || b.kind != Mark::Kind::hold) continue;
     }

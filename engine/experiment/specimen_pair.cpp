@@ -114,6 +114,7 @@ std::shared_ptr<const Solver> SpecimenPair::solver() {
 void SpecimenPair::warn(const PressRequest& request, Monitor& monitor) {
   if (!std::exchange(warned_of_plan_, true))
     for (const std::string& warning : plan_.warnings) monitor.warn(warning);
+  warn_of_an_overhang(monitor);
   warn_of_a_step_at_the_rim(monitor);
   if (request.dwell && !scene_.creep && !std::exchange(warned_of_dwell_, true))
     monitor.warn(
@@ -194,6 +195,15 @@ StateCost SpecimenPair::flatten_for_good(const State& state, Monitor& monitor) {
   }
   const Cost cost = scope.so_far();
   return {cost, {{"plasticity", cost}}};
+}
+
+void SpecimenPair::warn_of_an_overhang(Monitor& monitor) {
+  if (warned_of_overhang_ || !geometry_->overhangs()) return;
+  warned_of_overhang_ = true;
+  monitor.warn("turned like this, the bodies face each other on " +
+               format_short(100 * geometry_->overlap_fraction(), 3) +
+               " % of the tile: nothing presses on the rest, where the gap is missing; `pressure` stays load "
+               "over the whole tile, and `overlap_fraction` of each state says how much of it they share");
 }
 
 void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {

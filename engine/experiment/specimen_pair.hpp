@@ -104,6 +104,7 @@ class SpecimenPair {
   State choose_and_press(const PressRequest& request, Monitor& monitor);
   // Takes from the bodies what yielded in `state`; what it cost.
   StateCost flatten_for_good(const State& state, Monitor& monitor);
+  void warn_of_an_overhang(Monitor& monitor);
   void warn_of_a_step_at_the_rim(Monitor& monitor);
 
   Scene scene_;  // with the bodies as they are now
@@ -117,6 +118,7 @@ class SpecimenPair {
   std::optional<State> pressed_;
   std::vector<State::Watch> states_;  // those pressed here
   std::vector<Done> history_;
+  bool warned_of_overhang_ = false;
   bool warned_of_rim_ = false;
   bool warned_of_mapping_ = false;
   bool warned_of_dwell_ = false;

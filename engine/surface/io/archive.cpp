@@ -57,19 +57,40 @@ Archive::Archive(const SourceFile& file) : file_(file), state_(std::make_unique<
 
 Archive::~Archive() = default;
 
-std::int64_t Archive::find(std::string_view name) const {
-  const auto plain = [](std::string_view text) {
-    std::string result = lower_case(text);
-    std::replace(result.begin(), result.end(), '\\', '/');
-    while (result.starts_with("./")) result.erase(0, 2);
-    while (result.starts_with("/")) result.erase(0, 1);
-    return result;
-  };
-  const std::string wanted = plain(name);
+namespace {
+
+std::string plain_entry(std::string_view text) {
+  std::string result = lower_case(text);
+  std::replace(result.begin(), result.end(), '\\', '/');
+  while (result.starts_with("./")) result.erase(0, 2);
+  while (result.starts_with("/")) result.erase(0, 1);
+  return result;
+}
+
+}  // namespace
+
+std::string Archive::folder_of(std::string_view name) const {
+  const std::string wanted = "/" + plain_entry(name);
+  std::string folder;
   const zip_int64_t count = zip_get_num_entries(state_->zip, 0);
   for (zip_int64_t k = 0; k < count; ++k) {
     const char* const entry = zip_get_name(state_->zip, static_cast<zip_uint64_t>(k), ZIP_FL_ENC_RAW);
-    if (entry != nullptr && plain(entry) == wanted) return k;
+    if (entry == nullptr) continue;
+    const std::string found = plain_entry(entry);
+    if (found == wanted.substr(1)) return {};
+    if (!found.ends_with(wanted)) continue;
+    if (!folder.empty()) return {};
+    folder = found.substr(0, found.size() - wanted.size() + 1);
+  }
+  return folder;
+}
+
+std::int64_t Archive::find(std::string_view name) const {
+  const std::string wanted = plain_entry(name);
+  const zip_int64_t count = zip_get_num_entries(state_->zip, 0);
+  for (zip_int64_t k = 0; k < count; ++k) {
+    const char* const entry = zip_get_name(state_->zip, static_cast<zip_uint64_t>(k), ZIP_FL_ENC_RAW);
+    if (entry != nullptr && plain_entry(entry) == wanted) return k;
   }
   return -1;
 }

@@ -43,6 +43,9 @@ class Archive {
   // Position of an entry; a leading "./" or "/", backslashes and the case of letters do not count.
   // -1 if there is none.
   std::int64_t find(std::string_view name) const;
+  // The folder, with its stroke, in which the one entry called so lies; empty where it lies at the top,
+  // nowhere, or in several folders.
+  std::string folder_of(std::string_view name) const;
   // Bytes of entry `index` unpacked, as the directory says. Throws Error{bad_file} when no packing
   // could have made so much of so little, or the packing is neither stored nor deflated.
   std::uint64_t claimed_size(std::int64_t index) const;

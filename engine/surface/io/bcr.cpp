@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// BCR and BCRF of Image Metrology (SPIP) and of microscopes that write them: a header in text of 2048 bytes,
-// lines of `key = value`, then integers of 16 bits (`fileformat = bcrstm`, heights `bit2nm` nanometres each)
-// or floating-point numbers of 32 (`bcrf`, heights in nanometres), line by line. Numbers past 1.7e38 and,
-// unless `voidpixels` is 0, 32767 are missing points. Layout as restated by Gwyddion's reader. `zmin` is
-// passed over.
+// BCR and BCRF of Image Metrology (SPIP) and of microscopes that write them: a header in text of 2048
+// characters, lines of `key = value`, then integers of 16 bits (`fileformat = bcrstm`, heights `bit2nm`
+// nanometres each) or floating-point numbers of 32 (`bcrf`, heights in nanometres), line by line. A header in
+// UTF-16 says `bcrstm_unicode` or `bcrf_unicode`. Numbers past 1.7e38 and, unless `voidpixels` is 0, 32767
+// are missing points. Layout as restated by Gwyddion's reader. `zmin` is passed over.
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -21,7 +22,8 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t header_bytes = 2048;
+constexpr std::size_t header_characters = 2048;
+constexpr std::string_view unicode_ending = "_unicode";
 constexpr double nanometre = 1e-9;
 
 using Lines = std::map<std::string, std::string>;
@@ -33,21 +35,53 @@ std::pair<std::string, std::string_view> statement(std::string_view line) {
   return {lower_case(trimmed(line.substr(0, sign))), trimmed(line.substr(sign + 1))};
 }
 
+// The header in single bytes, and where the numbers begin. Characters beyond ASCII become question marks: no
+// key or value that is read has any.
+struct BcrHeader {
+  std::string text;
+  std::size_t data_at = 0;
+};
+
+bool is_utf16(std::string_view bytes) {
+  constexpr std::string_view mark("\xFF\xFE", 2), first("f\0i\0l\0e\0", 8);
+  if (bytes.starts_with(mark)) bytes.remove_prefix(mark.size());
+  if (bytes.size() < first.size()) return false;
+  for (std::size_t k = 0; k < first.size(); ++k)
+    if (std::tolower(static_cast<unsigned char>(bytes[k])) != first[k]) return false;
+  return true;
+}
+
+BcrHeader header_of(const SourceFile& file, std::size_t characters) {
+  const std::string_view bytes = file.bytes();
+  if (!is_utf16(bytes)) return {std::string(bytes.substr(0, characters)), characters};
+  BcrHeader header;
+  for (std::size_t k = 0; k + 1 < bytes.size() && header.text.size() < characters; k += 2)
+    header.text += bytes[k + 1] == '\0' ? bytes[k] : '?';
+  if (header.text.starts_with('?')) header.text.erase(0, 1);  // the mark of the order of bytes
+  header.data_at = 2 * characters;
+  return header;
+}
+
 bool recognises_bcr(const SourceFile& file) {
-  LineReader reader(file.bytes().substr(0, 64));
+  const BcrHeader header = header_of(file, 64);
+  LineReader reader(header.text);
   std::string_view line;
   if (!reader.next(line)) return false;
   const auto [key, value] = statement(line);
   return key == "fileformat" && lower_case(value).starts_with("bcr");
 }
 
-Lines read_lines(const SourceFile& file) {
+// Gives the numbers as `data`.
+Lines read_lines(const SourceFile& file, std::string_view& data) {
   if (!recognises_bcr(file))
     refuse_file(file,
                 "is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = bcrf`",
                 "if it is another format, name it with `format`");
-  if (file.bytes().size() < header_bytes) refuse_file(file, "is cut short in its header of 2048 bytes");
-  std::string_view text = file.bytes().substr(0, header_bytes);
+  const BcrHeader header = header_of(file, header_characters);
+  if (file.bytes().size() < header.data_at)
+    refuse_file(file, "is cut short in its header of " + std::to_string(header.data_at) + " bytes");
+  data = file.bytes().substr(header.data_at);
+  std::string_view text = header.text;
   text = text.substr(0, text.find('\0'));
   Lines lines;
   LineReader reader(text);
@@ -92,14 +126,17 @@ Field heights_of(std::string_view data, int nx, int ny, bool big_endian, Monitor
 }
 
 HeightMap read_bcr(const SourceFile& file, Monitor& monitor) {
-  const Lines lines = read_lines(file);
-  const std::string& kind = lines.at("fileformat");
-  const bool integers = lower_case(kind) == "bcrstm";
-  if (!integers && lower_case(kind) != "bcrf")
-    refuse_file(file, "is a BCR file of the kind " + shown(kind), "bcrstm and bcrf are read");
+  std::string_view data;
+  const Lines lines = read_lines(file, data);
+  std::string kind = lower_case(lines.at("fileformat"));
+  if (is_utf16(file.bytes()) && kind.ends_with(unicode_ending))
+    kind.resize(kind.size() - unicode_ending.size());
+  const bool integers = kind == "bcrstm";
+  if (!integers && kind != "bcrf")
+    refuse_file(file, "is a BCR file of the kind " + shown(lines.at("fileformat")),
+                "bcrstm and bcrf are read");
   const std::uint64_t columns = count_of(file, lines, "xpixels"), rows = count_of(file, lines, "ypixels");
-  const std::string_view data = file.bytes().substr(header_bytes);
-  require_numbers(file, columns, rows, integers ? 2 : 4, data.size());
+  require_exactly(file, columns, rows, integers ? 2 : 4, data.size());
   const bool big_endian = lines.count("intelmode") != 0 && count_of(file, lines, "intelmode") == 0;
   const bool voids = lines.count("voidpixels") == 0 || count_of(file, lines, "voidpixels") != 0;
   const int nx = static_cast<int>(columns), ny = static_cast<int>(rows);

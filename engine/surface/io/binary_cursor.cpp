@@ -39,4 +39,17 @@ void require_numbers(const SourceFile& file, std::uint64_t nx, std::uint64_t ny,
                 "the file is cut short or its header is wrong");
 }
 
+void require_exactly(const SourceFile& file, std::uint64_t nx, std::uint64_t ny, std::uint64_t width,
+                     std::uint64_t present) {
+  require_numbers(file, nx, ny, width, present);
+  const std::uint64_t wanted = nx * ny * width;
+  if (present != wanted)
+    refuse_file(file,
+                "says in its header that it holds " + std::to_string(nx) + " x " + std::to_string(ny) +
+                    " heights of " + std::to_string(width) + (width == 1 ? " byte" : " bytes") + " but has " +
+                    std::to_string(present) + " bytes of data, " + std::to_string(present - wanted) +
+                    " too many",
+                "its header is wrong or the file is damaged: read so, its lines would be shifted");
+}
+
 }  // namespace asperity

@@ -58,6 +58,11 @@ class BinaryCursor {
 void require_numbers(const SourceFile& file, std::uint64_t nx, std::uint64_t ny, std::uint64_t width,
                      std::uint64_t present);
 
+// The same, and throws where there are more bytes than these numbers take: a head that is wrong by a column
+// or a line shears the map.
+void require_exactly(const SourceFile& file, std::uint64_t nx, std::uint64_t ny, std::uint64_t width,
+                     std::uint64_t present);
+
 // A field of ny rows out of bytes that require_numbers found enough; `is_hole` says which numbers stand for a
 // missing point.
 template <class T, class IsHole>

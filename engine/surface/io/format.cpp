@@ -9,6 +9,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/io/foreign_format.hpp"
+#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 
@@ -40,6 +42,10 @@ const Format& if_certain(const Format& format, const SourceFile& file) {
         "has three columns and a hundred lines or more: it may be x y z points that are not on a lattice, or "
         "a matrix of heights",
         "grid the points first, or say `format` = \"text\"");
+  if (may_be_triples(file))
+    refuse_file(file,
+                "has three columns: it may be x y z points of a lattice with holes, or a matrix of heights",
+                "say which: `format` = \"xyz\" for points with holes, or `format` = \"text\" for a matrix");
   return format;
 }
 
@@ -63,6 +69,9 @@ const Format& choose_format(const SourceFile& file, const std::string& forced) {
   }
   for (const Format* format : formats())
     if (format->recognises(file)) return if_certain(*format, file);
+  if (const std::optional<ForeignFormat> foreign = foreign_format(file))
+    refuse_file(file, "is " + foreign->what + ", which is not read", foreign->cure);
+  refuse_headed_text(file);
   for (const Format* format : formats())
     if (has_extension_of(*format, file)) return if_certain(*format, file);
   refuse_file(file, "is of no known format; looked for " + joined(marks, " and "),

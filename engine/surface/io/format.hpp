@@ -20,7 +20,10 @@ struct HeightMap {
   Field heights;                         // the numbers of the file; NaN where a point is missing
   std::optional<double> unit;            // m per number, if the file says
   std::optional<double> size_x, size_y;  // nodes times spacing; m, or numbers if size_in_units
-  bool size_in_units = false;            // lengths share the unit of the heights
+  bool size_in_units = false;            // the file holds positions: lengths are in position_unit
+  std::optional<double> position_unit;   // m per number of a position, if the file says
+  bool named_columns = false;            // the units stand in the line that names the columns
+  bool pairs = false;                    // two columns, position and height, as that line says
   bool trace = false;                    // one line of samples: ny = 1, and no size_y of its own
   std::optional<double> spacing;         // m between the samples of a trace, where a file states it
   std::optional<double> closed_radius;   // m, of a closed outline
@@ -58,13 +61,20 @@ bool almost_triples(const SourceFile& file);
 // likelier than a map three columns wide.
 bool many_triples(const SourceFile& file);
 
+// Whether such a text could be what is left of a lattice after any of its points were taken out, by their
+// places alone: no point is given twice, and the places are those of a small lattice, of which one is met
+// again, or which come in the order of a scan. A single line could be a point too, or three heights: it is
+// not asked here.
+bool may_be_triples(const SourceFile& file);
+
 // All of them, in the order in which they are tried: the most particular marks first.
 std::span<const Format* const> formats();
 
 // The format called `forced`, or else the first that recognises the content, or else the one of the
 // extension, which decides for x y z where the content is a table. Throws Error{unknown_name} for a `format`
-// that does not exist and Error{bad_file} when nothing fits, naming what was looked for, or when a table may
-// be a matrix or almost_triples() or many_triples().
+// that does not exist and Error{bad_file} when nothing fits, naming what the file is (foreign_format.hpp) or
+// what was looked for, or when a table may be a matrix or almost_triples(), many_triples() or
+// may_be_triples().
 const Format& choose_format(const SourceFile& file, const std::string& forced);
 
 }  // namespace asperity

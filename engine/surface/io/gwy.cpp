@@ -207,7 +207,7 @@ HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, M
   const auto& [number, entry] = *chosen(file, channels, channel);
   const DataField field = read_field(file, entry.field);
   const auto side = [](std::int32_t count) { return count < 0 ? 0 : static_cast<std::uint64_t>(count); };
-  require_numbers(file, side(field.nx), side(field.ny), sizeof(double), field.data.size());
+  require_exactly(file, side(field.nx), side(field.ny), sizeof(double), field.data.size());
   const std::string name =
       "the map " + std::to_string(number) + (entry.title.empty() ? "" : " \"" + entry.title + "\"");
   HeightMap map;

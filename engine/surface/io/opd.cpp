@@ -137,7 +137,7 @@ HeightMap read_opd_channel(const SourceFile& file, const std::string& channel, M
   if (width != 2 && width != 4)
     refuse_file(file, "holds heights of " + std::to_string(width) + (width == 1 ? " byte" : " bytes"),
                 "integers of 2 bytes and floating-point numbers of 4 are read");
-  require_numbers(file, static_cast<std::uint64_t>(nx), static_cast<std::uint64_t>(ny),
+  require_exactly(file, static_cast<std::uint64_t>(nx), static_cast<std::uint64_t>(ny),
                   static_cast<std::uint64_t>(width), data.size());
   HeightMap map;
   if (width == 2) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/holes.hpp"
@@ -28,32 +29,101 @@ void check_call(const ReadOptions& options) {
   check_positive(options.size_x, "size");
   check_positive(options.size_y, "size");
   check_positive(options.unit, "unit");
+  check_positive(options.unit_xy, "unit_xy");
   if (options.material) check(*options.material);
 }
 
 void check_call(const ReadProfileOptions& options) {
   check_positive(options.spacing, "spacing");
   check_positive(options.unit, "unit");
+  check_positive(options.unit_xy, "unit_xy");
 }
+
+bool differ(double asked, double found) { return std::abs(asked - found) > 1e-9 * std::abs(found); }
 
 // The call's value, else the file's; a warning when the call overrules the file.
 std::optional<double> settled(const std::optional<double>& asked, const std::optional<double>& found,
                               const SourceFile& file, const std::string& key, Monitor& monitor) {
   if (!asked) return found;
-  if (found && std::abs(*asked - *found) > 1e-9 * std::abs(*found))
+  if (found && differ(*asked, *found))
     monitor.warn(file_name(file.path()) + " says its " + key + " is " + format_short(*found) + " m; " +
                  quoted(key) + " = " + format_short(*asked) + " m of the call is used");
   return asked;
 }
 
 [[noreturn]] void refuse_missing(const SourceFile& file, const std::vector<std::string>& missing) {
-  std::vector<std::string> keys;
-  for (const std::string& key : missing) keys.push_back(quoted(key));
-  throw Error(ErrorCode::bad_value, file_name(file.path()) + " does not say its " + joined(missing, " and "),
+  std::vector<std::string> things, keys;
+  for (const std::string& key : missing) {
+    things.push_back(key == "unit_xy" ? "the unit of its positions" : "its " + key);
+    keys.push_back(quoted(key));
+  }
+  // "its size and unit"
+  for (std::size_t k = 1; k < things.size(); ++k)
+    if (things[k].starts_with("its ")) things[k].erase(0, 4);
+  const auto lacks = [&](const char* key) {
+    return std::find(missing.begin(), missing.end(), key) != missing.end();
+  };
+  throw Error(ErrorCode::bad_value, file_name(file.path()) + " does not say " + joined(things, " and "),
               "give " + joined(keys, " and ") + " in the call" +
-                  (std::find(missing.begin(), missing.end(), "unit") != missing.end()
-                       ? ": `unit` is the length of one number, such as \"um\""
-                       : ""));
+                  (lacks("unit") ? ": `unit` is the length of one number, such as \"um\"" : "") +
+                  (lacks("unit_xy") ? std::string(lacks("unit") ? ", " : ": ") +
+                                          "`unit_xy` that of a position, which may be another"
+                                    : ""));
+}
+
+// A unit that the line over the columns says is not overruled: one of the two is a slip.
+std::optional<double> unit_of(const std::optional<double>& asked, const std::optional<double>& found,
+                              const HeightMap& map, const SourceFile& file, const std::string& key,
+                              Monitor& monitor) {
+  if (map.named_columns && asked && found && differ(*asked, *found))
+    throw Error(ErrorCode::bad_value,
+                file_name(file.path()) + " says in the line that names its columns that its " +
+                    (key == "unit" ? "heights" : "positions") + " are in units of " +
+                    format_quantity(*found, dimension::length) + ", and " + quoted(key) + " is " +
+                    format_quantity(*asked, dimension::length),
+                "leave " + quoted(key) + " out, or correct that line");
+  return settled(asked, found, file, key, monitor);
+}
+
+// Sizes of a file of positions in metres, or unknown where nobody says the unit of a position.
+void positions_into_metres(HeightMap& map, const std::optional<double>& asked, const SourceFile& file,
+                           Monitor& monitor) {
+  if (!map.size_in_units) {
+    if (asked)
+      throw Error(ErrorCode::bad_value,
+                  "`unit_xy` is " + format_quantity(*asked, dimension::length) + ", and " +
+                      file_name(file.path()) + " holds no positions, only heights",
+                  "leave it out: it is of x y z points and of profiles in two columns");
+    return;
+  }
+  const std::optional<double> unit = unit_of(asked, map.position_unit, map, file, "unit_xy", monitor);
+  for (std::optional<double>* size : {&map.size_x, &map.size_y})
+    if (*size) *size = unit ? std::optional<double>(**size * *unit) : std::nullopt;
+}
+
+// Lengths that no instrument measures come from a unit, or a head, that is wrong.
+void warn_of_proportions(const HeightMap& map, const SourceFile& file, double hx, double hy,
+                         Monitor& monitor) {
+  constexpr double shortest = 1e-12, longest = 1e3, steepest = 1e3, narrowest = 1e5;
+  const double size_x = hx * map.heights.nx(), size_y = hy * map.heights.ny();
+  const auto length = [](double value) { return format_quantity(value, dimension::length); };
+  const auto warn = [&](const std::string& finding) {
+    monitor.warn(file_name(file.path()) + " " + finding + ": check its size and its unit");
+  };
+  if (const double least = std::min(hx, hy), most = std::max(size_x, size_y); least < shortest) {
+    warn("has points that lie " + length(least) + " apart");
+  } else if (most > longest) {
+    warn("is " + length(most) + " long");
+  } else if (!map.trace && (hx > narrowest * hy || hy > narrowest * hx)) {
+    warn("has points that lie " + length(hx) + " apart along x and " + length(hy) + " along y");
+  }
+  double low = INFINITY, high = -INFINITY;
+  for (const double height : map.heights.values()) {
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  if (high - low > steepest * std::max(size_x, size_y))
+    warn("has heights that span " + length(high - low) + " over " + length(std::max(size_x, size_y)));
 }
 
 HeightMap read_map(const SourceFile& file, const std::string& forced, const std::string& channel,
@@ -124,6 +194,7 @@ void fold_positions(HeightMap& map, const SourceFile& file) {
                   "has two columns, position and height, but its positions are not evenly spaced at sample " +
                       std::to_string(k + 1));
   map.heights = std::move(heights);
+  map.pairs = false;
   map.size_x = spacing * n;
   map.size_y.reset();
   map.size_in_units = true;
@@ -139,24 +210,29 @@ Surface read_surface(const std::string& path, const ReadOptions& options, Monito
 
 Surface read_surface(const SourceFile& file, const ReadOptions& options, Monitor& monitor) {
   check_call(options);
-  HeightMap map = read_map(file, options.format, options.channel, monitor);
+  const Format* format = nullptr;
+  HeightMap map = read_map(file, options.format, options.channel, monitor, &format);
+  if (format == &text_format() && options.format.empty() && !map.size_x && map.heights.nx() == 3 &&
+      map.heights.ny() == 1)
+    refuse_file(file, "holds one line of three numbers: a point, or a matrix of three heights",
+                "say `format` = \"text\" for a matrix; one point is no surface");
+  if (map.pairs) fold_positions(map, file);
 
-  const std::optional<double> unit = settled(options.unit, map.unit, file, "unit", monitor);
-  if (map.size_in_units) {
-    // Without a unit the sizes are unknown too, but one word of the call mends both.
-    if (map.size_x) map.size_x = *map.size_x * unit.value_or(1);
-    if (map.size_y) map.size_y = *map.size_y * unit.value_or(1);
-  }
+  const std::optional<double> unit = unit_of(options.unit, map.unit, map, file, "unit", monitor);
+  positions_into_metres(map, options.unit_xy, file, monitor);
   const std::optional<double> size_x = settled(options.size_x, map.size_x, file, "size", monitor);
   std::optional<double> size_y = settled(options.size_y, map.size_y, file, "size", monitor);
   if (map.trace && size_x && !size_y) size_y = *size_x / map.heights.nx();
   std::vector<std::string> missing;
-  if (!size_x || !size_y) missing.emplace_back("size");
+  const bool without_size = !size_x || !size_y;
+  if (without_size && !map.size_in_units) missing.emplace_back("size");
   if (!unit) missing.emplace_back("unit");
+  if (without_size && map.size_in_units) missing.emplace_back("unit_xy");
   if (!missing.empty()) refuse_missing(file, missing);
 
   const Grid grid = make_grid(map.heights.nx(), map.heights.ny(), *size_x, *size_y);
   into_metres(map, file, *unit, grid.hx(), grid.hy(), options.fill, monitor);
+  warn_of_proportions(map, file, grid.hx(), grid.hy(), monitor);
   return Surface(grid, std::move(map.heights),
                  {.material = options.material, .periodic = false, .aliased_share = {}});
 }
@@ -170,7 +246,7 @@ Profile read_profile(const SourceFile& file, const ReadProfileOptions& options, 
   check_call(options);
   const Format* format = nullptr;
   HeightMap map = read_map(file, options.format, options.channel, monitor, &format);
-  if (!map.trace && map.heights.nx() == 2 && map.heights.ny() > 2 && format == &text_format())
+  if (map.pairs || (!map.trace && map.heights.nx() == 2 && map.heights.ny() > 2 && format == &text_format()))
     fold_positions(map, file);
   const int nx = map.heights.nx(), ny = map.heights.ny();
   if (nx > 1 && ny > 1)
@@ -179,17 +255,21 @@ Profile read_profile(const SourceFile& file, const ReadProfileOptions& options, 
         "holds a surface of " + std::to_string(nx) + " x " + std::to_string(ny) + " heights, not a profile",
         "read it with `surface.read` and take a profile of it");
 
-  const std::optional<double> unit = settled(options.unit, map.unit, file, "unit", monitor);
+  const std::optional<double> unit = unit_of(options.unit, map.unit, map, file, "unit", monitor);
+  positions_into_metres(map, options.unit_xy, file, monitor);
   const std::optional<double>& length = ny == 1 ? map.size_x : map.size_y;
   std::optional<double> found = map.spacing;
-  if (!found && length) found = *length * (map.size_in_units ? unit.value_or(1) : 1.0) / (nx * ny);
+  if (!found && length) found = *length / (nx * ny);
   const std::optional<double> spacing = settled(options.spacing, found, file, "spacing", monitor);
   std::vector<std::string> missing;
-  if (!spacing) missing.emplace_back("spacing");
+  if (!spacing && !map.size_in_units) missing.emplace_back("spacing");
   if (!unit) missing.emplace_back("unit");
+  if (!spacing && map.size_in_units) missing.emplace_back("unit_xy");
   if (!missing.empty()) refuse_missing(file, missing);
 
   into_metres(map, file, *unit, *spacing, *spacing, options.fill, monitor);
+  map.trace = true;
+  warn_of_proportions(map, file, *spacing, *spacing, monitor);
   const auto heights = map.heights.values();
   return Profile(*spacing, Array<double>(heights.begin(), heights.end()), map.closed_radius);
 }

@@ -2,8 +2,9 @@
 // Measured topographies from files: text matrices, x y z triples, NPY, X3P (ISO 25178-72), HDF5 and the
 // CSV of stylus profilers. A file is known by its content, then by its extension, unless `format`
 // names it. A file that does not say its size or unit needs them in the call; the call wins over the
-// file, with a warning. A file that is damaged, or not what it claims to be, is an Error{bad_file},
-// and memory stays within a fixed multiple of the file's size.
+// file, with a warning, but not over the units of a line that names the columns: these must agree. A
+// file that is damaged, or not what it claims to be, is an Error{bad_file}, and memory stays within a
+// fixed multiple of the file's size.
 #pragma once
 
 #include <optional>
@@ -30,7 +31,8 @@ struct HoleFill {
 
 struct ReadOptions {
   std::optional<double> size_x, size_y;  // m, nodes times spacing
-  std::optional<double> unit;            // m per number of the file; of x, y and z alike in triples
+  std::optional<double> unit;            // m per height of the file
+  std::optional<double> unit_xy{};       // m per number of a position, of files that hold positions
   HoleFill fill;
   std::string format;   // a name of formats() in format.hpp; empty: found out
   std::string channel;  // which of several maps in the file; empty: the first of heights
@@ -38,8 +40,9 @@ struct ReadOptions {
 };
 
 struct ReadProfileOptions {
-  std::optional<double> spacing;  // m between samples
-  std::optional<double> unit;     // m per number of the file; of positions too, where there are some
+  std::optional<double> spacing;    // m between samples
+  std::optional<double> unit;       // m per height of the file
+  std::optional<double> unit_xy{};  // m per number of a position, of files that hold positions
   HoleFill fill;
   std::string format, channel;
 };
@@ -47,7 +50,9 @@ struct ReadProfileOptions {
 // First line of a text matrix, row 0 of an array: j = 0. A trace (stylus CSV, one-dimensional array)
 // becomes one row, ny = 1, whose size_y is one cell unless given. Traits: the material, nothing else.
 // Errors: bad_file; bad_value for holes without `fill` (how many, and the first), for a missing
-// `size` or `unit`, or for more than 65536 cells a side; unknown_name for `format`.
+// `size`, `unit` or `unit_xy`, for a unit that contradicts the head of the file, for a `unit_xy` where there
+// are no positions, or for more than 65536 cells a side; unknown_name for `format`. Warns of sizes out of all
+// proportion.
 Surface read_surface(const std::string& path, const ReadOptions& options = {},
                      Monitor& monitor = Monitor::silent());
 Surface read_surface(const SourceFile& file, const ReadOptions& options = {},

@@ -4,6 +4,7 @@
 // text; in the binary form the least number of a signed type, the greatest of an unsigned one, or NaN.
 // Layout: ISO 25178-71 and the format's page at NIST. Compressed files, which the standard leaves open, are
 // refused.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -96,8 +97,17 @@ HeightMap read_binary(const SourceFile& file, Monitor& monitor) {
   cursor.skip(1);
   check_header(file, header);
   const std::string_view data = file.bytes().substr(cursor.position());
-  require_numbers(file, header.points, header.profiles, widths[static_cast<std::size_t>(header.type)],
-                  data.size());
+  const std::uint64_t width = widths[static_cast<std::size_t>(header.type)];
+  require_numbers(file, header.points, header.profiles, width, data.size());
+  // After the heights there may be a trailer, which is text.
+  const std::string_view rest = data.substr(header.points * header.profiles * width);
+  const auto is_text = [](char c) {
+    return static_cast<unsigned char>(c) >= ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\x1A' ||
+           c == '\0';
+  };
+  const bool trailer = std::all_of(rest.begin(), rest.end(), is_text) &&
+                       std::any_of(rest.begin(), rest.end(), [](char c) { return c >= ' '; });
+  if (!trailer) require_exactly(file, header.points, header.profiles, width, data.size());
   constexpr std::array readers{numbers<std::uint8_t>, numbers<std::uint16_t>, numbers<std::uint32_t>,
                                numbers<float>,        numbers<std::int8_t>,   numbers<std::int16_t>,
                                numbers<std::int32_t>, numbers<double>};

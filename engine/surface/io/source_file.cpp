@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -50,6 +52,14 @@ SourceFile::SourceFile(std::string path, Monitor& monitor)
     throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be opened", "check that it may be read");
   const std::uintmax_t expected = fs::file_size(path_, failure);
   if (failure) throw Error(ErrorCode::bad_file, file_name(path_) + " cannot be read");
+  if (const std::int64_t limit = memory::limit(); limit > 0) {
+    const std::int64_t left = std::max<std::int64_t>(0, limit - memory::held());
+    if (expected > static_cast<std::uintmax_t>(left))
+      throw Error(ErrorCode::out_of_memory,
+                  file_name(path_) + " has " + format_bytes(static_cast<std::int64_t>(expected)) +
+                      ", and the limit of memory leaves " + format_bytes(left),
+                  "read a smaller file, or raise the limit");
+  }
   bytes_.reserve(static_cast<std::size_t>(expected));
   Task task(monitor, "reading", static_cast<std::int64_t>(expected));
   while (stream) {

@@ -150,9 +150,7 @@ HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
   map.size_x = fit.spacing * *lateral_unit * n;
   map.trace = true;
   if (length) check_length(file, *map.size_x, fit.spacing * *lateral_unit, *length, monitor);
-  if (file.text().find_last_of("\r\n") + 1 != file.text().size())
-    monitor.warn(file_name(file.path()) +
-                 ": the last line has no line end; if the file was cut short its last height may be wrong");
+  warn_if_cut(file, monitor);
   return map;
 }
 

@@ -93,7 +93,18 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
   const auto side = [](std::int64_t count) { return count < 0 ? 0 : static_cast<std::uint64_t>(count); };
   const std::string_view data = file.bytes().substr(header.data_at);
   const std::uint64_t width = static_cast<std::uint64_t>(header.bits) / 8;
-  require_numbers(file, side(header.nx), side(header.ny), width, data.size());
+  // Of several objects the next begins, with its own header, where this one ends.
+  if (header.objects > 1) {
+    require_numbers(file, side(header.nx), side(header.ny), width, data.size());
+    const std::string_view next = data.substr(side(header.nx) * side(header.ny) * width);
+    if (!next.starts_with(plain_mark) && !next.starts_with(compressed_mark))
+      refuse_file(file,
+                  "holds " + std::to_string(header.objects) + " objects, and no second one after the " +
+                      std::to_string(header.nx) + " x " + std::to_string(header.ny) + " heights of the first",
+                  "its header is wrong or the file is damaged");
+  } else {
+    require_exactly(file, side(header.nx), side(header.ny), width, data.size());
+  }
   const int nx = static_cast<int>(header.nx), ny = static_cast<int>(header.ny);
   const std::int64_t missing = std::int64_t{header.least} - 2;
   const auto is_hole = [&](auto value) { return header.special && std::int64_t{value} == missing; };

@@ -3,7 +3,8 @@
 // three headers: the one this program writes (`# asperity surface`, `# asperity profile`), the
 // instrument form `h= w= pixel size= height conversion factor=`, and comment lines `Width:`,
 // `Height:`, `Value units:`. A header that lies about the number of cells is an error. A profile of
-// this program's own is two columns, position and height; any other table is taken as heights.
+// this program's own is two columns, position and height, and so is a table over which a line such as
+// "x [mm],z [um]" says so (column_head.hpp); any other table is taken as heights.
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -11,6 +12,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/text_table.hpp"
 
@@ -22,6 +24,8 @@ struct Header {
   bool own_profile = false;
   std::optional<double> columns, rows;
   std::optional<double> size_x, size_y, unit, pixel, closed_radius;
+  std::optional<std::vector<HeadColumn>> pair;  // position and height
+  bool pair_named = false;                      // by a line, not by a comment
 };
 
 std::optional<double> plain_number(std::string_view text) {
@@ -106,6 +110,13 @@ void take_in_line(Header& header, const SourceFile& file, std::string_view line)
   }
 }
 
+// Of a comment: only one that says both units is sure to be meant for the columns.
+std::optional<std::vector<HeadColumn>> units_of_pair(std::string_view line) {
+  auto pair = profile_head(line);
+  if (pair && (*pair)[0].unit && (*pair)[1].unit) return pair;
+  return {};
+}
+
 // Reads to the first row of numbers, which the reader gives next.
 Header read_header(LineReader& lines, const SourceFile& file) {
   Header header;
@@ -119,14 +130,23 @@ Header read_header(LineReader& lines, const SourceFile& file) {
                                      : line.find_first_not_of("#%")));
       if (line == "asperity profile") header.own_profile = true;
       take_in_line(header, file, line);
+      if (!header.own_profile && !header.pair) header.pair = units_of_pair(line);
       continue;
     }
     if (is_row_of_numbers(line)) return header;
-    if (line.find('=') == std::string_view::npos)
+    if (auto pair = profile_head(line)) {
+      header.pair = std::move(pair);
+      header.pair_named = true;
+      lines = ahead;
+      return header;
+    }
+    if (line.find('=') == std::string_view::npos) {
+      refuse_headed_text(file);
       refuse_file(
           file,
           "holds no table of numbers: line " + std::to_string(ahead.number()) + " starts with " + shown(line),
           "a text matrix has one line of numbers for each y, comments start with #");
+    }
     take_in_line(header, file, line);
   }
   return header;
@@ -139,7 +159,8 @@ bool recognises_text_matrix(const SourceFile& file) {
   while (lines.next(line)) {
     const std::string_view text = trimmed(line);
     if (is_skipped(text)) continue;
-    return is_row_of_numbers(text) || (text.starts_with("h=") && text.find("w=") != std::string_view::npos);
+    return is_row_of_numbers(text) || (text.starts_with("h=") && text.find("w=") != std::string_view::npos) ||
+           profile_head(text);
   }
   return false;
 }
@@ -154,6 +175,15 @@ void check_count(const SourceFile& file, const std::optional<double>& said, int 
                 "the file is cut short or its header is wrong");
 }
 
+// Two columns that their head names: the positions are taken out where all traces are (read.cpp).
+HeightMap pair_of(HeightMap map, const std::vector<HeadColumn>& head, const SourceFile& file,
+                  Monitor& monitor) {
+  map.pairs = map.named_columns = true;
+  map.position_unit = head_unit(head[0], file, monitor);
+  map.unit = head_unit(head[1], file, monitor);
+  return map;
+}
+
 HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
   if (file.bytes().starts_with("\xFF\xFE") || file.bytes().starts_with("\xFE\xFF"))
     refuse_file(file, "is UTF-16 text", "save it as UTF-8");
@@ -161,8 +191,8 @@ HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
   LineReader lines(file.text());
   const Header header = read_header(lines, file);
   TextTable table = read_table(lines, file, monitor);
+  warn_if_cut(file, monitor);
   HeightMap map;
-  map.unit = header.unit;
   if (header.own_profile) {
     check_count(file, header.rows, table.rows, "samples");
     if (table.columns != 2)
@@ -179,8 +209,12 @@ HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
   }
   check_count(file, header.columns, table.columns, "columns");
   check_count(file, header.rows, table.rows, "rows");
+  map.unit = header.unit;
   map.heights = Field(table.columns, table.rows);
   std::copy(table.values.begin(), table.values.end(), map.heights.values().begin());
+  if (header.pair_named && table.columns != 2)
+    refuse_file(file, "has " + std::to_string(table.columns) + " columns under a head that names two");
+  if (header.pair && table.columns == 2) return pair_of(std::move(map), *header.pair, file, monitor);
   map.size_x = header.size_x;
   map.size_y = header.size_y;
   if (header.pixel) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // X3P, the XML container of ISO 25178-72 (before: ISO 5436-2): a zip archive of main.xml, which holds
-// axes and matrix dimension, and of the heights, in a binary file or in main.xml itself. x runs
-// fastest; z = raw * Increment + Offset, in metres; data types I, L (signed 16 and 32 bits), F and D.
-// An absolute x or y axis stores its coordinate with every point; it must be evenly spaced. NaN, an
-// empty datum or a cleared bit of the valid-points file is a hole. Offsets of x and y, rotation,
-// layers and point clouds are not read; md5checksum.hex, wrong in many files, is not compared.
+// axes and matrix dimension, and of the heights, in a binary file or in main.xml itself; all of it may
+// lie in one folder. x runs fastest; z = raw * Increment + Offset, in metres; data types I, L (signed
+// 16 and 32 bits), F and D. An absolute x or y axis stores its coordinate with every point; it must be
+// evenly spaced. NaN, an infinite height (as Alicona writes), an empty datum or a cleared bit of the
+// valid-points file is a hole. The MD5 that main.xml gives of its binary files are compared;
+// md5checksum.hex, wrong in many files, is not. Offsets of x and y, rotation, layers and point clouds
+// are not read.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -117,7 +119,7 @@ struct Map {
     const X3pAxis& a = axes[axis];
     const double value =
         a.has_increment || a.offset != 0 ? static_cast<double>(raw * a.increment + a.offset) : raw;
-    if (axis == 2) heights[k] = value;
+    if (axis == 2) heights[k] = std::isinf(raw) ? std::numeric_limits<double>::quiet_NaN() : value;
     if (axis == 0 && k < nx) x[k] = value;
     if (axis == 1 && k % nx == 0) y[k / nx] = value;
   }
@@ -144,21 +146,27 @@ double raw_value(const char* at, char type) {
   }
 }
 
-void compare_md5(const SourceFile& file, ArchiveEntry& entry, std::string_view wanted) {
+void compare_md5(const SourceFile& file, Md5& md5, std::string_view wanted, const std::string& of) {
   if (wanted.empty()) return;
-  const std::string found = entry.md5().hex();
+  const std::string found = md5.hex();
   if (found == lower_case(wanted)) return;
   const bool digits = wanted.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
   refuse_file(file,
-              "is damaged: the MD5 of its data is " + found + ", not " +
+              "is damaged: the MD5 of its " + of + " is " + found + ", not " +
                   (digits ? lower_case(wanted.substr(0, 32)) : shown(wanted)),
               "copy the file again from its source");
 }
 
-void read_binary(const SourceFile& file, const Archive& archive, pugi::xml_node link, Map& map,
-                 Monitor& monitor) {
+// An entry that main.xml names, from the top or from the folder in which main.xml lies.
+std::int64_t linked_entry(const Archive& archive, const std::string& folder, std::string_view name) {
+  const std::int64_t index = archive.find(folder + std::string(name));
+  return index < 0 ? archive.find(name) : index;
+}
+
+void read_binary(const SourceFile& file, const Archive& archive, const std::string& folder,
+                 pugi::xml_node link, Map& map, Monitor& monitor) {
   const std::string name(text_of(child(link, "PointDataLink")));
-  const std::int64_t index = archive.find(name);
+  const std::int64_t index = linked_entry(archive, folder, name);
   if (index < 0) refuse_file(file, "has no entry " + shown(name) + ", which its main.xml names");
   std::size_t record = 0;
   for (const X3pAxis& axis : map.axes) record += axis.absolute ? axis.width() : 0;
@@ -185,15 +193,18 @@ void read_binary(const SourceFile& file, const Archive& archive, pugi::xml_node 
     task.advance();
   }
   entry.expect_end();
-  compare_md5(file, entry, text_of(child(link, "MD5ChecksumPointData")));
+  compare_md5(file, entry.md5(), text_of(child(link, "MD5ChecksumPointData")), "data");
 
   const std::string_view valid = text_of(child(link, "ValidPointsLink"));
   if (valid.empty()) return;
-  const std::int64_t mask_index = archive.find(valid);
+  const std::int64_t mask_index = linked_entry(archive, folder, valid);
   if (mask_index < 0) refuse_file(file, "has no entry " + shown(valid) + ", which its main.xml names");
   const std::uint64_t points = map.nx * map.ny;
   const Array<char> mask = archive.contents(mask_index, (points + 7) / 8 + 8);
   if (mask.size() < (points + 7) / 8) refuse_file(file, "has too few bits in its valid-points entry");
+  Md5 md5;
+  md5.add(mask);
+  compare_md5(file, md5, text_of(child(link, "MD5ChecksumValidPoints")), "valid points");
   for (std::uint64_t k = 0; k < points; ++k)
     if ((static_cast<unsigned char>(mask[k / 8]) >> (k % 8) & 1) == 0)
       map.heights[k] = std::numeric_limits<double>::quiet_NaN();
@@ -267,10 +278,13 @@ class TreeMemory {
   std::int64_t bytes_;
 };
 
+constexpr std::string_view main_entry = "main.xml";
+
 bool recognises_x3p(const SourceFile& file) {
   if (!file.bytes().starts_with(std::string_view("PK\x03\x04", 4))) return false;
   try {
-    return Archive(file).find("main.xml") >= 0;
+    const Archive archive(file);
+    return archive.find(archive.folder_of(main_entry) + std::string(main_entry)) >= 0;
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_file) throw;
     return false;
@@ -279,7 +293,8 @@ bool recognises_x3p(const SourceFile& file) {
 
 HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
   const Archive archive(file);
-  const std::int64_t index = archive.find("main.xml");
+  const std::string folder = archive.folder_of(main_entry);
+  const std::int64_t index = archive.find(folder + std::string(main_entry));
   if (index < 0) refuse_file(file, "is a zip archive without main.xml, so it is not X3P");
   // Text packs no better than some twenty times; more is not a list of numbers.
   const std::uint64_t limit = (std::uint64_t{1} << 20) + 32 * static_cast<std::uint64_t>(file.bytes().size());
@@ -311,7 +326,7 @@ HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
   map.x.resize(map.axes[0].absolute ? map.nx : 0);
   map.y.resize(map.axes[1].absolute ? map.ny : 0);
   if (const pugi::xml_node link = child(record3, "DataLink")) {
-    read_binary(file, archive, link, map, monitor);
+    read_binary(file, archive, folder, link, map, monitor);
   } else if (const pugi::xml_node list = child(record3, "DataList")) {
     read_inline(file, list, map);
   } else {

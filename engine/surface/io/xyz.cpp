@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // x y z triples of a regular grid, in any order: one point a line. The distinct x and y give the
 // lattice; spacing is (last - first)/(n - 1), and every coordinate must lie within a quarter of a
-// cell of its lattice line. A point given twice is an error, one left out is a hole. x, y and z are
-// in the same unit. Scattered points are not gridded here. Three columns whose first two are almost
-// a lattice are neither taken for points nor for a matrix: the caller has to say.
+// cell of its lattice line. A point given twice is an error, one left out is a hole. A line that names
+// the columns, or the last such comment, says their units (column_head.hpp). Scattered points are not
+// gridded here. Three columns whose first two are almost a lattice, or what may be left of one, are
+// neither taken for points nor for a matrix: the caller has to say.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +14,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/text_table.hpp"
 
@@ -66,29 +68,46 @@ bool coordinates_present(const TextTable& table) {
   return true;
 }
 
-// One line of names may stand before the numbers: "x y z", "x [um],y [um],z [um]".
-bool is_line_of_names(std::string_view line) {
-  const std::string text = lower_case(trimmed(line));
-  const std::size_t x = text.find('x'), y = text.find('y'), z = text.find('z');
-  return x != std::string::npos && y != std::string::npos && z != std::string::npos && x < 2 && x < y &&
-         y < z && text.size() < 64;
-}
+// What the lines before the numbers say of the columns.
+struct TriplesHead {
+  std::optional<std::vector<HeadColumn>> columns;
+  bool named = false;  // by a line of its own, not by a comment
+};
 
-void skip_names(LineReader& lines) {
+// Takes in the comments and the line of names that stand before the numbers. A comment counts where it has
+// units.
+TriplesHead take_head(LineReader& lines) {
+  TriplesHead head;
   std::string_view line;
   for (LineReader ahead = lines; ahead.next(line); lines = ahead) {
-    if (is_skipped(line)) continue;
-    if (is_line_of_names(line)) lines = ahead;
-    return;
+    auto columns = xyz_head(line);
+    if (is_skipped(line)) {
+      const auto has_unit = [](const HeadColumn& column) { return column.unit.has_value(); };
+      if (columns && std::any_of(columns->begin(), columns->end(), has_unit))
+        head.columns = std::move(columns);
+      continue;
+    }
+    if (columns) {
+      head.columns = std::move(columns);
+      head.named = true;
+      lines = ahead;
+    }
+    return head;
   }
+  return head;
 }
 
+struct Triples {
+  TextTable table;
+  bool named = false;  // a line says that they are x, y and z
+};
+
 // A table of three columns without holes in the first two; nothing if it is another one.
-std::optional<TextTable> triples_of(const SourceFile& file) {
+std::optional<Triples> triples_of(const SourceFile& file) {
   if (!file.looks_like_text()) return {};
   if (file.text().starts_with("# asperity")) return {};  // a table of this program's own
   LineReader lines(file.text());
-  skip_names(lines);
+  const TriplesHead head = take_head(lines);
   std::string_view line;
   for (LineReader ahead = lines; ahead.next(line);) {
     if (is_skipped(line)) continue;
@@ -99,7 +118,7 @@ std::optional<TextTable> triples_of(const SourceFile& file) {
   }
   try {
     TextTable table = read_table(lines, file, Monitor::silent());
-    if (table.columns == 3 && table.rows >= 4 && coordinates_present(table)) return table;
+    if (table.columns == 3 && coordinates_present(table)) return Triples{std::move(table), head.named};
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_file) throw;
   }
@@ -130,17 +149,19 @@ Coverage coverage_of(const TextTable& table, const LatticeAxis& x, const Lattice
   return coverage;
 }
 
-// Three columns whose first two form a lattice, each point once. A full lattice of 2 x 2 or more is
-// never by chance; with points missing only a larger one is believed.
+// Three columns that a line names, or whose first two form a lattice, each point once. A full lattice of 2 x
+// 2 or more is never by chance; with points missing only a larger one is believed.
 bool recognises_xyz(const SourceFile& file) {
-  const std::optional<TextTable> table = triples_of(file);
-  if (!table) return false;
-  const LatticeAxis x = axis_of(*table, 0), y = axis_of(*table, 1);
+  const std::optional<Triples> triples = triples_of(file);
+  if (!triples) return false;
+  if (triples->named) return true;
+  const TextTable& table = triples->table;
+  const LatticeAxis x = axis_of(table, 0), y = axis_of(table, 1);
   if (!x.even || !y.even || x.lines < 2 || y.lines < 2) return false;
   const double places = static_cast<double>(x.lines) * y.lines;
-  if (places != table->rows && !(table->rows >= 16 && places > table->rows && places < 2.0 * table->rows))
+  if (places != table.rows && !(table.rows >= 16 && places > table.rows && places < 2.0 * table.rows))
     return false;
-  return coverage_of(*table, x, y).points == table->rows;
+  return coverage_of(table, x, y).points == table.rows;
 }
 
 // Comments that only a matrix has.
@@ -152,11 +173,27 @@ bool names_a_width(const SourceFile& file) {
   return false;
 }
 
+// Takes the units of the head over. x and y may differ: y is then told in the unit of x.
+void take_units(HeightMap& map, const std::vector<HeadColumn>& columns, const SourceFile& file,
+                Monitor& monitor) {
+  const auto x = head_unit(columns[0], file, monitor), y = head_unit(columns[1], file, monitor);
+  map.unit = head_unit(columns[2], file, monitor);
+  map.named_columns = map.unit || x || y;
+  if (x.has_value() != y.has_value())
+    refuse_file(
+        file,
+        std::string("says the unit of its ") + (x ? "x" : "y") + " and not that of its " + (x ? "y" : "x"),
+        "write both into the line that names the columns");
+  map.position_unit = x;
+  if (x && map.size_y) map.size_y = *map.size_y * (*y / *x);
+}
+
 HeightMap read_xyz(const SourceFile& file, Monitor& monitor) {
   if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
   LineReader lines(file.text());
-  skip_names(lines);
+  const TriplesHead head = take_head(lines);
   const TextTable table = read_table(lines, file, monitor);
+  warn_if_cut(file, monitor);
   if (table.columns != 3)
     refuse_file(file, "has " + std::to_string(table.columns) + " numbers a line", "x y z triples have three");
   if (!coordinates_present(table)) refuse_file(file, "has a point without x or y");
@@ -194,7 +231,41 @@ HeightMap read_xyz(const SourceFile& file, Monitor& monitor) {
   map.size_x = x.spacing * x.lines;
   if (y.lines > 1) map.size_y = y.spacing * y.lines;
   map.trace = y.lines == 1;
+  if (head.columns) take_units(map, *head.columns, file, monitor);
   return map;
+}
+
+// Lines of the smallest regular lattice on which all the coordinates lie, their number at most `most`. Some
+// lines may be empty: the least distance of two coordinates is a whole number of spacings.
+std::optional<double> lattice_lines(const LatticeAxis& axis, double most) {
+  if (axis.lines == 1) return 1;
+  const Array<double>& distinct = axis.distinct;
+  const double whole = distinct.back() - distinct.front();
+  double least = whole;
+  for (std::size_t k = 1; k < distinct.size(); ++k) least = std::min(least, distinct[k] - distinct[k - 1]);
+  constexpr int greatest_gap = 20;
+  for (int parts = 1; parts <= greatest_gap; ++parts) {
+    const double spacings = std::round(whole / (least / parts));
+    if (!(spacings + 1 <= most)) return {};
+    const double spacing = whole / spacings;
+    const auto on_a_line = [&](double value) {
+      const double place = (value - distinct.front()) / spacing;
+      return std::abs(place - std::round(place)) <= 0.1;
+    };
+    if (std::all_of(distinct.begin(), distinct.end(), on_a_line)) return spacings + 1;
+  }
+  return {};
+}
+
+// Whether one coordinate never turns back, as that of the slow direction of a scan.
+bool goes_one_way(const TextTable& table, std::size_t column) {
+  bool rises = true, falls = true;
+  for (std::size_t k = 1; k < static_cast<std::size_t>(table.rows); ++k) {
+    const double step = table.values[3 * k + column] - table.values[3 * (k - 1) + column];
+    rises = rises && step >= 0;
+    falls = falls && step <= 0;
+  }
+  return rises || falls;
 }
 
 }  // namespace
@@ -203,12 +274,13 @@ HeightMap read_xyz(const SourceFile& file, Monitor& monitor) {
 // m, m (1 - exp(-n/m)) differ, 73 % of n where m is 1.5 n and 79 % at 2 n. Points of a scan differ
 // but for a few, or all come equally often.
 bool almost_triples(const SourceFile& file) {
-  const std::optional<TextTable> table = triples_of(file);
-  if (!table || table->rows < 5 || names_a_width(file)) return false;
-  const LatticeAxis x = axis_of(*table, 0), y = axis_of(*table, 1);
-  const double rows = table->rows;
+  const std::optional<Triples> triples = triples_of(file);
+  if (!triples || triples->table.rows < 5 || names_a_width(file)) return false;
+  const TextTable& table = triples->table;
+  const LatticeAxis x = axis_of(table, 0), y = axis_of(table, 1);
+  const double rows = table.rows;
   if (x.lines < 2 || y.lines < 2 || 1.5 * x.lines >= rows || 1.5 * y.lines >= rows) return false;
-  const Coverage coverage = coverage_of(*table, x, y);
+  const Coverage coverage = coverage_of(table, x, y);
   if (coverage.points == coverage.places && coverage.equally_often) return true;
   if (coverage.places < 0.5 * rows || coverage.places >= 2 * rows) return false;
   if (rows < 16)
@@ -219,9 +291,28 @@ bool almost_triples(const SourceFile& file) {
 
 bool many_triples(const SourceFile& file) {
   constexpr int many = 100;
-  const std::optional<TextTable> table = triples_of(file);
-  if (!table || table->rows < many || names_a_width(file)) return false;
-  return 2 * axis_of(*table, 0).lines >= table->rows && 2 * axis_of(*table, 1).lines >= table->rows;
+  const std::optional<Triples> triples = triples_of(file);
+  if (!triples || triples->table.rows < many || names_a_width(file)) return false;
+  const TextTable& table = triples->table;
+  return 2 * axis_of(table, 0).lines >= table.rows && 2 * axis_of(table, 1).lines >= table.rows;
+}
+
+// A text of three columns says no more than its numbers: two lines of three heights are what is left of a
+// lattice when all but two of its points are taken out, and nobody can tell. So a table is a matrix only
+// where it is no such rest: a place is given twice, the places lie on no small lattice, or none is met again
+// and they jump to and fro.
+bool may_be_triples(const SourceFile& file) {
+  const std::optional<Triples> triples = triples_of(file);
+  if (!triples || triples->table.rows < 2 || names_a_width(file)) return false;
+  const TextTable& table = triples->table;
+  const LatticeAxis x = axis_of(table, 0), y = axis_of(table, 1);
+  if (coverage_of(table, x, y).points != table.rows) return false;
+  const double most_places = 4.0 * table.rows + 10000;
+  const bool x_again = x.lines < table.rows, y_again = y.lines < table.rows;
+  if (x_again && y_again && static_cast<double>(x.lines) * y.lines <= most_places) return true;
+  const auto columns = lattice_lines(x, most_places), rows = lattice_lines(y, most_places);
+  if (!columns || !rows || *columns * *rows > most_places) return false;
+  return x_again || y_again || goes_one_way(table, 0) || goes_one_way(table, 1);
 }
 
 const Format& xyz_format() {

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Marks as the formats' makers state them, or as Gwyddion's readers do.
+#include "engine/surface/io/foreign_format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "engine/core/error.hpp"
+#include "engine/surface/io/archive.hpp"
+
+namespace asperity {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr const char* unpack = "unpack it and read what is inside";
+constexpr const char* export_map =
+    "export it from the instrument's software as X3P, SDF (.sdf), SUR or text, or save it as .gwy in "
+    "Gwyddion";
+constexpr const char* save_table = "save the sheet as CSV (UTF-8)";
+constexpr const char* no_heights =
+    "a picture holds colours, not heights; export the heights as X3P, SDF, SUR or text";
+
+struct Mark {
+  std::string_view bytes;  // at the start
+  const char* what;
+  const char* cure;
+};
+
+constexpr std::array marks{
+    Mark{"\x1F\x8B"sv, "packed with gzip (.gz)", unpack},
+    Mark{"BZh"sv, "packed with bzip2 (.bz2)", unpack},
+    Mark{"\xFD\x37zXZ\0"sv, "packed with xz (.xz)", unpack},
+    Mark{"\x28\xB5\x2F\xFD"sv, "packed with zstd (.zst)", unpack},
+    Mark{"7z\xBC\xAF\x27\x1C"sv, "a 7z archive", unpack},
+    Mark{"Rar!\x1A\x07"sv, "a RAR archive", unpack},
+    Mark{"\xFF\xFE"sv, "UTF-16 text", "save it as UTF-8"},
+    Mark{"\xFE\xFF"sv, "UTF-16 text", "save it as UTF-8"},
+    Mark{"AliconaImaging"sv, "an Alicona topography (.al3d)", export_map},
+    Mark{"\\*File list"sv, "a Nanoscope file of Bruker, Veeco or Digital Instruments (.spm, .di, .000)",
+         export_map},
+    Mark{"\\*Force file list"sv, "a Nanoscope force curve", export_map},
+    Mark{"?*File list"sv, "a Nanoscope file of Digital Instruments (.di, .000)", export_map},
+    Mark{"FRTM_GLIDERV"sv, "a MicroProf topography of FRT (.frt)", export_map},
+    Mark{"fileType      Image"sv, "an image of Agilent or Molecular Imaging (.mi)", export_map},
+    Mark{"fileType      Spectroscopy"sv, "a spectrum of Agilent or Molecular Imaging (.mi)", export_map},
+    Mark{"[DataSet]"sv, "a Nanosurf scan (.nid)", export_map},
+    Mark{"WSxM file copyright"sv, "a WSxM image (.stp, .top)", export_map},
+    Mark{"Binary TrueMap Data File"sv, "a TrueMap topography (.tmd)", export_map},
+    Mark{"VCA DATA"sv, "a Vision64 topography of Bruker (.opdx)",
+         "save it in Vision64 as Wyko OPD (.opd), X3P or SDF, or as .gwy in Gwyddion"},
+    Mark{"VK3_"sv, "a Keyence profilometer file (.vk3)", export_map},
+    Mark{"VK4_"sv, "a Keyence profilometer file (.vk4)", export_map},
+    Mark{"VK6"sv, "a Keyence profilometer file (.vk6)", export_map},
+    Mark{"VK7"sv, "a Keyence profilometer file (.vk7)", export_map},
+    Mark{"\x88\x1B\x03\x6F"sv, "a Zygo MetroPro topography (.dat)", export_map},
+    Mark{"\x88\x1B\x03\x70"sv, "a Zygo MetroPro topography (.dat)", export_map},
+    Mark{"\x88\x1B\x03\x71"sv, "a Zygo MetroPro topography (.dat)", export_map},
+    Mark{"CDF\x01"sv, "a NetCDF file (.nc)", "write its heights as NPY or HDF5"},
+    Mark{"CDF\x02"sv, "a NetCDF file (.nc)", "write its heights as NPY or HDF5"},
+    Mark{"CDF\x05"sv, "a NetCDF file (.nc)", "write its heights as NPY or HDF5"},
+    Mark{"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv,
+         "a compound document, such as an Excel 97 workbook (.xls) or a "
+         "project of an instrument's software",
+         "save the sheet as CSV (UTF-8), or the map as X3P, SDF, SUR or text"},
+    Mark{"\x89PNG\r\n\x1A\n"sv, "a PNG picture", no_heights},
+    Mark{"\xFF\xD8\xFF"sv, "a JPEG picture", no_heights},
+    Mark{"II*\0"sv, "a TIFF picture", no_heights},
+    Mark{"MM\0*"sv, "a TIFF picture", no_heights},
+    Mark{"%PDF-"sv, "a PDF document", "export the heights as X3P, SDF, SUR or text"},
+};
+
+struct Ending {
+  std::string_view extension;
+  const char* what;
+};
+
+// Formats without a mark that is certain.
+constexpr std::array endings{
+    Ending{"plu", "a Sensofar topography (.plu)"},
+    Ending{"mnt", "a document of MountainsMap (.mnt)"},
+    Ending{"ibw", "an Igor binary wave (.ibw)"},
+    Ending{"stp", "a scan of WSxM or Molecular Imaging (.stp)"},
+    Ending{"top", "a WSxM image (.top)"},
+    Ending{"tmd", "a TrueMap topography (.tmd)"},
+    Ending{"di", "a Nanoscope file (.di)"},
+    Ending{"mi", "an image of Agilent or Molecular Imaging (.mi)"},
+    Ending{"nid", "a Nanosurf scan (.nid)"},
+    Ending{"frt", "a MicroProf topography of FRT (.frt)"},
+};
+
+std::optional<ForeignFormat> archive_format(const SourceFile& file) {
+  try {
+    const Archive archive(file);
+    if (archive.find("xl/workbook.xml") >= 0) return ForeignFormat{"an Excel workbook (.xlsx)", save_table};
+    if (archive.find("content.xml") >= 0 && archive.find("mimetype") >= 0)
+      return ForeignFormat{"an OpenDocument file (.ods)", save_table};
+    if (archive.find("index.xml") >= 0 || file.extension() == "plux")
+      return ForeignFormat{"a Sensofar topography (.plux)", export_map};
+    return ForeignFormat{"a zip archive without main.xml", unpack};
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_file) throw;
+    return {};  // cut short: who reads it says so
+  }
+}
+
+// UTF-16 without a mark: every other byte of a short text in a European language is zero.
+bool is_bare_utf16(std::string_view bytes) {
+  constexpr std::size_t looked_at = 16;
+  if (bytes.size() < looked_at) return false;
+  for (const std::size_t zero : {std::size_t{1}, std::size_t{0}}) {
+    bool found = true;
+    for (std::size_t k = 0; k < looked_at; ++k) {
+      const auto byte = static_cast<unsigned char>(bytes[k]);
+      const bool letter = (byte >= 0x20 && byte < 0x7F) || byte == '\t' || byte == '\r' || byte == '\n';
+      found = found && (k % 2 == zero ? byte == 0 : letter);
+    }
+    if (found) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<ForeignFormat> foreign_format(const SourceFile& file) {
+  const std::string_view bytes = file.bytes();
+  for (const Mark& mark : marks)
+    if (bytes.starts_with(mark.bytes)) return ForeignFormat{mark.what, mark.cure};
+  if (bytes.starts_with("PK\x03\x04"sv)) return archive_format(file);
+  if (is_bare_utf16(bytes)) return ForeignFormat{"UTF-16 text", "save it as UTF-8"};
+  if (file.looks_like_text()) return {};
+  for (const Ending& ending : endings)
+    if (file.extension() == ending.extension) return ForeignFormat{ending.what, export_map};
+  return {};
+}
+
+}  // namespace asperity

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files that instruments and offices write and that are not read here: known so that an error can say what a
+// file is and how its heights get into one that is read. Known by content; by extension only where the format
+// has no mark of its own, and then only for files that are no text.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/surface/io/source_file.hpp"
+
+namespace asperity {
+
+struct ForeignFormat {
+  std::string what;  // "an Excel workbook (.xlsx)"
+  std::string cure;  // "save the sheet as CSV (UTF-8)"
+};
+
+// Never throws but for a stop or lack of memory. O(1), and the directory of a zip archive.
+std::optional<ForeignFormat> foreign_format(const SourceFile& file);
+
+}  // namespace asperity
