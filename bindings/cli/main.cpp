@@ -102,7 +102,7 @@ CLI::Option* add_script_options(CLI::App& command, cli::RunCommand& run, std::st
 }
 
 void add_machine_options(CLI::App& command, int& threads, std::string& memory) {
-  command.add_option("--threads", threads, "threads to use (default: one a processor)")
+  command.add_option("--threads", threads, "threads to use (default: one per processor)")
       ->check(CLI::Range(1, 4096));
   command.add_option("--limit-memory", memory, "most memory, e.g. 4G");
 }
@@ -144,7 +144,8 @@ void add_serve_options(CLI::App& command, web::ServeCommand& serve, std::string&
   command.add_flag("--open", serve.open, "open the page in this machine's browser");
   command.add_option("--out", serve.out,
                      "where its runs are kept (default runs/serve-<n>); must be new or empty");
-  command.add_option("--runs", serve.runs, "scripts that run at once (default 2; in a room one a processor)")
+  command
+      .add_option("--runs", serve.runs, "scripts that run at once (default 2; in a room one per processor)")
       ->check(CLI::Range(1, 256));
   command.add_option("--limit-time", time, "of one run (default 10 min; in a room 60 s)");
   command.add_option("--limit-memory", memory, "of one run (default: its share of half the machine's)");
@@ -153,7 +154,7 @@ void add_serve_options(CLI::App& command, web::ServeCommand& serve, std::string&
                                          "student; without it only this machine is");
   CLI::Option* students =
       command.add_option("--students", serve.students, "of the room")->check(CLI::Range(1, 400))->needs(room);
-  command.add_option("--names", serve.names, "a file of the students' names, one a line")
+  command.add_option("--names", serve.names, "a file of the students' names, one per line")
       ->needs(room)
       ->excludes(students);
   command.footer(

@@ -96,6 +96,11 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
     std::size_t skip = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte-order mark
     // A first line "#!..." is for the shell.
     if (skip < text.size() && text[skip] == '#') skip = std::min(text.find('\n'), text.size());
+    if (skip < text.size() && text[skip] == LUA_SIGNATURE[0]) {
+      lua_pushfstring(state, "%s: attempt to load a binary chunk: a script is text, and this is compiled Lua",
+                      name.c_str());
+      return 1;
+    }
     if (luaL_loadbufferx(state, text.data() + skip, text.size() - skip, lua_tostring(state, -1), "t") !=
         LUA_OK)
       return 1;

@@ -102,6 +102,19 @@ int outer_length(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
+// A native value has fields to read and methods to call, and nothing to walk over.
+int outer_pairs(lua_State* L) {
+  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const int results = [&] {
+    static const std::string name = "pairs";
+    return guarded(L, name, [&]() -> Values {
+      throw Error(ErrorCode::bad_value, type.article_name + " is no table",
+                  "help \"" + type.name + "\" lists its fields and methods");
+    });
+  }();
+  return results < 0 ? lua_error(L) : results;
+}
+
 void drop(Object* object) {
   if (object == nullptr) return;
   object->pointer.reset();
@@ -175,6 +188,7 @@ void push_metatable(lua_State* L, const Class& type) {
   set_class_method(L, "__newindex", outer_new_index, type);
   set_class_method(L, "__tostring", outer_to_string, type);
   set_class_method(L, "__eq", outer_equal, type);
+  set_class_method(L, "__pairs", outer_pairs, type);
   if (type.length != nullptr) set_class_method(L, "__len", outer_length, type);
   set_class_method(L, "__gc", release, type);
   set_class_method(L, "__close", outer_close, type);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -93,6 +94,15 @@ int open_library(lua_State* L) {
   return 1;
 }
 
+// Reading a pipe waits for whoever writes into it, perhaps for ever.
+void refuse_pipe(const std::string& name, const std::string& place) {
+  std::error_code none;
+  const auto status = std::filesystem::status(place, none);
+  if (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status))
+    throw Error(ErrorCode::bad_file, quoted(name) + " is no regular file, but a pipe or a socket",
+                "write what it gives into a file first");
+}
+
 // host.output_path(name) and host.input_path(name, is_module) -> path, or nil and why not.
 int path_body(lua_State* L, bool to_write) {
   std::string result;
@@ -102,6 +112,7 @@ int path_body(lua_State* L, bool to_write) {
     const std::string name(Argument(L, 1).text());
     if (!to_write) {
       result = session.run == nullptr ? name : session.run->place_to_read(name).string();
+      refuse_pipe(name, result);
       if (session.notes != nullptr) {
         CaseInput input = input_of_case(result);
         const std::string folder = session.script.folder + "/";

@@ -11,6 +11,7 @@
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/state_error.hpp"
 #include "bindings/lua/surface.hpp"
+#include "engine/contact/doubts.hpp"
 #include "engine/contact/geometry.hpp"
 #include "engine/contact/state_file.hpp"
 #include "engine/core/node_value.hpp"
@@ -131,7 +132,14 @@ Values write_state(Call& call) {
   return {path};
 }
 
-std::string describe_state(const void* self) { return static_cast<const Contacting*>(self)->text(); }
+// What the solver says, and below it where the equations were asked for more than they know.
+std::string describe_state(const void* self) {
+  const auto& state = *static_cast<const Contacting*>(self);
+  std::string text = state.text();
+  if (state.closed()) return text;
+  for (const std::string& sentence : doubts(state)) text += "\n  warning: " + sentence;
+  return text;
+}
 std::size_t state_bytes(const void* self) {
   return static_cast<std::size_t>(static_cast<const Contacting*>(self)->bytes_held());
 }

@@ -162,6 +162,11 @@ void State::close(const Watch& watch) {
 }
 State::Watch State::watch() const { return shared_; }
 
+bool State::closed() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->closed;
+}
+
 double State::load() const { return shared_->now()->load(); }
 double State::pressure() const { return shared_->now()->pressure(); }
 double State::attraction() const { return shared_->now()->attraction(); }

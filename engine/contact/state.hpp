@@ -127,6 +127,7 @@ class State {
   // Frees the memory of a solution. What was read of the state stays, and its load, approach, contacts, peak
   // pressure, certificate and digest; reading anything else throws Error{bad_state}.
   static void close(const Watch& watch);
+  bool closed() const;
 
  private:
   std::shared_ptr<Shared> shared_;

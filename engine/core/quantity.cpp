@@ -301,6 +301,10 @@ class Reader {
   }
 
   [[noreturn]] void refuse_unknown(std::string_view name) const {
+    // Scales of hardness in kgf/mm² of the indenter's contact area.
+    if (name == "HV" || name == "HK" || name == "HB" || name == "HBW")
+      refuse(text_, shown_name(name) + " is a scale of hardness, and hardness is a pressure",
+             "write " + std::string(name) + " x 9.807 MPa: 100 " + std::string(name) + " is \"980.7 MPa\"");
     std::vector<std::string> names;
     for (const Unit& unit : units)
       if (unit.name != "1" && (unit.name.front() == name.front())) names.emplace_back(unit.name);

@@ -67,7 +67,7 @@ class LogReader {
                                         (others.empty() ? std::string() : " among others: " + others) +
                                         "; write \"pressure [MPa]\" or \"load [N]\"");
     else if (!others.empty() && table_.problems() == 0)
-      monitor_.warn(file_name(file_.path()) + " has columns of which a protocol makes nothing: " + others);
+      monitor_.warn(file_name(file_.path()) + " has columns that a protocol does not use: " + others);
   }
 
   void read_row(const std::vector<LogCell>& cells) {
