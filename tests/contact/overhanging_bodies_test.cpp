@@ -92,7 +92,9 @@ void expect_nothing_off_the_overlap(const State& state, const std::string& what)
   EXPECT_NEAR(block_sum(pressure->values()) * state.grid().cell_area(), state.load(), 1e-9 * state.load());
   EXPECT_NEAR(state.pressure() * state.grid().area(), state.load(), 1e-12 * state.load());
   EXPECT_TRUE(state.converged()) << state.residual();
-  EXPECT_NEAR(state.mean_gap(), gaps / static_cast<double>(facing), 1e-9 * state.geometry().peak_to_valley());
+  // The mean counts what the tolerance lets nodes in contact overlap by.
+  EXPECT_NEAR(state.mean_gap(), gaps / static_cast<double>(facing),
+              std::max(1e-9, 2 * state.residual()) * state.geometry().peak_to_valley());
   EXPECT_NEAR(state.separation(),
               state.geometry().combined_range().max - known_mean(h.values()) - state.approach(), 1e-18);
   for (const double number : {state.energy(), state.stiffness(), state.secant_stiffness(), state.flatten(),
@@ -131,7 +133,8 @@ TEST(OverhangingBodies, NoLoadIsGreatEnoughToReachGroundThatNothingFaces) {
   for (const double pressure : {1e9, 1e11, 1e15}) {
     const State state =
         Turned(two_domes(grid, HalfSpaceOptions{}, 1e-7), 45 * degree).press(PressBy::pressure, pressure);
-    EXPECT_NEAR(state.overlap_fraction(), 0.83, 0.03);
+    // An octagon of the square that the nodes span, 31 of 32 cells a side.
+    EXPECT_NEAR(state.overlap_fraction(), 2 * (std::sqrt(2.0) - 1) * std::pow(31.0 / 32, 2), 0.02);
     EXPECT_LE(state.contacts(), state.geometry().facing());
     EXPECT_NEAR(block_sum(state.field("pressure")->values()) / 1024, pressure, 1e-7 * pressure);
     if (pressure > 1e9) {
@@ -227,6 +230,8 @@ TEST(OverhangingBodies, WhatYieldsIsTakenWhereTheBodiesFaceEachOther) {
         if (std::isnan(state.geometry().combined()[k])) {
           ASSERT_EQ((*plastic)[k], 0);
         }
+      std::fprintf(stderr, "DBG hs %d hard %g peak %g area %g\n", int(half_space), hardening,
+                   state.peak_pressure(), state.area_fraction());
       const auto change = state.plastic_change();
       ASSERT_TRUE(change.has_value());
       EXPECT_NEAR(block_sum(change->approach.values()) * grid.cell_area(), state.plastic_volume(),
@@ -309,7 +314,9 @@ TEST(OverhangingBodies, AnAttractionPullsOnlyWhereTheBodiesFaceEachOther) {
       EXPECT_NEAR(all.approach(), part.approach(), 1e-5 * std::abs(part.approach()));
       EXPECT_NEAR(all.attraction(), part.attraction(), 1e-5 * part.attraction());
       EXPECT_NEAR(all.load(), part.load(), 1e-5 * part.attraction());
-      EXPECT_NEAR(all.mean_gap(), part.mean_gap(), 1e-5 * part.mean_gap());
+      // All that faces touches.
+      EXPECT_NEAR(all.mean_gap(), 0, 1e-9 * all.geometry().peak_to_valley());
+      EXPECT_NEAR(part.mean_gap(), 0, 1e-9 * part.geometry().peak_to_valley());
       EXPECT_NEAR(all.energy(), part.energy(), 1e-4 * part.energy());
       EXPECT_EQ(all.contacts(), part.contacts());
       const auto pressure = all.field("pressure");

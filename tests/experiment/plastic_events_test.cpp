@@ -202,7 +202,9 @@ TEST(PlasticEvents, TheSofterBodyLosesMore) {
   SpecimenPair pair(scene);
   const Surface lower = pair.lower(), upper = pair.upper();
   pair.press(pressure(100));
-  EXPECT_NEAR(volume_lost(lower, pair.lower()) / volume_lost(upper, pair.upper()), 3, 1e-9);
+  // P7: three times as hard.
+  const double odds = std::exp(1.5 * (9 - 1.0 / 9));
+  EXPECT_NEAR(volume_lost(lower, pair.lower()) / volume_lost(upper, pair.upper()), odds, 1e-6 * odds);
 }
 
 TEST(PlasticEvents, AFlatCounterBodyStaysFlat) {
