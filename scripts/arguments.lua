@@ -8,7 +8,7 @@ return function(defaults, ...)
   local options = {}
   for name, value in pairs(defaults) do options[name] = value end
   for _, word in ipairs{ ... } do
-    local name, text = word:match "^([%a_]+)=(.+)$"
+    local name, text = word:match "^([%a_][%w_]*)=(.+)$"
     local default = defaults[name]
     if default == nil then
       local names = {}

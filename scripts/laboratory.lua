@@ -84,6 +84,13 @@ function laboratory.area_per_load(surface, hardness)
   return st.corrected_area_fraction / st.pressure
 end
 
+-- What the spots of an elastic touch on quartz carry at the probe pressure, in the specimen's own hardness: in the
+-- mean over the real area, and at the highest node. Above 1 the specimen would yield.
+function laboratory.over_hardness(surface)
+  local st, H = laboratory.on_quartz(surface):press{ pressure = laboratory.probe }, surface.material.hardness
+  return st.pressure / st.corrected_area_fraction / H, st.peak_pressure / H
+end
+
 -- Ra and amplitude (m) over the whole map, and as the paper read them: the mean of five traces of 2 mm by a
 -- tip of 2 um, a sample every quarter of a micrometre, each levelled. The same seed goes over the same
 -- lines of every specimen.
@@ -154,6 +161,24 @@ function laboratory.interpolated(surface, times)
       :levelled{ degree = 0 } -- `scaled` keeps the mean, so that the sum has four of them
   end
   return surface
+end
+
+-- As the paper measured: five stylus traces of 2 mm, a sample every quarter of a micrometre, and of each Ra and D - 1
+-- by profile length at steps of 0.25 to 250 um. Means over the traces; the same seed goes over the same lines.
+function laboratory.scanned(surface, seed)
+  local stylus = lab.stylus{ tip = "2 um", length = "2 mm", speed = "50 um/s", rate = "200 Hz" }
+  local traces, steps = stylus:scan(surface, { count = 5, seed = seed }), {}
+  for k = 0, 23 do
+    local step = math.floor(1000 ^ (k / 23) + 0.5)
+    if step ~= steps[#steps] then steps[#steps + 1] = step end
+  end
+  local Ra, excess = 0, 0
+  for _, trace in ipairs(traces) do
+    local along = trace:levelled()
+    Ra = Ra + along:roughness().Ra / #traces
+    excess = excess + (along:fractal_dimension{ method = "length", offsets = true, steps = steps }.D - 1) / #traces
+  end
+  return { Ra = Ra, excess = excess }
 end
 
 -- What is made of the numbers.

@@ -5,11 +5,40 @@
 -- With `trusted` nothing is taken away. Globals are strict either way.
 local host, trusted = ...
 
-local error, type, select, rawget, rawset, getmetatable, setmetatable, tostring, pcall =
-  error, type, select, rawget, rawset, getmetatable, setmetatable, tostring, pcall
+local error, type, select, rawget, rawset, getmetatable, setmetatable, tostring, pcall, ipairs, tonumber =
+  error, type, select, rawget, rawset, getmetatable, setmetatable, tostring, pcall, ipairs, tonumber
 local getinfo, open, find = debug.getinfo, io.open, string.find
 
 os.exit = host.exit
+
+-- An error at the line of the script that is running, however deep the functions of Lua and of this file
+-- stand between: pcall(os.execute) has no line of its own.
+local function fail(message)
+  local place = ""
+  for level = 3, 16 do
+    local frame = getinfo(level, "Sl")
+    if not frame then break end
+    if frame.currentline > 0 and frame.source ~= "=sandbox" then
+      place = frame.short_src .. ":" .. frame.currentline .. ": "
+      break
+    end
+  end
+  error(place .. message, 0)
+end
+
+-- Arithmetic with a quantity written as a string.
+local strings, known = getmetatable "", { string=true, number=true }
+for _, event in ipairs{ "__add", "__sub", "__mul", "__div", "__mod", "__pow", "__idiv", "__unm" } do
+  local original = strings[event]
+  strings[event] = function(a, b)
+    local text = type(a) == "string" and not tonumber(a) and a or type(b) == "string" and not tonumber(b) and b
+    if text and known[type(a)] and known[type(b)] then
+      fail("the string \"" .. text .. "\" was used in arithmetic; quantities are strings where a key takes"
+        .. " them, and in sums plain SI numbers: write 1e-6 or 1 * lab.units.um for \"1 um\"")
+    end
+    return original(a, b)
+  end
+end
 
 local lab = require "asperity"
 function help(topic) print(lab.help(topic)) end
@@ -17,8 +46,8 @@ function help(topic) print(lab.help(topic)) end
 if not trusted then
   local function refused(what, instead)
     return function()
-      error(what .. " is not available to a script" .. (instead and "; " .. instead or "")
-        .. " (asperity run --trust gives the whole of Lua)", 2)
+      fail(what .. " is not available to a script" .. (instead and "; " .. instead or "")
+        .. " (asperity run --trust gives the whole of Lua)")
     end
   end
 
@@ -31,28 +60,35 @@ if not trusted then
   -- Files are read anywhere and written under the run directory only. A dry run writes none: it looks
   -- at the name and gives the place `instead`.
   local function destination(path, instead)
-    if type(path) ~= "string" then error("a file name must be a string, and is a " .. type(path), 3) end
+    if type(path) ~= "string" then fail("a file name must be a string, and is a " .. type(path)) end
     local place, message = host.output_path(path)
-    if not place then error(message, 3) end
+    if not place then fail(message) end
     return host.dry and instead or place
   end
   function io.open(path, mode)
     if mode ~= nil and find(tostring(mode), "[wa+]") then
       path = destination(path, "/dev/null")
     elseif type(path) == "string" then
-      path = host.input_path(path) or path
+      local place, message = host.input_path(path)
+      if not place then return nil, message end
+      path = place
     end
     return open(path, mode)
   end
   -- Whatever is read is found, and known to have been read, in the same way.
-  local function source(path) return type(path) == "string" and host.input_path(path) or path end
+  local function source(path)
+    if type(path) ~= "string" then return path end
+    local place, message = host.input_path(path)
+    if not place then fail(message) end
+    return place
+  end
   local lines, input = io.lines, io.input
   -- One that cannot be opened is the script's error, at its line.
   local function readable(path)
     local place = source(path)
     if type(place) == "string" then
       local file, message = open(place)
-      if not file then error(message, 3) end
+      if not file then fail(message) end
       file:close()
     end
     return place
@@ -63,7 +99,7 @@ if not trusted then
   function io.output(file)
     if type(file) == "string" then
       local handle, message = open(destination(file, "/dev/null"), "w")
-      if not handle then error(message, 2) end
+      if not handle then fail(message) end
       return output(handle)
     end
     return output(file)
@@ -93,6 +129,8 @@ if not trusted then
   end
   function dofile(path)
     local chunk, message = loadfile_any(path, "t")
+    -- A mistake in the file has its own place.
+    if not chunk and find(message, "cannot open", 1, true) then fail(message) end
     if not chunk then error(message, 0) end
     return chunk()
   end
@@ -103,7 +141,8 @@ if not trusted then
     function(name)
       local file, message = searchpath(name, path_of.path)
       if not file then return message end
-      local chunk, problem = loadfile_any(file, "t")
+      -- Known to be a module: where a case takes it from the script's folder, its name there counts.
+      local chunk, problem = loadfile_original(host.input_path(file, true) or file, "t")
       if not chunk then error(problem, 0) end
       return chunk, file
     end,
@@ -126,7 +165,12 @@ end
 -- Strict globals: a name that was never set is a slip, not nil; a function may not make new ones.
 local meta = getmetatable(_G) or {}
 function meta.__index(_, name)
-  error(host.unknown_global(name, _G), 2)
+  local message = host.unknown_global(name, _G)
+  local frame = getinfo(2, "Sl")
+  local place = frame and frame.currentline > 0 and frame.short_src .. ":" .. frame.currentline .. ": " or ""
+  local noted, instead = host.mistaken(place .. message)
+  if noted then return instead end
+  error(message, 2)
 end
 function meta.__newindex(globals, name, value)
   local frame = getinfo(2, "S")

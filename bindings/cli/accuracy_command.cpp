@@ -103,6 +103,7 @@ class ScriptWork final : public StudyWork {
     setup.script_name = context_.command.script;
     setup.script_text = context_.text;
     setup.out = scratch_->path() / "run";
+    setup.scratch = true;
     setup.trusted = context_.command.trust;
     setup.arguments = context_.command.arguments;
     setup.seed = static_cast<std::int64_t>(context_.command.seed);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/run_observer.hpp"
@@ -14,6 +15,7 @@
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/argument.hpp"
 #include "bindings/lua/explanation.hpp"
+#include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/state.hpp"
 #include "engine/experiment/json.hpp"
@@ -42,11 +44,26 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
                  verb.c_str());
   });
   session.dry_run = true;
+  session.mistakes = std::make_shared<lua::Mistakes>();
+  // Mistakes that were gone past, and what ended the dry run, if anything did.
+  const auto end = [&](const std::string& reached, const std::string& failure) {
+    std::vector<std::string> mistakes = session.mistakes->messages();
+    if (mistakes.empty() && failure.empty()) return report(reached), done;
+    if (!failure.empty()) mistakes.push_back(failure);
+    if (observer != nullptr) {
+      for (std::size_t k = 0; k + 1 < mistakes.size(); ++k) observer->mistake(mistakes[k]);
+      observer->ended(failed, StopReason::none, mistakes.back());
+      return failed;
+    }
+    for (const std::string& mistake : mistakes) std::fprintf(stderr, "asperity: %s\n", mistake.c_str());
+    if (!reached.empty()) std::fprintf(stderr, "%s: checked %s\n", command.script.c_str(), reached.c_str());
+    return failed;
+  };
   session.run = std::make_shared<RunDirectory>(RunDirectory::Without::dry);
   session.exit_hook = [&](int) {
-    report("to its os.exit");
+    const int status = end("to its os.exit", "");
     std::fflush(nullptr);
-    std::_Exit(done);
+    std::_Exit(status);
   };
   try {
     RunCommand unlimited = command;  // a dry run has a time limit of its own
@@ -54,10 +71,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
     const lua::State state = make_state(session, unlimited);
     const Watchdog::Watching watching(watchdog, state.get());
     const int result = execute(state.get(), command, text, 0);
-    if (result == LUA_OK) {
-      report("");
-      return done;
-    }
+    if (result == LUA_OK) return end("", "");
     const std::string message = lua::error_text(state.get(), -1);
     if (observer != nullptr && stop_flag().reason() != StopReason::none) {
       observer->ended(failed, stop_flag().reason(), "the " + verb + " was stopped");
@@ -67,20 +81,14 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
       std::fprintf(stderr, "asperity: %s: the %s was stopped\n", command.script.c_str(), verb.c_str());
       return exit_status(stop_flag().reason());
     }
-    if (lua::stopped_at_placeholder(message)) {
-      report("to line " + lua::line_of(message) + ": " + lua::cannot_follow);
-      return done;
-    }
+    if (lua::stopped_at_placeholder(message))
+      return end("to line " + lua::line_of(message) + ": " + lua::cannot_follow, "");
     // What a result would have set is not set here; or the script forgot to.
-    if (session.gave_placeholders && lua::met_nothing(message)) {
-      report("to line " + lua::line_of(message) + ", " + lua::without_place(message) +
-             ": a mistake, unless a result that is not known before the run sets it");
-      return done;
-    }
-    if (observer != nullptr)
-      observer->ended(failed, StopReason::none, message);
-    else
-      std::fprintf(stderr, "asperity: %s\n", message.c_str());
+    if (session.gave_placeholders && lua::met_nothing(message))
+      return end("to line " + lua::line_of(message) + ", " + lua::without_place(message) +
+                     ": a mistake, unless a result that is not known before the run sets it",
+                 "");
+    return end("", message);
   } catch (const std::exception& error) {
     if (observer != nullptr)
       observer->ended(failed, StopReason::none, error.what());

@@ -77,7 +77,9 @@ std::string manual_page(const CLI::App& app, const std::string& version) {
   page +=
       ".SH EXIT STATUS\n"
       ".TP\n\\fB0\\fR\ndone\n.TP\n\\fB1\\fR\nthe script or an expectation failed, or a replay differs\n"
-      ".TP\n\\fB2\\fR\nbad usage\n.TP\n\\fB130\\fR\ninterrupted\n"
+      ".TP\n\\fB2\\fR\nbad usage, or another process writes that run\n"
+      ".TP\n\\fB130\\fR\ninterrupted\n.TP\n\\fB143\\fR\nasked to end (TERM)\n"
+      ".TP\n\\fB129\\fR\nits terminal was closed (HUP)\n"
       ".SH FILES\n"
       ".TP\n\\fIruns/NAME\\-N/\\fR\nwhat a run keeps: its script, manifest, journal, tables, charts and "
       "results\n"

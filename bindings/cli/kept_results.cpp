@@ -23,7 +23,51 @@ std::filesystem::path results_of(const std::string& named) {
   if (!std::filesystem::is_directory(folder, problem))
     throw Error(ErrorCode::bad_value, "`--reuse` names " + asperity::quoted(named) + ", which is no folder",
                 "give the directory of a run");
-  return std::filesystem::exists(folder / "manifest.json", problem) ? folder / "store" : folder;
+  const std::filesystem::path store = folder / "store";
+  const bool is_run = std::filesystem::exists(folder / "manifest.json", problem) ||
+                      std::filesystem::exists(std::filesystem::symlink_status(store, problem));
+  if (!is_run) return folder;
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(store, problem)))
+    throw Error(ErrorCode::bad_value, asperity::quoted(store.string()) + " is a link",
+                "name the folder of results itself with `--reuse`");
+  return store;
+}
+
+// The run begins in the directory that was to be resumed.
+RunCommand begun_there(RunCommand command) {
+  if (command.script.empty())
+    throw Error(ErrorCode::bad_file, "there is no run " + asperity::quoted(*command.resume) + " to resume",
+                "give the script to begin it with");
+  command.out = std::exchange(command.resume, std::nullopt);
+  return command;
+}
+
+// Whether the moving aside of an earlier run may have been cut off there.
+bool holds_earlier_run(const std::filesystem::path& root) {
+  std::error_code problem;
+  if (std::filesystem::exists(std::filesystem::symlink_status(root / "manifest.json", problem))) return false;
+  for (std::filesystem::directory_iterator entry(root, problem), end; !problem && entry != end;
+       entry.increment(problem))
+    if (entry->path().filename().string().starts_with("before-")) return true;
+  return false;
+}
+
+std::vector<std::string> damages_of(const RecordedRun& recorded) {
+  std::vector<std::string> damages = altered_outputs(recorded);
+  if (!recorded.journal_fault.empty()) damages.insert(damages.begin(), recorded.journal_fault);
+  return damages;
+}
+
+// What the command asks for and the run was not made with.
+std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun& recorded) {
+  std::vector<std::string> changed;
+  if (!command.script.empty() && read_script(command.script) != recorded.script_text)
+    changed.emplace_back("the script");
+  if (!command.arguments.empty() && command.arguments != recorded.arguments)
+    changed.emplace_back("its arguments");
+  if (command.seed_given && static_cast<std::int64_t>(command.seed) != recorded.seed)
+    changed.emplace_back("the seed");
+  return changed;
 }
 
 }  // namespace
@@ -58,26 +102,26 @@ ResultFilesSetup result_files(const RunCommand& command) {
   return setup;
 }
 
-std::optional<RunCommand> taken_up(RunCommand command) {
+std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
   namespace fs = std::filesystem;
   const fs::path root(*command.resume);
-  std::error_code problem;
-  if (!fs::exists(root, problem) || (fs::is_directory(root, problem) && fs::is_empty(root, problem))) {
-    if (command.script.empty())
-      throw Error(ErrorCode::bad_file, "there is no run " + asperity::quoted(*command.resume) + " to resume",
-                  "give the script to begin it with");
-    command.out = command.resume;
-    command.resume.reset();
-    return command;
+  if (is_not_begun(root)) return begun_there(std::move(command));
+  if (holds_earlier_run(root)) {
+    if (!leads) return begun_there(std::move(command));
+    command.lock = RunLock::take(root);
+    finish_moving_aside(root);
+    if (is_not_begun(root)) return begun_there(std::move(command));
   }
-  const RecordedRun recorded = read_run(root);
-  std::vector<std::string> changed;
-  if (!command.script.empty() && read_script(command.script) != recorded.script_text)
-    changed.emplace_back("the script");
-  if (!command.arguments.empty() && command.arguments != recorded.arguments)
-    changed.emplace_back("its arguments");
-  if (command.seed_given && static_cast<std::int64_t>(command.seed) != recorded.seed)
-    changed.emplace_back("the seed");
+  refuse_links(root);
+  RecordedRun recorded = read_run(root, true);
+  // Nothing is written where all is as it should be, and nothing locked.
+  if (recorded.status == "done" && changes_of(command, recorded).empty() && damages_of(recorded).empty())
+    return {};
+  if (leads && command.lock == nullptr) {
+    command.lock = RunLock::take(root);
+    recorded = read_run(root, true);  // as whoever had the lock left it
+  }
+  const std::vector<std::string> changed = changes_of(command, recorded);
   if (!changed.empty() && command.reuse.empty())
     throw Error(ErrorCode::bad_value,
                 joined(changed, " and ") + " of " + asperity::quoted(*command.resume) +
@@ -86,7 +130,16 @@ std::optional<RunCommand> taken_up(RunCommand command) {
                     "` to begin anew there with the results that are still the same");
   command.anew = !changed.empty();
   if (command.anew) return command;
-  if (recorded.status == "done") return {};
+  if (recorded.status == "done") {
+    command.damages = damages_of(recorded);
+    if (command.damages.empty()) return {};
+    command.journal_lost = !recorded.journal_fault.empty();
+  } else if (!fs::exists(root / "journal.jsonl")) {
+    command.damages = {recorded.journal_fault};
+    command.journal_lost = true;
+  } else if (!recorded.journal_hint.empty()) {
+    throw Error(ErrorCode::bad_file, recorded.journal_fault, recorded.journal_hint);
+  }
   require_repeatable(command, recorded, "go on with");
   command.script = recorded.script_path;
   command.text = recorded.script_text;

@@ -14,10 +14,13 @@
 namespace asperity::cli {
 
 // The command that goes on with the run in `command.resume`: its script, arguments and seed, unless there is
-// nothing there yet, when it is begun there. None where that run came to its end. Throws Error for a script,
-// arguments or a seed that are not its own, unless `reuse` is given, for a run that was trusted otherwise,
-// and for a directory that is no run.
-std::optional<RunCommand> taken_up(RunCommand command);
+// nothing there yet but what a run writes before its first manifest, when it is begun there. None where that
+// run is done and its journal and every output have the digests of its manifest; where they do not, the
+// command names the damages and makes the run again. `leads`: takes the lock of the directory, as one process
+// of a run does. Throws Error for a script, arguments or a seed that are not its own, unless `reuse` is
+// given, for a run that was trusted otherwise, for one whose own files are links, for a directory that is no
+// run, and where another process has the lock.
+std::optional<RunCommand> taken_up(RunCommand command, bool leads = true);
 
 // Throws Error{bad_value} for a session of the prompt, and unless the command trusts its script as the
 // recorded run did: a directory from elsewhere shall not give itself the whole of Lua. `purpose` as in "go on
@@ -25,7 +28,7 @@ std::optional<RunCommand> taken_up(RunCommand command);
 void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose);
 
 // How results of a run are kept, and where else they are looked for; the folder is left open. Throws
-// Error{bad_value} for a `reuse` that is no folder.
+// Error{bad_value} for a `reuse` that is no folder, or a run whose store is a link.
 ResultFilesSetup result_files(const RunCommand& command);
 
 // A store from which nothing is taken from a line of the journal on.

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "bindings/cli/watchdog.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/loaded_part.hpp"
 
@@ -26,7 +27,7 @@ void note_signal(int signal) {
   (signal == SIGINT     ? interrupted
    : signal == SIGTSTP  ? suspended
    : signal == SIGWINCH ? resized
-                        : terminated) = 1;
+                        : terminated) = signal;
 }
 
 void install(int signal) {
@@ -100,10 +101,9 @@ LineReader::LineReader(LineHistory history, Complete complete)
     : terminal_(::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0),
       history_(std::move(history)),
       complete_(std::move(complete)) {
-  const sigset_t blocked = set_of({SIGINT, SIGTERM});
-  pthread_sigmask(SIG_BLOCK, &blocked, nullptr);
-  install(SIGINT);
-  install(SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &stop_signals(), nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (sigismember(&stop_signals(), signal) == 1) install(signal);
   if (!terminal_) return;
   AsperityEditHooks hooks{};
   hooks.context = this;
@@ -129,7 +129,10 @@ LineReader::~LineReader() {
     part_function<decltype(asperity_edit_close)>(editor_part, "asperity_edit_close")(editor_);
 }
 
-int LineReader::ended_by() const { return terminated != 0 ? SIGTERM : interrupted != 0 ? SIGINT : 0; }
+int LineReader::ended_by() const {
+  if (terminated != 0) return terminated;
+  return interrupted != 0 ? SIGINT : 0;
+}
 
 int LineReader::next_byte(unsigned char* byte) {
   install(SIGTSTP);
@@ -137,6 +140,7 @@ int LineReader::next_byte(unsigned char* byte) {
   sigset_t waiting;
   pthread_sigmask(SIG_SETMASK, nullptr, &waiting);
   for (const int signal : {SIGINT, SIGTERM, SIGTSTP, SIGWINCH}) sigdelset(&waiting, signal);
+  if (sigismember(&stop_signals(), SIGHUP) == 1) sigdelset(&waiting, SIGHUP);
   const sigset_t handled = set_of({SIGTSTP, SIGWINCH});
   pthread_sigmask(SIG_BLOCK, &handled, nullptr);
   int result = 1;
@@ -192,14 +196,13 @@ LineReader::Event LineReader::read_plain(const std::string& prompt, std::string&
     std::fputs(prompt.c_str(), stdout);
     std::fflush(stdout);
   }
-  const sigset_t handled = set_of({SIGINT, SIGTERM});
-  pthread_sigmask(SIG_UNBLOCK, &handled, nullptr);
+  pthread_sigmask(SIG_UNBLOCK, &stop_signals(), nullptr);
   line.clear();
   int c = EOF;
   // Through the same buffer that io.read has.
   while (interrupted == 0 && terminated == 0 && (c = std::getc(stdin)) != EOF && c != '\n')
     line += static_cast<char>(c);
-  pthread_sigmask(SIG_BLOCK, &handled, nullptr);
+  pthread_sigmask(SIG_BLOCK, &stop_signals(), nullptr);
   if (interrupted != 0 && terminal_) {
     std::clearerr(stdin);
     std::puts("");

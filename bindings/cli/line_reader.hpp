@@ -2,7 +2,7 @@
 // Lines of standard input. From a terminal they are edited, with those of earlier sessions to come back to
 // and Tab to complete, if the part that brings libedit is there; without it the terminal's own editing does.
 // From a pipe or a file they are read as they are, without prompts. While it waits, Ctrl-C gives up the line
-// and SIGTERM ends the input; both are blocked otherwise, for whoever watches over the work.
+// and SIGTERM or SIGHUP ends the input; both are blocked otherwise, for whoever watches over the work.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ class LineReader {
  public:
   using Complete = std::function<lua::Completion(std::string_view line, std::size_t position)>;
 
-  // Blocks SIGINT and SIGTERM in this thread and those it starts: construct it before any other thread.
+  // Blocks the signals of a stop in this thread and those it starts: construct it before any other thread.
   LineReader(LineHistory history, Complete complete);
   ~LineReader();
   LineReader(const LineReader&) = delete;

@@ -102,7 +102,7 @@ CLI::Option* add_script_options(CLI::App& command, cli::RunCommand& run, std::st
 }
 
 void add_machine_options(CLI::App& command, int& threads, std::string& memory) {
-  command.add_option("--threads", threads, "threads to use (default: one a processor)")
+  command.add_option("--threads", threads, "threads to use (default: one per processor)")
       ->check(CLI::Range(1, 4096));
   command.add_option("--limit-memory", memory, "most memory, e.g. 4G");
 }
@@ -118,8 +118,10 @@ void add_store_options(CLI::App& command, cli::RunCommand& run, std::string& lim
       "go on with the run in this directory where it was cut off; its script, arguments and seed are its own "
       "(a directory that is not there yet is begun)");
   resume->excludes(command.get_option("--out"));
-  command.add_option("--reuse", run.reuse,
-                     "take the results of heavy calls that are the same from this run; may be given again");
+  command
+      .add_option("--reuse", run.reuse,
+                  "take the results of heavy calls that are the same from this run; may be given again")
+      ->allow_extra_args(false);  // one value each time: the next word may be the script
   command.add_option("--store-limit", limit,
                      "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
   command.add_option(
@@ -142,7 +144,8 @@ void add_serve_options(CLI::App& command, web::ServeCommand& serve, std::string&
   command.add_flag("--open", serve.open, "open the page in this machine's browser");
   command.add_option("--out", serve.out,
                      "where its runs are kept (default runs/serve-<n>); must be new or empty");
-  command.add_option("--runs", serve.runs, "scripts that run at once (default 2; in a room one a processor)")
+  command
+      .add_option("--runs", serve.runs, "scripts that run at once (default 2; in a room one per processor)")
       ->check(CLI::Range(1, 256));
   command.add_option("--limit-time", time, "of one run (default 10 min; in a room 60 s)");
   command.add_option("--limit-memory", memory, "of one run (default: its share of half the machine's)");
@@ -151,7 +154,7 @@ void add_serve_options(CLI::App& command, web::ServeCommand& serve, std::string&
                                          "student; without it only this machine is");
   CLI::Option* students =
       command.add_option("--students", serve.students, "of the room")->check(CLI::Range(1, 400))->needs(room);
-  command.add_option("--names", serve.names, "a file of the students' names, one a line")
+  command.add_option("--names", serve.names, "a file of the students' names, one per line")
       ->needs(room)
       ->excludes(students);
   command.footer(
@@ -203,10 +206,11 @@ int main(int argc, char** argv) {
       "--from", replay.from,
       "take the results of heavy calls before this line of its journal from its store, and "
       "compute from there on");
-  replay_command.add_option(
-      "--set", replay.settings,
-      "key=value or call.key=value: another value where calls give this key (from --from "
-      "on), e.g. --set press.pressure=\"200 MPa\"; may be given again");
+  replay_command
+      .add_option("--set", replay.settings,
+                  "key=value or call.key=value: another value where calls give this key (from --from "
+                  "on), e.g. --set press.pressure=\"200 MPa\"; may be given again")
+      ->allow_extra_args(false);
   add_run_options(replay_command, replay.run, replay_memory);
   add_trust(replay_command, replay.run.trust);
   replay_command.add_option("--limit-time", replay_time, "end it after this long, e.g. 60s or \"2 min\"");

@@ -16,6 +16,7 @@
 #include <thread>
 #include <utility>
 
+#include "bindings/cli/watchdog.hpp"
 #include "engine/core/byte_string.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/loaded_part.hpp"
@@ -64,11 +65,7 @@ int threads_of(const LaunchedRank& launched) {
 MpiRanks::MpiRanks() {
   const auto table = part_function<AsperityMpiTable>(part, "asperity_mpi_1");
   mpi_ = table();
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  pthread_sigmask(SIG_BLOCK, &stop_signals(), nullptr);
   std::array<char, 512> reason{};
   if (mpi_->open(&rank_, &size_, reason.data(), reason.size()) != 0)
     throw Error(ErrorCode::bad_file, reason.data());
@@ -109,15 +106,36 @@ void MpiRanks::remove_scratch() const {
 
 int MpiRanks::leave(int status) {
   std::fflush(nullptr);
-  if (stop_flag().reason() != StopReason::none) {
-    remove_scratch();
-    if (!leads())
-      std::this_thread::sleep_for(patience_failed);  // rank 0 was stopped too, and keeps the record
-    mpi_->abort(status);
+  const bool stopped = stop_flag().reason() != StopReason::none;
+  if (leads()) {
+    // A stop that came when the run was done changes nothing of it.
+    if (stopped && status != 0) mpi_->abort(status);
+    return leave_leading(status);
   }
-  if (leads()) return leave_leading(status);
-  leave_following(status);
+  if (stopped)
+    leave_stopped(status);
+  else
+    leave_following(status);
   return 0;
+}
+
+// Rank 0 was stopped too, and ends all ranks once it has the record; or it had come to its end before.
+void MpiRanks::leave_stopped(int status) {
+  const auto begun = Clock::now();
+  for (;;) {
+    const std::optional<Message> message = receive();
+    if (message && message->kind == Kind::end) break;
+    if (Clock::now() - begun > patience_failed) {
+      remove_scratch();
+      mpi_->abort(status);
+    }
+    if (!message) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ByteWriter out;
+  out.text("");
+  send(0, Kind::end, out.take());
+  remove_scratch();
+  mpi_->close();
 }
 
 int MpiRanks::leave_leading(int status) {

@@ -26,7 +26,7 @@ int threads_of(const LaunchedRank& launched);
 
 class MpiRanks final : public lua::Ranks {
  public:
-  // Joins the others; SIGINT and SIGTERM are blocked first, so that no thread of MPI takes them. Throws
+  // Joins the others; the signals of a stop are blocked first, so that no thread of MPI takes them. Throws
   // Error{bad_file} where the program was built without it.
   MpiRanks();
   ~MpiRanks() override = default;
@@ -46,6 +46,7 @@ class MpiRanks final : public lua::Ranks {
   std::optional<std::pair<int, std::string>> receive_bytes() override;
   int leave_leading(int status);
   void leave_following(int status);
+  void leave_stopped(int status);
   void remove_scratch() const;
 
   const AsperityMpi* mpi_ = nullptr;

@@ -135,7 +135,8 @@ class Conversation {
       lines_failed_ = true;
     }
     if (!reader_.terminal() && (lines_failed_ || run_->expectations().failed() > 0)) status = failed;
-    if (stopped_ || reader_.ended_by() != 0) status = exit_status(StopReason::interrupt);
+    const int signal = reader_.ended_by();
+    if (stopped_ || signal != 0) status = signal != 0 ? 128 + signal : exit_status(StopReason::interrupt);
     finish(status == done     ? RunStatus::done
            : status == failed ? RunStatus::failed
                               : RunStatus::interrupted,

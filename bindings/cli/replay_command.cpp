@@ -81,7 +81,8 @@ int replay(const ReplayCommand& command) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;
   }
-  const std::vector<std::string> altered = altered_outputs(*recorded);
+  std::vector<std::string> altered = altered_outputs(*recorded);
+  if (!recorded->journal_fault.empty()) altered.push_back(recorded->journal_fault);
   for (const std::string& sentence : altered) std::fprintf(stderr, "asperity: %s\n", sentence.c_str());
 
   RunCommand run = command.run;

@@ -96,6 +96,11 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
     std::size_t skip = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte-order mark
     // A first line "#!..." is for the shell.
     if (skip < text.size() && text[skip] == '#') skip = std::min(text.find('\n'), text.size());
+    if (skip < text.size() && text[skip] == LUA_SIGNATURE[0]) {
+      lua_pushfstring(state, "%s: attempt to load a binary chunk: a script is text, and this is compiled Lua",
+                      name.c_str());
+      return 1;
+    }
     if (luaL_loadbufferx(state, text.data() + skip, text.size() - skip, lua_tostring(state, -1), "t") !=
         LUA_OK)
       return 1;
@@ -122,7 +127,8 @@ lua::State make_state(lua::Session& session, const RunCommand& command) {
   session.seed = command.seed;
   session.trusted = command.trust;
   const std::string folder = std::filesystem::path(command.script).parent_path().string();
-  lua::State state = lua::make_state(session, folder.empty() ? "." : folder);
+  session.script = {command.script, folder.empty() ? "." : folder};
+  lua::State state = lua::make_state(session, session.script.folder);
   if (command.limit_time || command.limit_memory) lua::watch_for_stops(state.get());
   return state;
 }
@@ -162,6 +168,10 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     if (command.out) setup.out = *command.out;
     if (command.resume) setup.resume = *command.resume;
     setup.anew = command.anew;
+    setup.journal_lost = command.journal_lost;
+    setup.lock = command.lock;
+    // What another rank than the first one writes is taken away at its end.
+    setup.scratch = command.ranks != nullptr && !command.ranks->leads();
     setup.trusted = command.trust;
     setup.arguments = command.arguments;
     setup.seed = static_cast<std::int64_t>(command.seed);
@@ -175,6 +185,12 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;
   }
+
+  if (const std::string notice = run->lock_notice(); !notice.empty() && command.observer == nullptr)
+    std::fprintf(stderr, "asperity: %s\n", notice.c_str());
+  for (const std::string& damage : command.damages)
+    std::fprintf(stderr, "asperity: %s; the run is made again from its script and its store\n",
+                 damage.c_str());
 
   TerminalMonitor monitor;
   monitor.keep_warnings_in(run.get());
@@ -213,6 +229,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     for (const std::string& notice : results.notices()) std::fprintf(stderr, "%s\n", notice.c_str());
     if (const std::string departure = run->journal().departure(); !departure.empty())
       std::fprintf(stderr, "%s\n", departure.c_str());
+    if (run->mended()) std::fprintf(stderr, "every file is again as it was recorded\n");
     std::fprintf(stderr, "results in %s\n", run->path().c_str());
   };
   Watchdog watchdog(command.limit_time, [&](StopReason reason) {
@@ -318,17 +335,21 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   const lua::State state = make_state(session, context.command);
   const Watchdog::Watching watching(context.watchdog, state.get());
   if (execute(state.get(), context.command, context.text, 0) == LUA_OK) return "";
-  return lua::error_text(state.get(), -1);
+  return lua::placed_memory_error(lua::error_text(state.get(), -1));
 }
 
 int run(const RunCommand& asked) {
   RunCommand command = asked;
+  const std::optional<LaunchedRank> launched = launched_rank();
   if (asked.resume) {
     try {
-      std::optional<RunCommand> again = taken_up(asked);
+      std::optional<RunCommand> again = taken_up(asked, !launched || launched->rank == 0);
       if (!again) {
-        std::fprintf(stderr, "asperity: %s came to its end; there is nothing to resume\n",
-                     asked.resume->c_str());
+        std::fprintf(
+            stderr,
+            "asperity: %s came to its end, and every file is as it was recorded; there is nothing to "
+            "resume\n",
+            asked.resume->c_str());
         return done;
       }
       command = *std::move(again);
@@ -338,7 +359,6 @@ int run(const RunCommand& asked) {
     }
   }
   const auto work = [](RunContext& context) { return run_script(context, [](int code) { return code; }); };
-  const std::optional<LaunchedRank> launched = launched_rank();
   if (!launched) return in_run_directory(command, work);
 
   std::unique_ptr<MpiRanks> ranks;
@@ -358,6 +378,7 @@ int run(const RunCommand& asked) {
     command.out = ranks->scratch_folder();
     if (command.resume && !command.text) command.text = read_script(command.script);
     command.resume.reset();
+    command.damages.clear();
     command.reuse.clear();
     command.anew = false;
     command.limit_time.reset();  // rank 0 watches it for all

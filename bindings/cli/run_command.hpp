@@ -16,6 +16,7 @@
 namespace asperity {
 class Json;
 class RunDirectory;
+class RunLock;
 }  // namespace asperity
 
 namespace asperity::cli {
@@ -38,6 +39,9 @@ struct RunCommand {
   std::optional<std::string> text;          // of the script, where it is not read from its file
   std::optional<std::string> resume;        // directory of a run that was cut off
   bool anew = false;                        // of another script: its files are moved aside, its results stay
+  bool journal_lost = false;                // of the run that is taken up: its journal is begun again
+  std::vector<std::string> damages;         // of the run that is taken up, a sentence each
+  std::shared_ptr<RunLock> lock;            // of the directory, where it was taken already
   std::vector<std::string> reuse;           // runs, or folders of results, to take results from
   std::optional<std::string> store;         // folder of results that several runs share, instead of its own
   std::optional<lua::Shard> shard;          // of the cases of ensembles; needs `store`
@@ -49,7 +53,8 @@ struct RunCommand {
   MpiRanks* ranks = nullptr;                  // the processes of the run; null where it is the only one
 };
 
-// Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage, 130 interrupted.
+// Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage or another process runs there, 130
+// interrupted, 143 asked to end (TERM), 129 the terminal was closed (HUP).
 int run(const RunCommand& command);
 
 // What the work of a run has at hand.

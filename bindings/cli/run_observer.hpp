@@ -23,6 +23,8 @@ class RunObserver {
   virtual void found(const std::string& call, std::int64_t line, const lua::Values& results) = 0;
   // Whether found() is to be called.
   virtual bool looks_at_results() const { return false; }
+  // A mistake that a check has gone past; the last that it found is the reason of its end.
+  virtual void mistake(const std::string&) {}
   // The end, with why the run failed, "" if it did not. It may be the last that the process does.
   virtual void ended(int status, StopReason stopped, const std::string& why) = 0;
 };

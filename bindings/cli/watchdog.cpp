@@ -14,22 +14,35 @@ using Clock = std::chrono::steady_clock;
 constexpr auto grace = std::chrono::milliseconds(2000);
 constexpr auto look_every = std::chrono::milliseconds(50);
 
-sigset_t watched_signals() {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
-  return set;
-}
+// The first signal that a watchdog met; 0 before.
+std::atomic<int> met_signal{0};
 }  // namespace
 
-int exit_status(StopReason reason) { return reason == StopReason::interrupt ? 130 : 1; }
+const sigset_t& stop_signals() {
+  static const sigset_t signals = [] {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    // A signal that is blocked comes even where it is ignored: nohup means what it says.
+    struct sigaction hang_up {};
+    if (::sigaction(SIGHUP, nullptr, &hang_up) != 0 || hang_up.sa_handler != SIG_IGN) sigaddset(&set, SIGHUP);
+    return set;
+  }();
+  return signals;
+}
+
+int exit_status(StopReason reason) {
+  if (reason != StopReason::interrupt) return 1;
+  const int signal = met_signal.load();
+  return 128 + (signal == 0 ? SIGINT : signal);
+}
 
 Watchdog::Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words,
                    CtrlC ctrl_c)
     : last_words_(std::move(last_words)), ctrl_c_(ctrl_c) {
-  const sigset_t set = watched_signals();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  met_signal.store(0);
+  pthread_sigmask(SIG_BLOCK, &stop_signals(), nullptr);
   thread_ = std::thread([this, limit_seconds] { guard(limit_seconds); });
 }
 
@@ -52,7 +65,6 @@ void Watchdog::ask(StopReason reason) {
 }
 
 void Watchdog::guard(std::optional<double> limit_seconds) {
-  const sigset_t set = watched_signals();
   const auto start = Clock::now();
   std::optional<Clock::time_point> patience_ends;
   for (;;) {
@@ -66,14 +78,16 @@ void Watchdog::guard(std::optional<double> limit_seconds) {
     timespec timeout{};
     timeout.tv_sec = static_cast<time_t>(seconds);
     timeout.tv_nsec = static_cast<long>((seconds - static_cast<double>(timeout.tv_sec)) * 1e9);
-    const int signal = sigtimedwait(&set, nullptr, &timeout);
+    const int signal = sigtimedwait(&stop_signals(), nullptr, &timeout);
     if (done_.load()) return;
 
     bool end_now = false;
-    if (signal == SIGINT || signal == SIGTERM) {
+    if (signal > 0) {
+      int none = 0;
+      met_signal.compare_exchange_strong(none, signal);
       const bool waited = patience_ends.has_value() && Clock::now() >= *patience_ends;
-      end_now = patience_ends.has_value() && (ctrl_c_ != CtrlC::is_patient || signal == SIGTERM || waited);
-      if (signal == SIGTERM) terminated_.store(true);
+      end_now = patience_ends.has_value() && (ctrl_c_ != CtrlC::is_patient || signal != SIGINT || waited);
+      if (signal != SIGINT) terminated_.store(true);
       ask(StopReason::interrupt);
     } else if (limit_seconds && !patience_ends &&
                std::chrono::duration<double>(Clock::now() - start).count() >= *limit_seconds) {

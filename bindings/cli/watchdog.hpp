@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ctrl-C and limits. A thread of its own takes SIGINT and SIGTERM and watches the clock. It asks
+// Ctrl-C and limits. A thread of its own takes SIGINT, SIGTERM and SIGHUP and watches the clock. It asks
 // first: it raises the stop flag, which native work polls, and sets a hook, which Lua code runs into.
 // Work that does neither (a pattern that backtracks for ever) is ended after a grace period: the
 // journal and the notebooks are made safe and the process exits. A second Ctrl-C does not wait. At a prompt
@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -29,7 +30,7 @@ class Watchdog {
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  // Whether SIGTERM was met, which means all of it and not the work of the moment.
+  // Whether SIGTERM or SIGHUP was met, which mean all of it and not the work of the moment.
   bool terminated() const { return terminated_.load(); }
 
   // While it lives, stops reach this Lua state; it must go before the state is closed.
@@ -57,7 +58,12 @@ class Watchdog {
   std::thread thread_;
 };
 
-// The exit status of a run that was stopped for this reason.
+// What ends a run in order: SIGINT and SIGTERM, and SIGHUP unless the program was started to ignore it
+// (nohup). Asked for the first time before any handler is set.
+const sigset_t& stop_signals();
+
+// The exit status of a run that was stopped for this reason: for a signal 128 and its number, as shells have
+// it (130 Ctrl-C, 143 SIGTERM, 129 SIGHUP).
 int exit_status(StopReason reason);
 
 }  // namespace asperity::cli

@@ -17,7 +17,8 @@ struct NotUnderstood {};
 
 class Code {
  public:
-  Code(std::string_view dump, Digester& digester) : left_(dump), digester_(digester) {}
+  Code(std::string_view dump, CodeLines lines, Digester& digester)
+      : left_(dump), counted_(lines == CodeLines::counted), digester_(digester) {}
 
   void all() {
     // signature, version, format, check of conversions, sizes of three types, an integer, a number
@@ -58,6 +59,11 @@ class Code {
     return length == 0 ? std::string_view() : bytes(length - 1);
   }
 
+  void line() {
+    const std::size_t value = size();
+    if (counted_) digester_.add(static_cast<std::int64_t>(value));
+  }
+
   void constant() {
     const std::string_view kind = bytes(1);
     digester_.add(kind);
@@ -82,8 +88,8 @@ class Code {
   void function(int depth) {
     if (depth > deepest) throw NotUnderstood{};
     text();  // the file
-    size();  // its first and last line
-    size();
+    line();  // its first and last line
+    line();
     keep(3);  // parameters, whether there are more, stack
     const std::size_t instructions = count();
     if (instructions > left_.size() / instruction) throw NotUnderstood{};
@@ -91,10 +97,11 @@ class Code {
     for (std::size_t left = count(); left > 0; --left) constant();
     for (std::size_t left = count(); left > 0; --left) keep(3);  // where upvalues come from
     for (std::size_t left = count(); left > 0; --left) function(depth + 1);
-    bytes(size());  // lines of instructions
+    const std::string_view steps = bytes(size());  // lines of instructions
+    if (counted_) digester_.add(steps);
     for (std::size_t left = size(); left > 0; --left) {
-      size();
-      size();
+      line();
+      line();
     }
     for (std::size_t left = size(); left > 0; --left) {  // local variables
       text();
@@ -105,15 +112,16 @@ class Code {
   }
 
   std::string_view left_;
+  bool counted_;
   Digester& digester_;
 };
 
 }  // namespace
 
-std::string code_digest(std::string_view dump) {
+std::string code_digest(std::string_view dump, CodeLines lines) {
   Digester digester;
   try {
-    Code(dump, digester).all();
+    Code(dump, lines, digester).all();
   } catch (const NotUnderstood&) {
     return Digester().add("as it is").add(dump).hex();
   }

@@ -8,7 +8,9 @@
 
 namespace asperity::lua {
 
-// Of a dump that lua_dump made. A dump that is not understood to its last byte is digested as it is.
-std::string code_digest(std::string_view dump);
+// Of a dump that lua_dump made; with the numbers of its lines if they are `counted`, never with the names of
+// files. A dump that is not understood to its last byte is digested as it is.
+enum class CodeLines { left_out, counted };
+std::string code_digest(std::string_view dump, CodeLines lines = CodeLines::left_out);
 
 }  // namespace asperity::lua

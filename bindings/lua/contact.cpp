@@ -7,6 +7,7 @@
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact_scene.hpp"
 #include "bindings/lua/files.hpp"
+#include "bindings/lua/guard.hpp"
 #include "bindings/lua/ledger.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/shear.hpp"
@@ -116,9 +117,10 @@ const Block<SweepKeys>& sweep_block() {
           std::string("a list: ") + entry.sentence,
           [entry, range](const Argument& value, const OptionInfo& info, SweepKeys& keys, Problems& problems) {
             ++keys.given;
-            if (!value.is_table() || value.length() == 0)
-              return detail::wrong_type(value, info, "a list of values, e.g. { \"1 MPa\", \"2 MPa\" }",
-                                        problems);
+            const std::string wanted = "a list of values, e.g. { \"1 MPa\", \"2 MPa\" }";
+            if (!value.is_table()) return detail::wrong_type(value, info, wanted, problems);
+            if (value.length() == 0)
+              return problems.push_back(quoted(info.name) + " is an empty list; give " + wanted);
             for (std::int64_t k = 1; k <= value.length(); ++k)
               value.element(k, [&](const Argument& part) {
                 if (auto v = detail::read_quantity(part, info, range, problems))
@@ -146,6 +148,10 @@ Values sweep(Call& call) {
   return {Iterator{[pair, requests = keys.requests, k = std::size_t{0},
                     visited = std::vector<double>()](Call& step) mutable -> std::optional<Values> {
                      if (k >= requests.size()) return std::nullopt;
+                     if (pair->closed())
+                       throw Error(ErrorCode::bad_state,
+                                   "the contact of the sweep was closed inside its loop",
+                                   "close it after the loop");
                      PressRequest request = requests[k];
                      const bool by_load = request.by == PressBy::load || request.by == PressBy::pressure;
                      if (k == 0 && by_load && request.value < 0)
@@ -195,13 +201,22 @@ const Block<ShiftKeys>& shift_block() {
 
 namespace {
 
+// Every placement of a flat is the same contact.
+void warn_of_flat(const Call& call, const char* done) {
+  if (call.self<SpecimenPair>().upper_is_flat())
+    call.session().monitor().warn(where(call.L) + call.function_name() + ": " + done +
+                                  " a flat upper body changes nothing: every placement is the same contact");
+}
+
 Values place(Call& call) {
   call.self<SpecimenPair>().place(call.options(place_block()).seed);
+  warn_of_flat(call, "placing");
   return {};
 }
 
 Values rotate(Call& call) {
   call.self<SpecimenPair>().rotate(call.quantity(1, "angle", dimension::angle));
+  warn_of_flat(call, "turning");
   return {};
 }
 
@@ -250,7 +265,8 @@ Function contact_function() {
           .sentence = "Puts two bodies on the bench. Only the effects that are named are computed.",
           .options = &scene_keys(),
           .returns = "Contact",
-          .example = "local c = lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity=\"box\" } }"};
+          .example = "local c = lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity=\"box\" } }",
+          .look = look_at_scene};
 }
 
 const Class& contact_class() {
@@ -298,7 +314,9 @@ const Class& contact_class() {
         {.name = "rotate",
          .body = rotate,
          .sentence = "Turns the upper body about the centre of the nodes, counter-clockwise seen from above; "
-                     "turns add up. A periodic contact turns by multiples of 90 degrees only.",
+                     "turns add up. A periodic contact turns by multiples of 90 degrees only; on a free "
+                     "boundary nothing "
+                     "presses where the turned body no longer covers the lower one.",
          .parameters = {{"angle", "an angle", "to turn by"}},
          .example = "c:rotate \"90 deg\""},
         {.name = "shift",

@@ -7,9 +7,12 @@
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/grid_keys.hpp"
+#include "bindings/lua/known_body.hpp"
+#include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/refinement.hpp"
 #include "bindings/lua/surface.hpp"
 #include "engine/contact/effects/catalogue.hpp"
+#include "engine/experiment/specimen_pair.hpp"
 
 namespace asperity::lua {
 
@@ -33,8 +36,13 @@ const Block<PlasticityOptions>& plasticity_block() {
   using O = PlasticityOptions;
   static const Block<O> block{
       "plasticity",
-      {quantity("hardness", &O::hardness, dimension::pressure, above(0).or_never(),
-                "greatest pressure a body carries before it yields")
+      {quantity(
+           "hardness", &O::hardness, dimension::pressure, above(0).or_never(),
+           "greatest pressure a body carries before it yields. Of two bodies the softer one limits the "
+           "pressure and takes nearly all of what yields: a body r times as hard as the other takes the "
+           "share 1/(1 + exp(1.5 (r^2 - 1/r^2)) young/young of the other), half of like bodies, .25 at "
+           "r = 1.2, .06 at 1.5, .004 at 2, as J2 plasticity below the surface has it; r is that of each "
+           "node, with what hardening has made of it")
            .defaults_to("each body's own"),
        quantity("hardening", &O::hardening, dimension::stiffness, above(0).or_never(),
                 "growth of the pressure with the plastic part of the approach; math.huge leaves it out: the "
@@ -80,7 +88,9 @@ const Block<AdhesionOptions>& adhesion_block() {
        quantity("range", &O::range, dimension::length, above(0), "gap over which the attraction falls")
            .required(),
        choice("model", &O::model, {{"exponential", GapLaw::exponential}, {"dugdale", GapLaw::dugdale}},
-              "work/range e^(-gap/range), or work/range up to a gap of the range")}};
+              "work/range e^(-gap/range), or work/range up to a gap of the range; the end is smoothed over "
+              "gaps of "
+              "0.5 to 1.5 ranges, so pull-off is 0.1 to 0.5 % above Maugis's")}};
   return block;
 }
 
@@ -342,6 +352,13 @@ Option<SceneKeys> effects() {
   return std::move(option).required();
 }
 
+void require_boundary(SceneKeys& keys, Problems& problems) {
+  if (keys.elasticity && std::holds_alternative<HalfSpaceOptions>(*keys.elasticity) && !keys.boundary)
+    problems.push_back(
+        "a half-space needs `boundary`: \"periodic\" where the tile goes on beyond its "
+        "rim, or \"free\"");
+}
+
 const Block<SceneKeys>& scene_block() {
   using K = SceneKeys;
   static const Block<K> block{
@@ -372,31 +389,53 @@ const Block<SceneKeys>& scene_block() {
        effects(),
        table_of("accuracy", &K::accuracy, accuracy_block(),
                 "how close a solve must come, and what if it does not")},
-      [](K& keys, Problems& problems) {
-        if (keys.elasticity && std::holds_alternative<HalfSpaceOptions>(*keys.elasticity) && !keys.boundary)
-          problems.push_back(
-              "a half-space needs `boundary`: \"periodic\" where the tile goes on beyond its "
-              "rim, or \"free\"");
-      }};
+      require_boundary};
   return block;
 }
 
-}  // namespace
-
-Scene read_scene(Call& call) {
-  const SceneKeys keys = call.options(scene_block());
-  Scene scene{*keys.lower, *keys.upper, keys.boundary.value_or(Boundary::free), *keys.elasticity,
+Scene scene_of(const SceneKeys& keys, Surface lower, UpperBody upper) {
+  Scene scene{std::move(lower), std::move(upper), keys.boundary.value_or(Boundary::free), *keys.elasticity,
               keys.accuracy};
   scene.plasticity = keys.plasticity;
   scene.creep = keys.creep;
   scene.capillarity = keys.capillarity;
   scene.adhesion = keys.adhesion;
   scene.sliding = {keys.interlocking, keys.ageing, keys.tangential};
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(Call& call) {
+  const SceneKeys keys = call.options(scene_block());
+  Scene scene = scene_of(keys, *keys.lower, *keys.upper);
   if (Refinement* refinement = refinement_of(call.L)) {
     scene.accuracy.tolerance = refinement->tolerance_for(scene.accuracy.tolerance);
     if (refinement->tolerance) scene.accuracy.asked.reset();  // it is what was asked for
   }
   return scene;
+}
+
+void look_at_scene(const Call& call) {
+  const Argument table = call.argument(1);
+  if (!table.is_table()) return;
+  constexpr int nested = 3;
+  for (const char* key : {"boundary", "effects", "accuracy"})
+    if (with_key(table, key, [&](const Argument& value) { return holds_unknown(value, nested); })) return;
+  SceneKeys keys = call.options(scene_block());
+  Problems problems;
+  require_boundary(keys, problems);
+  if (!problems.empty()) throw Error(ErrorCode::bad_value, call.function_name() + ": " + problems.front());
+  const auto body = [&](const char* key) { return with_key(table, key, known_body); };
+  const auto lower = body("lower"), upper = body("upper");
+  const bool flat = keys.upper && std::holds_alternative<Material>(*keys.upper);
+  if (lower == nullptr || (upper == nullptr && !flat)) return;
+  if (upper != nullptr && lower->grid && upper->grid) check_tiles(*lower->grid, *upper->grid);
+  KnownBody same_size = upper != nullptr ? *upper : KnownBody{};
+  same_size.grid = lower->grid;
+  Scene scene = scene_of(keys, stand_in(*lower), flat ? *keys.upper : UpperBody(stand_in(same_size)));
+  scene.accuracy.estimate = Accuracy::Estimate::none;  // needs the true cells
+  (void)SpecimenPair(scene);
 }
 
 const BlockInfo& scene_keys() { return scene_block(); }

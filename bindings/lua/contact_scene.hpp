@@ -9,6 +9,9 @@ namespace asperity::lua {
 
 // Every problem of the table in one Error.
 Scene read_scene(Call& call);
+// Of a dry run whose bodies are placeholders: throws what read_scene or the contact would for the scene,
+// as far as the bodies are known.
+void look_at_scene(const Call& call);
 // The keys, for the registry.
 const BlockInfo& scene_keys();
 

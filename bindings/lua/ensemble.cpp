@@ -359,6 +359,7 @@ Values ensemble(Call& call) {
     common.ledger = session.ledger;
     common.results = results_for_cases(session);
     common.watched = lua_gethook(call.L) != nullptr;
+    common.script = session.script;
     common.script_digest = session.script_digest;
     common.ensemble = ++session.ensembles;
     if (session.notes != nullptr) session.notes->drew = true;  // its cases have seeds made of this one's

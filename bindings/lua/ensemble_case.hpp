@@ -30,11 +30,13 @@ struct CaseValue {
   std::string text;  // "2.5", "\"cold\"", "a surface"
 };
 
-// A file that a case looked at; no digest where there was none.
+// A file that a case looked at; no digest where there was none. One that `require` found in the folder of the
+// script is known by its name there: another run looks in the folder of its own script.
 struct CaseInput {
   std::string file;
   std::int64_t bytes = 0;
   std::string digest;
+  std::string beside_script = {};  // "helper.lua"; else empty
 };
 CaseInput input_of_case(const std::string& file);
 
@@ -48,6 +50,7 @@ struct CaseSetup {
   std::shared_ptr<Variation> variation;
   std::shared_ptr<Ledger> ledger;
   ResultStore* results = nullptr;  // of the run; may be null
+  ScriptSpelling script;           // how the script is named
   std::string script_digest;       // of the text of the script and its arguments
   int ensemble = 0;                // of the run, which the case is part of; counted from 1
   bool watched = false;            // look at the stop flag every few thousand instructions

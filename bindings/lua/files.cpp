@@ -24,6 +24,10 @@ std::string readable_path(const Call& call, const std::string& name) {
   return session.run == nullptr ? name : session.run->place_to_read(name).string();
 }
 
+void warn_of(const Call& call, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) call.session().monitor().warn(warning);
+}
+
 void note_input(const Call& call, const std::string& path) {
   const Session& session = call.session();
   std::error_code problem;

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bindings/lua/options.hpp"
 #include "bindings/lua/registry.hpp"
@@ -17,6 +18,8 @@ namespace asperity::lua {
 std::string writable_path(const Call& call, const std::string& name);
 // Where a file that the script reads lies: as named, or else the one the run wrote under that name.
 std::string readable_path(const Call& call, const std::string& name);
+// Tells the run of warnings, as drawing returns them.
+void warn_of(const Call& call, const std::vector<std::string>& warnings);
 // Enters a file that is about to be read, with its digest, in the run's manifest.
 void note_input(const Call& call, const std::string& path);
 

@@ -94,7 +94,8 @@ const Block<StageKeys>& stage_block() {
        quantity("gravity", &K::gravity, dimension::acceleration, above(0), "acceleration of free fall"),
        custom<K>("probe_pressure", "a pressure[]",
                  "at which a half-space contact is solved, each raised until enough nodes touch; a box "
-                 "contact is solved at its weight",
+                 "contact is solved at its weight, and so is a half-space whose weight presses harder than "
+                 "the least of these",
                  [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
                    OptionInfo pressure = info;
                    pressure.dimension = dimension::pressure;
@@ -209,6 +210,8 @@ Values raise_stage(Call& call) {
       .add("slipped", result.slipped)
       .add("trials", std::move(trials))
       .add("area_per_load", Value(result.area_per_load))
+      .add("probe_spread", Value(result.probe_spread))
+      .add("solved_at_weight", !result.at_weight.empty())
       .add("probes", std::move(probes))
       .add("note", result.note.empty() ? Value() : Value(result.note));
   return {std::move(record)};
@@ -286,9 +289,12 @@ const Class& stage_class() {
     c.methods = {
         {.name = "raise",
          .body = raise_stage,
-         .sentence = "Raises the stage until the specimen slides, several times. angle is exact; "
-                     "held is the last step that "
-                     "held, the source paper's measure; mu = tan(held).",
+         .sentence =
+             "Raises the stage until the specimen slides, several times. angle is exact; "
+             "held is the last step that "
+             "held, the source paper's measure; mu = tan(held), so mu goes in the steps of the stage "
+             "and tan(angle) does not. trials holds angle and held of each trial, spread the standard "
+             "deviation of their mu.",
          .options = &raise_block(),
          .options_optional = true,
          .returns = "table",

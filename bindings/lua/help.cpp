@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/error.hpp"
@@ -139,22 +140,28 @@ std::string last_name(const std::string& path) {
 struct Topic {
   std::string name;
   std::string text;
+  std::string sentence;  // of the text
 };
 
 std::vector<Topic> all_topics() {
   std::vector<Topic> topics;
   for (const Module* module : modules()) {
-    topics.push_back({module->path, module_help(*module)});
-    for (const Function& f : module->functions) topics.push_back({qualified_name(f), function_help(f)});
+    topics.push_back({module->path, module_help(*module), module->sentence});
+    for (const Function& f : module->functions)
+      topics.push_back({qualified_name(f), function_help(f), f.sentence});
     for (const Constant& c : module->constants)
-      topics.push_back({module->path + "." + c.name, module->path + "." + c.name + ": " + c.sentence + "\n"});
+      topics.push_back(
+          {module->path + "." + c.name, module->path + "." + c.name + ": " + c.sentence + "\n", c.sentence});
   }
   for (const Class* type : classes()) {
-    topics.push_back({type->name, class_help(*type)});
-    for (const Function& f : type->methods) topics.push_back({qualified_name(f), function_help(f)});
+    topics.push_back({type->name, class_help(*type), type->sentence});
+    for (const Function& f : type->methods)
+      topics.push_back({qualified_name(f), function_help(f), f.sentence});
     for (const Getter& field : type->fields)
-      topics.push_back({type->name + "." + field.name, type->name + "." + field.name + ": " + field.sentence +
-                                                           " (" + describe_field(field) + ")\n"});
+      topics.push_back(
+          {type->name + "." + field.name,
+           type->name + "." + field.name + ": " + field.sentence + " (" + describe_field(field) + ")\n",
+           field.sentence});
   }
   return topics;
 }
@@ -187,6 +194,51 @@ std::string keys_help(const std::string& name) {
       if (same_word(path, name) || same_word(last_name(path), name))
         text += "Key `" + path + "` of " + qualified_name(*function) + ": " + option->sentence + " (" +
                 describe_option(*option) + ")\n";
+  return text;
+}
+
+// --- parts of names, words of sentences
+
+std::string lowered(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
+
+// Whether a sentence has a word that begins with this one.
+bool has_word(std::string_view sentence, std::string_view word) {
+  for (std::size_t at = sentence.find(word); at != std::string_view::npos; at = sentence.find(word, at + 1))
+    if (at == 0 || !is_letter(sentence[at - 1])) return true;
+  return false;
+}
+
+// A line for each topic and key that has the words in its name, then for those that have them in a sentence.
+// "" where there is none, and for a single letter, which is in every name.
+std::string hits_help(const std::string& asked, const std::vector<Topic>& topics) {
+  const std::string word = lowered(asked);
+  if (word.size() < 2 || word.find_first_not_of(' ') == std::string::npos) return "";
+  std::vector<std::string> by_name, by_sentence;
+  const auto look = [&](const std::string& name, std::string_view own, const std::string& sentence,
+                        const std::string& type) {
+    if (lowered(own).find(word) != std::string::npos)
+      by_name.push_back(name + ": " + sentence);
+    else if (has_word(lowered(sentence + " " + type), word))
+      by_sentence.push_back(name + ": " + sentence);
+  };
+  for (const Topic& topic : topics) look(topic.name, last_name(topic.name), topic.sentence, "");
+  for (const Function* function : functions_with_options())
+    for (const auto& [path, option] : all_options(*function->options))
+      look("key `" + path + "` of " + qualified_name(*function), last_name(path), option->sentence,
+           option->type);
+  const std::size_t found = by_name.size() + by_sentence.size();
+  if (found == 0) return "";
+  by_name.insert(by_name.end(), by_sentence.begin(), by_sentence.end());
+  constexpr std::size_t most = 40;
+  std::string text = "nothing is called " + quoted(asked) + "; it is part of\n";
+  for (std::size_t k = 0; k < std::min(found, most); ++k) text += "  " + by_name[k] + "\n";
+  if (found > most) text += "  and " + std::to_string(found - most) + " more\n";
   return text;
 }
 
@@ -285,6 +337,7 @@ std::string help_text(const std::string& topic) {
     if (same_word(last_name(t.name), topic)) found += (found.empty() ? "" : "\n") + t.text;
   if (const std::string keys = keys_help(topic); !keys.empty()) found += (found.empty() ? "" : "\n") + keys;
   if (!found.empty()) return found;
+  if (const std::string hits = hits_help(topic, topics); !hits.empty()) return hits;
   std::vector<std::string> names;
   for (const Function* function : functions_with_options())
     for (const NamedOption& named : all_options(*function->options)) names.push_back(last_name(named.name));

@@ -16,7 +16,7 @@ namespace asperity::lua {
 
 namespace {
 
-constexpr std::string_view case_form = "asperity case 1";
+constexpr std::string_view case_form = "asperity case 2";
 constexpr std::size_t bytes_a_number = 6;  // whole numbers that a double holds exactly
 
 // Bytes in a field of a kept result.
@@ -91,6 +91,7 @@ std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& g
     out.text(input.file);
     out.number(input.bytes);
     out.text(input.digest);
+    out.text(input.beside_script);
   }
   out.number(result.drew);
   out.number(result.transforms);
@@ -110,6 +111,7 @@ CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>&
     input.file = in.text();
     input.bytes = in.number<std::int64_t>();
     input.digest = in.text();
+    input.beside_script = in.text();
     result.inputs.push_back(std::move(input));
   }
   result.drew = in.truth();
@@ -128,7 +130,8 @@ KeptCases::KeptCases(const Session& session, const Parcel& run) {
   if (session.trusted || session.refinement != nullptr || session.variation != nullptr) return;
   store_ = results_for_cases(session);
   if (store_ == nullptr) return;
-  content_ = run.content();
+  content_ = run.content(session.script);
+  folder_ = session.script.folder;
   if (!content_.whole) script_ = session.script_digest + " " + std::to_string(session.ensembles);
 }
 
@@ -159,6 +162,8 @@ std::optional<CaseResult> KeptCases::find(const CaseSetup& setup, bool with_fail
       CaseResult result = case_from_bytes(bytes, setup.values);
       if (!result.failure.empty() && !with_failures) continue;
       if (found->text("names lines") == "yes" && found->text("lines") != content_.lines) continue;
+      for (CaseInput& input : result.inputs)
+        if (!input.beside_script.empty()) input.file = folder_ + "/" + input.beside_script;
       const bool same = std::ranges::all_of(
           result.inputs, [](const CaseInput& input) { return present_digest(input.file) == input.digest; });
       if (same) return result;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole cases of an ensemble in the store of its run: what a case found, under a key made of what its
-// function does, the case's values and, where the case drew random numbers, its seed. A run that is taken up
-// again, an edited script and other processes find them there. What a case read from files is kept with it,
-// and holds only while the files are the same; what it asked of the clock or the environment stays as it was.
-// Nothing is kept of cases whose script may do anything (--trust), of studies and of variations.
+// function does (not of how the script is called and where it lies), the case's values and, where the case
+// drew random numbers, its seed. A run that is taken up again, an edited script and other processes find them
+// there. What a case read from files is kept with it, and holds only while the files are the same; what it
+// asked of the clock or the environment stays as it was. Nothing is kept of cases whose script may do
+// anything (--trust), of studies and of variations.
 #pragma once
 
 #include <optional>
@@ -41,6 +42,7 @@ class KeptCases {
 
   ResultStore* store_ = nullptr;
   Parcel::Content content_;
+  std::string folder_;  // of the script
   std::string script_;  // what else the key holds where values cannot be told by their digest
 };
 

@@ -85,6 +85,11 @@ const Class& class_of<Plan>() {
          "how it is solved",
          {},
          [](Call& call) -> Values { return {call.self<Plan>().solver}; }},
+        {"overlap_fraction",
+         "number",
+         "share of the tile on which the bodies face each other as they lie",
+         {},
+         [](Call& call) -> Values { return {call.self<Plan>().overlap}; }},
         {"terms", "table[]", "the terms of the problem: effect and sentence", {}, terms_of},
         {"buffers", "table[]", "what is held in memory: name, bytes, and whether it is kept", {}, buffers_of},
         {"transforms",
@@ -135,32 +140,35 @@ const Class& class_of<LedgerReport>() {
     c.name = "Ledger";
     c.article_name = "a ledger";
     c.sentence = "What a run has done so far and what it cost; print() shows all of it.";
-    c.fields = {
-        {"seconds", "number", "of the run so far", dimension::time,
-         [](Call& call) -> Values { return {call.self<R>().seconds}; }},
-        {"unaccounted", "number",
-         "seconds that are in no line: the script itself, and calls too short for one", dimension::time,
-         [](Call& call) -> Values { return {call.self<R>().unaccounted()}; }},
-        {"transforms",
-         "number",
-         "Fourier transforms, each in equivalents of its contact's finest grid",
-         {},
-         [](Call& call) -> Values { return {call.self<R>().transforms}; }},
-        {"bytes",
-         "integer",
-         "greatest memory of one call",
-         {},
-         [](Call& call) -> Values { return {call.self<R>().bytes}; }},
-        {"calls", "table[]", "a line a call: call, in_case, times, seconds, transforms, bytes", {}, calls_of},
-        {"by_effect", "table", "what the pressed contacts cost, effect by effect", {}, effects_of},
-        {"effects_off",
-         "string[]",
-         "effects that no contact named, for which nothing was done",
-         {},
-         [](Call& call) { return texts(call.self<R>().effects_off); }},
-        {"json", "string", "all of it, as JSON", {}, [](Call& call) -> Values {
-           return {call.self<R>().json().text(2)};
-         }}};
+    c.fields = {{"seconds", "number", "of the run so far", dimension::time,
+                 [](Call& call) -> Values { return {call.self<R>().seconds}; }},
+                {"unaccounted", "number",
+                 "seconds that are in no line: the script itself, and calls too short for one",
+                 dimension::time, [](Call& call) -> Values { return {call.self<R>().unaccounted()}; }},
+                {"transforms",
+                 "number",
+                 "Fourier transforms, each in equivalents of its contact's finest grid",
+                 {},
+                 [](Call& call) -> Values { return {call.self<R>().transforms}; }},
+                {"bytes",
+                 "integer",
+                 "greatest memory of one call",
+                 {},
+                 [](Call& call) -> Values { return {call.self<R>().bytes}; }},
+                {"calls",
+                 "table[]",
+                 "a line per call: call, in_case, times, seconds, transforms, bytes",
+                 {},
+                 calls_of},
+                {"by_effect", "table", "what the pressed contacts cost, effect by effect", {}, effects_of},
+                {"effects_off",
+                 "string[]",
+                 "effects that no contact named, for which nothing was done",
+                 {},
+                 [](Call& call) { return texts(call.self<R>().effects_off); }},
+                {"json", "string", "all of it, as JSON", {}, [](Call& call) -> Values {
+                   return {call.self<R>().json().text(2)};
+                 }}};
     c.describe = [](const void* self) {
       std::string text = static_cast<const R*>(self)->text();
       text.pop_back();

@@ -32,7 +32,7 @@ int module_index(lua_State* L) {
           "lab.help \"" + module.path + "\" lists what it has");
     });
   }();
-  return results < 0 ? lua_error(L) : results;
+  return results < 0 ? mistaken_field(L) : results;
 }
 
 int module_new_index(lua_State* L) {

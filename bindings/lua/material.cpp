@@ -16,7 +16,7 @@ const Block<Material>& material_block() {
           quantity("young", &Material::young, dimension::pressure, above(0), "Young's modulus"),
           number("poisson", &Material::poisson, {-1, 0.5, true, false, false}, "Poisson's ratio"),
           quantity("hardness", &Material::hardness, dimension::pressure, above(0).or_never(),
-                   "indentation hardness"),
+                   "indentation hardness; effects.plasticity tells how two bodies share what yields"),
           quantity("density", &Material::density, dimension::density, above(0), "mass per volume"),
           text("name", &Material::name, "what to call it"),
       }};
@@ -26,6 +26,9 @@ const Block<Material>& material_block() {
 Values make_material(Call& call) {
   const Argument first = call.argument(1);
   if (first.is_text()) return {object(named_material(first.text()))};
+  if (first.is_nil())
+    throw Error(ErrorCode::bad_value, "lab.material was given nothing (nil)",
+                "give a name, such as lab.material \"Al-2011\", or a table of properties");
   Material material = call.options(material_block());
   if (material.name.empty()) material.name = "unnamed";
   check(material);

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/measure.hpp"
 
+#include <cmath>
+
+#include "bindings/lua/guard.hpp"
+#include "bindings/lua/session.hpp"
+#include "engine/core/text.hpp"
 #include "engine/metrology/levelling.hpp"
 
 namespace asperity::lua {
@@ -79,14 +84,16 @@ const Block<FractalDimensionOptions>& fractal_dimension_block(bool surface) {
   using O = FractalDimensionOptions;
   auto make = [](bool areal) {
     std::vector<Option<O>> options = {
-        choice("method", &O::method,
-               {{"length", DimensionMethod::length},
-                {"psd", DimensionMethod::psd},
-                {"structure", DimensionMethod::structure},
-                {"box", DimensionMethod::box},
-                {"madogram", DimensionMethod::madogram}},
-               "profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure "
-               "function, box counting or madogram"),
+        choice(
+            "method", &O::method,
+            {{"length", DimensionMethod::length},
+             {"psd", DimensionMethod::psd},
+             {"structure", DimensionMethod::structure},
+             {"box", DimensionMethod::box},
+             {"madogram", DimensionMethod::madogram}},
+            "profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure "
+            "function, box counting or madogram; the `lengths` of the result are what the method measures at "
+            "each of its `steps`, profile lengths by \"length\" alone"),
         custom<O>("steps", "integer[]", "steps in samples, e.g. {1, 2, 4, 8, 16}",
                   [](const Argument& value, const OptionInfo& info, O& o, Problems& problems) {
                     if (!value.is_table() || value.length() < 2)
@@ -121,12 +128,30 @@ const Block<FractalDimensionOptions>& fractal_dimension_block(bool surface) {
 
 const Block<GaussianFilter>& filter_block() {
   using O = GaussianFilter;
-  static const Block<O> block{"filtered",
-                              {quantity("short_wave", &O::short_wave, dimension::length, above(0),
-                                        "waves shorter than this are attenuated"),
-                               quantity("long_wave", &O::long_wave, dimension::length, above(0).or_never(),
-                                        "waves longer than this are attenuated")}};
+  static const Block<O> block{
+      "filtered",
+      {quantity("short_wave", &O::short_wave, dimension::length, above(0),
+                "waves shorter than this are attenuated"),
+       quantity(
+           "long_wave", &O::long_wave, dimension::length, above(0).or_never(),
+           "waves longer than this are attenuated; the `long_wave` of a generator is the longest it makes")}};
   return block;
+}
+
+void warn_of_empty_filter(const Call& call, const GaussianFilter& filter, double length, double spacing) {
+  const auto warn = [&](const char* key, double wave, const std::string& why) {
+    call.session().monitor().warn(where(call.L) + call.function_name() + ": " + quoted(key) + " is " +
+                                  format_quantity(wave, dimension::length) + ", and " + why);
+  };
+  // A cut-off given as the length itself, computed another way, is that length.
+  constexpr double rounding = 1e-9;
+  if (filter.long_wave && std::isfinite(*filter.long_wave) && *filter.long_wave > length * (1 + rounding))
+    warn("long_wave", *filter.long_wave,
+         "no wave is longer than the " + format_quantity(length, dimension::length) +
+             " there are: little more than the mean is taken away");
+  if (filter.short_wave && *filter.short_wave < 2 * spacing * (1 - rounding))
+    warn("short_wave", *filter.short_wave,
+         "points " + format_quantity(spacing, dimension::length) + " apart carry no wave so short");
 }
 
 const Block<LevelKeys>& level_block() {

@@ -23,6 +23,8 @@ struct LevelKeys {
 const Block<SpectrumOptions>& spectrum_block();
 const Block<FractalDimensionOptions>& fractal_dimension_block(bool surface);
 const Block<GaussianFilter>& filter_block();
+// Warns of a cut-off that lies past every wave that heights of this length and spacing can carry.
+void warn_of_empty_filter(const Call& call, const GaussianFilter& filter, double length, double spacing);
 const Block<LevelKeys>& level_block();
 
 // `fraction` of cut{fraction=}.

@@ -3,6 +3,7 @@
 // methods, and by which a native value is known.
 #include "bindings/lua/guard.hpp"
 #include "bindings/lua/ledger.hpp"
+#include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/registry.hpp"
 #include "engine/core/text.hpp"
@@ -41,7 +42,7 @@ int outer_index(lua_State* L) {
   if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;  // a method
   lua_pop(L, 1);
   const int results = guarded_field(L, *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1))));
-  return results < 0 ? lua_error(L) : results;
+  return results < 0 ? mistaken_field(L) : results;
 }
 
 int guarded_new_index(lua_State* L, const Class& type) {
@@ -57,7 +58,7 @@ int guarded_new_index(lua_State* L, const Class& type) {
 
 int outer_new_index(lua_State* L) {
   guarded_new_index(L, *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1))));
-  return lua_error(L);
+  return noted_as_mistake(L) ? 0 : lua_error(L);
 }
 
 int outer_to_string(lua_State* L) {
@@ -101,9 +102,23 @@ int outer_length(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
+// A native value has fields to read and methods to call, and nothing to walk over.
+int outer_pairs(lua_State* L) {
+  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const int results = [&] {
+    static const std::string name = "pairs";
+    return guarded(L, name, [&]() -> Values {
+      throw Error(ErrorCode::bad_value, type.article_name + " is no table",
+                  "help \"" + type.name + "\" lists its fields and methods");
+    });
+  }();
+  return results < 0 ? lua_error(L) : results;
+}
+
 void drop(Object* object) {
   if (object == nullptr) return;
   object->pointer.reset();
+  object->known.reset();
   object->closed = true;
 }
 
@@ -136,6 +151,12 @@ void set_class_method(lua_State* L, const char* name, lua_CFunction function, co
 
 }  // namespace
 
+int mistaken_field(lua_State* L) {
+  if (!noted_as_mistake(L)) return lua_error(L);
+  push_unknown(L);
+  return 1;
+}
+
 Object* native_at(lua_State* L, int index) {
   void* block = lua_touserdata(L, index);
   if (lua_type(L, index) != LUA_TUSERDATA || lua_getmetatable(L, index) == 0) return nullptr;
@@ -167,6 +188,7 @@ void push_metatable(lua_State* L, const Class& type) {
   set_class_method(L, "__newindex", outer_new_index, type);
   set_class_method(L, "__tostring", outer_to_string, type);
   set_class_method(L, "__eq", outer_equal, type);
+  set_class_method(L, "__pairs", outer_pairs, type);
   if (type.length != nullptr) set_class_method(L, "__len", outer_length, type);
   set_class_method(L, "__gc", release, type);
   set_class_method(L, "__close", outer_close, type);

@@ -44,10 +44,30 @@ Entry named_entry(std::string_view key) {
   return entry;
 }
 
-// "3 um" is a number with a unit, and not text: it is kept in SI.
-void keep_quantity(Entry& entry) {
+bool begins_a_number(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return false;
+  text.remove_prefix(first);
+  if (text.front() == '+' || text.front() == '-') text.remove_prefix(1);
+  if (!text.empty() && text.front() == '.') text.remove_prefix(1);
+  return !text.empty() && text.front() >= '0' && text.front() <= '9';
+}
+
+// "3 um" is a number with a unit, and not text: it is kept in the unit of its column, in SI where that has
+// none. Throws Error{bad_unit} for a quantity of another kind than the column's.
+void keep_quantity(Entry& entry, const std::string& unit) {
   const auto* text = std::get_if<std::string>(&entry.value);
-  if (text == nullptr || !entry.unit.empty()) return;
+  if (text == nullptr) return;
+  if (!unit.empty()) {
+    if (!begins_a_number(*text)) return;  // "worn" stays text
+    try {
+      entry.value = parse_quantity_in(*text, unit);
+    } catch (const Error& error) {
+      throw Error(ErrorCode::bad_unit, "column " + quoted(entry.column) + ": " + error.sentence(),
+                  error.hint());
+    }
+    return;
+  }
   try {
     const Quantity quantity = parse_quantity(*text);
     if (quantity.dimension == dimension::number) return;
@@ -65,6 +85,7 @@ Values write_row(Call& call) {
                 "write book:write{ N=1, mu=0.4 }");
   std::vector<Entry> row;
   const bool dry = call.session().dry_run;
+  auto& book = call.self<Notebook>();
   table.each([&](const Argument& key, const Argument& value) {
     if (!key.is_text())
       throw Error(ErrorCode::bad_value, "a column is named by " + key.describe(),
@@ -78,13 +99,13 @@ Values write_row(Call& call) {
     Entry entry = named_entry(key.text());
     entry.value = *cell;
     if (!entry.unit.empty()) parse_unit(entry.unit);
-    keep_quantity(entry);
+    keep_quantity(entry, entry.unit.empty() ? book.unit_of(entry.column) : entry.unit);
     row.push_back(std::move(entry));
   });
   if (row.empty() && dry) return {};
   // Lua keeps no order of keys; a new column's place must not depend on chance.
   std::sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
-  call.self<Notebook>().write(row);
+  book.write(row);
   return {};
 }
 
@@ -160,8 +181,8 @@ Option<O> where_key(TableFilter O::*member) {
                    });
 }
 
-// A plain number, or a quantity of any dimension.
-Option<Expectation> bound_key(const char* name, std::optional<double> Expectation::*member,
+// A plain number, in the column's unit, or a quantity of any dimension, which the column's unit must share.
+Option<Expectation> bound_key(const char* name, std::optional<ExpectedValue> Expectation::*member,
                               const char* sentence) {
   return custom<Expectation>(
       name, "number", sentence,
@@ -170,7 +191,7 @@ Option<Expectation> bound_key(const char* name, std::optional<double> Expectatio
           e.*member = value.number();
         } else if (value.is_text()) {
           try {
-            e.*member = parse_quantity(value.text()).value;
+            e.*member = ExpectedValue(value.text());
           } catch (const Error& error) {
             problems.push_back(quoted(info.name) + ": " + error.what());
           }
@@ -184,7 +205,11 @@ const Block<Expectation>& expect_block() {
   using E = Expectation;
   static const Block<E> block{
       "expect",
-      {where_key(&E::where), bound_key("near", &E::near, "the value wanted, with `within` or `rel`"),
+      {where_key(&E::where),
+       bound_key(
+           "near", &E::near,
+           "the value wanted, with `within` or `rel`: a number in the column's unit, or a quantity such as "
+           "\"10 MPa\", which is converted to it"),
        bound_key("within", &E::within, "greatest distance from `near`"),
        number("rel", &E::relative, at_least(0), "greatest distance from `near`, relative to it"),
        bound_key("at_least", &E::at_least, "lowest value accepted"),

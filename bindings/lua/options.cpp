@@ -2,9 +2,13 @@
 #include "bindings/lua/options.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
+#include "bindings/lua/guard.hpp"
 #include "bindings/lua/refinement.hpp"
+#include "bindings/lua/session.hpp"
 #include "bindings/lua/variation.hpp"
 
 namespace asperity::lua {
@@ -56,6 +60,27 @@ std::string wanted_quantity(const OptionInfo& info, const NumberRange& range, bo
 }
 }  // namespace
 
+namespace {
+// A bare number that is SI by the rules and reads like another unit.
+void warn_of_bare_number(const Argument& value, const OptionInfo& info, double number) {
+  std::string sentence;
+  if (info.dimension == dimension::angle && std::abs(number) > 2 * std::numbers::pi) {
+    sentence = quoted(info.name) + " is " + format_short(number) +
+               " rad, over a whole turn: a number without a unit is in radians; write \"" +
+               format_short(number) + " deg\"";
+  } else if (info.dimension == dimension::pressure && (info.name == "young" || info.name == "hardness") &&
+             number > 1 && number < 1000) {  // 1 is what problems without units take
+    sentence = quoted(info.name) + " is " + format_short(number) +
+               " Pa, softer than any solid: a number without a unit is in Pa; write \"" +
+               format_short(number) + " GPa\"";
+  } else {
+    return;
+  }
+  const Session* session = Session::find(value.state());
+  if (session != nullptr) session->monitor().warn(where(value.state()) + sentence);
+}
+}  // namespace
+
 std::optional<double> read_quantity(const Argument& value, const OptionInfo& info, const NumberRange& range,
                                     Problems& problems) {
   if (value.is_unknown()) return {};
@@ -64,6 +89,7 @@ std::optional<double> read_quantity(const Argument& value, const OptionInfo& inf
   if (value.is_number()) {
     number = value.number();
     found = format_short(number, 10);
+    warn_of_bare_number(value, info, number);
     if (info.dimension != dimension::number) found += " " + si_unit(info.dimension);
   } else if (value.is_text()) {
     try {
@@ -92,13 +118,41 @@ std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo
   if (value.is_unknown()) return {};
   const std::string limits = range.text({});
   const std::string wanted = "a whole number" + (limits.empty() ? "" : " " + limits);
-  if (!value.is_number()) {
+  std::optional<std::int64_t> number;
+  std::string found;
+  if (value.is_number()) {
+    number = value.integer();
+    found = format_short(value.number(), 10);
+  } else if (value.is_text()) {
+    // As for any other number: "64" is 64, and "64 um" a length where a number is wanted.
+    std::optional<Quantity> quantity;
+    try {
+      quantity = parse_quantity(value.text());
+    } catch (const Error&) {
+      wrong_type(value, info, wanted, problems);
+      return {};
+    }
+    try {
+      const double given = quantity->dimension == dimension::number
+                               ? quantity->value
+                               : parse_quantity_as(value.text(), dimension::number);
+      constexpr double exact = 9007199254740992;  // 2^53
+      if (given == std::floor(given) && std::abs(given) <= exact) number = static_cast<std::int64_t>(given);
+    } catch (const Error& error) {
+      // "64 um" is a quantity of another kind; "ten" is no number at all.
+      if (value.text().find_first_of("0123456789") == std::string_view::npos)
+        wrong_type(value, info, wanted, problems);
+      else
+        problems.push_back(quoted(info.name) + ": " + error.what());
+      return {};
+    }
+    found = "\"" + std::string(value.text().substr(0, 40)) + "\"";
+  } else {
     wrong_type(value, info, wanted, problems);
     return {};
   }
-  const auto number = value.integer();
   if (!number || !range.contains(static_cast<double>(*number))) {
-    problems.push_back(quoted(info.name) + " is " + format_short(value.number(), 10) + "; give " + wanted);
+    problems.push_back(quoted(info.name) + " is " + found + "; give " + wanted);
     return {};
   }
   return number;

@@ -16,6 +16,7 @@
 
 #include "bindings/lua/base_library.hpp"
 #include "bindings/lua/lua_api.hpp"
+#include "bindings/lua/script_spelling.hpp"
 #include "bindings/lua/value.hpp"
 #include "engine/core/memory.hpp"
 
@@ -45,13 +46,15 @@ class Parcel {
   const Value* native() const;
 
   // What the value is and, of functions, what they do, the same in every process of this build: code without
-  // the names of its files and lines, upvalues, globals.
+  // the names of its files and lines, upvalues, globals. The folder in which `require` looks, and the
+  // script's own name in `arg[0]` unless a function names `arg`, are left out where they are as `spelling`
+  // says.
   struct Content {
     std::string digest;
-    std::string lines;  // of the same with names of files and lines
+    std::string lines;  // of the same with the numbers of its lines
     bool whole = true;  // false where it holds values that a digest does not tell from all others
   };
-  Content content() const;
+  Content content(const ScriptSpelling& spelling = {}) const;
 
   // Globals that could not come along: name -> "`app.bench` is a contact".
   const std::map<std::string, std::string>& left_behind() const { return left_behind_; }

@@ -4,12 +4,14 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <optional>
 #include <type_traits>
 
 #include "bindings/lua/code_digest.hpp"
 #include "bindings/lua/grid_keys.hpp"
 #include "bindings/lua/parcel.hpp"
 #include "bindings/lua/registry.hpp"
+#include "bindings/lua/state.hpp"
 #include "bindings/lua/surface.hpp"
 #include "engine/core/digest.hpp"
 
@@ -33,12 +35,15 @@ void add(Digester& digester, const Material& material) {
 // Nodes and cells are numbered in the order in which sorted keys and upvalues lead to them.
 struct Parcel::ContentDigest {
   const Parcel& parcel;
+  const ScriptSpelling& spelling;
   Digester digester{}, lines{};
   bool whole = true;
   std::vector<std::int64_t> node_number = std::vector<std::int64_t>(parcel.nodes_.size(), -1);
   std::vector<std::int64_t> cell_number = std::vector<std::int64_t>(parcel.cells_.size(), -1);
   std::vector<std::uint32_t> nodes{}, cells{};
   std::size_t node_done = 0, cell_done = 0;
+  std::optional<std::uint32_t> arguments{};  // the node of `arg`, where only its name leads there
+  bool names_arguments = false;
 
   static std::int64_t number(std::uint32_t id, std::vector<std::int64_t>& numbers,
                              std::vector<std::uint32_t>& order) {
@@ -160,8 +165,37 @@ struct Parcel::ContentDigest {
   }
   void add(const BasePath& path) { digester.add(path.library).add(path.key); }
 
-  void add(const Table& table) {
+  // The script's own name, as it was typed.
+  bool is_script_name(const Entry& entry) const {
+    const auto* key = std::get_if<std::int64_t>(&entry.key);
+    const auto* name = std::get_if<std::string>(&entry.value);
+    return key != nullptr && *key == 0 && name != nullptr && *name == spelling.path;
+  }
+  bool is_arguments(const Addition& addition) const {
+    const BasePath& base = parcel.bases_[addition.table.index];
+    const auto* key = std::get_if<std::string>(&addition.entry.key);
+    return base.library == "_G" && base.key.empty() && key != nullptr && *key == "arg" &&
+           std::holds_alternative<NodeId>(addition.entry.value);
+  }
+  // The path of `require` as a script's state begins with it.
+  bool is_path_of_script(const Addition& addition) const {
+    const BasePath& base = parcel.bases_[addition.table.index];
+    const auto *key = std::get_if<std::string>(&addition.entry.key),
+               *path = std::get_if<std::string>(&addition.entry.value);
+    return base.library == "package" && base.key.empty() && key != nullptr && *key == "path" &&
+           path != nullptr && !spelling.folder.empty() && *path == search_path(spelling.folder);
+  }
+  // A constant of that text in the code, as Lua dumps it: its length and one, marked, and its bytes.
+  static bool names_arg(const ScriptFunction& function) {
+    return function.code.find(
+               "\x84"
+               "arg") != std::string::npos;
+  }
+
+  void add(const Table& table, bool without_script_name = false) {
     Array<Entry> entries = table.entries;
+    if (without_script_name)
+      std::erase_if(entries, [&](const Entry& entry) { return is_script_name(entry); });
     // Keys that have no order of their own keep that of memory: two runs may then differ, and not find.
     std::sort(entries.begin(), entries.end(), before);
     digester.add("table").add(static_cast<std::int64_t>(entries.size()));
@@ -173,7 +207,8 @@ struct Parcel::ContentDigest {
   }
   void add(const ScriptFunction& function) {
     digester.add("function").add(code_digest(function.code));
-    lines.add(function.code);
+    lines.add(code_digest(function.code, CodeLines::counted));
+    names_arguments = names_arguments || names_arg(function);
     for (const std::uint32_t cell : function.cells) digester.add(number(cell, cell_number, cells));
   }
   void add(const HostFunction& function) {
@@ -184,9 +219,14 @@ struct Parcel::ContentDigest {
 
   void everything_reached() {
     while (node_done < nodes.size() || cell_done < cells.size()) {
-      if (node_done < nodes.size())
-        std::visit([&](const auto& held) { add(held); }, parcel.nodes_[nodes[node_done++]]);
-      else
+      if (node_done < nodes.size()) {
+        const std::uint32_t node = nodes[node_done++];
+        const Table* table = std::get_if<Table>(&parcel.nodes_[node]);
+        if (table != nullptr && arguments == node && !names_arguments)
+          add(*table, true);
+        else
+          std::visit([&](const auto& held) { add(held); }, parcel.nodes_[node]);
+      } else
         add(parcel.cells_[cells[cell_done++]].value);
     }
   }
@@ -202,16 +242,32 @@ struct Parcel::ContentDigest {
       if (first.library != second.library) return first.library < second.library;
       return before(a->entry, b->entry);
     });
+    // Globals may be functions that name `arg`: all of them come before it.
+    const Addition* last = nullptr;
     for (const Addition* addition : additions) {
+      if (is_path_of_script(*addition)) continue;
+      if (is_arguments(*addition)) {
+        last = addition;
+        continue;
+      }
       add(parcel.bases_[addition->table.index]);
       add(addition->entry.key);
       add(addition->entry.value);
     }
     everything_reached();
+    if (last == nullptr) return {digester.hex(), lines.hex(), whole};
+    const std::uint32_t node = std::get<NodeId>(last->entry.value).index;
+    if (node_number[node] < 0) arguments = node;
+    add(parcel.bases_[last->table.index]);
+    add(last->entry.key);
+    add(last->entry.value);
+    everything_reached();
     return {digester.hex(), lines.hex(), whole};
   }
 };
 
-Parcel::Content Parcel::content() const { return ContentDigest{*this}.all(); }
+Parcel::Content Parcel::content(const ScriptSpelling& spelling) const {
+  return ContentDigest{*this, spelling}.all();
+}
 
 }  // namespace asperity::lua

@@ -132,6 +132,14 @@ void push_unknown(lua_State* L) {
   lua_setmetatable(L, -2);
 }
 
+bool holds_unknown(const Argument& value, int depth) {
+  if (value.is_unknown()) return true;
+  if (depth == 0 || !value.is_table()) return false;
+  bool found = false;
+  value.each([&](const Argument&, const Argument& item) { found = found || holds_unknown(item, depth - 1); });
+  return found;
+}
+
 Value placeholder_of(const std::string& type) {
   if (type.empty() || type == "nil") return {};
   if (type.ends_with("?")) return placeholder_of(type.substr(0, type.size() - 1));

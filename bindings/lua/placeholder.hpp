@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "bindings/lua/argument.hpp"
 #include "bindings/lua/lua_api.hpp"
 #include "bindings/lua/value.hpp"
 
@@ -17,6 +18,9 @@ void push_unknown(lua_State* L);
 // The placeholder for a result of this declared type ("Surface", "number", "Profile[]", "Profile[] with
 // tip_effect and lines", …).
 Value placeholder_of(const std::string& type);
+
+// Whether a value is a placeholder, or a table that holds one within `depth` levels.
+bool holds_unknown(const Argument& value, int depth);
 
 // Begins the message of a dry run that cannot follow the script further.
 inline constexpr const char* cannot_follow =

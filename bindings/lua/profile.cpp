@@ -56,7 +56,11 @@ Values fractal_dimension_of_profile(Call& call) {
       fractal_dimension(call.self<Profile>(), call.options(fractal_dimension_block(false))))};
 }
 Values filtered_profile(Call& call) {
-  return {object(gaussian_filtered(call.self<Profile>(), call.options(filter_block())))};
+  const GaussianFilter filter = call.options(filter_block());
+  const Profile& profile = call.self<Profile>();
+  Values result = {object(gaussian_filtered(profile, filter))};
+  warn_of_empty_filter(call, filter, profile.length(), profile.spacing());
+  return result;
 }
 Values level_profile(Call& call) {
   return {object(levelled(call.self<Profile>(), call.options(level_block()).degree))};
@@ -77,7 +81,7 @@ const Block<ProfilePictureKeys>& profile_picture_block() {
 Values picture_of_profile(Call& call) {
   const ProfilePictureKeys keys = call.options(profile_picture_block(), 2);
   const std::string path = writable_path(call, call.text(1, "path"));
-  draw(call.self<Profile>(), keys.title, path);
+  warn_of(call, draw(call.self<Profile>(), keys.title, path));
   return {path};
 }
 
@@ -172,7 +176,9 @@ const Class& profile_class() {
          .example = "local x, y = grain:outline()"},
         {.name = "roughness",
          .body = roughness_of_profile,
-         .sentence = "Amplitude and slope statistics (ISO 21920-2).",
+         .sentence =
+             "Amplitude and slope statistics (ISO 21920-2): Ra, Rq, amplitude (peak to valley), skewness, "
+             "kurtosis, rms_slope, peak, valley, mean.",
          .returns = "table",
          .example = "print(p:roughness().Ra)"},
         {.name = "spectrum",
@@ -204,7 +210,8 @@ const Class& profile_class() {
          .example = "p:levelled()"},
         {.name = "cut",
          .body = cut_off_profile,
-         .sentence = "Heights above max - fraction * peak-to-valley brought down to it.",
+         .sentence = "Heights above max - fraction * peak-to-valley brought down to it; the profile keeps "
+                     "its length.",
          .options = &cut_block(),
          .returns = "Profile",
          .example = "p:cut{ fraction=0.2 }"},

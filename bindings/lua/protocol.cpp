@@ -73,17 +73,20 @@ Values on(Call& call) {
   auto pair =
       std::static_pointer_cast<SpecimenPair>(call.argument(1).as_object(class_of<SpecimenPair>())->pointer);
   auto run = std::make_shared<ProtocolRun>(call.self<Protocol>(), std::move(pair));
-  return {Iterator{[run](Call& turn) -> std::optional<Values> {
-                     if (run->finished()) return std::nullopt;
-                     const std::size_t k = run->next();
-                     const std::optional<asperity::State> state = run->step(turn.session().monitor());
-                     Values values{event_record(run->protocol(), k), state ? object(*state) : Value()};
-                     if (const auto* press = std::get_if<PressRequest>(&run->protocol().events()[k].step))
-                       record_press(turn.session(), std::shared_ptr<SpecimenPair>(run, &run->pair()), *press,
-                                    *state);
-                     return values;
-                   },
-                   call.function_name()}};
+  return {Iterator{
+      [run](Call& turn) -> std::optional<Values> {
+        if (run->finished()) return std::nullopt;
+        if (run->pair().closed())
+          throw Error(ErrorCode::bad_state, "the contact of the protocol was closed inside its loop",
+                      "close it after the loop");
+        const std::size_t k = run->next();
+        const std::optional<asperity::State> state = run->step(turn.session().monitor());
+        Values values{event_record(run->protocol(), k), state ? object(*state) : Value()};
+        if (const auto* press = std::get_if<PressRequest>(&run->protocol().events()[k].step))
+          record_press(turn.session(), std::shared_ptr<SpecimenPair>(run, &run->pair()), *press, *state);
+        return values;
+      },
+      call.function_name()}};
 }
 
 // --- the recording

@@ -71,7 +71,7 @@ int record_index(lua_State* L) {
     }
   }
   missing_field(L);
-  return lua_error(L);
+  return mistaken_field(L);
 }
 
 int record_new_index(lua_State* L) {

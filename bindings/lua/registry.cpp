@@ -10,7 +10,9 @@
 #include "bindings/lua/explanation.hpp"
 #include "bindings/lua/friction.hpp"
 #include "bindings/lua/guard.hpp"
+#include "bindings/lua/known_body.hpp"
 #include "bindings/lua/ledger.hpp"
+#include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/result_digest.hpp"
 #include "bindings/lua/session.hpp"
@@ -79,15 +81,6 @@ void check_count(const Call& call, const Function& function) {
                     " and was given " + std::to_string(call.count()));
 }
 
-// Whether a value is a placeholder, or a table that holds one within `depth` levels.
-bool holds_unknown(const Argument& value, int depth) {
-  if (value.is_unknown()) return true;
-  if (depth == 0 || !value.is_table()) return false;
-  bool found = false;
-  value.each([&](const Argument&, const Argument& item) { found = found || holds_unknown(item, depth - 1); });
-  return found;
-}
-
 bool any_argument_unknown(const Call& call) {
   constexpr int nested_options = 3;
   for (int k = 1; k <= call.count(); ++k)
@@ -133,6 +126,12 @@ std::int64_t presses_of(const Call& call) {
   return presses;
 }
 
+Values placeholders_of(const Function& function) {
+  Values results;
+  for (const std::string& type : result_types(function)) results.push_back(placeholder_of(type));
+  return results;
+}
+
 // A dry run reads the arguments and gives placeholders.
 Values dry_call(const Call& call, const Function& function) {
   if (Explanation* explanation = call.session().explanation.get(); explanation != nullptr && function.heavy) {
@@ -147,9 +146,12 @@ Values dry_call(const Call& call, const Function& function) {
     if (!table.is_unknown() && (!function.options_optional || call.given(k)))
       function.options->check(table, call.function_name());
   }
+  if (function.look != nullptr) function.look(call);
   call.session().gave_placeholders = true;
-  Values results;
-  for (const std::string& type : result_types(function)) results.push_back(placeholder_of(type));
+  Values results = placeholders_of(function);
+  if (function.returns == surface_class().name)
+    if (auto* surface = std::get_if<Object>(&results.front().data))
+      surface->known = known_result(call, function);
   return results;
 }
 
@@ -164,6 +166,7 @@ Values call_function(lua_State* L, const Entry& entry) {
                   entry.name + " was called on " + Argument(L, 1).describe() + ", not on " +
                       entry.owner->article_name,
                   "write a colon: x:" + function.name + "(...)");
+    if (self->closed && function.name == "close") return {};  // twice does no harm
     if (self->closed)
       throw Error(ErrorCode::bad_state, entry.owner->article_name + " was used after it was closed");
     placeholder_self = self->is_placeholder();
@@ -190,9 +193,17 @@ int guarded_function(lua_State* L, const Entry& entry) {
   });
 }
 
+// A dry run goes on past a mistake with placeholders for the results.
+int after_failure(lua_State* L, const Entry& entry) {
+  if (!noted_as_mistake(L)) return -1;
+  return guarded(L, entry.name, [&] { return placeholders_of(*entry.function); });
+}
+
 // The outer frame of every function: nothing here has a destructor.
 int outer_function(lua_State* L) {
-  const int results = guarded_function(L, *static_cast<const Entry*>(lua_touserdata(L, lua_upvalueindex(1))));
+  const Entry& entry = *static_cast<const Entry*>(lua_touserdata(L, lua_upvalueindex(1)));
+  int results = guarded_function(L, entry);
+  if (results < 0) results = after_failure(L, entry);
   return results < 0 ? lua_error(L) : results;
 }
 

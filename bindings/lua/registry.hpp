@@ -25,6 +25,8 @@ class Session;
 
 using Body = Values (*)(Call&);
 
+class Call;
+
 struct Parameter {
   std::string name{};  // "i"; a trailing "?" in `type` means optional
   std::string type{};  // a type of the language: "number", "string", "Surface", "function"
@@ -41,6 +43,8 @@ struct Function {
   std::string returns{};  // "State", "number", "Profile[]", "iterator<State>", "number, string", "" for none
   std::string example{};  // required; a line that runs after example_preamble()
   bool heavy = false;     // not run by `asperity check`
+  // What a dry run does with arguments that hold placeholders, beside reading the options; null: nothing.
+  void (*look)(const Call& call) = nullptr;
 };
 
 // The types of its results one by one.
@@ -156,6 +160,9 @@ const std::string& qualified_name(const Function& function);
 const std::string* name_of_entry(const void* pointer);
 // Makes the metatable of a class, if it is not there yet, and pushes it.
 void push_metatable(lua_State* L, const Class& type);
+// What a look-up that failed, with its error on the stack, ends with: the error raised, or in a dry run that
+// goes on past mistakes a placeholder for the field.
+int mistaken_field(lua_State* L);
 // The native value at an index if it is one of ours, whatever its class; null otherwise.
 Object* native_at(lua_State* L, int index);
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bindings/lua/lua_api.hpp"
+#include "bindings/lua/script_spelling.hpp"
 #include "bindings/lua/value.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/experiment/ledger.hpp"
@@ -25,6 +26,7 @@ class RunDirectory;
 namespace asperity::lua {
 
 class Explanation;
+class Mistakes;
 class Ranks;
 struct CaseInput;
 struct Refinement;
@@ -74,6 +76,8 @@ class Session {
   std::shared_ptr<RunDirectory> run;  // null when nothing is recorded
   // Of a dry run that makes surfaces and plans contacts, to say what the script will compute; else null.
   std::shared_ptr<Explanation> explanation;
+  // Of a dry run that goes on past mistakes and tells all of them; else null.
+  std::shared_ptr<Mistakes> mistakes;
   // What this state's calls cost; the states of cases write into that of their ensemble.
   std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
   std::function<void(int)> exit_hook;      // what os.exit(code) does before the process ends
@@ -82,6 +86,7 @@ class Session {
   std::map<std::string, int> studies;      // names given to studies of work and precision, and how often
   std::shared_ptr<Refinement> refinement;  // of a script that a study of accuracy runs again; may be null
   std::shared_ptr<Variation> variation;  // of a recorded run that is run again with other values; may be null
+  ScriptSpelling script;                 // as it was named; empty where there is none
   std::string script_digest;             // of the text of the script and its arguments; may be empty
   int ensembles = 0;                     // that the script has begun
   std::optional<Shard> shard;            // of a run that computes some of the cases only

@@ -40,21 +40,21 @@ void show_map(const Call& call, const Grid& grid, const Field& values, const std
   if (options.palette == PictureOptions{}.palette) options.palette = palette;
   if (!file) return say(call, text_map(grid, values, options, dimension, text_canvas()));
   const std::string path = writable_path(call, *file);
-  draw(grid, values, options, path);
+  warn_of(call, draw(grid, values, options, path));
   say(call, "drawn in " + path + "\n");
 }
 
 void show_chart(const Call& call, const LineChart& chart) {
   std::vector<std::string> warnings;
   const std::string text = text_chart(chart, text_canvas(), warnings);
-  for (const std::string& warning : warnings) call.session().monitor().warn(warning);
+  warn_of(call, warnings);
   say(call, text);
 }
 
 void show_profile(const Call& call, const Profile& profile) {
   if (const auto file = file_given(call)) {
     const std::string path = writable_path(call, *file);
-    draw(profile, "", path);
+    warn_of(call, draw(profile, "", path));
     return say(call, "drawn in " + path + "\n");
   }
   LineChart chart;

@@ -4,11 +4,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "bindings/lua/embedded.hpp"
 #include "bindings/lua/ensemble_case.hpp"
+#include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/registry.hpp"
 #include "engine/core/error.hpp"
@@ -24,8 +26,45 @@ namespace {
 // shows whether the refusal was final.
 thread_local std::optional<std::pair<void*, std::size_t>> refused;
 
-// Lua's heap falls under the same limit as the engine's grids.
-void* allocate(void*, void* block, std::size_t old_size, std::size_t new_size) {
+// Where the script was at the last refusal. Lua's own error of memory has no place, and is raised after the
+// stack is gone; a place is written here without asking for memory.
+struct RefusalPlace {
+  char line[96] = "";     // "script.lua:12: "
+  char trace[1024] = "";  // "\n\tscript.lua:12: in main chunk" and so on
+};
+thread_local RefusalPlace refusal_place;
+
+void note_refusal_place(lua_State* L) {
+  RefusalPlace& place = refusal_place;
+  std::size_t used = 0;
+  lua_Debug frame;
+  constexpr int deepest = 16;
+  for (int level = 0; level < deepest && lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    if (frame.currentline <= 0) continue;
+    if (place.line[0] == '\0')
+      std::snprintf(place.line, sizeof place.line, "%s:%d: ", frame.short_src, frame.currentline);
+    const bool main = frame.what[0] == 'm';
+    const int wrote =
+        main ? std::snprintf(place.trace + used, sizeof place.trace - used, "\n\t%s:%d: in main chunk",
+                             frame.short_src, frame.currentline)
+             : std::snprintf(place.trace + used, sizeof place.trace - used, "\n\t%s:%d: in function <%s:%d>",
+                             frame.short_src, frame.currentline, frame.short_src, frame.linedefined);
+    if (wrote < 0 || static_cast<std::size_t>(wrote) >= sizeof place.trace - used) break;
+    used += static_cast<std::size_t>(wrote);
+  }
+}
+
+// Whether a request may be for a thread's stack, which is no bigger than a million values of 16 bytes and
+// some: while the stack is moved its frames cannot be read.
+bool may_move_a_stack(const void* block, std::size_t old_size, std::size_t new_size) {
+  constexpr std::size_t slot = 16, biggest = 1'100'000 * slot;
+  return block != nullptr && old_size % slot == 0 && new_size % slot == 0 && new_size <= biggest;
+}
+
+// Lua's heap falls under the same limit as the engine's grids. `main` is the state's main thread, null
+// while it is being made.
+void* allocate(void* main, void* block, std::size_t old_size, std::size_t new_size) {
   const auto held = static_cast<std::int64_t>(block == nullptr ? 0 : old_size);
   if (new_size == 0) {
     std::free(block);
@@ -36,6 +75,9 @@ void* allocate(void*, void* block, std::size_t old_size, std::size_t new_size) {
   if (!memory::account(change)) {
     if (refused) memory::note_exceeded();
     refused = {block, new_size};
+    refusal_place = {};
+    if (main != nullptr && !may_move_a_stack(block, old_size, new_size))
+      note_refusal_place(static_cast<lua_State*>(main));
     return nullptr;
   }
   if (change > 0 && refused) {
@@ -52,7 +94,16 @@ int open_library(lua_State* L) {
   return 1;
 }
 
-// host.output_path(name) and host.input_path(name) -> path, or nil and why not.
+// Reading a pipe waits for whoever writes into it, perhaps for ever.
+void refuse_pipe(const std::string& name, const std::string& place) {
+  std::error_code none;
+  const auto status = std::filesystem::status(place, none);
+  if (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status))
+    throw Error(ErrorCode::bad_file, quoted(name) + " is no regular file, but a pipe or a socket",
+                "write what it gives into a file first");
+}
+
+// host.output_path(name) and host.input_path(name, is_module) -> path, or nil and why not.
 int path_body(lua_State* L, bool to_write) {
   std::string result;
   bool good = true;
@@ -61,7 +112,14 @@ int path_body(lua_State* L, bool to_write) {
     const std::string name(Argument(L, 1).text());
     if (!to_write) {
       result = session.run == nullptr ? name : session.run->place_to_read(name).string();
-      if (session.notes != nullptr) session.notes->inputs.push_back(input_of_case(result));
+      refuse_pipe(name, result);
+      if (session.notes != nullptr) {
+        CaseInput input = input_of_case(result);
+        const std::string folder = session.script.folder + "/";
+        if (lua_toboolean(L, 2) != 0 && folder.size() > 1 && result.starts_with(folder))
+          input.beside_script = result.substr(folder.size());
+        session.notes->inputs.push_back(std::move(input));
+      }
     } else {
       if (session.is_case)
         throw Error(ErrorCode::not_permitted, "a case of an ensemble writes no files",
@@ -119,6 +177,15 @@ int unknown_global_body(lua_State* L) {
 
 int unknown_global(lua_State* L) { return unknown_global_body(L) < 0 ? lua_error(L) : 1; }
 
+// host.mistaken(message) -> true and a placeholder in a dry run that goes on past mistakes; else false
+int mistaken(lua_State* L) {
+  const bool noted = noted_as_mistake(L);
+  lua_pushboolean(L, noted ? 1 : 0);
+  if (!noted) return 1;
+  push_unknown(L);
+  return 2;
+}
+
 // Ends the process; where it must not, why.
 const char* exit_body(lua_State* L, int code) {
   const Session& session = Session::of(L);
@@ -147,7 +214,7 @@ int exit_run(lua_State* L) {
 
 struct Setup {
   Session* session;
-  const char* script_folder;
+  const char* search_path;  // "" leaves Lua's own
 };
 
 // Raises Lua errors; runs under lua_pcall.
@@ -169,9 +236,9 @@ int set_up(lua_State* L) {
   lua_pop(L, 1);
   preload_embedded_scripts(L);
 
-  if (setup.script_folder[0] != '\0') {
+  if (setup.search_path[0] != '\0') {
     lua_getglobal(L, "package");
-    lua_pushfstring(L, "%s/?.lua;%s/?/init.lua", setup.script_folder, setup.script_folder);
+    lua_pushstring(L, setup.search_path);
     lua_setfield(L, -2, "path");
     lua_pop(L, 1);
   }
@@ -189,6 +256,8 @@ int set_up(lua_State* L) {
   lua_setfield(L, -2, "input_path");
   lua_pushcfunction(L, unknown_global);
   lua_setfield(L, -2, "unknown_global");
+  lua_pushcfunction(L, mistaken);
+  lua_setfield(L, -2, "mistaken");
   lua_pushboolean(L, session.trusted ? 1 : 0);
   lua_call(L, 2, 0);
   return 0;
@@ -196,13 +265,25 @@ int set_up(lua_State* L) {
 
 }  // namespace
 
+std::string placed_memory_error(const std::string& message) {
+  const RefusalPlace& place = refusal_place;
+  if (message != "not enough memory" || place.line[0] == '\0') return message;
+  return place.line + message + "\nstack traceback:" + place.trace;
+}
+
 bool memory_limit_met() { return memory::exceeded() || refused.has_value(); }
+
+std::string search_path(const std::string& script_folder) {
+  return script_folder + "/?.lua;" + script_folder + "/?/init.lua";
+}
 
 State make_state(Session& session, const std::string& script_folder) {
   State state(lua_newstate(allocate, nullptr));
   if (state == nullptr) throw Error(ErrorCode::out_of_memory, "there is no memory for a Lua state");
   lua_State* L = state.get();
-  Setup setup{&session, script_folder.c_str()};
+  lua_setallocf(L, allocate, L);
+  const std::string path = script_folder.empty() ? std::string() : search_path(script_folder);
+  Setup setup{&session, path.c_str()};
   lua_pushcfunction(L, set_up);
   lua_pushlightuserdata(L, &setup);
   if (lua_pcall(L, 1, 0, 0) != LUA_OK) {
@@ -213,20 +294,42 @@ State make_state(Session& session, const std::string& script_folder) {
 }
 
 namespace {
-void stop_hook(lua_State* L, lua_Debug*) {
-  switch (stop_flag().reason()) {
+const char* stop_sentence(StopReason reason) {
+  switch (reason) {
     case StopReason::none:
-      return;
+      break;
     case StopReason::interrupt:
-      luaL_error(L, "interrupted");
-      return;
+      return "interrupted";
     case StopReason::time_limit:
-      luaL_error(L, "the time limit of the run is reached");
-      return;
+      return "the time limit of the run is reached";
     case StopReason::memory_limit:
-      luaL_error(L, "the memory limit of the run is reached");
-      return;
+      return "the memory limit of the run is reached";
   }
+  return nullptr;
+}
+
+// Whether the hook was called for the handler that is about to write the traceback of a stop: stopped in its
+// turn, it could write none.
+bool calls_the_handler(lua_State* L, lua_Debug* frame) {
+  if (frame->event != LUA_HOOKCALL && frame->event != LUA_HOOKTAILCALL) return false;
+  lua_getinfo(L, "f", frame);
+  const bool same = lua_tocfunction(L, -1) == traceback_handler;
+  lua_pop(L, 1);
+  return same;
+}
+
+void stop_hook(lua_State* L, lua_Debug* frame) {
+  const char* sentence = stop_sentence(stop_flag().reason());
+  if (sentence == nullptr || calls_the_handler(L, frame)) return;
+  // The line that was running; of a C function that of its caller.
+  lua_Debug running;
+  for (int level = 0; level < 16 && lua_getstack(L, level, &running) != 0; ++level) {
+    lua_getinfo(L, "Sl", &running);
+    if (running.currentline <= 0) continue;
+    lua_pushfstring(L, "%s:%d: %s", running.short_src, running.currentline, sentence);
+    lua_error(L);
+  }
+  // No line runs: the script has ended, of this very stop it may be, whose message would be lost.
 }
 }  // namespace
 
@@ -269,7 +372,12 @@ int traceback_handler(lua_State* L) {
     lua_replace(L, 1);
   }
   lua_settop(L, 1);
+  // A stop that was raised is raised no more while its traceback is written.
+  const lua_Hook hook = lua_gethook(L);
+  const int mask = lua_gethookmask(L), count = lua_gethookcount(L);
+  lua_sethook(L, nullptr, 0, 0);
   luaL_traceback(L, L, lua_tostring(L, 1), 1);
+  lua_sethook(L, hook, mask, count);
   return 1;
 }
 

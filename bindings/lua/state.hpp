@@ -17,6 +17,9 @@ struct StateCloser {
 };
 using State = std::unique_ptr<lua_State, StateCloser>;
 
+// The pattern by which `require` looks in a folder.
+std::string search_path(const std::string& script_folder);
+
 // `script_folder` is where require looks for a script's own modules; may be empty. The session must
 // outlive the state. Throws Error{out_of_memory}.
 State make_state(Session& session, const std::string& script_folder);
@@ -34,6 +37,10 @@ bool memory_limit_met();
 
 // An error value as text: a string as it is, anything else as tostring would show it.
 std::string error_text(lua_State* L, int index);
+
+// Lua's own error of memory with the line that was running when memory was last refused and a traceback;
+// any other message as it is.
+std::string placed_memory_error(const std::string& message);
 
 // The message handler of an uncaught error: text of the value, whatever it is, and a traceback.
 int traceback_handler(lua_State* L);

@@ -11,9 +11,11 @@
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/state_error.hpp"
 #include "bindings/lua/surface.hpp"
+#include "engine/contact/doubts.hpp"
 #include "engine/contact/geometry.hpp"
 #include "engine/contact/state_file.hpp"
 #include "engine/core/node_value.hpp"
+#include "engine/surface/io/xdmf.hpp"
 
 namespace asperity::lua {
 
@@ -123,12 +125,21 @@ const Block<StateFileKeys>& state_file_block() {
 }
 Values write_state(Call& call) {
   const StateFileKeys keys = call.options(state_file_block(), 2);
-  const std::string path = writable_path(call, call.text(1, "path"));
+  const std::string name = call.text(1, "path");
+  const std::string path = writable_path(call, name);
+  if (has_xdmf_beside(path)) writable_path(call, xdmf_path(name).string());
   write_state(call.self<Contacting>(), path, keys.fields);
   return {path};
 }
 
-std::string describe_state(const void* self) { return static_cast<const Contacting*>(self)->text(); }
+// What the solver says, and below it where the equations were asked for more than they know.
+std::string describe_state(const void* self) {
+  const auto& state = *static_cast<const Contacting*>(self);
+  std::string text = state.text();
+  if (state.closed()) return text;
+  for (const std::string& sentence : doubts(state)) text += "\n  warning: " + sentence;
+  return text;
+}
 std::size_t state_bytes(const void* self) {
   return static_cast<std::size_t>(static_cast<const Contacting*>(self)->bytes_held());
 }
@@ -153,13 +164,13 @@ Values field_picture(Call& call) {
   if (options.palette == PictureOptions{}.palette && f.name == "contact") options.palette = "contact";
   if (options.palette == PictureOptions{}.palette && f.name == "pressure") options.palette = "heat";
   const std::string path = writable_path(call, call.text(1, "path"));
-  draw(f.grid, *f.values, options, path);
+  warn_of(call, draw(f.grid, *f.values, options, path));
   return {path};
 }
 
 std::string describe_field(const void* self) {
   const auto& f = *static_cast<const StateField*>(self);
-  const Range r = range(f.values->values());
+  const Range r = known_range(f.values->values());
   return f.name + " field " + std::to_string(f.grid.nx) + " x " + std::to_string(f.grid.ny) + ", from " +
          format_quantity(r.min, f.dimension) + " to " + format_quantity(r.max, f.dimension);
 }
@@ -195,10 +206,16 @@ const Class& state_class() {
          "before this one; empty where they were brought together from apart",
          {},
          [](Call& call) -> Values { return {state_numbers(call.self<S>().drawn_from())}; }},
-        {"approach", "number", "from first touch", dimension::length, read_state_number<&S::approach>},
+        {"approach", "number",
+         "from first touch of the bodies as they are now; after yielding that is the touch of the worn "
+         "faces, and "
+         "`separation` is what one event compares with the next",
+         dimension::length, read_state_number<&S::approach>},
         {"indentation",
          "number",
-         "approach over the peak-to-valley of the combined heights; of flats none, an error",
+         "approach over the peak-to-valley of the combined heights; flats have none: an error. The key "
+         "`flatten` "
+         "counts another thing, the share by which the peak-to-valley under load has fallen",
          {},
          read_state_number<&S::indentation>},
         {"flatten",
@@ -206,6 +223,13 @@ const Class& state_class() {
          "share of that peak-to-valley pressed away",
          {},
          read_state_number<&S::flatten>},
+        {"overlap_fraction",
+         "number",
+         "share of the tile on which the bodies face each other: 1 unless, on a free boundary, the upper "
+         "body "
+         "is turned so that it does not cover the lower one. `pressure` and fractions are of the whole tile",
+         {},
+         read_state_number<&S::overlap_fraction>},
         {"area", "number", "real contact area", dimension::area, read_state_number<&S::area>},
         {"area_fraction",
          "number",
@@ -227,15 +251,18 @@ const Class& state_class() {
         {"peak_pressure", "number", "greatest pressure", dimension::pressure,
          read_state_number<&S::peak_pressure>},
         {"separation", "number",
-         "of the mean planes of the bodies, undeformed, as they stand under this load", dimension::length,
-         read_state_number<&S::separation>},
-        {"mean_gap", "number", "mean over the tile of the gap where it is open", dimension::length,
-         read_state_number<&S::mean_gap>},
+         "of the mean planes of the bodies where they face each other, undeformed, as they stand under this "
+         "load",
+         dimension::length, read_state_number<&S::separation>},
+        {"mean_gap", "number",
+         "mean of the gap, 0 in contact, over the part of the tile where the bodies face each other",
+         dimension::length, read_state_number<&S::mean_gap>},
         {"stiffness", "number",
          "d pressure / d approach at this contact set; math.huge where all of a periodic tile touches",
          dimension::stiffness, read_state_number<&S::stiffness>},
-        {"secant_stiffness", "number", "pressure over approach", dimension::stiffness,
-         read_state_number<&S::secant_stiffness>},
+        {"secant_stiffness", "number",
+         "pressure over approach; math.huge of flats that carry a load and come no nearer",
+         dimension::stiffness, read_state_number<&S::secant_stiffness>},
         {"energy", "number", "elastic energy in the tile", dimension::energy, read_state_number<&S::energy>},
         {"plastic_volume", "number", "volume this press took from both bodies; needs plasticity",
          dimension::volume, read_state_number<&S::plastic_volume>},
@@ -252,7 +279,9 @@ const Class& state_class() {
         {"residual", "number", "greatest entry of the certificate", {}, read_state_number<&S::residual>},
         {"certificate",
          "table",
-         "how far the contact conditions are from being met, each relative",
+         "how far the contact conditions are from being met, each relative; with `adhesion` these bound "
+         "tractions "
+         "and not lengths: gaps and approaches may be off by more",
          {},
          certificate_of},
         {"converged",
@@ -297,7 +326,8 @@ const Class& state_class() {
         {.name = "field",
          .body = field,
          .sentence = "A field over the tile: pressure, gap, contact, displacement, or the plastic part of "
-                     "the approach.",
+                     "the approach. Where nothing faces the lower body there is no pressure, and the gap is "
+                     "missing (nan).",
          .parameters = {{"name", "\"pressure\"|\"gap\"|\"contact\"|\"displacement\"|\"plastic\"", "which"}},
          .returns = "Field",
          .example = "st:field \"pressure\":picture \"pressure.png\""},
@@ -339,7 +369,9 @@ const Class& field_class() {
     Class c;
     c.name = "Field";
     c.article_name = "a field";
-    c.sentence = "A quantity at every node of the tile.";
+    c.sentence =
+        "A quantity at every node of the tile; nan where it is missing, as the gap is where nothing "
+        "faces the lower body.";
     c.describe = describe_field;
     c.native_bytes = field_bytes;
     c.fields = {
@@ -353,17 +385,17 @@ const Class& field_class() {
          "number",
          "least value",
          {},
-         [](Call& call) -> Values { return {range(call.self<F>().values->values()).min}; }},
+         [](Call& call) -> Values { return {known_range(call.self<F>().values->values()).min}; }},
         {"max",
          "number",
          "greatest value",
          {},
-         [](Call& call) -> Values { return {range(call.self<F>().values->values()).max}; }},
+         [](Call& call) -> Values { return {known_range(call.self<F>().values->values()).max}; }},
         {"mean",
          "number",
-         "mean over all nodes",
+         "mean over all nodes that have a value",
          {},
-         [](Call& call) -> Values { return {mean(call.self<F>().values->values())}; }},
+         [](Call& call) -> Values { return {known_mean(call.self<F>().values->values())}; }},
     };
     c.methods = {
         {.name = "value",

@@ -194,7 +194,7 @@ const Class& study_class() {
              "for _, row in ipairs(study:rows()) do print(row.way, row.cells, row.error, row.seconds) end"},
         {.name = "chart",
          .body = chart_study,
-         .sentence = "Draws error against time on logarithmic axes, a line a way, bars from the fastest to "
+         .sentence = "Draws error against time on logarithmic axes, a line per way, bars from the fastest to "
                      "the slowest run, "
                      "rings about what nothing beats, and marks at the rim for settings that failed or were "
                      "left out; returns "

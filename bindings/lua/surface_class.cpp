@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fields of a surface, and its methods that measure and record; those that make other surfaces and
 // profiles are in surface_operations.cpp.
+#include <algorithm>
+
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/measure.hpp"
@@ -10,6 +12,7 @@
 #include "bindings/lua/surface_operations.hpp"
 #include "engine/metrology/levelling.hpp"
 #include "engine/surface/io/write.hpp"
+#include "engine/surface/io/xdmf.hpp"
 
 namespace asperity::lua {
 
@@ -38,7 +41,12 @@ Values fractal_dimension_of(Call& call) {
 }
 
 Values filtered(Call& call) {
-  return {object(gaussian_filtered(call.self<Surface>(), call.options(filter_block())))};
+  const GaussianFilter filter = call.options(filter_block());
+  const Surface& surface = call.self<Surface>();
+  const Grid& grid = surface.grid();
+  Values result = {object(gaussian_filtered(surface, filter))};
+  warn_of_empty_filter(call, filter, std::max(grid.size_x, grid.size_y), std::min(grid.hx(), grid.hy()));
+  return result;
 }
 Values level(Call& call) {
   return {object(levelled(call.self<Surface>(), call.options(level_block()).degree))};
@@ -47,7 +55,9 @@ Values level(Call& call) {
 // --- files
 
 Values write_surface(Call& call) {
-  const std::string path = writable_path(call, call.text(1, "path"));
+  const std::string name = call.text(1, "path");
+  const std::string path = writable_path(call, name);
+  if (has_xdmf_beside(path)) writable_path(call, xdmf_path(name).string());
   write_surface(call.self<Surface>(), path, call.session().monitor());
   return {path};
 }
@@ -55,7 +65,7 @@ Values write_surface(Call& call) {
 Values picture(Call& call) {
   const PictureOptions options = call.options(picture_block(), 2);
   const std::string path = writable_path(call, call.text(1, "path"));
-  draw(call.self<Surface>(), options, path);
+  warn_of(call, draw(call.self<Surface>(), options, path));
   return {path};
 }
 
@@ -145,7 +155,11 @@ const Class& surface_class() {
         {.name = "roughness",
          .body = roughness_of,
          .sentence =
-             "Amplitude and slope statistics of all nodes (ISO 25178-2), nothing levelled or filtered first.",
+             "Amplitude and slope statistics of all nodes (ISO 25178-2), nothing levelled or filtered first: "
+             "Ra, "
+             "Rq, amplitude, skewness, kurtosis, rms_slope, peak, valley, mean, also by their areal names "
+             "Sa, Sq, "
+             "Sz, Ssk, Sku, Sdq. Its amplitude is peak to valley; that of lab.surface.sine is half of it.",
          .returns = "table",
          .example = "print(s:roughness().Ra)"},
         {.name = "spectrum",

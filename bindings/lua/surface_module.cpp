@@ -206,8 +206,14 @@ const Block<GridKeys>& from_table_block() {
                return detail::wrong_type(value, info, "a table of rows of numbers", problems);
              keys.ny = static_cast<int>(std::min<std::int64_t>(value.length(), max_cells + 1));
              value.element(1, [&](const Argument& row) {
-               keys.nx =
-                   row.is_table() ? static_cast<int>(std::min<std::int64_t>(row.length(), max_cells + 1)) : 0;
+               if (!row.is_table() || row.length() == 0) {
+                 problems.push_back(
+                     quoted(info.name) + " must be rows of numbers, heights[j+1][i+1], and " +
+                     (row.is_table() ? "its first row is empty" : "its first element is " + row.describe()) +
+                     "; of one row write { { 1, 2, 3 } }");
+               } else {
+                 keys.nx = static_cast<int>(std::min<std::int64_t>(row.length(), max_cells + 1));
+               }
              });
            })
            .required(),

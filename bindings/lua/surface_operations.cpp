@@ -200,8 +200,10 @@ std::vector<Function> surface_operations() {
        .example = "s:shifted{ x=\"10 um\" }"},
       {.name = "rotated",
        .body = rotate_surface,
-       .sentence = "Turned counter-clockwise seen from above: quarter turns exactly, other angles by "
-                   "interpolation.",
+       .sentence =
+           "Turned counter-clockwise seen from above: quarter turns exactly, other angles by "
+           "interpolation, which takes from short waves: there and back Rq falls by 0.02 % at waves of 16 "
+           "cells, 0.2 % at 8 and 3 % at 4.",
        .parameters = {{"angle", "an angle", "to turn by"}},
        .returns = "Surface",
        .example = "s:rotated \"90 deg\""},
@@ -231,7 +233,8 @@ std::vector<Function> surface_operations() {
        .example = "s:plus(fine)"},
       {.name = "cut",
        .body = cut_off,
-       .sentence = "Heights above a plane brought down to it.",
+       .sentence =
+           "Heights above a plane brought down to it; the tile keeps its size, which `cropped` changes.",
        .options = &cut_block(),
        .returns = "Surface",
        .example = "s:cut{ fraction=0.2 }"},

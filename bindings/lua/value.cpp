@@ -102,6 +102,7 @@ struct Pusher {
     push_metatable(L, *v.type);
     lua_setmetatable(L, -2);
     static_cast<Object*>(block)->pointer = v.pointer;  // noexcept; from here __gc owns it
+    static_cast<Object*>(block)->known = v.known;
     if (v.type->native_bytes != nullptr && v.pointer != nullptr)
       Session::of(L).nudge_collector(L, v.type->native_bytes(v.pointer.get()));
   }

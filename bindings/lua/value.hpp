@@ -29,11 +29,14 @@ using Values = std::vector<Value>;
 template <class T>
 const Class& class_of();
 
+struct KnownBody;
+
 // A native value. A null pointer is the placeholder of a dry run, unless the value was closed.
 struct Object {
   const Class* type = nullptr;
   std::shared_ptr<void> pointer;
   bool closed = false;
+  std::shared_ptr<const KnownBody> known = nullptr;  // of the placeholder of a surface, where something is
   bool is_placeholder() const { return pointer == nullptr && !closed; }
 };
 

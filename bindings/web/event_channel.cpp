@@ -142,6 +142,8 @@ void EventChannel::keep_view(const Seen& seen) {
   spent_ += Clock::now() - begun;
 }
 
+void EventChannel::mistake(const std::string& message) { send("error", error_parts(message)); }
+
 void EventChannel::ended(int status, StopReason stopped, const std::string& why) {
   if (last_.surface || last_.state) {
     --left_out_;

@@ -27,6 +27,7 @@ class EventChannel final : public cli::RunObserver {
   void recorded(std::string_view event, const Json& fields) override;
   bool looks_at_results() const override { return !views_.empty(); }
   void found(const std::string& call, std::int64_t line, const lua::Values& results) override;
+  void mistake(const std::string& message) override;
   void ended(int status, StopReason stopped, const std::string& why) override;
 
  private:

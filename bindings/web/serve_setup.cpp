@@ -49,7 +49,7 @@ std::vector<std::string> names_in(const std::string& path) {
   std::ifstream file(path);
   if (!file)
     throw Error(ErrorCode::bad_file, "there is no file " + asperity::quoted(path) + " that can be read",
-                "give the students' names in it, one a line");
+                "give the students' names in it, one per line");
   std::vector<std::string> names;
   std::set<std::string> seen;
   for (std::string line; std::getline(file, line);) {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "engine/core/error.hpp"
 
@@ -43,17 +45,27 @@ ReducedField reduced(const Field& field, int most) {
   small.nx = (field.nx() + small.block_x - 1) / small.block_x;
   small.ny = (field.ny() + small.block_y - 1) / small.block_y;
   std::vector<double> sums(static_cast<std::size_t>(small.nx));
+  std::vector<int> missing(sums.size());
   for (int j = 0; j < small.ny; ++j) {
     std::ranges::fill(sums, 0.0);
+    std::ranges::fill(missing, 0);
     const int first = j * small.block_y, end = std::min(first + small.block_y, field.ny());
     for (int row = first; row < end; ++row) {
       const auto values = field.row(row);
-      for (std::size_t i = 0; i < values.size(); ++i)
-        sums[i / static_cast<std::size_t>(small.block_x)] += values[i];
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const std::size_t block = i / static_cast<std::size_t>(small.block_x);
+        if (std::isnan(values[i]))
+          ++missing[block];
+        else
+          sums[block] += values[i];
+      }
     }
     for (int i = 0; i < small.nx; ++i) {
       const int wide = std::min(small.block_x, field.nx() - i * small.block_x);
-      small.values.push_back(static_cast<float>(sums[static_cast<std::size_t>(i)] / (wide * (end - first))));
+      // Missing as well where nothing of the block is there.
+      const int there = wide * (end - first) - missing[static_cast<std::size_t>(i)];
+      small.values.push_back(there > 0 ? static_cast<float>(sums[static_cast<std::size_t>(i)] / there)
+                                       : std::numeric_limits<float>::quiet_NaN());
     }
   }
   return small;

@@ -189,6 +189,8 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
   const bool by_approach = prescribes_approach(state.other_grids()->request().by);
   const auto wraps = state.geometry().boundary() == Boundary::periodic;
   DiscretisationEstimate result;
+  if (found->value == &State::secant_stiffness && std::isinf(state.secant_stiffness()))
+    return {state.secant_stiffness(), 0, state.secant_stiffness(), found->margin};
   if (found->value == &State::secant_stiffness && state.other_grids()->request().by != PressBy::flatten &&
       state.other_grids()->request().by != PressBy::indentation) {
     // The error of what is not prescribed of its two.
@@ -273,15 +275,18 @@ std::string discretisation_text(const State& state) {
 
 double rise_between_nodes(const Field& field, bool wraps) {
   const auto values = field.values();
-  const auto top = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  // What is missing is below all that is there, and all that is there is above it.
+  const auto below = [](double a, double b) { return std::isnan(a) ? !std::isnan(b) : a < b; };
+  const auto top =
+      static_cast<std::size_t>(std::max_element(values.begin(), values.end(), below) - values.begin());
   const int nx = field.nx(), ny = field.ny();
   const int i = static_cast<int>(top % static_cast<std::size_t>(nx));
   const int j = static_cast<int>(top / static_cast<std::size_t>(nx));
   const double peak = values[top];
   const auto inside = [&](int k, int n) { return n >= 3 && (wraps || (k > 0 && k + 1 < n)); };
   const auto at = [&](int a, int b) { return field((i + a + nx) % nx, (j + b + ny) % ny); };
-  // Off the lattice, nodes without a body above them hold the lowest height: a rim as well.
-  const double lowest = wraps ? -std::numeric_limits<double>::infinity() : range(values).min;
+  // Beside ground that nothing faces, of which the height is missing, there is a rim as well.
+  const double lowest = wraps ? -std::numeric_limits<double>::infinity() : known_range(values).min;
   const bool along_x = inside(i, nx) && at(-1, 0) > lowest && at(1, 0) > lowest;
   const bool along_y = inside(j, ny) && at(0, -1) > lowest && at(0, 1) > lowest;
   const auto slope_and_bend = [&](double before, double after) {

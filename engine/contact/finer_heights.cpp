@@ -85,7 +85,10 @@ void add_what_mapping_lost(const Scene& scene, const ContactGeometry& geometry, 
   const Grid& given = geometry.grid();
   const ContactGeometry mapped(scene, geometry.pose());
   Field lost = geometry.combined();
-  for (std::size_t k = 0; k < lost.size(); ++k) lost[k] -= mapped.combined()[k];
+  for (std::size_t k = 0; k < lost.size(); ++k) {
+    const double height = mapped.combined()[k];
+    lost[k] = std::isnan(height) ? 0.0 : lost[k] - height;
+  }
   const double step_x = static_cast<double>(given.nx) / fine.nx,
                step_y = static_cast<double>(given.ny) / fine.ny;
   for (int j = 0; j < fine.ny; ++j)
@@ -122,12 +125,6 @@ Field finer_heights(const Scene& scene, const ContactGeometry& geometry, Monitor
   if (!pose.on_lattice()) seen = turned_about(seen, given, fine, pose.rest());
   for (std::size_t k = 0; k < h.size(); ++k) h[k] += seen[k];
   if (pose.on_lattice()) return h;
-  // As in the contact, what no node lies over is the last to touch.
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const double height : h.values())
-    if (height < lowest) lowest = height;
-  for (double& height : h.values())
-    if (std::isnan(height)) height = lowest;
   if (scene.plasticity) add_what_mapping_lost(scene, geometry, fine, h);
   return h;
 }

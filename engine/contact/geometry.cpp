@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -37,25 +38,28 @@ Field combine(const Field& lower, const Field& upper, const LatticeIsometry& pla
   return sum;
 }
 
-// Off the lattice: NaN marks nodes without an upper body until the lowest of the others is known.
 Field combine_turned(const Field& lower, const Field& upper, const Pose& pose, const Grid& grid) {
   Field sum = pose.to_lower(upper, grid);
-  double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < sum.size(); ++k) {
-    sum[k] += lower[k];
-    if (sum[k] < lowest) lowest = sum[k];
-  }
-  if (std::isinf(lowest))
-    throw Error(ErrorCode::bad_value, "turned and shifted like this, no node of one body lies over the other",
-                "turn or shift it less");
-  for (double& height : sum.values())
-    if (std::isnan(height)) height = lowest;
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += lower[k];
   return sum;
+}
+
+// One pattern of bits for a height that is not there, whatever made it: digests see bits.
+std::int64_t mark_missing(Field& heights, std::span<const std::uint8_t> uncovered) {
+  std::int64_t facing = 0;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    if (std::isnan(heights[k]) || (!uncovered.empty() && uncovered[k] != 0))
+      heights[k] = std::numeric_limits<double>::quiet_NaN();
+    else
+      ++facing;
+  }
+  return facing;
 }
 
 }  // namespace
 
-ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, HardnessMemory hardness)
+ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, HardnessMemory hardness,
+                                 std::span<const std::uint8_t> uncovered)
     : lower_(scene.lower),
       upper_(scene.upper),
       boundary_(scene.boundary),
@@ -63,14 +67,23 @@ ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, HardnessM
       hardness_(std::move(hardness)) {
   hardness_.upper_here.reset();
   if (const auto* rough = std::get_if<Surface>(&upper_)) {
-    combined_ = std::make_shared<const Field>(
-        pose_.on_lattice() ? combine(lower_.heights(), rough->heights(), pose_.lattice())
-                           : combine_turned(lower_.heights(), rough->heights(), pose_, lower_.grid()));
-    range_ = range(combined_->values());
+    Field sum = pose_.on_lattice() ? combine(lower_.heights(), rough->heights(), pose_.lattice())
+                                   : combine_turned(lower_.heights(), rough->heights(), pose_, lower_.grid());
+    facing_ = pose_.on_lattice() && uncovered.empty() ? static_cast<std::int64_t>(sum.size())
+                                                      : mark_missing(sum, uncovered);
+    if (facing_ == 0)
+      throw Error(ErrorCode::bad_value,
+                  "turned and shifted like this, no node of one body lies over the other",
+                  "turn or shift it less");
+    combined_ = std::make_shared<const Field>(std::move(sum));
+    range_ = overhangs() ? known_range(combined_->values()) : range(combined_->values());
   } else {
+    facing_ = static_cast<std::int64_t>(lower_.grid().nodes());
     range_ = lower_.height_range();
   }
-  if (!std::isfinite(range_.min) || !std::isfinite(range_.max) || !std::isfinite(range_.span()))
+  // Every solver adds up squares of heights.
+  const double squares = range_.span() * range_.span() * static_cast<double>(facing_);
+  if (!std::isfinite(range_.min) || !std::isfinite(range_.max) || !std::isfinite(squares))
     throw Error(ErrorCode::bad_value,
                 "the combined heights run from " + format_short(range_.min) + " m to " +
                     format_short(range_.max) + " m",
@@ -89,8 +102,16 @@ ContactGeometry::ContactGeometry(const Scene& scene, const ContactGeometry& befo
   hardness_ = std::move(hardness);
   Field combined = before.combined();
   for (std::size_t k = 0; k < combined.size(); ++k) combined[k] -= yielded[k];
-  range_ = range(combined.values());
+  range_ = known_range(combined.values());
   combined_ = std::make_shared<const Field>(std::move(combined));
+}
+
+Array<double> ContactGeometry::facing_heights() const {
+  Array<double> heights;
+  heights.reserve(static_cast<std::size_t>(facing_));
+  std::copy_if(combined().values().begin(), combined().values().end(), std::back_inserter(heights),
+               [](double h) { return !std::isnan(h); });
+  return heights;
 }
 
 const Material* lower_material(const Surface& lower) {

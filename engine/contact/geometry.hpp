@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The undeformed geometry of a contact: the combined heights h = z1 + T z2, both bodies as they lie
 // over each other. With no deformation the bodies first touch where h is greatest, and the gap at
-// node (i, j) is max h − h there. Under a flat, h is the lower body's own height field, shared and
-// not copied. Immutable; any number of threads may read it.
+// node (i, j) is max h − h there. Where a turned upper body does not cover the lower one there is no h (NaN):
+// nothing faces that ground, so it has no gap and carries nothing. Under a flat, h is the lower body's own
+// height field, shared and not copied. Immutable; any number of threads may read it.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 
 #include "engine/contact/pose.hpp"
 #include "engine/contact/scene.hpp"
@@ -24,11 +27,13 @@ struct HardnessMemory {
 class ContactGeometry {
  public:
   // The bodies of `scene` (which must have passed check) lying as `pose` says. O(n), and one field of
-  // memory for two rough bodies. Nodes of the lower body over which the upper one, turned off the lattice,
-  // has no node lie as low as the lowest of the others: they are the last to touch. The bodies are taken as
-  // put down afresh: `hardness` counts in each body's own frame. Throws Error{bad_value} when the sums of
-  // heights leave the range of a double.
-  ContactGeometry(const Scene& scene, const Pose& pose, HardnessMemory hardness = {});
+  // memory for two rough bodies. The upper body, turned off the lattice, does not lie over all nodes of the
+  // lower one, nor over those marked in `uncovered` (1; empty for none, or one mark a node under a rough
+  // body). The bodies are taken as put down afresh: `hardness` counts in each body's own frame. Throws
+  // Error{bad_value} when the sums of heights or of their squares leave the range of a double, or no node of
+  // one body lies over the other.
+  ContactGeometry(const Scene& scene, const Pose& pose, HardnessMemory hardness = {},
+                  std::span<const std::uint8_t> uncovered = {});
 
   // The bodies after an event that took `yielded` from both together, still lying as in `before`. Off the
   // lattice each body keeps its share only as well as its nodes map onto the other's; what they lost
@@ -44,9 +49,18 @@ class ContactGeometry {
   const HardnessMemory& hardness() const { return hardness_; }
   bool upper_is_flat() const { return std::holds_alternative<Material>(upper_); }
 
-  const Field& combined() const { return combined_ ? *combined_ : lower_.heights(); }  // m
-  Range combined_range() const { return range_; }                                      // m
-  double peak_to_valley() const { return range_.span(); }                              // m
+  // m; NaN at nodes where nothing faces the lower body, over which neither of the next two goes.
+  const Field& combined() const { return combined_ ? *combined_ : lower_.heights(); }
+  Range combined_range() const { return range_; }          // m
+  double peak_to_valley() const { return range_.span(); }  // m
+  // The heights of those nodes that are there, in their order.
+  Array<double> facing_heights() const;
+  // The nodes at which the bodies face each other; all, unless a free boundary lets one body overhang.
+  std::int64_t facing() const { return facing_; }
+  bool overhangs() const { return facing_ < static_cast<std::int64_t>(grid().nodes()); }
+  double overlap_fraction() const {
+    return static_cast<double>(facing_) / static_cast<double>(grid().nodes());
+  }
 
  private:
   Surface lower_;
@@ -56,6 +70,7 @@ class ContactGeometry {
   HardnessMemory hardness_;
   std::shared_ptr<const Field> combined_;  // none under a flat
   Range range_;
+  std::int64_t facing_ = 0;
 };
 
 // The material of a body, if it has one.

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -49,12 +51,53 @@ bool periodic_together(const Scene& scene) {
   return scene.lower.traits().periodic && (upper == nullptr || upper->traits().periodic);
 }
 
+// Ground that nothing faces, of which the heights are missing: marked, and as high as the lowest that is
+// there.
+Array<std::uint8_t> taken_out(Field& heights) {
+  Array<std::uint8_t> uncovered;
+  if (known_count(heights.values()) == heights.size()) return uncovered;
+  const double lowest = known_range(heights.values()).min;
+  uncovered.resize(heights.size());
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    uncovered[k] = std::isnan(heights[k]) ? 1 : 0;
+    if (uncovered[k] != 0) heights[k] = lowest;
+  }
+  return uncovered;
+}
+
+// The combined heights, missing on the coarser grid where a node of the finer one beside is.
+Field combined_on_cells(const ContactGeometry& geometry, const Grid& grid, bool periodic) {
+  const Grid& given = geometry.grid();
+  if (!geometry.overhangs()) return on_cells(geometry.combined(), given, grid, periodic);
+  Field known = geometry.combined();
+  const Array<std::uint8_t> uncovered = taken_out(known);
+  Field heights = on_cells(known, given, grid, periodic);
+  const auto beside = [](int k, int coarse, int fine) {
+    const double at = static_cast<double>(k) * fine / coarse;
+    const int low = std::min(static_cast<int>(at), fine - 1);
+    return std::pair{low, std::min(fine - 1, at > low ? low + 1 : low)};
+  };
+  for (int j = 0; j < grid.ny; ++j) {
+    const auto [below, above] = beside(j, grid.ny, given.ny);
+    for (int i = 0; i < grid.nx; ++i) {
+      const auto [left, right] = beside(i, grid.nx, given.nx);
+      for (const int row : {below, above})
+        for (const int column : {left, right})
+          if (uncovered[static_cast<std::size_t>(row) * static_cast<std::size_t>(given.nx) +
+                        static_cast<std::size_t>(column)] != 0)
+            heights(i, j) = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return heights;
+}
+
 State press_on(const Grid& grid, Field heights, double tolerance, const Scene& scene,
                const ContactGeometry& geometry, const Plan& given_plan, const PressRequest& request,
                Monitor& monitor) {
   const Grid& given = geometry.grid();
   const auto* upper = std::get_if<Surface>(&scene.upper);
   Scene there = scene;
+  const Array<std::uint8_t> uncovered = taken_out(heights);
   there.lower = Surface(
       grid, std::move(heights),
       {.material = scene.lower.material(), .periodic = periodic_together(scene), .aliased_share = {}});
@@ -78,7 +121,8 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
       memory.upper =
           std::make_shared<const Field>(flat_pose.to_upper(hardness_on_cells(*local.upper, given, grid)));
   }
-  auto geometry_there = std::make_shared<const ContactGeometry>(there, flat_pose, std::move(memory));
+  auto geometry_there =
+      std::make_shared<const ContactGeometry>(there, flat_pose, std::move(memory), uncovered);
   Plan plan = given_plan.yield ? make_plan_like(given_plan, there, *geometry_there)
                                : make_plan(there, *geometry_there);
   if (plan.yield && given_plan.yield) plan.yield->carried = given_plan.yield->carried;
@@ -121,7 +165,7 @@ std::shared_ptr<const OtherGrids> solve_coarser(const Scene& scene, const Contac
   std::vector<OtherGrids::Level> levels;
   Grid finer = geometry.grid();
   for (const Grid& grid : grids) {
-    Field heights = on_cells(geometry.combined(), geometry.grid(), grid, periodic_together(scene));
+    Field heights = combined_on_cells(geometry, grid, periodic_together(scene));
     State state = press_on(grid, std::move(heights), loose_enough, scene, geometry, plan, request, monitor);
     const double across = static_cast<double>(finer.nx) / grid.nx,
                  up = static_cast<double>(finer.ny) / grid.ny;

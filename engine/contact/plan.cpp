@@ -55,6 +55,10 @@ std::int64_t Plan::bytes_peak() const {
 
 std::string Plan::text() const {
   std::string result = "contact of " + title + "\n";
+  if (overlap < 1)
+    line(result, "overlap",
+         "the bodies face each other on " + format_short(100 * overlap, 3) +
+             " % of the tile; pressure is load over all of it");
   for (const PlannedTerm& term : terms) line(result, term.effect, term.sentence);
   if (!choice.empty()) line(result, "accuracy", choice);
   line(result, "solver", solver + ", tolerance " + format_short(accuracy.tolerance));
@@ -73,6 +77,7 @@ std::string Plan::text() const {
 Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
   Plan plan;
   plan.title = tile_text(geometry.grid(), scene.boundary);
+  plan.overlap = geometry.overlap_fraction();
   plan.accuracy = scene.accuracy;
   if (!geometry.upper_is_flat())
     plan.buffers.push_back(

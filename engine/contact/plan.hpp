@@ -50,6 +50,8 @@ using PlannedOperator = std::variant<BoxOperator, HalfSpaceOperator>;
 struct PlannedYield {
   double lower_hardness = 0, upper_hardness = 0;  // Pa, at the reference dwell, before any event
   double hardening = 0;                           // K_h, Pa/m; infinite: the pressure is capped
+  // E of the lower body over that of the upper one; 1 where one of them is not known or nothing is elastic.
+  double modulus_ratio = 1;
   std::optional<CreepOptions> creep{};
   // By the bodies as they lie now: of none of it does anything yield again.
   std::vector<CarriedLoad> carried{};
@@ -59,11 +61,17 @@ struct PlannedYield {
   bool hardens() const { return limits() && std::isfinite(hardening); }
 };
 
-// The share of the plastic approach that the lower of two bodies takes: H_upper/(H_lower + H_upper).
-double lower_plastic_share(double lower_hardness, double upper_hardness);
+// The share of the plastic approach that the lower of two bodies takes,
+//   s = 1/(1 + exp(1.5 (ρ² − ρ⁻²)) E_lower/E_upper),  ρ = H_lower/H_upper:
+// ½ each of like bodies, .25 of a body 1.2 times as hard as the other, .06 of one 1.5 times and .004 of one
+// twice as hard, which hardly yields at the pressure that the softer one limits. What J2 plasticity below the
+// surface gives, within .03 between loads, of bodies of one Poisson's ratio; of equal hardness and unlike E
+// it is exact: the strains go as 1/E. All or nothing where the other body's hardness is infinite.
+double lower_plastic_share(double lower_hardness, double upper_hardness, double modulus_ratio = 1);
 
 struct Plan {
-  std::string title;  // tile and boundary
+  std::string title;   // tile and boundary
+  double overlap = 1;  // share of the tile on which the bodies face each other
   std::string solver;
   PlannedOperator elasticity;
   std::optional<PlannedYield> yield;  // none without the effect `plasticity`

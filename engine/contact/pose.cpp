@@ -13,14 +13,21 @@ namespace asperity {
 namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
+constexpr double snap = 1e-9;  // rad, to a whole number of quarter turns
 
 // The field turned counter-clockwise by `angle` about the centre of its nodes, bilinear; `outside` where
 // no node of the original lies around.
 Field turned_field(const Field& field, const Grid& grid, double angle, double outside) {
   Field result(grid.nx, grid.ny);
-  const double c = std::cos(angle), s = std::sin(angle);
+  double c = std::cos(angle), s = std::sin(angle);
   const double middle_i = 0.5 * (grid.nx - 1), middle_j = 0.5 * (grid.ny - 1);
-  const double hx = grid.hx(), hy = grid.hy();
+  double hx = grid.hx(), hy = grid.hy();
+  // A quarter turn of square cells brings nodes onto nodes, or between them by half a cell: without rounding.
+  if (std::abs(std::abs(angle) - quarter) <= snap && std::abs(hx - hy) <= 1e-12 * hx) {
+    c = 0;
+    s = angle > 0 ? 1 : -1;
+    hx = hy = 1;
+  }
   // The cell a place lies in and how far along; a place past the rim by rounding is on the rim.
   struct Place {
     int low, high;
@@ -67,7 +74,6 @@ Pose Pose::turned(double angle, const Grid& grid) const {
   const int quarters = static_cast<int>(whole) * (square ? 1 : 2);
   result.lattice_ = lattice_.turned(quarters - lattice_.quarters());
   result.rest_ = result.angle_ - whole * unit;
-  constexpr double snap = 1e-9;
   if (std::abs(result.rest_) <= snap) result.rest_ = 0;
   return result;
 }

@@ -25,7 +25,8 @@ class Pose {
   double angle() const { return angle_; }  // rad, all turns together, −π … π
 
   // A field of the upper body's own frame seen from the lower body, bilinear between nodes; where the
-  // turned body has no node, NaN. O(n).
+  // turned body has no node, NaN. A quarter turn of an oblong tile of square cells copies values where it
+  // brings nodes onto nodes. O(n).
   Field to_lower(const Field& own, const Grid& grid) const;
   // A field over the lower body brought into the upper body's own frame, bilinear between nodes: weights
   // are positive and sum to one, so no new sign and no new extreme appears. Zero where the lower body has no

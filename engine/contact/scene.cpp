@@ -25,15 +25,6 @@ std::string tile(const Grid& g) {
 // Sizes that differ by the rounding of a product (3 · 50 against 150) are the same size.
 bool same_length(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(a, b); }
 
-void check_tiles(const Grid& lower, const Grid& upper) {
-  if (lower.nx == upper.nx && lower.ny == upper.ny && same_length(lower.size_x, upper.size_x) &&
-      same_length(lower.size_y, upper.size_y))
-    return;
-  throw Error(ErrorCode::bad_value, "the lower body has " + tile(lower) + ", the upper body " + tile(upper),
-              "both need the same `cells` and `size`: bring one to the other with `:resampled{cells=}` or "
-              "`:cropped{...}`");
-}
-
 void check_positive(double value, std::string_view key, const std::string& unit, bool never,
                     const char* hint) {
   if (!(value > 0) || (!never && !std::isfinite(value)))
@@ -129,6 +120,15 @@ void check(const AskedError& asked, bool plastic) {
 }  // namespace
 
 std::string_view name(Boundary boundary) { return boundary == Boundary::periodic ? "periodic" : "free"; }
+
+void check_tiles(const Grid& lower, const Grid& upper) {
+  if (lower.nx == upper.nx && lower.ny == upper.ny && same_length(lower.size_x, upper.size_x) &&
+      same_length(lower.size_y, upper.size_y))
+    return;
+  throw Error(ErrorCode::bad_value, "the lower body has " + tile(lower) + ", the upper body " + tile(upper),
+              "both need the same `cells` and `size`: bring one to the other with `:resampled{cells=}` or "
+              "`:cropped{...}`");
+}
 
 void check(const Scene& scene) {
   const Grid& grid = scene.lower.grid();

@@ -108,6 +108,9 @@ struct Scene {
   SlidingEffects sliding{};
 };
 
+// Throws Error{bad_value} that names both where bodies of these grids differ in cells or size.
+void check_tiles(const Grid& lower, const Grid& upper);
+
 // Throws Error for the first thing that does not fit: cells or size of the two bodies, `stiffness`,
 // `tolerance`, `precision`, `estimate`, `error` and `of`, a property of the flat counter-body out of range,
 // an option of an effect out of range, or an effect that needs another one.

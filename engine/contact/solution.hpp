@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a solver hands to a State: the few numbers it had to find, and ways to work out the rest when
 // somebody asks. One class per way of solving; a State knows no other difference between them.
-// Implementations are immutable: every member may be called from any number of threads at once, and
-// gives the same bits each time.
+// Where nothing faces the lower body (combined heights of NaN) no solution carries anything.
+// Implementations are immutable: every member may be called from any number of threads at once, and gives
+// the same bits each time.
 #pragma once
 
 #include <cstdint>
@@ -66,7 +67,7 @@ class Solution {
   // Worked out when asked.
   virtual double flatten() const = 0;    // share of the peak-to-valley of the combined heights pressed away
   virtual double stiffness() const = 0;  // Pa/m, d pressure / d approach at this contact set
-  virtual double mean_gap() const = 0;   // m
+  virtual double mean_gap() const = 0;   // m, over the nodes that face each other
   virtual double energy() const = 0;     // J in the tile, elastic
   virtual Certificate certificate() const = 0;
   // Bounds against the exact solution on the same grid.
@@ -74,7 +75,7 @@ class Solution {
   virtual PressureSplit split(double threshold) const = 0;
   virtual Array<std::uint8_t> contact_mask() const = 0;  // 1 where p > 0, row by row
   virtual Field pressure_field() const = 0;              // Pa
-  virtual Field gap_field() const = 0;                   // m, 0 in contact
+  virtual Field gap_field() const = 0;                   // m, 0 in contact; means nothing off the overlap
   virtual Field displacement_field() const = 0;  // m, of both bodies together, elastic, positive into them
   virtual Field lower_under_load() const = 0;    // m, heights in the lower body's own frame
   virtual Field upper_under_load() const = 0;    // m, heights in the upper body's own frame

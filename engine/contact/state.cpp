@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <utility>
@@ -60,6 +61,7 @@ StateCost& StateCost::operator+=(const StateCost& other) {
 struct State::Shared {
   Grid tile;
   bool periodic = false;
+  double overlap = 1;
   double tolerance;
   std::vector<std::string> effects_run, effects_off;
   SlidingEffects sliding;
@@ -121,6 +123,7 @@ State::State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCo
     : shared_(std::make_shared<Shared>()), cost_(std::make_shared<const StateCost>(std::move(cost))) {
   shared_->tile = solution->geometry().grid();
   shared_->periodic = solution->geometry().boundary() == Boundary::periodic;
+  shared_->overlap = solution->geometry().overlap_fraction();
   shared_->solution = std::move(solution);
   shared_->tolerance = plan.accuracy.tolerance;
   shared_->effects_run = plan.effects_run;
@@ -158,6 +161,11 @@ void State::close(const Watch& watch) {
   shared->solution = std::make_shared<const ClosedSolution>(*shared->solution);
 }
 State::Watch State::watch() const { return shared_; }
+
+bool State::closed() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->closed;
+}
 
 double State::load() const { return shared_->now()->load(); }
 double State::pressure() const { return shared_->now()->pressure(); }
@@ -205,15 +213,21 @@ double State::flatten() const {
 }
 double State::separation() const {
   return shared_->separation.get([&] {
-    return geometry().combined_range().max - asperity::mean(geometry().combined().values()) - approach();
+    return geometry().combined_range().max - known_mean(geometry().combined().values()) - approach();
   });
 }
-double State::secant_stiffness() const { return approach() > 0 ? pressure() / approach() : 0.0; }
+double State::secant_stiffness() const {
+  if (approach() > 0) return pressure() / approach();
+  // A flat on a flat over all of a periodic tile: it gives nowhere way before anywhere else.
+  return approach() == 0 && pressure() > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+}
 double State::area() const { return static_cast<double>(contacts()) * shared_->grid().cell_area(); }
 
 double State::area_fraction() const {
   return static_cast<double>(contacts()) / static_cast<double>(shared_->grid().nodes());
 }
+
+double State::overlap_fraction() const { return shared_->overlap; }
 
 double State::mean_gap() const {
   return shared_->mean_gap.get([&] { return shared_->now()->mean_gap(); });
@@ -278,7 +292,15 @@ std::shared_ptr<const Field> State::field(std::string_view name) const {
     const std::shared_ptr<const Solution> now = shared_->now();
     const Solution& solution = *now;
     if (name == "pressure") return std::make_shared<const Field>(solution.pressure_field());
-    if (name == "gap") return std::make_shared<const Field>(solution.gap_field());
+    if (name == "gap") {
+      Field gap = solution.gap_field();
+      if (solution.geometry().overhangs()) {
+        const Field& heights = solution.geometry().combined();
+        for (std::size_t k = 0; k < gap.size(); ++k)
+          if (std::isnan(heights[k])) gap[k] = std::numeric_limits<double>::quiet_NaN();
+      }
+      return std::make_shared<const Field>(std::move(gap));
+    }
     if (name == "displacement") return std::make_shared<const Field>(solution.displacement_field());
     if (name == "plastic") {
       std::optional<PlasticChange> change = solution.plastic_change();
@@ -370,8 +392,11 @@ std::string State::text() const {
             (error.contact_bracket.low > 0 || error.contact_bracket.high < error.nodes
                  ? " ± " + format_short(error.area_fraction, 2)
                  : std::string()) +
-            " of " + std::to_string(shared_->grid().nodes()) + " nodes, energy " +
-            within(energy(), error.energy, dimension::energy);
+            " of " + std::to_string(shared_->grid().nodes()) + " nodes" +
+            (overlap_fraction() < 1 ? ", of which the bodies face each other on " +
+                                          format_short(100 * overlap_fraction(), 3) + " %"
+                                    : std::string()) +
+            ", energy " + within(energy(), error.energy, dimension::energy);
   if (error.plastic_volume)
     result += ", plastic volume " + within(plastic_volume(), *error.plastic_volume, dimension::volume) +
               " with " + format_short(100 * plastic_fraction(), 3) + " % of the tile at the limit";

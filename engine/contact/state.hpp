@@ -46,13 +46,16 @@ class State {
   // brought together from apart.
   std::vector<double> drawn_from() const;
   double approach() const;    // m from first touch
-  double separation() const;  // m, of the mean planes of the undeformed bodies
+  double separation() const;  // m, of the mean planes of the undeformed bodies, where they face each other
   // approach / peak-to-valley of the combined heights; throws Error{bad_state} for pressed flats, which have
   // none.
   double indentation() const;
-  double flatten() const;                  // share of that peak-to-valley pressed away, 0 … 1
-  double area() const;                     // m²
-  double area_fraction() const;            // contacts over nodes
+  double flatten() const;        // share of that peak-to-valley pressed away, 0 … 1
+  double area() const;           // m²
+  double area_fraction() const;  // contacts over nodes of the tile
+  // Share of the tile's nodes at which the bodies face each other; below 1 only where, on a free boundary,
+  // the upper body is turned so that it does not cover the lower one.
+  double overlap_fraction() const;
   double corrected_area_fraction() const;  // less (π−1+ln 2)/24 of a cell for every edge of the outline
   std::int64_t contacts() const;           // nodes with p > 0
   const Grid& grid() const;
@@ -60,11 +63,12 @@ class State {
   std::int64_t spots8() const;             // … or by a corner
   std::vector<double> spot_areas() const;  // m² of each region joined by edges, largest first
   double peak_pressure() const;            // Pa
-  double mean_gap() const;                 // m, mean over the tile of max(gap, 0)
+  double mean_gap() const;                 // m, mean of max(gap, 0) over the nodes that face each other
   // Pa/m, d pressure / d approach at this contact set; infinite where all of a periodic tile touches.
   double stiffness() const;
-  double secant_stiffness() const;  // Pa/m, pressure / approach; 0 without approach
-  double energy() const;            // J in the tile, elastic
+  // Pa/m, pressure / approach; 0 without either, infinite where flats carry a load and come no nearer.
+  double secant_stiffness() const;
+  double energy() const;  // J in the tile, elastic
 
   int iterations() const;
   const Certificate& certificate() const;
@@ -90,13 +94,14 @@ class State {
   const std::string& digest() const;  // of pressures, load and approach
 
   // "pressure" (Pa), "gap" (m), "contact" (1 or 0), "displacement" (m, elastic), "plastic" (m, the plastic
-  // part of the approach); in the lower body's frame. Throws Error{unknown_name}, or Error{bad_state} for
-  // "plastic" without plasticity.
+  // part of the approach); in the lower body's frame. Where nothing faces the lower body the pressure is 0
+  // and the gap is missing (NaN). Throws Error{unknown_name}, or Error{bad_state} for "plastic" without
+  // plasticity.
   std::shared_ptr<const Field> field(std::string_view name) const;
   // The body under load, in its own frame: "lower" or "upper". A rigid one comes back as it was.
   Surface deformed(std::string_view body) const;
-  // "pressure" over the nodes in contact, "gap" over the others, "spot_area" over the spots. Throws
-  // Error{bad_state} when there are none.
+  // "pressure" over the nodes in contact, "gap" over the others where the bodies face each other, "spot_area"
+  // over the spots. Throws Error{bad_state} when there are none.
   Histogram distribution(std::string_view name, const HistogramOptions& options = {}) const;
   // m³ that this press took from both bodies, and the share of the nodes at the limit of the pressure. Both
   // throw Error{bad_state} without the effect `plasticity`.
@@ -122,6 +127,7 @@ class State {
   // Frees the memory of a solution. What was read of the state stays, and its load, approach, contacts, peak
   // pressure, certificate and digest; reading anything else throws Error{bad_state}.
   static void close(const Watch& watch);
+  bool closed() const;
 
  private:
   std::shared_ptr<Shared> shared_;

@@ -61,6 +61,8 @@ void write_state(const State& state, const std::filesystem::path& path, std::vec
                      {"certificate load", c.load},
                      {"certificate cap", c.cap},
                      {"certificate attraction", c.attraction}};
+  if (state.overlap_fraction() < 1)
+    content.numbers.emplace_back("overlap_fraction", state.overlap_fraction());
   for (const std::string& name : fields) content.arrays.push_back(field_array(state, name));
   content.arrays.push_back(tile_size(state.grid()));
   write_hdf5_and_xdmf(path, state.grid(), "state", content);

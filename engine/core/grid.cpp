@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "engine/core/error.hpp"
@@ -81,6 +82,35 @@ Range range(std::span<const double> values) {
   Range range{*std::min_element(low, low + lanes), *std::max_element(high, high + lanes)};
   if (whole < values.size()) range = {std::min(range.min, *rest.first), std::max(range.max, *rest.second)};
   return range;
+}
+
+namespace {
+bool is_known(double value) { return !std::isnan(value); }
+
+Array<double> known_values(std::span<const double> values) {
+  Array<double> known;
+  known.reserve(values.size());
+  std::copy_if(values.begin(), values.end(), std::back_inserter(known), is_known);
+  return known;
+}
+
+bool all_known(std::span<const double> values) { return std::all_of(values.begin(), values.end(), is_known); }
+}  // namespace
+
+std::size_t known_count(std::span<const double> values) {
+  return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), is_known));
+}
+
+double known_sum(std::span<const double> values) {
+  return all_known(values) ? block_sum(values) : block_sum(known_values(values));
+}
+
+double known_mean(std::span<const double> values) {
+  return all_known(values) ? mean(values) : mean(known_values(values));
+}
+
+Range known_range(std::span<const double> values) {
+  return all_known(values) ? range(values) : range(known_values(values));
 }
 
 }  // namespace asperity

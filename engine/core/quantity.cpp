@@ -149,7 +149,7 @@ class Reader {
                                         {&Dimension::time, powers_[2]},
                                         {&Dimension::angle, powers_[3]}})
       quantity.dimension.*member = static_cast<std::int8_t>(power);
-    const bool decimal = numerator_ == 1 && denominator_ == 1;
+    const bool decimal = numerator_ == denominator_;
     const auto read = [&](long exponent) {
       const std::string number = std::string(mantissa_) + "e" + std::to_string(exponent);
       double value = 0;
@@ -166,6 +166,18 @@ class Reader {
     }
     if (!std::isfinite(quantity.value)) out_of_range();
     return quantity;
+  }
+
+  bool at_end() {
+    skip_space();
+    return rest_.empty();
+  }
+
+  // The same number counted in `unit`; the powers of metre and so on stay those of this text.
+  void count_in(const Reader& unit) {
+    numerator_ *= unit.denominator_;
+    denominator_ *= unit.numerator_;
+    ten_ -= unit.ten_;
   }
 
  private:
@@ -289,6 +301,10 @@ class Reader {
   }
 
   [[noreturn]] void refuse_unknown(std::string_view name) const {
+    // Scales of hardness in kgf/mm² of the indenter's contact area.
+    if (name == "HV" || name == "HK" || name == "HB" || name == "HBW")
+      refuse(text_, shown_name(name) + " is a scale of hardness, and hardness is a pressure",
+             "write " + std::string(name) + " x 9.807 MPa: 100 " + std::string(name) + " is \"980.7 MPa\"");
     std::vector<std::string> names;
     for (const Unit& unit : units)
       if (unit.name != "1" && (unit.name.front() == name.front())) names.emplace_back(unit.name);
@@ -356,6 +372,26 @@ double parse_quantity_as(std::string_view text, Dimension wanted) {
   refuse(text, describe(quantity.dimension) + " where " + describe(wanted) + " is wanted",
          wanted == dimension::number ? "write a plain number such as " + example
                                      : "write it such as " + example);
+}
+
+double parse_quantity_in(std::string_view text, std::string_view unit) {
+  if (unit == "-") unit = "";
+  Reader reader(text), one(unit);
+  reader.read_number();
+  const bool has_unit = !reader.at_end();
+  reader.read_unit();
+  one.take_number_one();
+  one.read_unit();
+  const Dimension given = reader.result().dimension, wanted = one.result().dimension;
+  // "10" beside "%" may mean 10 % or ten times everything: no unit is guessed.
+  const bool untold = !has_unit && !unit.empty() && unit != "1";
+  if (given != wanted || untold) {
+    const std::string in = unit.empty() ? "without a unit" : "in " + std::string(unit);
+    refuse(text, describe(given) + " where a number " + in + " is wanted",
+           unit.empty() ? "give a plain number" : "write it such as \"1 " + std::string(unit) + "\"");
+  }
+  reader.count_in(one);
+  return reader.result().value;
 }
 
 }  // namespace asperity

@@ -63,6 +63,11 @@ Quantity parse_unit(std::string_view text);
 // dimensions and gives an example that would be accepted.
 double parse_quantity_as(std::string_view text, Dimension wanted);
 
+// The text's value counted in a unit: ("10 MPa", "MPa") -> 10, ("5 %", "") -> 0.05. Decimal units round
+// once, so ("0.1 um", "um") is 0.1. Throws Error{bad_unit} where the two are of different kinds, and where
+// the unit is not "" and the text has none.
+double parse_quantity_in(std::string_view text, std::string_view unit);
+
 // A value with the SI prefix that makes it readable: 2.5e-4 m -> "250 um", 1.1e9 Pa -> "1.1 GPa".
 std::string format_quantity(double value, Dimension dimension, int digits = 4);
 

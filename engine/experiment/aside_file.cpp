@@ -4,13 +4,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <system_error>
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/part_file.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -59,11 +59,7 @@ AsideFile::AsideFile(std::filesystem::path target) : target_(std::move(target)) 
     throw Error(ErrorCode::bad_file,
                 "cannot write " + asperity::quoted(target_.string()) + ": it is a device or a pipe",
                 "give the name of a file");
-  static std::atomic<unsigned> counter{0};
-  // The extension stays last, because some writers choose their format by it.
-  const std::string name = "." + target_.stem().string() + "." + std::to_string(::getpid()) + "-" +
-                           std::to_string(counter++) + ".part" + target_.extension().string();
-  temporary_ = target_.parent_path() / name;
+  temporary_ = part_beside(target_);
 }
 
 AsideFile::~AsideFile() {
@@ -75,11 +71,13 @@ void AsideFile::commit() {
   committed_ = true;
 }
 
-void write_aside(const std::filesystem::path& target, std::string_view content) {
+void write_aside(const std::filesystem::path& target, std::string_view content, Durable durable) {
   AsideFile aside(target);
-  const int descriptor = ::open(aside.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int descriptor =
+      ::open(aside.temporary().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor < 0) throw_file_error("write", target, errno);
   int reason = write_all(descriptor, content);
+  if (reason == 0 && durable == Durable::yes && ::fsync(descriptor) != 0 && errno != EINVAL) reason = errno;
   if (::close(descriptor) != 0 && reason == 0) reason = errno;
   if (reason != 0) throw_file_error("write", target, reason);
   aside.commit();
@@ -101,8 +99,8 @@ bool append_to_existing(const std::filesystem::path& path, std::string_view cont
       if (descriptor >= 0) ::close(descriptor);
     }
   };
-  const Open file{::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC)};
-  if (file.descriptor < 0 && errno == ENOENT) return false;
+  const Open file{::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC)};
+  if (file.descriptor < 0 && (errno == ENOENT || errno == ELOOP)) return false;
   if (file.descriptor < 0) throw_file_error("write", path, errno);
   append_whole(file.descriptor, content, path);
   return true;

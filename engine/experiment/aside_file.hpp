@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files written aside and renamed: a reader sees the old file or the whole new one, never a torn one.
 // Errors of the system come back as one sentence with the file's name and the reason ("no space left
-// on device"). Does not wait for the disk: a power cut may lose the last moments, a kill does not.
+// on device"). Does not wait for the disk unless asked to: a power cut may lose the last moments, a kill does
+// not. Names aside are those of core/part_file.hpp.
 #pragma once
 
 #include <filesystem>
@@ -31,14 +32,19 @@ class AsideFile {
   bool committed_ = false;
 };
 
-// The whole content at once. Throws Error{bad_file} and leaves an earlier file as it was.
-void write_aside(const std::filesystem::path& target, std::string_view content);
+// The whole content at once. `durable`: the disk has the content before the name stands for it; the name
+// itself is on the disk once the folder is (core/disk.hpp). Throws Error{bad_file} and leaves an earlier file
+// as it was.
+enum class Durable { no, yes };
+void write_aside(const std::filesystem::path& target, std::string_view content,
+                 Durable durable = Durable::no);
 
 // Appends to an open file in one piece; what could not be written whole is cut off again, so that
 // the file ends with a whole line. Throws Error{bad_file} naming `path`.
 void append_whole(int descriptor, std::string_view content, const std::filesystem::path& path);
 
-// Appends in one piece to a file that exists; returns false if it does not. Throws as append_whole.
+// Appends in one piece to a file that exists; returns false if it does not, or is a link. Throws as
+// append_whole.
 bool append_to_existing(const std::filesystem::path& path, std::string_view content);
 
 // "cannot write `path`: <reason>", for the error number `reason` of a system call.

@@ -53,14 +53,16 @@ std::string count_sentence(std::size_t lost, std::size_t all, std::string_view w
 
 // What is left out, and why, over all series.
 struct Losses {
-  std::size_t all = 0, not_finite = 0, not_positive_x = 0, not_positive_y = 0;
+  std::size_t all = 0, not_finite = 0, too_large = 0, not_positive_x = 0, not_positive_y = 0;
 
   bool keep(double x, double y, const LineChart& chart) {
     ++all;
     // The largest doubles would overflow in the sums that place them.
     constexpr double largest = 1e300;
-    if (!(std::abs(x) <= largest && std::abs(y) <= largest)) {
+    if (!std::isfinite(x) || !std::isfinite(y)) {
       ++not_finite;
+    } else if (std::abs(x) > largest || std::abs(y) > largest) {
+      ++too_large;
     } else if (!drawable(x, chart.x)) {
       ++not_positive_x;
     } else if (!drawable(y, chart.y)) {
@@ -72,6 +74,7 @@ struct Losses {
   }
   void tell(const LineChart& chart, std::vector<std::string>& warnings) const {
     if (not_finite > 0) warnings.push_back(count_sentence(not_finite, all, "not finite"));
+    if (too_large > 0) warnings.push_back(count_sentence(too_large, all, "too large to draw (above 1e300)"));
     const std::string reason = " is not above zero, and its axis is logarithmic";
     if (not_positive_x > 0)
       warnings.push_back(count_sentence(not_positive_x, all, asperity::quoted(chart.x.label) + reason));
@@ -237,7 +240,10 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
 std::vector<std::string> draw(const LineChart& chart, const std::filesystem::path& file) {
   std::vector<std::string> warnings;
   const std::string script = chart_script(chart, picture_format(file), warnings);
-  write_aside(file, run_gnuplot(script).picture);
+  const GnuplotResult drawn = run_gnuplot(script);
+  write_aside(file, drawn.picture);
+  const std::vector<std::string> complaints = complaints_of(drawn, file);
+  warnings.insert(warnings.end(), complaints.begin(), complaints.end());
   return warnings;
 }
 

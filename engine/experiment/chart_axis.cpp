@@ -40,6 +40,9 @@ Scale scale_for(std::string_view unit, double largest, bool logarithmic) {
   }
   try {
     const Quantity one = parse_unit(unit);
+    // A share: plain numbers have no unit to be shown in, and "%" is one that readers know.
+    if (one.dimension == dimension::number)
+      return one.value == 1 ? scale_for("", largest, logarithmic) : Scale{printed_unit(unit), 1};
     const DisplayUnit display = display_unit(largest * one.value, one.dimension);
     const double factor = display.factor / one.value;
     if (std::isfinite(factor) && factor > 0) return {printed_unit(display.name), factor};

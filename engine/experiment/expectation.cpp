@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -112,26 +113,30 @@ void judge_trend(const Table& table, const std::vector<Value>& values, const std
   finding.violations.push_back(clause);
 }
 
+std::string shown(const ExpectedValue& wanted) {
+  return wanted.quantity.empty() ? format_short(wanted.value) : wanted.quantity;
+}
+
 std::string wanted(const Expectation& e) {
   std::vector<std::string> parts;
   if (e.near) {
-    std::string part = "near " + format_short(*e.near);
-    part +=
-        e.within ? " within " + format_short(*e.within) : " within " + format_short(*e.relative * 100) + " %";
+    std::string part = "near " + shown(*e.near);
+    part += e.within ? " within " + shown(*e.within) : " within " + format_short(*e.relative * 100) + " %";
     parts.push_back(part);
   }
-  if (e.at_least) parts.push_back("at least " + format_short(*e.at_least));
-  if (e.at_most) parts.push_back("at most " + format_short(*e.at_most));
+  if (e.at_least) parts.push_back("at least " + shown(*e.at_least));
+  if (e.at_most) parts.push_back("at most " + shown(*e.at_most));
   if (e.increasing_in) parts.push_back("increasing in " + quoted(*e.increasing_in));
   if (e.decreasing_in) parts.push_back("decreasing in " + quoted(*e.decreasing_in));
   return joined(parts, " and ");
 }
 
 bool is_near(const Expectation& e, double value) {
-  const double allowed = e.within ? *e.within : *e.relative * std::abs(*e.near);
+  const double near = e.near->value;
+  const double allowed = e.within ? e.within->value : *e.relative * std::abs(near);
   const double rounding =
-      4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(value), std::abs(*e.near));
-  return std::abs(value - *e.near) <= allowed + (std::isfinite(rounding) ? rounding : 0.0);
+      4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(value), std::abs(near));
+  return std::abs(value - near) <= allowed + (std::isfinite(rounding) ? rounding : 0.0);
 }
 
 // The rows to judge; sets the obstacle when there is none or one of them holds no number.
@@ -179,14 +184,58 @@ std::string found_text(const std::vector<Value>& values, std::size_t rows_of_tab
   return text;
 }
 
-void require_number(const std::optional<double>& value, std::string_view key, bool finite, bool positive) {
-  if (!value) return;
-  if (std::isnan(*value) || (finite && !std::isfinite(*value)) || (positive && *value < 0))
-    refuse(quoted(key) + " is " + format_short(*value),
+void require_number(const std::optional<ExpectedValue>& wanted, std::string_view key, bool finite,
+                    bool positive) {
+  if (!wanted) return;
+  const double value = wanted->value;
+  if (std::isnan(value) || (finite && !std::isfinite(value)) || (positive && value < 0))
+    refuse(quoted(key) + " is " + shown(*wanted),
            positive ? "give a finite number, zero or above" : "give a number to compare with");
 }
 
+void require_order(const Expectation& e) {
+  if (e.at_least && e.at_most && e.at_least->value > e.at_most->value)
+    refuse("`at_least` is " + shown(*e.at_least) + " and `at_most` is " + shown(*e.at_most),
+           "no value is both; exchange them");
+}
+
+void count_in_unit(std::optional<ExpectedValue>& wanted, std::string_view key, const TableColumn& column) {
+  if (!wanted || wanted->quantity.empty()) return;
+  const Quantity given = parse_quantity(wanted->quantity);
+  const Dimension unit = parse_unit(column.unit).dimension;
+  try {
+    wanted->value = parse_quantity_in(wanted->quantity, column.unit);
+  } catch (const Error&) {
+    const std::string had = column.unit.empty() ? "has no unit" : "is in " + column.unit;
+    const std::string kind =
+        given.dimension == dimension::number ? "has no unit" : "is " + describe(given.dimension);
+    const std::string other = unit == dimension::number ? "a share such as \"5 %\"" : describe(unit);
+    throw Error(ErrorCode::bad_unit,
+                quoted(key) + " is \"" + wanted->quantity + "\", which " + kind + ", and column " +
+                    quoted(column.name) + " " + had,
+                column.unit.empty()
+                    ? "give a plain number, or the column its unit: book:units{ " + column.name + "=\"" +
+                          si_unit(given.dimension) + "\" } before the first row"
+                    : "give a plain number, which is counted in " + column.unit + ", or " + other);
+  }
+  wanted->quantity = format_short(wanted->value) + (column.unit.empty() ? "" : " " + column.unit);
+}
+
 }  // namespace
+
+ExpectedValue::ExpectedValue(std::string_view text) : value(parse_quantity(text).value), quantity(text) {}
+
+Expectation in_column_unit(const Expectation& expectation, const Table& table) {
+  const auto place = table.find_column(expectation.column);
+  if (!place) return expectation;
+  Expectation counted = expectation;
+  const TableColumn& column = table.columns()[*place];
+  count_in_unit(counted.near, "near", column);
+  count_in_unit(counted.within, "within", column);
+  count_in_unit(counted.at_least, "at_least", column);
+  count_in_unit(counted.at_most, "at_most", column);
+  return counted;
+}
 
 void check(const Expectation& e) {
   if (!e.near && !e.at_least && !e.at_most && !e.increasing_in && !e.decreasing_in)
@@ -195,36 +244,40 @@ void check(const Expectation& e) {
   if (e.near && e.within.has_value() == e.relative.has_value())
     refuse(e.within ? "`near` is given both `within` and `rel`" : "`near` needs a width",
            "give `within` (absolute) or `rel` (a fraction of `near`)");
-  if (e.near == 0.0 && e.relative) refuse("`near` is 0, of which `rel` leaves no width", "give `within`");
+  if (e.near && e.near->value == 0 && e.relative)
+    refuse("`near` is 0, of which `rel` leaves no width", "give `within`");
   if (!e.near && (e.within || e.relative))
     refuse(std::string(e.within ? "`within`" : "`rel`") + " needs `near`",
            "say what the value should be near");
   require_number(e.near, "near", true, false);
   require_number(e.within, "within", true, true);
-  require_number(e.relative, "rel", true, true);
+  if (e.relative) require_number(ExpectedValue(*e.relative), "rel", true, true);
   require_number(e.at_least, "at_least", false, false);
   require_number(e.at_most, "at_most", false, false);
-  if (e.at_least && e.at_most && *e.at_least > *e.at_most)
-    refuse("`at_least` is " + format_short(*e.at_least) + " and `at_most` is " + format_short(*e.at_most),
-           "no value is both; exchange them");
+  // A quantity and a plain number can be compared once the column's unit is known.
+  const bool of_one_kind =
+      e.at_least && e.at_most && e.at_least->quantity.empty() == e.at_most->quantity.empty();
+  if (of_one_kind) require_order(e);
   if (e.increasing_in && e.decreasing_in && *e.increasing_in == *e.decreasing_in)
     refuse("`increasing_in` and `decreasing_in` both name " + quoted(*e.increasing_in), "keep one of them");
 }
 
-Verdict evaluate(const Expectation& e, const Table& table, std::string_view notebook) {
-  check(e);
+Verdict evaluate(const Expectation& asked, const Table& table, std::string_view notebook) {
+  check(asked);
+  const Expectation e = in_column_unit(asked, table);
+  if (table.find_column(e.column)) require_order(e);
   Finding finding;
   const std::vector<Value> values = values_of(e, table, finding);
   if (finding.obstacle.empty()) {
     if (e.near)
       judge_rows(
-          values, *e.near, [&](double v) { return is_near(e, v); }, finding);
+          values, e.near->value, [&](double v) { return is_near(e, v); }, finding);
     if (e.at_least)
       judge_rows(
-          values, *e.at_least, [&](double v) { return v >= *e.at_least; }, finding);
+          values, e.at_least->value, [&](double v) { return v >= e.at_least->value; }, finding);
     if (e.at_most)
       judge_rows(
-          values, *e.at_most, [&](double v) { return v <= *e.at_most; }, finding);
+          values, e.at_most->value, [&](double v) { return v <= e.at_most->value; }, finding);
     if (e.increasing_in) judge_trend(table, values, *e.increasing_in, true, finding);
     if (finding.obstacle.empty() && e.decreasing_in)
       judge_trend(table, values, *e.decreasing_in, false, finding);

@@ -5,6 +5,7 @@
 // (same_cell) are averaged first, because a single seed proves nothing about a population.
 // `should_fail` marks a negative control: it passes when the conditions are violated. What cannot be
 // judged (no rows, a missing column, text, nan, a trend of one point) never passes, control or not.
+// A plain number is counted in the column's own unit; a quantity ("10 MPa") is converted to it first.
 #pragma once
 
 #include <optional>
@@ -17,14 +18,24 @@
 
 namespace asperity {
 
+// What a cell is compared with: a plain number, or a quantity as it was written.
+struct ExpectedValue {
+  ExpectedValue(double number) : value(number) {}
+  // Throws Error{bad_unit} as parse_quantity does.
+  explicit ExpectedValue(std::string_view text);
+
+  double value;          // SI for a quantity, until it is counted in the unit of its column
+  std::string quantity;  // "10 MPa"; "" for a plain number
+};
+
 struct Expectation {
   std::string column;
   TableFilter where;
-  std::optional<double> near;      // with exactly one of the two below
-  std::optional<double> within;    // |value - near| <= within
-  std::optional<double> relative;  // |value - near| <= relative·|near|
-  std::optional<double> at_least;  // value >= at_least
-  std::optional<double> at_most;   // value <= at_most
+  std::optional<ExpectedValue> near;      // with exactly one of the two below
+  std::optional<ExpectedValue> within;    // |value - near| <= within
+  std::optional<double> relative;         // |value - near| <= relative·|near|
+  std::optional<ExpectedValue> at_least;  // value >= at_least
+  std::optional<ExpectedValue> at_most;   // value <= at_most
   std::optional<std::string> increasing_in;
   std::optional<std::string> decreasing_in;
   bool should_fail = false;
@@ -45,8 +56,13 @@ struct Verdict {
 // `at_least` above `at_most`, both trends in one column.
 void check(const Expectation& expectation);
 
-// After check(). Rows are numbered from 1 in sentences, as in the notebook; differences get the
-// slack of a few last digits that their own subtraction needs. Cost: rows × conditions.
+// The expectation with its quantities counted in the unit of the column; as it is where the table has no
+// such column. Throws Error{bad_unit} for a quantity of another kind than the column's unit, and for one
+// with a unit where the column has none.
+Expectation in_column_unit(const Expectation& expectation, const Table& table);
+
+// After check(). Throws as in_column_unit does. Rows are numbered from 1 in sentences, as in the notebook;
+// differences get the slack of a few last digits that their own subtraction needs. Cost: rows × conditions.
 Verdict evaluate(const Expectation& expectation, const Table& table, std::string_view notebook);
 
 }  // namespace asperity

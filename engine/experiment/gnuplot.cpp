@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -143,6 +144,14 @@ int wait_for(pid_t child) {
   }
 }
 
+// Ours is also the limit of what we start.
+int handles_if_few() {
+  constexpr rlim_t enough = 32;
+  rlimit handles{};
+  if (::getrlimit(RLIMIT_NOFILE, &handles) != 0 || handles.rlim_cur >= enough) return 0;
+  return static_cast<int>(handles.rlim_cur);
+}
+
 std::string without_ends(std::string text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return {};
@@ -202,6 +211,20 @@ std::string gnuplot_terminal(PictureFormat format, int width, int height, double
   return "set terminal svg size " + size + " dynamic" + look + " background '#ffffff'\n";
 }
 
+std::vector<std::string> complaints_of(const GnuplotResult& result, const fs::path& file) {
+  if (result.messages.empty() && result.few_handles > 0)
+    return {asperity::quoted(file.filename().string()) +
+            " may lack its fonts: gnuplot, which drew it, may have " + std::to_string(result.few_handles) +
+            " files open at once; allow more with `ulimit -n`"};
+  if (result.messages.empty()) return {};
+  constexpr std::size_t longest = 300;
+  std::string said;
+  for (const char c : result.messages.substr(0, longest)) said += c == '\n' ? ' ' : c;
+  return {asperity::quoted(file.filename().string()) +
+          " may look otherwise than it should; gnuplot, which drew it, says: " + said +
+          (result.messages.size() > longest ? " …" : "")};
+}
+
 namespace {
 std::function<GnuplotDrawer>& drawer() {
   static std::function<GnuplotDrawer> other;
@@ -224,7 +247,7 @@ GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> 
   for (const GnuplotData& item : data) write_aside(folder.path() / item.name, item.bytes);
   const int status = wait_for(start(folder.path()));
   GnuplotResult result{content_of(folder.path() / "picture"),
-                       without_ends(content_of(folder.path() / "messages"))};
+                       without_ends(content_of(folder.path() / "messages")), handles_if_few()};
   const bool failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
   // A shell's convention, for systems where a missing program is found out only by the child.
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && result.messages.empty())

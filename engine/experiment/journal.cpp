@@ -2,6 +2,7 @@
 #include "engine/experiment/journal.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,11 +18,18 @@
 namespace asperity {
 
 Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw_file_error("begin", path_, errno);
 }
 
 std::unique_ptr<Journal> Journal::again(std::filesystem::path path) {
+  // Before it is read: what a link leads to is not of this run.
+  auto journal = std::make_unique<Journal>();
+  journal->descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (journal->descriptor_ < 0 && errno == ELOOP)
+    throw Error(ErrorCode::bad_file, quoted(path.string()) + " is a link",
+                "a run writes its own files where they are; take the link away");
+  if (journal->descriptor_ < 0) throw_file_error("take up", path, errno);
   JournalLines recorded = read_journal(path, true);
   const auto ended = [&] {
     const Json* event = recorded.lines.empty() ? nullptr : recorded.lines.back().find("event");
@@ -31,9 +39,6 @@ std::unique_ptr<Journal> Journal::again(std::filesystem::path path) {
     recorded.lines.pop_back();
     recorded.ends.pop_back();
   }
-  auto journal = std::make_unique<Journal>();
-  journal->descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (journal->descriptor_ < 0) throw_file_error("take up", path, errno);
   if (::ftruncate(journal->descriptor_, recorded.ends.empty() ? 0 : recorded.ends.back()) != 0)
     throw_file_error("take up", path, errno);
   journal->path_ = std::move(path);
@@ -60,6 +65,7 @@ std::int64_t Journal::append(std::string_view event, const Json& fields) {
     if (!fields.is_null())
       for (const auto& [name, value] : fields.members()) line.set(name, value);
     if (!repeats(line)) append_whole(descriptor_, line.text() + "\n", path_);
+    digester_.add(without_unhashed(line).text());
   }
   ++count_;
   if (watcher_) watcher_(event, fields);
@@ -114,12 +120,44 @@ bool Journal::close(std::string_view event, const Json& fields, std::chrono::mil
   return true;
 }
 
+bool Journal::is_lost() const {
+  struct ::stat held {
+  }, named{};
+  if (descriptor_ < 0 || ::fstat(descriptor_, &held) != 0) return false;
+  return held.st_nlink == 0 || ::lstat(path_.c_str(), &named) != 0 || named.st_ino != held.st_ino ||
+         named.st_dev != held.st_dev;
+}
+
+std::optional<JournalFacts> Journal::facts() const {
+  // A writer that is stuck in the disk is not waited for.
+  const std::unique_lock lock = lock_within(mutex_, std::chrono::milliseconds(100));
+  if (!lock.owns_lock() || !closed_ || descriptor_ < 0) return {};
+  return JournalFacts{count_, digester_.hex()};
+}
+
+JournalFacts facts_of(const std::vector<Json>& lines) {
+  Digester digester;
+  for (const Json& line : lines) digester.add(line.text());
+  return {static_cast<std::int64_t>(lines.size()), digester.hex()};
+}
+
 Json without_unhashed(const Json& record) {
   Json::Members kept;
   for (const Json::Member& member : record.members())
     if (member.first != "unhashed") kept.push_back(member);
   return Json::object(std::move(kept));
 }
+
+namespace {
+
+// What serves where a journal does not: the results of heavy calls carry digests of their own.
+std::string results_remain(const std::filesystem::path& journal) {
+  const std::string run = journal.parent_path().string();
+  return "its results are taken by `asperity run " + (journal.parent_path() / "script.lua").string() +
+         " --reuse " + run + "`";
+}
+
+}  // namespace
 
 JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn) {
   std::ifstream file(path, std::ios::binary);
@@ -130,13 +168,17 @@ JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn) {
   std::int64_t bytes = 0;
   for (std::string line; std::getline(file, line);) {
     const std::string name = "line " + std::to_string(read.lines.size() + 1) + " of " + quoted(path.string());
-    if (file.eof() && may_be_torn) break;  // no newline after it
+    // No newline after it; or a hole that a power cut left in the file, which reads as zeros.
+    if (may_be_torn && (file.eof() || line.find('\0') != std::string::npos)) break;
     bytes += static_cast<std::int64_t>(line.size()) + 1;
+    if (line.find('\0') != std::string::npos)
+      throw Error(ErrorCode::bad_file, name + " holds zeros, as a power cut leaves them",
+                  results_remain(path));
     Json record = Json::parse(line, name);
     const Json* number = record.is_object() ? record.find("n") : nullptr;
     if (number == nullptr || number->number() != static_cast<double>(read.lines.size() + 1))
       throw Error(ErrorCode::bad_file, name + " does not carry its number",
-                  "lines were taken out or put in: the journal was altered");
+                  "lines were taken out or put in: the journal was altered; " + results_remain(path));
     read.lines.push_back(without_unhashed(record));
     read.ends.push_back(bytes);
   }

@@ -13,14 +13,24 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "engine/core/digest.hpp"
 #include "engine/experiment/json.hpp"
 
 namespace asperity {
+
+// How many lines a journal has, and the digest of them without what is unhashed.
+struct JournalFacts {
+  std::int64_t lines = 0;
+  std::string digest;
+  bool operator==(const JournalFacts&) const = default;
+};
+JournalFacts facts_of(const std::vector<Json>& lines);
 
 // Thread-safe.
 class Journal {
@@ -29,9 +39,10 @@ class Journal {
   Journal() = default;
   // Makes the file. Throws Error{bad_file} if it cannot or the file exists already.
   explicit Journal(std::filesystem::path path);
-  // Takes up the journal of a run that was cut off: a torn last line and an event "end" are cut off it, and
-  // every write is compared with the line recorded in its place until these are used up. Throws
-  // Error{bad_file} if it cannot be read or written, or is damaged before its end.
+  // Takes up the journal of a run that was cut off: a torn last line, everything from a hole that a power cut
+  // left on, and an event "end" are cut off it, and every write is compared with the line recorded in its
+  // place until these are used up. Throws Error{bad_file} if it cannot be read or written, is a link, or is
+  // damaged before its end.
   static std::unique_ptr<Journal> again(std::filesystem::path path);
   ~Journal();
   Journal(const Journal&) = delete;
@@ -54,6 +65,10 @@ class Journal {
   // Where and how it left what was recorded, as a sentence; "" where it did not.
   std::string departure() const;
   const std::filesystem::path& path() const { return path_; }
+  // Whether its file was removed, or another one put in its place, while it was written.
+  bool is_lost() const;
+  // Of a journal that is closed; none before, of one without a file, and while a writer is stuck in the disk.
+  std::optional<JournalFacts> facts() const;
 
   // Writes a last line and refuses all later ones. Waits at most `patience` for a writer that is
   // stuck in the disk; returns false, with every earlier line whole, if that was not enough.
@@ -70,13 +85,14 @@ class Journal {
   std::vector<Json> recorded_;      // of a journal taken up again, without what is unhashed
   std::vector<std::int64_t> ends_;  // byte after each
   std::string departure_;
+  Digester digester_;
   std::function<void(std::string_view, const Json&)> watcher_;
   mutable std::mutex mutex_;
 };
 
 // The lines of a journal, without what is unhashed, and how many bytes they take. `may_be_torn`: what follows
-// the last newline is left out. Throws Error{bad_file} for a line that is no JSON or does not carry its
-// number.
+// the last newline, or a line that holds zeros, is left out. Throws Error{bad_file} for a line that is no
+// JSON or does not carry its number.
 struct JournalLines {
   std::vector<Json> lines;
   std::vector<std::int64_t> ends;  // byte after each

@@ -25,16 +25,22 @@ struct Bends {
 };
 
 // Within pieces, their ends left out: a corner may lie there.
-Bends bends_of(std::span<const double> value, std::span<const StraightPiece> pieces, int stride) {
+Bends bends_of(std::span<const double> time, std::span<const double> value,
+               std::span<const StraightPiece> pieces, int stride) {
   Array<double> magnitudes;
   // A sensor at its limit has no noise.
   const double top = *std::max_element(value.begin(), value.end());
   const auto reach = static_cast<std::size_t>(stride);
   constexpr std::size_t rim = 1;
-  for (const StraightPiece& piece : pieces)
+  for (const StraightPiece& piece : pieces) {
+    const double slope = piece.line.slope();
+    const auto left = [&](std::size_t k) {
+      return value[k] - piece.line.y - slope * (time[k] - piece.line.t);
+    };
     for (std::size_t k = piece.first + rim + reach; k + reach + rim <= piece.last; ++k)
       if (value[k] != top || value[k - reach] != top || value[k + reach] != top)
-        magnitudes.push_back(std::abs(value[k] - 0.5 * (value[k - reach] + value[k + reach])));
+        magnitudes.push_back(std::abs(left(k) - 0.5 * (left(k - reach) + left(k + reach))));
+  }
   if (magnitudes.empty()) return {};
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
   std::nth_element(magnitudes.begin(), middle, magnitudes.end());
@@ -45,13 +51,13 @@ Bends bends_of(std::span<const double> value, std::span<const StraightPiece> pie
 
 }  // namespace
 
-std::optional<NoiseCorrelation> noise_correlation(std::span<const double> value,
+std::optional<NoiseCorrelation> noise_correlation(std::span<const double> time, std::span<const double> value,
                                                   std::span<const StraightPiece> pieces) {
   constexpr std::size_t enough = 400;
-  const Bends near = bends_of(value, pieces, 1);
+  const Bends near = bends_of(time, value, pieces, 1);
   if (near.count < enough || !(near.square > 0)) return {};
   for (const int stride : {16, 8, 4}) {
-    const Bends far = bends_of(value, pieces, stride);
+    const Bends far = bends_of(time, value, pieces, stride);
     if (far.count < enough) continue;
     // The ratio grows with r, from 1 on.
     const double ratio = far.square / near.square;

@@ -2,8 +2,9 @@
 // The inner working of event_detection.hpp: how alike neighbouring readings of a recording scatter, as they
 // do after a filter. Noise is taken for a first-order autoregression with the coefficient r, whose means over
 // n readings are known as those of n (1 - r)/(1 + r) independent ones (Bartlett 1935). Second differences
-// over L readings, which ramps do not move, have the variance s² (1.5 - 2 r^L + 0.5 r^2L); the medians of
-// their magnitudes at L = 1 and at a greater one give r and s.
+// over L readings have the variance s² (1.5 - 2 r^L + 0.5 r^2L); the medians of their magnitudes at L = 1 and
+// at a greater one give r and s. They are taken of what the lines of the pieces leave, so that ramps do not
+// move them, nor a clock that jitters on a ramp.
 #pragma once
 
 #include <optional>
@@ -19,8 +20,8 @@ struct NoiseCorrelation {
 };
 
 // Looked for within the pieces. Nothing for noise that is white as far as can be told (r below 0.4), or where
-// too few readings lie within pieces. `value` is as long as the pieces tell. O(n).
-std::optional<NoiseCorrelation> noise_correlation(std::span<const double> value,
+// too few readings lie within pieces. `time` and `value` are as long as the pieces tell. O(n).
+std::optional<NoiseCorrelation> noise_correlation(std::span<const double> time, std::span<const double> value,
                                                   std::span<const StraightPiece> pieces);
 
 }  // namespace asperity

@@ -54,6 +54,12 @@ void Notebook::declare_unit(std::string_view column, std::string_view unit) {
   if (new_header && !csv_.empty() && table_.rows() > 0 && !journal_.repeating()) rewrite();
 }
 
+std::string Notebook::unit_of(std::string_view column) const {
+  const std::lock_guard lock(mutex_);
+  const auto place = table_.find_column(column);
+  return place ? table_.columns()[*place].unit : std::string();
+}
+
 void Notebook::rewrite() {
   stale_ = true;
   write_aside(csv_, table_.csv());

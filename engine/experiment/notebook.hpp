@@ -34,8 +34,10 @@ class Notebook {
   void write(std::span<const Entry> row);
   // Throws as Table::declare_unit.
   void declare_unit(std::string_view column, std::string_view unit);
-  // Journal event "expect"; the verdict also enters the run's log. Throws only as check() does: an
-  // expectation that fails is a verdict, not an error.
+  // The unit of a column; "" where it has none, or is not there.
+  std::string unit_of(std::string_view column) const;
+  // Journal event "expect"; the verdict also enters the run's log. Throws only as check() and
+  // in_column_unit() do: an expectation that fails is a verdict, not an error.
   Verdict expect(const Expectation& expectation);
 
   // A copy of what is written now.

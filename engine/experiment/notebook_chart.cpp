@@ -58,8 +58,14 @@ Columns find_columns(const Table& table, const NotebookChart& options) {
   return columns;
 }
 
+// Rows that hold text where a number should be, and the first of it.
+struct Unreadable {
+  std::size_t rows = 0;
+  std::string column, text;
+};
+
 std::vector<Line> lines_of(const Table& table, const std::vector<std::size_t>& rows, const Columns& columns,
-                           std::size_t y_column, std::size_t& unreadable) {
+                           std::size_t y_column, Unreadable& unreadable) {
   std::vector<Line> lines;
   if (!columns.line) lines.push_back({});
   for (const std::size_t row : rows) {
@@ -68,7 +74,11 @@ std::vector<Line> lines_of(const Table& table, const std::vector<std::size_t>& r
     if (is_empty(x) || is_empty(y)) continue;
     const auto x_number = number_in(x), y_number = number_in(y);
     if (!x_number || !y_number) {
-      ++unreadable;
+      const std::size_t column = x_number ? y_column : columns.x;
+      if (unreadable.rows++ == 0) {
+        unreadable.column = table.columns()[column].name;
+        unreadable.text = short_text(table.cell(row, column));
+      }
       continue;
     }
     const Cell value = columns.line ? table.cell(row, *columns.line) : Cell();
@@ -159,7 +169,8 @@ LineChart chart_of(const Table& table, const NotebookChart& options, std::vector
   chart.y.logarithmic = options.log_y;
   if (columns.line) chart.key_title = table.columns()[*columns.line].name;
 
-  std::size_t unreadable = 0, drawn = 0;
+  Unreadable unreadable;
+  std::size_t drawn = 0;
   for (std::size_t k = 0; k < columns.y.size(); ++k)
     for (const Line& line : lines_of(table, rows, columns, columns.y[k], unreadable)) {
       if (line.samples.empty()) continue;
@@ -167,14 +178,18 @@ LineChart chart_of(const Table& table, const NotebookChart& options, std::vector
       chart.series.push_back(series_of(line, options));
       chart.series.back().name = line_name(options, names[k], line, table, columns);
     }
-  if (unreadable > 0)
-    warnings.push_back(std::to_string(unreadable) + (unreadable == 1 ? " row is" : " rows are") +
+  if (unreadable.rows > 0)
+    warnings.push_back(std::to_string(unreadable.rows) + (unreadable.rows == 1 ? " row is" : " rows are") +
                        " not drawn: text where a number should be");
   if (drawn == 0) {
     std::string hint = "the notebook has no rows";
     if (table.rows() > 0)
       hint = rows.empty() ? "no row matches `where` " + options.where.text()
                           : "none of the " + std::to_string(rows.size()) + " rows has a number in both";
+    if (!rows.empty() && unreadable.rows > 0)
+      hint = asperity::quoted(unreadable.column) + " holds names, such as \"" + unreadable.text +
+             "\"; an axis takes numbers: give `one_line_per` the names, or write a column of numbers beside "
+             "them";
     throw Error(ErrorCode::bad_value,
                 "the chart of " + asperity::quoted(joined(names, ", ")) + " against " +
                     asperity::quoted(x.name) + " has nothing to draw",

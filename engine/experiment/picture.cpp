@@ -231,6 +231,13 @@ std::string map_body(const Frame& frame, const Field& cells, const PictureOption
   return text + "\n";
 }
 
+// Beside the numbers of a map's bar. Beside those of a relief gnuplot takes them for narrower than they may
+// be, and there is no more room: its title stands above the bar, up to the edge of the canvas.
+std::string bar_title(const std::string& label, bool relief) {
+  if (!relief) return "\nset cblabel " + gnuplot_text(label);
+  return "\nset label 1 " + gnuplot_text(label) + " at screen 0.985, screen 0.8 right front";
+}
+
 std::string relief_body(const Frame& frame, const Field& cells, const Grid& grid) {
   std::string text = "set view 52, 322, 1.42, 1\n";
   if (fits_to_scale(grid)) text += "set view equal xy\n";
@@ -311,7 +318,7 @@ PictureScript picture_script(const Grid& grid, const Field& field, const Picture
                    range_command("cb", frame.colour) + tics("x", frame.x, "nomirror out scale 0.6") +
                    tics("y", frame.y, "nomirror out scale 0.6") + tics("cb", frame.colour, "scale 0.6") +
                    "set xlabel " + gnuplot_text(frame.x.label) + "\nset ylabel " +
-                   gnuplot_text(frame.y.label) + "\nset cblabel " + gnuplot_text(frame.colour.label) +
+                   gnuplot_text(frame.y.label) + bar_title(frame.colour.label, relief) +
                    "\nset border linewidth 1 linecolor rgb '#404040'\n";
   if (!options.title.empty()) picture.script += "set title " + gnuplot_text(options.title) + "\n";
   picture.script += relief ? relief_body(frame, cells, grid) : map_body(frame, cells, resolved, canvas);
@@ -319,8 +326,8 @@ PictureScript picture_script(const Grid& grid, const Field& field, const Picture
   return picture;
 }
 
-void draw(const Grid& grid, const Field& field, const PictureOptions& options,
-          const std::filesystem::path& file) {
+std::vector<std::string> draw(const Grid& grid, const Field& field, const PictureOptions& options,
+                              const std::filesystem::path& file) {
   if (const std::string ending = file.extension().string(); ending != ".png")
     throw Error(ErrorCode::bad_value,
                 "the picture " + asperity::quoted(file.string()) +
@@ -328,11 +335,14 @@ void draw(const Grid& grid, const Field& field, const PictureOptions& options,
                 "pictures of surfaces are .png");
   const PictureScript picture = picture_script(grid, field, options);
   const GnuplotData cells{"cells", picture.cells};
-  write_aside(file, run_gnuplot(picture.script, {&cells, 1}).picture);
+  const GnuplotResult drawn = run_gnuplot(picture.script, {&cells, 1});
+  write_aside(file, drawn.picture);
+  return complaints_of(drawn, file);
 }
 
-void draw(const Surface& surface, const PictureOptions& options, const std::filesystem::path& file) {
-  draw(surface.grid(), surface.heights(), options, file);
+std::vector<std::string> draw(const Surface& surface, const PictureOptions& options,
+                              const std::filesystem::path& file) {
+  return draw(surface.grid(), surface.heights(), options, file);
 }
 
 }  // namespace asperity

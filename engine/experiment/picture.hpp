@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/grid.hpp"
 #include "engine/surface/surface.hpp"
@@ -35,10 +36,12 @@ struct PictureScript {
 // Cost: one pass over the field; memory of a value a pixel.
 PictureScript picture_script(const Grid& grid, const Field& field, const PictureOptions& options);
 
-// Draws into `file` (.png), written aside. Throws as picture_script, run_gnuplot and write_aside do.
-void draw(const Grid& grid, const Field& field, const PictureOptions& options,
-          const std::filesystem::path& file);
-void draw(const Surface& surface, const PictureOptions& options, const std::filesystem::path& file);
+// Draws into `file` (.png), written aside. Returns warnings: what gnuplot complained of. Throws as
+// picture_script, run_gnuplot and write_aside do.
+std::vector<std::string> draw(const Grid& grid, const Field& field, const PictureOptions& options,
+                              const std::filesystem::path& file);
+std::vector<std::string> draw(const Surface& surface, const PictureOptions& options,
+                              const std::filesystem::path& file);
 
 // Means of the field over columns × rows equal patches, none more than the field has; cells that straddle
 // patches count by area. Non-finite values do not count; a patch without any other is nan.

@@ -79,9 +79,10 @@ LineChart profile_chart(std::span<const NamedProfile> profiles, std::string titl
   return chart;
 }
 
-void draw(const Profile& profile, const std::string& title, const std::filesystem::path& file) {
+std::vector<std::string> draw(const Profile& profile, const std::string& title,
+                              const std::filesystem::path& file) {
   const NamedProfile item{"", profile};
-  draw(profile_chart({&item, 1}, title), file);
+  return draw(profile_chart({&item, 1}, title), file);
 }
 
 }  // namespace asperity

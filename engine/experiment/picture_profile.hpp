@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/experiment/chart.hpp"
 #include "engine/surface/profile.hpp"
@@ -21,7 +22,8 @@ struct NamedProfile {
 // Throws Error{bad_value} for no profile, or for open and closed ones together.
 LineChart profile_chart(std::span<const NamedProfile> profiles, std::string title = {});
 
-// Draws into `file` (.svg or .png). Throws as profile_chart and draw(LineChart) do.
-void draw(const Profile& profile, const std::string& title, const std::filesystem::path& file);
+// Draws into `file` (.svg or .png). Returns the warnings. Throws as profile_chart and draw(LineChart) do.
+std::vector<std::string> draw(const Profile& profile, const std::string& title,
+                              const std::filesystem::path& file);
 
 }  // namespace asperity

@@ -10,6 +10,7 @@ Json to_json(const Plan& plan) {
   for (const PlannedBuffer& buffer : plan.buffers)
     buffers.push_back(Json::object({{"name", buffer.name}, {"bytes", buffer.bytes}, {"kept", buffer.kept}}));
   return Json::object({{"contact", plan.title},
+                       {"overlap_fraction", plan.overlap},
                        {"terms", terms},
                        {"solver", plan.solver},
                        {"tolerance", plan.accuracy.tolerance},

@@ -67,7 +67,7 @@ class LogReader {
                                         (others.empty() ? std::string() : " among others: " + others) +
                                         "; write \"pressure [MPa]\" or \"load [N]\"");
     else if (!others.empty() && table_.problems() == 0)
-      monitor_.warn(file_name(file_.path()) + " has columns of which a protocol makes nothing: " + others);
+      monitor_.warn(file_name(file_.path()) + " has columns that a protocol does not use: " + others);
   }
 
   void read_row(const std::vector<LogCell>& cells) {
@@ -142,9 +142,11 @@ class LogReader {
                     table_.here());
   }
 
-  // A press that stays for longer than until the next row begins did not happen as it stands.
+  // A press that stays for longer than until the next row begins did not happen as it stands; a little longer
+  // it may, for times and dwells are rounded.
   void check_dwell(const std::optional<double>& now) {
-    if (now && held_.begun && held_.dwell && *held_.begun + *held_.dwell > *now + 1e-9 * std::abs(*now) &&
+    constexpr double rounded_by = 0.01;
+    if (now && held_.begun && held_.dwell && *held_.begun + (1 - rounded_by) * *held_.dwell > *now &&
         ++long_dwells_ == 1)
       first_long_dwell_ = "the dwell of " + format_quantity(*held_.dwell, dimension::time) + " in " +
                           held_.line + " goes on after " + table_.here() + ", which begins " +

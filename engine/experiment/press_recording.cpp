@@ -86,7 +86,7 @@ class RecordingReader {
                        "with events=\"rows\", or leave the column out");
     if (table_.problems() > 0) return;
     if (!others.empty())
-      monitor_.warn(file_name(file_.path()) + " has columns of which a protocol makes nothing: " + others);
+      monitor_.warn(file_name(file_.path()) + " has columns that a protocol does not use: " + others);
     time_ = *table_.find(at_time);
     recording_.by = table_.has(of_load) ? PressBy::load : PressBy::pressure;
     load_ = *table_.find(table_.has(of_load) ? of_load : of_pressure);

@@ -111,7 +111,7 @@ Json read_manifest(const fs::path& root) {
   return Json::parse(whole_file(file), quoted(file.string()));
 }
 
-RecordedRun read_run(const fs::path& root) {
+RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   RecordedRun run;
   run.root = root;
   const fs::path file = root / "manifest.json";
@@ -131,7 +131,19 @@ RecordedRun read_run(const fs::path& root) {
   run.trusted = member(manifest, "trusted", file).boolean();
   run.versions = member(manifest, "versions", file);
   run.manifest = without_unhashed(manifest);
-  run.journal = read_journal(root / "journal.jsonl", !run.ended()).lines;
+  try {
+    run.journal = read_journal(root / "journal.jsonl", !run.ended()).lines;
+  } catch (const Error& error) {
+    if (!journal_may_be_damaged) throw;
+    run.journal_fault = error.sentence();
+    run.journal_hint = error.hint();
+    return run;
+  }
+  const Json* facts = run.manifest.find("journal");
+  if (!run.ended() || facts == nullptr) return run;
+  const JournalFacts now = facts_of(run.journal);
+  if (!(member(*facts, "digest", file) == Json(now.digest)))
+    run.journal_fault = quoted((root / "journal.jsonl").string()) + " was altered since the run";
   return run;
 }
 

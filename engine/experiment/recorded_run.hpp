@@ -23,6 +23,8 @@ struct RecordedRun {
   bool trusted = false;
   Json versions;
   std::vector<Json> journal;  // a line each
+  std::string journal_fault;  // what is wrong with it: a sentence, and what serves in its place; else ""
+  std::string journal_hint;
   Json manifest;
 
   // Whether it came to its own end, so that its journal is whole and its files are listed.
@@ -32,10 +34,10 @@ struct RecordedRun {
 // The manifest alone. Throws Error{bad_file} where there is none or it is no JSON.
 Json read_manifest(const std::filesystem::path& root);
 
-// Throws Error{bad_file} where there is no run, where its script is no longer the one that ran, or where a
-// line of the journal is no JSON or is missing. The last line of a run that was cut off may be torn; it is
-// left out.
-RecordedRun read_run(const std::filesystem::path& root);
+// Throws Error{bad_file} where there is no run, where its script is no longer the one that ran, or, unless
+// `journal_may_be_damaged`, where a line of the journal is no JSON or is missing. The last line of a run that
+// was cut off may be torn; it is left out.
+RecordedRun read_run(const std::filesystem::path& root, bool journal_may_be_damaged = false);
 
 // What the files of a run no longer are: a sentence each for an output that is missing or whose content is
 // not that of the manifest.

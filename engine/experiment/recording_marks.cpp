@@ -125,7 +125,7 @@ void RecordingMarks::follow_correlation() {
   if (options_.noise || effective_noise_ > noise_) return;
   constexpr int rounds = 2;
   for (int round = 0; round < rounds; ++round) {
-    const std::optional<NoiseCorrelation> found = noise_correlation(y_, pieces_);
+    const std::optional<NoiseCorrelation> found = noise_correlation(t_, y_, pieces_);
     if (!found || !(range_ > 8 * found->deviation)) return;
     effective_noise_ = noise_ = found->deviation;
     independent_ = found->independent;

@@ -8,6 +8,7 @@
 #include "engine/core/digest.hpp"
 #include "engine/core/disk.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/part_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/aside_file.hpp"
 #include "engine/surface/io/hdf5_file.hpp"
@@ -49,7 +50,10 @@ Hdf5Array number_array(std::string_view group, std::string_view name, double val
 
 }  // namespace
 
-ResultFiles::ResultFiles(ResultFilesSetup setup) : setup_(std::move(setup)) {}
+ResultFiles::ResultFiles(ResultFilesSetup setup) : setup_(std::move(setup)) {
+  // Others may be writing in a folder that is shared.
+  sweep_parts(setup_.folder, Parts::abandoned);
+}
 
 std::string ResultFiles::name_of(const std::string& key) const {
   return Digester().add(form).add(setup_.build).add(key).hex() + ".h5";
@@ -163,9 +167,8 @@ void ResultFiles::keep(const std::string& key, std::string_view call, const Resu
       throw Error(ErrorCode::bad_file,
                   "cannot make the folder " + quoted(setup_.folder.string()) + ": " + problem.message());
     if (!make_room(bytes)) {
-      note("room", "results of this run no longer fit the " +
-                       format_short(static_cast<double>(setup_.most_bytes) / 0x1p30, 3) +
-                       " GiB of its store: some would be computed again if it were resumed (--store-limit)");
+      note("room", "results of this run no longer fit the " + format_bytes(setup_.most_bytes) +
+                       " of its store: some would be computed again if it were resumed (--store-limit)");
       return;
     }
     if (!needed_on_disk_)
@@ -198,6 +201,7 @@ bool ResultFiles::make_room(std::int64_t bytes) {
     const auto size = static_cast<std::int64_t>(entry->file_size(gone));
     if (gone || entry->path().extension() != ".h5") continue;
     held += size;
+    if (is_part(entry->path())) continue;  // of one who writes now
     if (!used_.contains(entry->path().filename().string()))
       old.push_back({entry->last_write_time(gone), entry->path(), size});
   }

@@ -3,7 +3,7 @@
 // off has finished, and what an edited script shares with the last one. A file is written aside and renamed
 // and carries a digest of what it holds; a torn or altered one is noticed, computed anew and replaced. Keys
 // hold the identity of this build, for another build may round otherwise. Folders may be shared by runs and
-// machines at the same time.
+// machines at the same time. Parts that killed writers left there are removed when it is opened.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
+#include "engine/core/disk.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/part_file.hpp"
 #include "engine/core/patient_lock.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/aside_file.hpp"
@@ -30,16 +32,26 @@ constexpr std::string_view journal_file = "journal.jsonl";
 constexpr std::string_view store_folder = "store";
 constexpr std::string_view earlier_folder = "before-";
 
-void make_folders(const fs::path& folder) {
-  if (folder.empty()) return;
+constexpr std::string_view mending = "recorded_outputs";  // of the manifest, until a run is mended
+
+// Makes what is missing of a path of folders. Returns the folders that got a new name in them.
+std::vector<fs::path> make_folders(const fs::path& folder) {
+  if (folder.empty()) return {};
+  std::vector<fs::path> holding;
   std::error_code reason;
+  for (fs::path part = fs::absolute(folder).lexically_normal();
+       part.has_relative_path() && !fs::exists(part, reason); part = part.parent_path())
+    holding.push_back(part.parent_path());
   fs::create_directories(folder, reason);
   if (reason) throw_file_error("make the folder", folder, reason.value());
+  return holding;
 }
 
 // The first free runs/<script>-<n>: mkdir decides, so two runs at once never share one.
-fs::path numbered_directory(const fs::path& runs, const std::string& script_name) {
-  make_folders(runs);
+fs::path numbered_directory(const fs::path& runs, const std::string& script_name,
+                            std::vector<fs::path>& holding) {
+  holding = make_folders(runs);
+  holding.push_back(fs::absolute(runs).lexically_normal());
   const std::string stem = safe_file_name(fs::path(script_name).stem().string());
   for (int n = 1;; ++n) {
     fs::path candidate = runs / (stem + "-" + std::to_string(n));
@@ -48,38 +60,133 @@ fs::path numbered_directory(const fs::path& runs, const std::string& script_name
   }
 }
 
-fs::path given_directory(const fs::path& out) {
+// A folder that `--out` may name; locked, and looked at again then, for another run may have come and gone.
+// What a run left that died before its first manifest is taken away.
+fs::path given_directory(const fs::path& out, std::shared_ptr<RunLock>& lock, bool locked,
+                         std::vector<fs::path>& holding) {
   std::error_code reason;
   if (fs::exists(out, reason) && !fs::is_directory(out, reason))
     throw Error(ErrorCode::bad_value, "`--out` names " + asperity::quoted(out.string()) + ", which is a file",
                 "give the name of a new directory");
-  make_folders(out);
-  if (!fs::is_empty(out, reason) && !reason)
-    throw Error(ErrorCode::bad_value,
-                "`--out` names " + asperity::quoted(out.string()) + ", which is not empty",
-                "give a new directory");
-  if (reason) throw_file_error("read the folder", out, reason.value());
+  holding = make_folders(out);
+  const auto require_new = [&] {
+    if (!is_not_begun(out))
+      throw Error(ErrorCode::bad_value,
+                  "`--out` names " + asperity::quoted(out.string()) + ", which is not empty",
+                  "give a new directory");
+  };
+  if (!locked) {
+    require_new();
+    return out;
+  }
+  if (lock == nullptr && !is_not_begun(out)) lock = RunLock::take_if_known(out);  // who is there is named
+  require_new();
+  if (lock == nullptr) lock = RunLock::take(out);
+  require_new();
+  sweep_parts(out, Parts::all);
+  for (const std::string_view own : {script_file, journal_file, manifest_file}) fs::remove(out / own, reason);
   return out;
 }
 
-// Moves what an earlier run left, all but its store, into the first free before-<n>.
+// One that may be entered but not read cannot be waited for.
+void wait_for_names_in(const fs::path& folder) {
+  if (::access(folder.c_str(), R_OK) == 0) wait_for_disk(folder);
+}
+
+bool is_earlier_folder(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with(earlier_folder) && name.size() > earlier_folder.size() &&
+         name.find_first_not_of("0123456789", earlier_folder.size()) == std::string::npos;
+}
+
+std::vector<fs::path> entries_of(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  std::error_code reason;
+  for (fs::directory_iterator entry(folder, reason), end; !reason && entry != end; entry.increment(reason))
+    entries.push_back(entry->path());
+  if (reason) throw_file_error("read the folder", folder, reason.value());
+  std::ranges::sort(entries);
+  return entries;
+}
+
+// Stays where it is when a run is moved aside.
+bool is_no_part_of_the_record(const fs::path& file) {
+  return file.filename() == store_folder || file.filename() == RunLock::file_name || is_earlier_folder(file);
+}
+
+void move_into(const fs::path& file, const fs::path& folder) {
+  std::error_code reason;
+  fs::rename(file, folder / file.filename(), reason);
+  if (reason) throw_file_error("move aside", file, reason.value());
+}
+
+// Moves what an earlier run left, all but its store, into the first free before-<n>: the manifest first, so
+// that a run which is cut off in this is known by its lack (finish_moving_aside).
 void move_aside(const fs::path& root) {
   fs::path earlier;
   std::error_code reason;
-  for (int n = 1; earlier.empty() || fs::exists(earlier, reason); ++n)
+  for (int n = 1; earlier.empty() || fs::exists(fs::symlink_status(earlier, reason)); ++n)
     earlier = root / (std::string(earlier_folder) + std::to_string(n));
   make_folders(earlier);
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(root)) files.push_back(entry.path());
-  for (const fs::path& file : files) {
-    const std::string name = file.filename().string();
-    if (name == store_folder || name.starts_with(earlier_folder)) continue;
-    fs::rename(file, earlier / name, reason);
-    if (reason) throw_file_error("move aside", file, reason.value());
-  }
+  if (fs::exists(root / manifest_file, reason)) move_into(root / manifest_file, earlier);
+  for (const fs::path& file : entries_of(root))
+    if (!is_no_part_of_the_record(file)) move_into(file, earlier);
+}
+
+// No manifest, or one of which a power cut left nothing.
+bool has_no_manifest(const fs::path& folder) {
+  std::error_code missing;
+  const fs::path manifest = folder / manifest_file;
+  if (!fs::exists(fs::symlink_status(manifest, missing))) return true;
+  return fs::is_regular_file(fs::symlink_status(manifest, missing)) &&
+         fs::file_size(manifest, missing) == 0 && !missing;
 }
 
 }  // namespace
+
+bool is_not_begun(const fs::path& folder) {
+  std::error_code missing;
+  if (!fs::exists(folder, missing)) return true;
+  if (!fs::is_directory(folder, missing) || !has_no_manifest(folder)) return false;
+  return std::ranges::all_of(entries_of(folder), [](const fs::path& file) {
+    std::error_code gone;
+    const fs::file_status status = fs::symlink_status(file, gone);
+    if (fs::is_directory(status)) return file.filename() == store_folder || is_earlier_folder(file);
+    return fs::is_regular_file(status) &&
+           (is_part(file) || file.filename() == script_file || file.filename() == journal_file ||
+            file.filename() == manifest_file || file.filename() == RunLock::file_name);
+  });
+}
+
+void finish_moving_aside(const fs::path& folder) {
+  std::error_code missing;
+  if (!fs::is_directory(folder, missing) || fs::exists(fs::symlink_status(folder / manifest_file, missing)))
+    return;
+  const auto number = [](const fs::path& earlier) {
+    return std::stoll("0" + earlier.filename().string().substr(earlier_folder.size(), 15));
+  };
+  fs::path latest;
+  const std::vector<fs::path> entries = entries_of(folder);
+  for (const fs::path& file : entries)
+    if (is_earlier_folder(file) && (latest.empty() || number(latest) < number(file))) latest = file;
+  if (latest.empty() || !fs::is_directory(fs::symlink_status(latest, missing)) ||
+      !fs::exists(latest / manifest_file, missing))
+    return;
+  // A file that is there already is of the run that was to begin then.
+  for (const fs::path& file : entries)
+    if (!is_no_part_of_the_record(file) && !fs::exists(fs::symlink_status(latest / file.filename(), missing)))
+      move_into(file, latest);
+}
+
+void refuse_links(const fs::path& folder) {
+  for (const std::string_view own : {script_file, manifest_file, journal_file, store_folder}) {
+    std::error_code missing;
+    if (fs::is_symlink(fs::symlink_status(folder / own, missing)))
+      throw Error(ErrorCode::bad_file, asperity::quoted((folder / own).string()) + " is a link",
+                  own == store_folder ? "results in another folder are named by `--store`; take the link away"
+                                      : "a run writes its own files where they are; take the link away");
+  }
+}
 
 std::string_view name(RunStatus status) {
   switch (status) {
@@ -106,11 +213,19 @@ RunDirectory::RunDirectory(RunSetup setup, std::function<std::string()> text)
       text_(std::move(text)) {}
 
 void RunDirectory::make(const RunSetup& setup) {
+  lock_ = setup.lock;
+  scratch_ = setup.scratch;
   // Absolute, so that a script which changes the working directory moves nothing.
   root_ = fs::absolute(setup.resume ? *setup.resume
-                       : setup.out  ? given_directory(*setup.out)
-                                    : numbered_directory(setup.runs, setup.script_name))
+                       : setup.out  ? given_directory(*setup.out, lock_, !scratch_, holding_)
+                                    : numbered_directory(setup.runs, setup.script_name, holding_))
               .lexically_normal();
+  if (lock_ == nullptr && !scratch_) lock_ = RunLock::take(root_);
+  if (setup.resume) {
+    refuse_links(root_);
+    // Of writers that were killed: nobody else writes here now.
+    sweep_parts(root_, Parts::all, true);
+  }
   if (setup.resume && setup.anew) move_aside(root_);
   begin(setup);
 }
@@ -129,8 +244,14 @@ std::vector<fs::path> RunDirectory::needed_to_resume() const {
 
 void RunDirectory::begin(const RunSetup& setup) {
   const bool again = setup.resume && !setup.anew;
-  journal_ = again ? Journal::again(root_ / journal_file) : std::make_unique<Journal>(root_ / journal_file);
-  if (!again) write_aside(root_ / script_file, setup.script_text);
+  const Durable durable = scratch_ ? Durable::no : Durable::yes;
+  if (again && setup.journal_lost) {
+    std::error_code missing;
+    fs::remove(root_ / journal_file, missing);
+  }
+  journal_ = again && !setup.journal_lost ? Journal::again(root_ / journal_file)
+                                          : std::make_unique<Journal>(root_ / journal_file);
+  if (!again) write_aside(root_ / script_file, setup.script_text, durable);
   const std::string digest = Digester().add(setup.script_text).hex();
   const std::string script = fs::path(setup.script_name).filename().string();
   manifest_.set("status", name(RunStatus::running))
@@ -146,7 +267,11 @@ void RunDirectory::begin(const RunSetup& setup) {
       .set("machine", machine_facts());
   if (again) take_up();
   journal_->write("begin", Json::object({{"script", script}, {"digest", digest}, {"seed", setup.seed}}));
-  write_manifest();
+  // What it takes to go on after a power cut, whatever becomes of the rest.
+  write_manifest(durable);
+  if (scratch_) return;
+  wait_for_disk(root_);
+  for (const fs::path& folder : holding_) wait_for_names_in(folder);
 }
 
 // Dates of the run so far come along.
@@ -160,12 +285,52 @@ void RunDirectory::take_up() {
   }
   dates.push_back(utc_now());
   unhashed_.set("resumed", std::move(dates));
+  // What a finished run is to be again is kept until it is, though the mending itself be cut off.
+  const Json* status = earlier.find("status");
+  if (status != nullptr && *status == Json(name(RunStatus::done))) {
+    if (const Json* outputs = earlier.find("outputs")) recorded_outputs_ = *outputs;
+  } else if (kept != nullptr) {
+    if (const Json* outputs = kept->find(mending)) recorded_outputs_ = *outputs;
+  }
+  if (!recorded_outputs_.is_null()) unhashed_.set(mending, recorded_outputs_);
 }
 
-void RunDirectory::write_manifest() {
+void RunDirectory::write_manifest(Durable durable) {
   Json whole = manifest_;
   whole.set("unhashed", unhashed_);
-  write_aside(root_ / manifest_file, whole.text(2) + "\n");
+  write_aside(root_ / manifest_file, whole.text(2) + "\n", durable);
+}
+
+// Their content, and their names in every folder up to the run's own.
+void RunDirectory::wait_for_outputs(const Json& outputs) const {
+  std::set<fs::path> folders = {root_};
+  for (const Json& entry : outputs.list()) {
+    const fs::path place = (root_ / entry.find("file")->string()).lexically_normal();
+    std::error_code gone;
+    if (!fs::is_regular_file(place, gone)) continue;
+    wait_for_disk(place);
+    fs::path folder = place.parent_path();
+    folders.insert(folder);
+    while (std::ranges::mismatch(root_, folder).in1 == root_.end() && folder != root_)
+      folders.insert(folder = folder.parent_path());
+  }
+  for (const fs::path& folder : folders) wait_for_names_in(folder);
+  for (const fs::path& folder : holding_) wait_for_names_in(folder);
+}
+
+// Which outputs are not what was recorded of a run that is mended, as a sentence; "" where all are.
+std::string RunDirectory::unlike_recorded(const Json& outputs) const {
+  if (recorded_outputs_.is_null()) return {};
+  std::vector<std::string> unlike;
+  const auto file_of = [](const Json& entry) { return entry.find("file")->string(); };
+  for (const Json& entry : recorded_outputs_.list()) {
+    const Json::List& now = outputs.list();
+    const auto found =
+        std::ranges::find_if(now, [&](const Json& other) { return file_of(other) == file_of(entry); });
+    if (found == now.end() || !(*found == entry)) unlike.push_back(quoted(file_of(entry)));
+  }
+  if (unlike.empty()) return {};
+  return joined(unlike, " and ") + " could not be made again as recorded";
 }
 
 void RunDirectory::keep_inside(const fs::path& relative, std::string_view file) const {
@@ -209,7 +374,8 @@ fs::path RunDirectory::path_for(std::string_view file) {
   const bool outside_allowed = trusted_ && (given.is_absolute() || *given.begin() == "..");
   if (!outside_allowed) keep_inside(given, file);
   fs::path place = given.is_absolute() || root_.empty() ? given : root_ / given;
-  for (const std::string_view own : {script_file, manifest_file, journal_file})
+  for (const std::string_view own :
+       {script_file, manifest_file, journal_file, std::string_view(RunLock::file_name)})
     if (!root_.empty() && place.lexically_normal() == root_ / own)
       throw Error(ErrorCode::not_permitted, "the file " + quoted(own) + " belongs to the run itself",
                   "choose another name");
@@ -297,52 +463,96 @@ Json RunDirectory::outputs(bool with_digests) const {
   return list;
 }
 
-bool RunDirectory::finish(RunStatus status, std::string_view reason, std::chrono::milliseconds patience) {
+void RunDirectory::note_end(RunStatus status, std::string_view reason, Json files) {
+  if (text_) {
+    const std::string text = text_();
+    write_aside(root_ / script_file, text, Durable::yes);
+    const Json* script = manifest_.find("script");
+    Json whole = script == nullptr ? Json::object() : *script;
+    manifest_.set("script", std::move(whole.set("digest", Digester().add(text).hex())));
+  }
+  manifest_.set("status", name(status));
+  if (!reason.empty()) manifest_.set("reason", reason);
+  Json::List inputs;
+  for (const Input& input : inputs_)
+    inputs.push_back(Json::object({{"file", input.file}, {"bytes", input.bytes}, {"digest", input.digest}}));
+  manifest_.set("inputs", std::move(inputs)).set("outputs", std::move(files));
+  if (status != RunStatus::killed && !journal_->is_lost())
+    if (const std::optional<JournalFacts> facts = journal_->facts())
+      manifest_.set("journal", Json::object({{"lines", facts->lines}, {"digest", facts->digest}}));
+  Json::List verdicts;
+  for (const Verdict& verdict : expectations_.verdicts()) verdicts.push_back(to_json(verdict));
+  manifest_.set("expectations", std::move(verdicts));
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started_;
+  unhashed_.set("finished", utc_now()).set("seconds", seconds.count());
+  if (recorded_outputs_.is_null() || (status != RunStatus::done && status != RunStatus::failed)) return;
+  Json::Members kept;
+  for (const Json::Member& member : unhashed_.members())
+    if (member.first != mending) kept.push_back(member);
+  unhashed_ = Json::object(std::move(kept));
+}
+
+bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
+                          std::chrono::milliseconds patience) {
   if (finished_.exchange(true)) return false;
   std::exception_ptr first;
+  std::string reason(given_reason);
+  // What goes wrong now is the end of a run that would be done; the first failure is told.
   const auto attempt = [&](const std::function<void()>& step) {
     try {
       step();
-    } catch (const std::exception&) {
+    } catch (const std::exception& problem) {
       if (!first) first = std::current_exception();
+      if (status != RunStatus::done) return;
+      status = RunStatus::failed;
+      reason = problem.what();
     }
   };
   const std::unique_lock lock = lock_within(mutex_, patience);
+  const bool records = kind_ == Kind::directory && !later_ && lock.owns_lock();
   // Without the lock the list of notebooks and the manifest may be half changed: what is on disk
   // already then stays as it is.
   if (lock.owns_lock())
     for (const auto& notebook : notebooks_) attempt([&] { notebook->save(patience); });
+  Json files = Json::List();
+  if (records)
+    attempt([&] {
+      // A run that must die now does not read its large files once more.
+      files = outputs(status != RunStatus::killed);
+      if (status != RunStatus::done) return;
+      if (const std::string unlike = unlike_recorded(files); !unlike.empty())
+        throw Error(ErrorCode::bad_state, unlike,
+                    "the script does not do the same again, or what it reads has changed");
+      if (journal_->is_lost())
+        throw Error(ErrorCode::bad_file,
+                    quoted(journal_->path().string()) + " was taken away while the run wrote it",
+                    "its results are kept: take the run up with --resume");
+    });
   attempt([&] {
     Json fields = Json::object({{"status", name(status)}});
     if (!reason.empty()) fields.set("reason", reason);
     journal_->close("end", fields, patience);
   });
-  if (kind_ == Kind::directory && !later_ && lock.owns_lock()) {
+  if (records) {
+    // What comes to its own end is compared later by what the manifest says, and so is on the disk before it.
+    const auto durable = [&] {
+      return !scratch_ && (status == RunStatus::done || status == RunStatus::failed) ? Durable::yes
+                                                                                     : Durable::no;
+    };
+    if (durable() == Durable::yes) {
+      attempt([&] {
+        if (!journal_->is_lost()) wait_for_disk(journal_->path());
+      });
+      attempt([&] { wait_for_outputs(files); });
+    }
     attempt([&] {
-      if (text_) {
-        const std::string text = text_();
-        write_aside(root_ / script_file, text);
-        const Json* script = manifest_.find("script");
-        Json whole = script == nullptr ? Json::object() : *script;
-        manifest_.set("script", std::move(whole.set("digest", Digester().add(text).hex())));
-      }
-      manifest_.set("status", name(status));
-      if (!reason.empty()) manifest_.set("reason", reason);
-      Json::List inputs;
-      for (const Input& input : inputs_)
-        inputs.push_back(
-            Json::object({{"file", input.file}, {"bytes", input.bytes}, {"digest", input.digest}}));
-      manifest_.set("inputs", std::move(inputs));
-      // A run that must die now does not read its large files once more.
-      manifest_.set("outputs", outputs(status != RunStatus::killed));
-      Json::List verdicts;
-      for (const Verdict& verdict : expectations_.verdicts()) verdicts.push_back(to_json(verdict));
-      manifest_.set("expectations", std::move(verdicts));
-      const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started_;
-      unhashed_.set("finished", utc_now()).set("seconds", seconds.count());
-      write_manifest();
+      note_end(status, reason, files);
+      write_manifest(durable());
+      if (durable() == Durable::yes) wait_for_disk(root_);
     });
   }
+  if (lock_) lock_->release();
+  mended_ = status == RunStatus::done && !recorded_outputs_.is_null();
   if (first) std::rethrow_exception(first);
   return true;
 }

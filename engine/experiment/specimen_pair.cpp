@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/experiment/specimen_pair.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -51,6 +52,36 @@ State showing_what_costs_nothing(const Plan& plan, State state) {
   return state;
 }
 
+// The mean square of the differences of neighbours along one way, inside the tile and across its rim.
+struct Differences {
+  double inside = 0, across = 0;
+};
+
+template <class At>
+Differences differences(int along, int lines, const At& at) {
+  Differences found;
+  for (int line = 0; line < lines; ++line) {
+    for (int k = 0; k + 1 < along; ++k) found.inside += std::pow(at(k + 1, line) - at(k, line), 2);
+    found.across += std::pow(at(0, line) - at(along - 1, line), 2);
+  }
+  found.inside /= std::max(1.0, static_cast<double>(along - 1) * lines);
+  found.across /= lines;
+  return found;
+}
+
+// Whether heights that are not periodic by construction make a step at the rim: neighbours across it differ,
+// in the mean square, by over twice as much as neighbours inside. A periodic function on nodes, or a map that
+// happens to continue, makes none.
+bool steps_at_the_rim(const Surface& surface) {
+  if (surface.traits().periodic) return false;
+  const Field& z = surface.heights();
+  const int nx = surface.grid().nx, ny = surface.grid().ny;
+  constexpr double times = 2;
+  const auto steps = [](const Differences& d) { return d.across > times * times * d.inside; };
+  return steps(differences(nx, ny, [&](int k, int line) { return z(k, line); })) ||
+         steps(differences(ny, nx, [&](int k, int line) { return z(line, k); }));
+}
+
 int whole_cells(double length, double cell, std::string_view key) {
   const double cells = length / cell;
   const double whole = std::round(cells);
@@ -83,6 +114,7 @@ std::shared_ptr<const Solver> SpecimenPair::solver() {
 void SpecimenPair::warn(const PressRequest& request, Monitor& monitor) {
   if (!std::exchange(warned_of_plan_, true))
     for (const std::string& warning : plan_.warnings) monitor.warn(warning);
+  warn_of_an_overhang(monitor);
   warn_of_a_step_at_the_rim(monitor);
   if (request.dwell && !scene_.creep && !std::exchange(warned_of_dwell_, true))
     monitor.warn(
@@ -165,13 +197,22 @@ StateCost SpecimenPair::flatten_for_good(const State& state, Monitor& monitor) {
   return {cost, {{"plasticity", cost}}};
 }
 
+void SpecimenPair::warn_of_an_overhang(Monitor& monitor) {
+  if (warned_of_overhang_ || !geometry_->overhangs()) return;
+  warned_of_overhang_ = true;
+  monitor.warn("turned like this, the bodies face each other on " +
+               format_short(100 * geometry_->overlap_fraction(), 3) +
+               " % of the tile: nothing presses on the rest, where the gap is missing; `pressure` stays load "
+               "over the whole tile, and `overlap_fraction` of each state says how much of it they share");
+}
+
 void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
   if (warned_of_rim_ || scene_.boundary != Boundary::periodic ||
       !std::holds_alternative<HalfSpaceOptions>(scene_.elasticity))
     return;
   std::vector<std::string> bodies;
-  if (!scene_.lower.traits().periodic) bodies.emplace_back("lower");
-  if (const auto* rough = std::get_if<Surface>(&scene_.upper); rough && !rough->traits().periodic)
+  if (steps_at_the_rim(scene_.lower)) bodies.emplace_back("lower");
+  if (const auto* rough = std::get_if<Surface>(&scene_.upper); rough && steps_at_the_rim(*rough))
     bodies.emplace_back("upper");
   if (bodies.empty()) return;
   warned_of_rim_ = true;
@@ -280,11 +321,13 @@ Surface SpecimenPair::upper() const {
 void SpecimenPair::close() {
   for (const State::Watch& state : states_) State::close(state);
   states_.clear();
+  closed_ = true;
 }
 
 SpecimenPair SpecimenPair::copy() const {
   SpecimenPair result = *this;
   result.states_.clear();
+  result.closed_ = false;
   return result;
 }
 

@@ -51,6 +51,8 @@ class SpecimenPair {
   // Frees the memory of every state pressed here that is still held; what was read of one stays
   // (State::close).
   void close();
+  // Whether it was closed; a copy is not.
+  bool closed() const { return closed_; }
   // The same bodies, lying and loaded alike, that are pressed and closed by themselves.
   SpecimenPair copy() const;
 
@@ -102,6 +104,7 @@ class SpecimenPair {
   State choose_and_press(const PressRequest& request, Monitor& monitor);
   // Takes from the bodies what yielded in `state`; what it cost.
   StateCost flatten_for_good(const State& state, Monitor& monitor);
+  void warn_of_an_overhang(Monitor& monitor);
   void warn_of_a_step_at_the_rim(Monitor& monitor);
 
   Scene scene_;  // with the bodies as they are now
@@ -111,9 +114,11 @@ class SpecimenPair {
   std::shared_ptr<const Solver> solver_;          // none until the first press after a placement
   std::shared_ptr<const ChosenAccuracy> chosen_;  // none until the first press under load, or none asked for
   bool under_load_ = false;
+  bool closed_ = false;
   std::optional<State> pressed_;
   std::vector<State::Watch> states_;  // those pressed here
   std::vector<Done> history_;
+  bool warned_of_overhang_ = false;
   bool warned_of_rim_ = false;
   bool warned_of_mapping_ = false;
   bool warned_of_dwell_ = false;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <span>
 
 #include "engine/core/error.hpp"
@@ -36,23 +38,26 @@ void check_trials(const TiltTrialOptions& options) {
                 "give a whole number from 1 to 100000");
 }
 
+TiltProbe probe_of(const State& state, const JunctionLaw& law, const TiltTrialOptions& options) {
+  const FrictionResult friction = law.on(state, options.rest);
+  const double corrected = state.corrected_area_fraction() / state.area_fraction();
+  return {
+      state.pressure(),
+      state.contacts(),
+      state.plastic_change().has_value(),
+      state.corrected_area_fraction() / state.pressure(),
+      (friction.adhesive_force * corrected + friction.load_force + friction.interlocking_force.value_or(0)) /
+          state.load(),
+      state.attraction() / state.load()};
+}
+
 // A half-space contact at a pressure that the grid resolves.
 TiltProbe probe(const Solver& contact, const JunctionLaw& law, double pressure,
                 const TiltTrialOptions& options, Monitor& monitor) {
-  const auto nodes = static_cast<std::int64_t>(contact.geometry().grid().nodes());
+  const std::int64_t nodes = contact.geometry().facing();
   for (;; pressure *= 2) {
     const State state = contact.press({PressBy::pressure, pressure, {}}, monitor);
-    if (state.contacts() < std::min(enough_contacts, nodes)) continue;
-    const FrictionResult friction = law.on(state, options.rest);
-    const double corrected = state.corrected_area_fraction() / state.area_fraction();
-    return {pressure,
-            state.contacts(),
-            state.plastic_change().has_value(),
-            state.corrected_area_fraction() / state.pressure(),
-            (friction.adhesive_force * corrected + friction.load_force +
-             friction.interlocking_force.value_or(0)) /
-                state.load(),
-            state.attraction() / state.load()};
+    if (state.contacts() >= std::min(enough_contacts, nodes)) return probe_of(state, law, options);
   }
 }
 
@@ -64,10 +69,69 @@ std::vector<TiltProbe> probe_all(const Solver& contact, const JunctionLaw& law,
   return probes;
 }
 
+// Friction over load of a half-space contact under a weight that the grid resolves, as its stage is raised
+// and less and less of the weight presses: solved under the weight and at steps of a sixth below, between
+// which it is taken to be straight, and wherever else it is asked to be exact.
+class UnderTheWeight {
+ public:
+  // Pressures of the tile from `least` up to that of the weight.
+  UnderTheWeight(const Solver& contact, const JunctionLaw& law, const TiltTrialOptions& options, double least,
+                 double weight, Monitor& monitor)
+      : contact_(contact), law_(law), options_(options), monitor_(monitor), least_(least), lowest_(weight) {
+    solve(weight);
+  }
+
+  double mu(double pressure) {
+    constexpr double step = 5.0 / 6;
+    while (lowest_ > pressure) {
+      lowest_ = std::max(least_, step * lowest_);
+      solve(lowest_);
+    }
+    const auto above = known_.lower_bound(pressure);
+    if (above == known_.end()) return std::prev(above)->second.mu;
+    if (above->first == pressure || above == known_.begin()) return above->second.mu;
+    const auto below = std::prev(above);
+    const double share = (pressure - below->first) / (above->first - below->first);
+    return below->second.mu + share * (above->second.mu - below->second.mu);
+  }
+  void solve(double pressure) {
+    if (known_.contains(pressure)) return;
+    const State state = contact_.press({PressBy::pressure, pressure, {}}, monitor_);
+    known_.emplace(pressure, probe_of(state, law_, options_));
+  }
+  const TiltProbe& at_the_weight() const { return known_.rbegin()->second; }
+
+ private:
+  const Solver& contact_;
+  const JunctionLaw& law_;
+  const TiltTrialOptions& options_;
+  Monitor& monitor_;
+  double least_, lowest_;
+  std::map<double, TiltProbe> known_;  // by pressure
+};
+
 double mean_of(std::span<const TiltProbe> probes, double TiltProbe::*quantity) {
   double sum = 0;
   for (const TiltProbe& probe : probes) sum += probe.*quantity;
   return sum / static_cast<double>(probes.size());
+}
+
+double least_pressure(std::span<const TiltProbe> probes) {
+  double least = probes.front().pressure;
+  for (const TiltProbe& probe : probes) least = std::min(least, probe.pressure);
+  return least;
+}
+
+// Of the friction coefficients of each trial's probes from their mean, relative.
+double greatest_departure(std::span<const TiltProbe> probes, std::size_t a_trial) {
+  double greatest = 0;
+  for (std::size_t first = 0; first + a_trial <= probes.size(); first += a_trial) {
+    const auto trial = probes.subspan(first, a_trial);
+    const double mean = mean_of(trial, &TiltProbe::mu);
+    for (const TiltProbe& probe : trial)
+      if (mean != 0) greatest = std::max(greatest, std::abs(probe.mu / mean - 1));
+  }
+  return greatest;
 }
 
 void add_sentence(std::string& note, const std::string& sentence) {
@@ -114,6 +178,18 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
       add_sentence(note, "the probe pressure was raised to " +
                              format_quantity(raised->pressure, dimension::pressure) + " until " +
                              std::to_string(raised->contacts) + " nodes touched");
+    if (!result.at_weight.empty()) {
+      add_sentence(note,
+                   "the weight presses the tile with " +
+                       format_quantity(result.at_weight.front().pressure, dimension::pressure) +
+                       ", above the smallest probe pressure, so the contact was solved under it; tau0 is "
+                       "an effective, calibrated number, so only ratios of mu are predictions");
+      if (std::any_of(result.at_weight.begin(), result.at_weight.end(),
+                      [](const TiltProbe& p) { return p.yields; }))
+        add_sentence(note,
+                     "spots yield under the weight, which bounds area per load by one over the hardness");
+      return note;
+    }
     if (std::any_of(result.probes.begin(), result.probes.end(), [](const TiltProbe& p) { return p.yields; }))
       add_sentence(note,
                    "spots yield under the probe pressure, which bounds area per load by one over the "
@@ -150,6 +226,9 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
   Task task(monitor, "tilt stage", options.repeats);
   const bool half_space = std::holds_alternative<HalfSpaceOptions>(bench.scene().elasticity);
   std::vector<TiltProbe> probes;
+  std::optional<UnderTheWeight> weight;
+  const double tile = bench.lower().grid().area();
+  const double weight_pressure = options.stage.mass * options.stage.gravity * tile_share / tile;
   std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
   for (int trial = 0; trial < options.repeats; ++trial) {
     const auto k = static_cast<std::uint64_t>(trial);
@@ -162,14 +241,33 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
       result.probes.insert(result.probes.end(), probes.begin(), probes.end());
     }
     const double mu = half_space ? std::max(0.0, mean_of(probes, &TiltProbe::mu)) : 0;
+    // What the probes resolve is solved; what is lighter follows from them.
+    const double resolved = half_space ? least_pressure(probes) : 0;
+    if (!flat) weight.reset();
+    if (half_space && weight_pressure > resolved && !weight)
+      weight.emplace(*solver, law, options, resolved, weight_pressure, monitor);
     std::int64_t contacts = 0;  // under the greatest load of the trial
     const auto friction = [&](double normal_force) {
-      if (half_space) return factor * mu * normal_force;
+      if (half_space) {
+        const double pressure = std::min(normal_force * tile_share / tile, weight_pressure);
+        return factor * (weight && pressure > resolved ? std::max(0.0, weight->mu(pressure)) : mu) *
+               normal_force;
+      }
       const State state = solver->press({PressBy::load, normal_force * tile_share, {}}, monitor);
       contacts = std::max(contacts, state.contacts());
       return factor * std::max(0.0, law.on(state, options.rest).force) / tile_share;
     };
-    result.trials.push_back(slip_angle(friction, options.stage));
+    SlipAngle slip = slip_angle(friction, options.stage);
+    if (weight) {
+      // Once more, with what presses when it slips solved for itself.
+      if (const double pressure = weight_pressure * std::cos(slip.angle);
+          slip.slipped && pressure > resolved) {
+        weight->solve(pressure);
+        slip = slip_angle(friction, options.stage);
+      }
+      result.at_weight.push_back(weight->at_the_weight());
+    }
+    result.trials.push_back(slip);
     if (!half_space) fewest = std::min(fewest, contacts);
     task.advance();
   }
@@ -187,7 +285,12 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     coefficients.push_back(tangent(trial.held));
   }
   result.mu = tangent(result.held);
-  if (half_space) result.area_per_load = mean_of(result.probes, &TiltProbe::area_per_load);
+  if (half_space) {
+    const bool solved = !result.at_weight.empty();
+    result.area_per_load = mean_of(solved ? result.at_weight : result.probes, &TiltProbe::area_per_load);
+    if (!solved && options.probe_pressures.size() > 1)
+      result.probe_spread = greatest_departure(result.probes, options.probe_pressures.size());
+  }
   result.spread = standard_deviation(coefficients);
   result.note = note_on(result, options, flat);
   if (fewest < std::min(enough_contacts, static_cast<std::int64_t>(bench.lower().grid().nodes())))

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Repeated trials of a specimen pair on a tilt stage. The specimen's weight presses the tile as it would
 // a specimen of its area; the friction law sums the junctions of the contact under the normal force at
-// each angle. A box contact is solved at every angle's load. On a half-space the weight of a specimen rests
-// on less than one cell, so the contact is solved where the grid resolves it, at the probe pressures, and
-// what a load makes of area and friction there is taken to hold down to the weight: real area grows in
-// proportion to load. So does what an attraction across the gap adds, unless the bodies stick without a load
-// (Pastewka & Robbins 2014). A rough counter-body is put down afresh for every trial; on a flat every
-// placement is the same contact and trials differ only by the scatter asked for.
+// each angle. A box contact is solved at every angle's load. On a half-space the weight of most specimens
+// rests on less than one cell, so the contact is solved where the grid resolves it, at the probe pressures,
+// and what a load makes of area and friction there is taken to hold down to the weight: real area grows in
+// proportion to load. A weight that presses harder than the least of the probes is solved itself, and as the
+// stage is raised the lesser loads down to that probe. So does what an attraction across the gap adds, unless
+// the bodies stick without a load (Pastewka & Robbins 2014). A rough counter-body is put down afresh for
+// every trial; on a flat every placement is the same contact and trials differ only by the scatter asked for.
 #pragma once
 
 #include <cstdint>
@@ -51,9 +52,14 @@ struct TiltResult {
   double spread = 0;              // standard deviation of tan(held) over the trials (n−1); 0 for one trial
   bool slipped = false;           // every trial slipped; otherwise angle, held and mu are lower bounds
   std::vector<SlipAngle> trials;  // in the order they were made
-  std::optional<double> area_per_load;  // 1/Pa, mean over probes and trials; on a half-space only
-  std::vector<TiltProbe> probes;        // of all trials that solved anew
-  std::string note;                     // what a reader must know of them, one sentence
+  // 1/Pa, on a half-space only: mean over trials, of what was solved under the weight or else of the probes.
+  std::optional<double> area_per_load;
+  std::vector<TiltProbe> probes;     // of all trials that solved anew
+  std::vector<TiltProbe> at_weight;  // level, one a trial; empty unless the weight itself was solved
+  // How far mu at one probe is from the mean of a trial's, relative, at most: what extrapolating down to the
+  // weight may be wrong by. None where the weight was solved, of one probe, and of boxes.
+  std::optional<double> probe_spread;
+  std::string note;  // what a reader must know of them, one sentence
 };
 
 // Works on a copy: the pair stays as it is. Junctions that interlock may push down the slope: friction is

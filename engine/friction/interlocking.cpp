@@ -32,6 +32,14 @@ Neighbours neighbours(int k, int n, bool wraps) {
   return {before, after, std::max(1, after - before)};
 }
 
+// Those of them that are there; overhanging bodies are on a free boundary, which does not wrap.
+template <class There>
+Neighbours inside(Neighbours all, int k, There there) {
+  if (!there(all.before)) all.before = k;
+  if (!there(all.after)) all.after = k;
+  return {all.before, all.after, std::max(1, all.after - all.before)};
+}
+
 }  // namespace
 
 InclinedJunction inclined_junction(const JunctionLaw& law, double pressure, double along, double across) {
@@ -71,12 +79,19 @@ Slopes junction_slopes(const State& state) {
   Field middle(grid.nx, grid.ny);
   for (std::size_t k = 0; k < middle.size(); ++k) middle[k] = lower.heights()[k] + 0.5 * (*gap)[k];
   Slopes slopes{Field(grid.nx, grid.ny), Field(grid.nx, grid.ny)};
+  const bool overhangs = state.geometry().overhangs();
   for (int j = 0; j < grid.ny; ++j) {
     const Neighbours rows = neighbours(j, grid.ny, wraps);
     for (int i = 0; i < grid.nx; ++i) {
       const Neighbours columns = neighbours(i, grid.nx, wraps);
-      slopes.x(i, j) = (middle(columns.after, j) - middle(columns.before, j)) / (columns.steps * grid.hx());
-      slopes.y(i, j) = (middle(i, rows.after) - middle(i, rows.before)) / (rows.steps * grid.hy());
+      Neighbours across = columns, along = rows;
+      if (overhangs) {  // where nothing faces the ground there is no face between: a rim
+        if (std::isnan(middle(i, j))) continue;
+        across = inside(columns, i, [&](int k) { return !std::isnan(middle(k, j)); });
+        along = inside(rows, j, [&](int k) { return !std::isnan(middle(i, k)); });
+      }
+      slopes.x(i, j) = (middle(across.after, j) - middle(across.before, j)) / (across.steps * grid.hx());
+      slopes.y(i, j) = (middle(i, along.after) - middle(i, along.before)) / (along.steps * grid.hy());
     }
   }
   return slopes;

@@ -73,6 +73,13 @@ SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, 
         if (!(low < middle && middle < high)) break;
         (holds(middle) ? low : high) = middle;
       }
+      // What slips at an angle that is nothing beside the step slips at once, and mu is 0 indeed.
+      constexpr double nothing = 1e-3;
+      if (held == 0 && low > nothing * step)
+        throw Error(ErrorCode::bad_value,
+                    "`step` is " + degrees(step) + ", above the angle of slip of " + degrees(low) +
+                        ": no step would be held, and mu would be 0",
+                    "give a finer step, such as \"0.1 deg\"; a number without a unit is in radians");
       return {low, held, true};
     }
     held = angle;

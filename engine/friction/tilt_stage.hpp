@@ -32,7 +32,8 @@ void check(const TiltOptions& options);
 // The stage stands at k·step for k = 0, 1, … and last at the limit. At each step the balance is tried; in
 // the first that fails it is solved for, by halving, between the last step that held and this one. A
 // specimen that balances exactly holds. At 90 deg the normal force is the last positive one a double
-// gives: a contact is not lost by reaching the limit itself.
+// gives: a contact is not lost by reaching the limit itself. Throws Error{bad_value} naming `step` where the
+// specimen slips within the first step at an angle above 0: no step would be held.
 SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, double limit);
 SlipAngle slip_angle(const FrictionForce& friction, const TiltOptions& options);
 

@@ -38,6 +38,9 @@ double spacing_of(const StylusOptions& o) {
   if (o.spacing) positive("spacing", *o.spacing);
   if (o.speed) positive("speed", *o.speed);
   if (o.rate) positive("rate", *o.rate);
+  if (o.speed && !o.rate && !o.spacing)
+    refuse("`speed` is given without `rate`, so the distance between samples is not known",
+           "give `rate`, such as \"100 Hz\", or `spacing`");
   if (!o.speed || !o.rate) return o.spacing.value_or(stylus_spacing);
   const double travelled = *o.speed / *o.rate;
   if (!(std::isfinite(travelled) && travelled > 0))

@@ -11,6 +11,8 @@
 -- depend on how many follow. D sets how slowly the waves weaken. At D = 2.0 nine tenths of the variance
 -- is in the base; at 2.9 a fifth is, and two fifths is in waves that 150 cells cannot carry, which act
 -- as noise on every cell.
+-- Choices of this project: eq. (2) as printed has phases that change nothing, and is used in the form of Yan and
+-- Komvopoulos, where they do; and the base of n <= 2, which the paper does not define.
 
 local lab = require "asperity"
 local arguments = require "asperity.arguments"

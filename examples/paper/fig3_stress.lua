@@ -12,6 +12,8 @@
 -- amplitude 0.940 and 0.959, since the highest summit of a specimen need not have met the other. Five
 -- stylus traces say the same of Ra with more scatter: 0.943 +- 0.019 and 0.941 +- 0.015. An event of 204
 -- MPa takes 6 % of the virgin Ra. The control: specimens that do not yield come back as they were.
+-- Compared are directions: no measured value of the paper is. The bands asked below are those of this project's own
+-- prototype.
 -- Not predicted: absolute Ra (the virgin one is given, 3 um) and anything that a disc does beyond one tile
 -- of a millimetre. What yields is taken away, not piled up beside. Hardness is that of ten minutes.
 

@@ -11,9 +11,12 @@
 -- that after one for self-affine specimens, 0.791 +- 0.012 for bead-blasted ones; the amplitude 0.798 and
 -- 0.788. Eight events take 23 and 24 % of the virgin Ra, one event of 204 MPa takes 6 %. It is the turning
 -- that does it. The control: on specimens left lying as they lay, events two to eight take nothing.
--- Not predicted: absolute Ra (the virgin one is given, 3 um), and hardening, which would slow the fall
--- down. A disc that is turned meets other ground off its axis; on one periodic tile a quarter turn and a
--- shift by whole cells, drawn from a seed, stand for that.
+-- Compared are directions: no measured value of the paper is. The bands asked below are those of this project's own
+-- prototype.
+-- Not predicted: absolute Ra (the virgin one is given, 3 um). Hardening, which the paper calls moderating, would slow
+-- the fall down; it is there (`plasticity={ hardening= }`) and not used here, for its strength is not known. A disc
+-- that is turned meets other ground off its axis; on one periodic tile a quarter turn and a shift by whole cells,
+-- drawn from a seed, stand for that.
 
 local lab = require "asperity"
 local arguments = require "asperity.arguments"

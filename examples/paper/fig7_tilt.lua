@@ -7,14 +7,18 @@
 --
 -- The paper: on flat quartz, under their own weight, friction of specimens pressed once does not depend on
 -- the stress; it rises with the number N of events, and five trials of one specimen agree within 20 %.
--- Here: friction is alpha + tau0 A/F, and what is predicted is A/F, real area over load, from an elastic
--- solve at 3 MPa, where the grid resolves it. Mean over 8 pairs, self-affine and bead-blasted: from 20 to
--- 204 MPa it changes by a factor 1.19 +- 0.20 and 1.13 +- 0.14, from one event to eight by 1.49 +- 0.41 and
--- 1.58 +- 0.25. Weak in stress rather than flat: over 24 pairs 1.19 and 1.16, with standard errors of 0.04
--- and 0.03. Single pairs scatter far too much to tell; bands are asked of 8 or more.
--- Controls: spots that yield on quartz at the hardness H make area F/H whatever the surface, and the rise
--- with N is gone (1.06, 1.07; at 3 H 1.32 and 1.29 are left of it). Had yielding cut the summits to one
--- plane, taking the same volumes, area would rise tenfold with stress.
+-- Here: the rise with N is found IF SUMMITS STAY ELASTIC ON QUARTZ, and only then. Friction is alpha + tau0 A/F,
+-- and what is predicted is A/F, real area over load, from an elastic solve at 3 MPa. Its spots carry, over N = 1 and
+-- 8, a mean pressure of 2.3 H (self-affine) and 3.0 H (bead-blasted), 6.4 and 8.5 H at the highest node, and 90 % of
+-- the load stands on nodes above the hardness H that capped the presses. With that cap on the quartz too, which is the
+-- ordinary assumption and the rule of every other script here, area is F/H whatever the surface and the rise is gone:
+-- 1.06 and 1.07; at 3 H 1.32 and 1.29 are left of it. Elastic, over 8 pairs, A/F rises from one event to eight by a
+-- factor 1.49 +- 0.41 and 1.58 +- 0.25 (scatter of single pairs). The program prints both, and the pressures in H.
+-- Stress: not flat. From 20 to 204 MPa A/F rises by 10 to 20 %: 1.19 and 1.16 over 24 pairs (standard errors 0.04 and
+-- 0.03), 1.11 and 1.17 over 48 further ones (0.03). Means of 8 pairs run from 1.03 to 1.28, so 24 are asked for a band;
+-- of friction that is within the paper's 20 %.
+-- Control: had yielding cut the summits to one plane, taking the same volumes, area would rise tenfold with stress.
+-- Compared are directions; no measured value of the paper is. Bands are those of this project's own prototype.
 -- Not predicted: mu itself. tau0 = 500 MPa and alpha = 0.2 are illustrative, effective numbers, calibrated
 -- by whoever uses them; only ratios of A/F are predictions. Trials on a flat differ by `scatter` alone,
 -- which is entered and not predicted; the scatter over pairs is. At 256 cells only 50 to 140 nodes touch
@@ -57,7 +61,10 @@ local found = lab.ensemble{
     local turned = laboratory.after_events(lower, upper, { seed = case.pair })
     local by_stress, by_N = tilted(pressed, 1000 * case.pair), tilted(turned, 1000 * case.pair + 100)
     local H = lower.material.hardness
+    local mean_1, peak_1 = laboratory.over_hardness(turned[1])
+    local mean_8, peak_8 = laboratory.over_hardness(turned[8])
     return {
+      mean_over_H = (mean_1 + mean_8) / 2, peak_over_H = (peak_1 + peak_8) / 2,
       by_stress = by_stress, by_N = by_N,
       stress = by_stress[6].area_per_load / by_stress[1].area_per_load,
       N = by_N[8].area_per_load / by_N[1].area_per_load,
@@ -99,13 +106,15 @@ for _, mean in ipairs(paper.means(found, { "kind" })) do
   print(laboratory.across("  of five trials +-", by_N, "spread", 1, 3))
   print "  ratios of A/F:"
   for _, line in ipairs{
-    { "stress", "203.72 / 20.37 MPa" }, { "N", "eight events / one" },
+    { "stress", "203.72 / 20.37 MPa" }, { "N", "eight events / one, spots on quartz stay elastic" },
     { "N_at_3H", "eight events / one, spots on quartz yield at 3 H" },
     { "N_at_H", "eight events / one, spots on quartz yield at H" },
     { "plane", "203.72 / 20.37 MPa, the same volumes cut off by a plane" },
   } do
     print(("    %-56s %s"):format(line[2], laboratory.with_scatter(mean, line[1])))
   end
+  print(("  elastic spots on quartz carry %.1f H in the mean and %.1f H at the highest node (N = 1 and 8)"):format(
+    mean.mean_over_H, mean.peak_over_H))
   mean.mu_stress, mean.mu_N = by_stress[6].mu / by_stress[1].mu, by_N[8].mu / by_N[1].mu
   print(("  mu: 203.72 / 20.37 MPa %.2f, eight events / one %.2f"):format(mean.mu_stress, mean.mu_N))
   means:write(mean)
@@ -115,18 +124,23 @@ end
 for _, mean in ipairs(means:rows()) do
   local where = { kind = mean.kind }
   means:expect("N", { where = where, at_least = mean.stress,
-    label = "A/F: eight events above ten times the stress" })
-  means:expect("mu_N", { where = where, at_least = 1.1, label = "friction rises with N" })
+    label = "elastic spots, A/F: eight events above ten times the stress" })
+  means:expect("mu_N", { where = where, at_least = 1.1, label = "elastic spots: friction rises with N" })
+  means:expect("mean_over_H", { where = where, at_least = 1.2,
+    label = "but they carry more than the hardness that capped the presses" })
   if enough then
     means:expect("N", { where = where, at_least = 1.3, label = "A/F, N = 8 / N = 1" })
-    means:expect("stress", { where = where, at_least = 0.85, at_most = 1.25, label = "A/F, 203.72/20.37" })
     means:expect("mu_stress", { where = where, at_least = 0.8, at_most = 1.2,
       label = "friction against stress stays within the paper's own 20 %" })
     means:expect("N_at_3H", { where = where, at_least = 1.2, label = "A/F, N = 8 / N = 1, spots at 3 H" })
   end
+  if options.pairs >= 24 then
+    means:expect("stress", { where = where, at_least = 0.9, at_most = 1.4,
+      label = ("A/F, 203.72/20.37, mean of %d pairs"):format(options.pairs) })
+  end
   means:expect("N_at_H", { where = where, at_least = 1.2, should_fail = true,
-    label = "control: A/F, N = 8 / N = 1, spots at H" })
-  means:expect("plane", { where = where, at_least = 0.85, at_most = 1.25, should_fail = true,
+    label = "spots that yield at H, as in the presses: no rise of A/F with N" })
+  means:expect("plane", { where = where, at_least = 0.9, at_most = 1.4, should_fail = true,
     label = "control: A/F, 203.72/20.37, cut by a plane" })
 end
 

@@ -7,7 +7,10 @@
 --
 -- The paper: Weierstrass-Mandelbrot surfaces of one amplitude, boxes under a rigid flat, one load: the
 -- contact stiffness falls as the fractal dimension D rises.
--- Here: so it does, if stiffness is load over approach (the secant). The slope of the load curve (the
+-- Here: so it does for boxes, if stiffness is load over approach (the secant): by 31 % on preset A and 12 % on
+-- preset B from D = 2.0 to 2.9. It is a property of boxes: on an elastic half-space the same surfaces under one load
+-- (0.006 E, young 1, poisson 0, free, seeds 1 to 12) change it by -7 % and +6 %, and the real area, which rises
+-- with D on boxes, falls there, from 0.038 to 0.0065 and from 0.019 to 0.006. The slope of the load curve (the
 -- tangent) equals the area fraction for such boxes, and rises. The fall is an effect of extremes: among
 -- many independent heights the highest stands alone, and the flat has further to go. It is a statement
 -- about means, which single seeds contradict, and it hangs on what "one amplitude" means: step 4 shows

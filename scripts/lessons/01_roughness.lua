@@ -4,20 +4,21 @@
 --   and what share of the slope?
 -- Minutes: 15
 --
--- **Ra** is how far heights lie from their mean, on average. The **rms slope** is how steep the face is, in the
--- root mean square; it decides how two faces touch (lesson 4).
+-- A hill of a rough face is called an **asperity**. **Ra** is how far heights lie from their mean, on average. The
+-- **rms slope** is how steep the face is, in the root mean square; it decides how two faces touch (lesson 4).
 --
 -- A stylus is a ball on an arm. It comes down until it first touches, and the height of the ball is what is
 -- written down.
 --
--- *Your prediction:* on the page, the box under this text keeps it. Put its numbers into `my_guess` in the
--- script as well, and the last lines compare them with what was found.
+-- *Your prediction:* put its numbers into `my_guess` in the script; the last lines compare them with what was
+-- found.
 --
 -- *Then try:* `scanned = "swell"`, tips on another face. And `hurst = 0.9`: less of the slope is then in the
 -- short waves. Which numbers change, and why?
 
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
+local guess = require "asperity.guess"
 local um = lab.units.um
 local my_guess = { Ra=nil, slope=nil } -- shares between 0 and 1
 local scanned, hurst = "fine", 0.5
@@ -79,11 +80,11 @@ needle's line, a hill beside the line carries it: a tip feels an area, not a lin
 if scanned ~= "fine" then reason = [[
 Why: the shortest waves of this face are so long and flat that a ball of 5 um reaches the ground nearly everywhere,
 and what it draws is the face. On the fine face the same ball does not.]] end
+print(("\nOf Ra %.2f is left, of the slope %.2f."):format(kept[5].Ra_ratio, kept[5].rms_slope_ratio))
+guess{ said=my_guess.Ra, found=kept[5].Ra_ratio, of="the share of Ra" }
+guess{ said=my_guess.slope, found=kept[5].rms_slope_ratio, of="the share of the slope" }
 print(([[
-
-You said: Ra %s, slope %s. It is: Ra %.2f, slope %.2f.
 %s
 Ra does not say how *quickly* heights change: the three faces share one Ra, and their slopes run from %.2f to %.2f.
-So a roughness number belongs to a face *and* to the tip that found it.]]):format(my_guess.Ra or "nothing",
-  my_guess.slope or "nothing", kept[5].Ra_ratio, kept[5].rms_slope_ratio, reason,
+So a roughness number belongs to a face *and* to the tip that found it.]]):format(reason,
   faces.swell:roughness().rms_slope, faces.fine:roughness().rms_slope))

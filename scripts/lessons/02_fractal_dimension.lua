@@ -12,14 +12,15 @@
 -- a distance s? It grows as s^(4-2D), whatever unit the heights are in. Other methods exist: **boxes** counts
 -- the squares that the profile visits, **psd** fits a line to its spectrum.
 --
--- *Your prediction:* on the page, the box under this text keeps it. Put the first number into `my_guess` in the
--- script as well, and the last lines compare it with what was found.
+-- *Your prediction:* put its number into `my_guess` in the script; the last lines compare it with what was
+-- found.
 --
 -- *Then try:* the seed, `cells = 1024`, or a face of your own in `not_fractal`. Can you make one that fools the
 -- structure function too?
 
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
+local guess = require "asperity.guess"
 local um = lab.units.um
 local my_guess = nil -- the D that the ruler finds on heights of 0.5 um
 local cells, seed = 256, 1
@@ -94,9 +95,10 @@ for _, row in ipairs(scale:rows()) do
   if math.abs(error) >= math.abs(off[row.method] or 0) then off[row.method] = error end
 end
 local growth = (found[0].ruler - 1) / (found[-1].ruler - 1)
+print(("\nOn heights of 0.5 um the ruler found %.3f, stretched a hundredfold %.2f."):format(found[0].ruler,
+  found[2].ruler))
+guess{ said=my_guess, found=found[0].ruler, of="the ruler's D", near=0.02 }
 print(([[
-
-You said %s for the ruler. On heights of 0.5 um it found %.3f, stretched a hundredfold %.2f.
 Why: a step of slope m is longer than its shadow by m^2/2. While slopes are small, D - 1 by the ruler goes with
 the slope squared: stretch the heights tenfold, and it grows %.0f times here. So the ruler mixes how rough a face is
 with how fractal it is. Heights and widths are not the same sort of length: stretched heights are "the same"
@@ -107,6 +109,6 @@ longest ruler. No machined face is that steep. Below it `resolved` is false, and
 No method is perfect: see built_in.svg. On profiles of %d points the worst D that boxes find is off by %+.2f, that
 of the spectrum by %+.2f, that of the structure function by %+.2f.
 And a number always comes out: round dents are no fractal, but get their D. First look whether a log-log chart is
-a straight line over several decades; then believe its slope.]]):format(my_guess or "nothing", found[0].ruler,
-  found[2].ruler, growth, steep, slope_of_longest(believed:fractal_dimension{ method="structure" }), cells, off.box,
+a straight line over several decades; then believe its slope.]]):format(growth, steep,
+  slope_of_longest(believed:fractal_dimension{ method="structure" }), cells, off.box,
   off.psd, off.structure))

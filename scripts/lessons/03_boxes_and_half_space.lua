@@ -6,18 +6,20 @@
 --
 -- The simplest model of a rough body is a brush of springs: every point is a **box** that is pushed down by
 -- what lies on it, and by nothing else. The source paper uses it. A real body is one piece: the elastic
--- **half-space**, on which a force at one place may move the ground at every other.
+-- **half-space**, a body so large that it has one face and no other end, on which a force at one place may move
+-- the ground at every other.
 --
 -- First two hills, then a rough face. Boxes need a stiffness, which somebody has to choose; so on the rough
 -- face both models are compared at equal real area, where it does not matter.
 --
--- *Your prediction:* on the page, the box under this text keeps it. Put its number into `my_guess` in the
--- script as well, and the last lines compare it with what was found.
+-- *Your prediction:* put its number into `my_guess` in the script; the last lines compare it with what was
+-- found.
 --
 -- *Then try:* hills of another radius `R`, from 30 to 300 um, or `lower = 0.1 * um`. Which column changes?
 
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
+local guess = require "asperity.guess"
 local um, MPa = lab.units.um, lab.units.MPa
 local my_guess = nil -- in um, of hills 20 um apart
 local metal = lab.material{ young="70 GPa", poisson=0.33 }
@@ -96,14 +98,14 @@ book:expect("boxes", { near=lower, within=0.001 * um + between_nodes, label="a b
 book:expect("half-space", { decreasing_in="distance", label="the nearer the hills, the later the low one is met" })
 book:expect("half/theory", { near=1, within=0.01, label="by F/(pi E* d), as Boussinesq says" })
 spots:expect("ratio", { at_least=1.5, label="the half-space touches in more pieces" })
-print(([[
-
-You said %s um for hills 20 um apart; boxes meet the low one at %.3f um, the half-space at %.3f um.
+print(("\nOf hills 20 um apart boxes meet the low one at %.3f um, the half-space at %.3f um."):format(
+  of_boxes[20] / um, found[20] / um))
+guess{ said=my_guess, found=found[20] / um, of="the depth", unit="um" }
+print([[
 Why: the high hill is pressed into the body and drags the ground around it down, the low hill with it, by
 F/(pi E* d) at a distance d. Boxes cannot do that. On a rough face it is the same a thousand times over: ground
 near a loaded top sinks away from the flat, so the load goes to tops further off, and the same area comes in more
 and smaller pieces. Boxes touch on everything above one height: few large islands. Compare half_space.png with
 boxes.png.
 Boxes are exact and quick, and good where only the order of heights counts; what depends on neighbours (spots,
-gaps, stiffness) is for the half-space.]]):format(my_guess or "nothing", of_boxes[20] / um,
-  found[20] / um))
+gaps, stiffness) is for the half-space.]])

@@ -12,13 +12,14 @@
 -- Nothing else enters. So the question is what roughness and load do to A/F, real area over load. You know that from
 -- lesson 4.
 --
--- *Your prediction:* on the page, the box under this text keeps it. Put its numbers into `my_guess` in the script as
--- well, and the last lines compare them with what was found.
+-- *Your prediction:* put its numbers into `my_guess` in the script; the last lines compare them with what was
+-- found.
 --
 -- *Then try:* `alpha = 0`. Which part of friction is left, and what does it go with?
 
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
+local guess = require "asperity.guess"
 local MPa, deg = lab.units.MPa, lab.units.deg
 local my_guess = { halved=nil, heavy=nil } -- in degrees
 local alpha = 0.1
@@ -78,16 +79,17 @@ loads:expect("angle", { where={ block="rough" }, near=under[30], rel=0.1,
                         label="thirty times the load slides at the same angle, to a tenth" })
 book:expect("angle", { where={ body="yielding", height={ 1, 0.7, 0.5 } }, near=yielding, rel=0.1,
                        label="tops that yield: roughness does not matter" })
+print(("\nWith half the height it slides at %.1f degrees; under the heavy load at %.1f (at 3 MPa %.1f)."):format(
+  found[0.5].elastic, under[100], under[3]))
+guess{ said=my_guess.halved, found=found[0.5].elastic, of="half the height", unit="deg", near=0.1 }
+guess{ said=my_guess.heavy, found=under[100], of="the heavy load", unit="deg", near=0.1 }
 print(([[
-
-You said %s degrees for half the height: it is %.1f. You said %s under a heavy load: it is %.1f (at 3 MPa
-%.1f).
 Why: half the height is half the slope, so twice the real area for the same load, and twice the tau0 A/F. Smooth
-blocks hold on *longer*. More load brings more area in proportion, so it cancels.
+blocks hold on *longer*. More load brings more area in proportion, so it cancels. Roughness acts on tau0 A/F alone: with
+alpha = 0 nothing else is left, and tan theta goes with real area, so with one over slope.
 The second column of angles lets the tops yield at the hardness H: then A = F/H whatever the roughness, and rough
 blocks all slide at the angle of alpha + tau0/H, %.1f degrees. Only where the face is so smooth that its tops stay
 elastic do the two agree. So turning (lesson 5) can only help where tops touch the quartz elastically.
 One thing was put in, not found: tau0. Ratios are predictions here, degrees are not. And the stage solves at 1 to
 3 MPa, since under 4.3 g alone less than one cell would touch: that the load cancels is what allows it.]]):format(
-  my_guess.halved or "nothing", found[0.5].elastic, my_guess.heavy or "nothing", under[100], under[3],
   yielding))

@@ -8,16 +8,18 @@
 -- cells get smaller. The **solver** stops when the contact conditions hold to a tolerance: that error goes when it is
 -- made tighter. Do they help each other?
 --
--- A ball on a flat has an exact answer (Hertz 1882), so here the error is known. Two ways are tried: ever finer
+-- A ball on a flat has an exact answer: Hertz found in 1882 how far it comes down under a load, on how large a disc it
+-- touches and with what pressure. So here the error is known. Two ways are tried: ever finer
 -- grids, and on one grid ever tighter solves. Then the program is asked what it *thinks* its errors are.
 --
--- *Your prediction:* on the page, the box under this text keeps it. Put its numbers into `my_guess` in the script as
--- well, and the last lines compare them with what was found.
+-- *Your prediction:* put its numbers into `my_guess` in the script; the last lines compare them with what was
+-- found.
 --
 -- *Then try:* `quantity = "area"`, which is a count of nodes. How much dearer is one per cent of it?
 
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
+local guess = require "asperity.guess"
 local my_guess = { longer=nil, closer=nil }
 local quantity = "approach" -- how far the ball comes down; or "area", or "peak_pressure"
 local steel = lab.material "steel"
@@ -87,7 +89,7 @@ local function signed(cells) return press{ cells=cells, tolerance=1e-6 }[quantit
 local falls, luck = {}, "Every one of them helped."
 for _, cells in ipairs{ 16, 32, 64, 128 } do
   local fall = error_of("finer grid", cells, 1e-6) / error_of("finer grid", 2 * cells, 1e-6)
-  table.insert(falls, ("%.2g"):format(fall))
+  table.insert(falls, fall < 1 and ("multiplied by %.2g"):format(1 / fall) or ("divided by %.2g"):format(fall))
   if fall < 1 then
     local crosses = signed(cells) * signed(2 * cells) < 0 or cells > 16 and signed(cells // 2) * signed(cells) < 0
     luck = ("That %d cells did better than %d is luck: %s"):format(cells, 2 * cells, crosses
@@ -99,14 +101,14 @@ for _, cells in ipairs{ 128, 256 } do steps[cells] = press{ cells=cells, toleran
 local work = 4 * steps[256] / steps[128]
 local price = longer < work and "Not all that a press does grows with its nodes, so it was less."
   or "It was not less here: a step on more nodes is a little dearer for each of them."
+print(("\nFrom 128 to 256 cells it took %.1f times longer here, and came %.1f times closer."):format(longer, closer))
+guess{ said=my_guess.longer, found=longer, of="times longer" }
+guess{ said=my_guess.closer, found=closer, of="times closer" }
 print(([[
-
-You said %s times longer and %s times closer; from 128 to 256 cells it was %.1f times longer here, and
-%.1f times closer.
 Why: four times the nodes, and %d steps of the solver instead of %d: %.1f times the work.
 %s
-A grid knows nothing of what lies between its nodes, above all of the rim of the contact. The four steps from 16 to
-256 cells divided the error by %s.
+A grid knows nothing of what lies between its nodes, above all of the rim of the contact. In the four steps from 16 to
+256 cells the error was %s.
 %s
 Solving to 1e-8 instead of 1e-6 on 64 cells changed the error by a factor of %.2f: that error was the grid's, and no
 solver can mend it. The two errors do not help each other: the larger one decides, and work on the smaller is wasted.
@@ -114,5 +116,5 @@ The chart cost.svg is how to choose: for the error you can live with, take the p
 print(study:cheapest{ error=0.01 }) to have it done.
 Without Hertz you would not know the true error. The program gives its own two, and keeps them apart: a bound for
 the solver, and for the grid an estimate that the true error mostly stays within three times of.]]):format(
-  my_guess.longer or "nothing", my_guess.closer or "nothing", longer, closer, steps[256], steps[128], work, price,
+  steps[256], steps[128], work, price,
   table.concat(falls, ", "), luck, wasted))

@@ -109,11 +109,35 @@ TEST_F(Help, ExplainsFunctionsAndValuesThemselves) {
 }
 
 TEST_F(Help, OfAnUnknownTopicNamesTheNearest) {
-  EXPECT_NE(run("lab.help 'weierstras'").find("(did you mean `weierstrass_mandelbrot`?)"), std::string::npos);
+  EXPECT_NE(run("lab.help 'weierstrass_mandlebrot'").find("(did you mean `weierstrass_mandelbrot`?)"),
+            std::string::npos);
   EXPECT_EQ(
       run("lab.help 'surfase'"),
       "script.lua:1: lab.help: there is no help on `surfase` (did you mean `surface`?); help without a topic "
       "lists what there is");
+}
+
+// B11: a part of a name, and a word of a sentence, find what they belong to.
+TEST_F(Help, B11FindsPartsOfNamesAndWordsOfSentences) {
+  const std::pair<const char*, const char*> wanted[] = {
+      {"weierstras", "lab.surface.weierstrass_mandelbrot: "},
+      {"tilt", "lab.tilt_stage: "},
+      {"rough", "surface:roughness: "},
+      {"stiff", "State.stiffness: "},
+      {"plastic", "key `effects.plasticity` of lab.contact: "},
+      {"Sq", "surface:roughness: "},
+      {"mu", "tiltStage:raise: "},
+      {"trials", "tiltStage:raise: "},
+      {"half_space", "key `effects.elasticity` of lab.contact: "},
+      {"x3p", "lab.surface.read: "},
+      {"box", "key `effects.elasticity` of lab.contact: "},
+  };
+  for (const auto& [asked, found] : wanted) {
+    const std::string text = help_text(asked);
+    EXPECT_NE(text.find(found), std::string::npos) << asked << ":\n" << text;
+  }
+  EXPECT_THROW(help_text("q"), Error);
+  EXPECT_THROW(help_text("zzzz"), Error);
 }
 
 TEST_F(Help, ListsEveryModuleAndValueWithoutATopic) {

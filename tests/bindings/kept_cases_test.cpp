@@ -151,7 +151,7 @@ TEST(CaseBytes, KeepAllThatACaseFound) {
   result.digest = "d";
   result.output = std::string("a\0b\n", 4);
   result.warnings = {"first", "", "third"};
-  result.inputs = {{"file", 12, "abc"}, {"gone", 0, ""}};
+  result.inputs = {{"./file", 12, "abc", "file"}, {"gone", 0, "", ""}};
   result.drew = true;
   result.transforms = 1234.5;
   result.seconds = 0.1;
@@ -165,8 +165,9 @@ TEST(CaseBytes, KeepAllThatACaseFound) {
   EXPECT_EQ(found.output, result.output);
   EXPECT_EQ(found.warnings, result.warnings);
   ASSERT_EQ(found.inputs.size(), 2U);
-  EXPECT_EQ(found.inputs[0].file, "file");
+  EXPECT_EQ(found.inputs[0].file, "./file");
   EXPECT_EQ(found.inputs[0].bytes, 12);
+  EXPECT_EQ(found.inputs[0].beside_script, "file");
   EXPECT_EQ(found.inputs[1].digest, "");
   EXPECT_TRUE(found.drew);
   EXPECT_EQ(found.transforms, 1234.5);
@@ -199,6 +200,41 @@ TEST(ParcelContent, KnowsWhatAFunctionDoesAndNotWhereItStands) {
     other.replace(other.find(from), std::string(from).size(), to);
     EXPECT_NE(digest(a, other), digest(a, code)) << to;
   }
+}
+
+// F12: shards met only where the script's path was typed in the same way.
+TEST(ParcelContent, F12IsTheSameHoweverTheScriptIsNamed) {
+  struct Typed {
+    ScriptSpelling script;
+    std::string file;  // as Lua names it
+  };
+  const std::vector<Typed> typed = {{{"ens.lua", "."}, "@ens.lua"},
+                                    {{"./ens.lua", "."}, "@./ens.lua"},
+                                    {{"/home/me/ens.lua", "/home/me"}, "@/home/me/ens.lua"},
+                                    {{"../me/copy.lua", "../me"}, "@../me/copy.lua"}};
+  const auto content = [](const Typed& as, const std::string& body) {
+    Session session(Monitor::silent());
+    session.script = as.script;
+    const State state = make_state(session, as.script.folder);
+    lua_State* L = state.get();
+    const std::string text = "arg = { [0] = '" + as.script.path + "', 'one' } " + body;
+    if (luaL_loadbufferx(L, text.data(), text.size(), as.file.c_str(), "t") != LUA_OK ||
+        lua_pcall(L, 0, 1, 0) != LUA_OK)
+      throw Error(ErrorCode::bad_value, error_text(L, -1));
+    return pack(L, -1, Cargo::functions, "run", "")->content(session.script);
+  };
+  const std::string plain = "return function(case) return { y = 2 * case.k } end";
+  const Parcel::Content first = content(typed[0], plain);
+  for (const Typed& other : typed) {
+    EXPECT_EQ(content(other, plain).digest, first.digest) << other.script.path;
+    EXPECT_EQ(content(other, plain).lines, first.lines) << other.script.path;
+  }
+  EXPECT_NE(content(typed[0], "\n" + plain).lines, first.lines);
+  // What a function reads of its name, and where the script itself made it look, it depends on.
+  for (const char* body :
+       {"return function() return { y = arg[0] } end", "local a = arg return function() return a end",
+        "package.path = package.path .. ';x/?.lua' return function() return {} end"})
+    EXPECT_NE(content(typed[0], body).digest, content(typed[2], body).digest) << body;
 }
 
 TEST(ParcelContent, SaysWhereADigestIsNotTheWhole) {

@@ -122,8 +122,15 @@ TEST_F(Options, WholeNumbersMustBeWhole) {
   EXPECT_EQ(run("lab.surface.flat{ cells=4.0, size=1 }"), "");
   EXPECT_NE(run("lab.surface.flat{ cells=4.5, size=1 }").find("`cells` is 4.5; give a whole number"),
             std::string::npos);
-  EXPECT_NE(run("lab.surface.flat{ cells='4', size=1 }").find("`cells` is the string \"4\""),
+  EXPECT_EQ(value("lab.surface.flat{ cells='4', size=1 }.cells[1]"), "4");  // as a tolerance of "1e-6"
+  EXPECT_NE(run("lab.surface.flat{ cells='4.5', size=1 }").find("`cells` is \"4.5\"; give a whole number"),
             std::string::npos);
+  EXPECT_NE(run("lab.surface.flat{ cells='4 um', size=1 }")
+                .find("\"4 um\": a length where a plain number is wanted"),
+            std::string::npos);
+  EXPECT_NE(
+      run("lab.surface.flat{ cells='four', size=1 }").find("`cells` is the string \"four\"; give a whole"),
+      std::string::npos);
   EXPECT_NE(run("lab.surface.flat{ cells=2^53, size=1 }").find("`cells` is "), std::string::npos);
   EXPECT_NE(run("lab.surface.flat{ cells={4, 4, 4}, size=1 }").find("give a whole number or {nx, ny}"),
             std::string::npos);

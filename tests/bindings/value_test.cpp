@@ -160,7 +160,7 @@ TEST_F(NativeValue, IsClosedWhenAnErrorLeavesItsBlock) {
 TEST_F(NativeValue, AContactClosesByNameToo) {
   EXPECT_EQ(run("c:close()\nc:press{ approach=1e-6 }"),
             "script.lua:2: contact:press: a contact was used after it was closed");
-  EXPECT_EQ(run("c:close()"), "script.lua:1: contact:close: a contact was used after it was closed");
+  EXPECT_EQ(run("c:close() c:close()"), "");
   // What was made from it lives on.
   EXPECT_EQ(run("assert(st.area >= 0) stage:raise()"), "");
 }

@@ -110,6 +110,10 @@ TEST(FinerHeights, TurnedOffTheLatticeAboutTheSamePlace) {
       const double given = geometry.combined()(i, j);
       // The lowest node of all, or one without a body over it.
       if (given == lowest && fine(3 * i, 3 * j) == lowest_fine) continue;
+      if (std::isnan(given)) {
+        EXPECT_TRUE(std::isnan(fine(3 * i, 3 * j))) << i << " " << j;
+        continue;
+      }
       ++covered;
       EXPECT_NEAR(fine(3 * i, 3 * j), given, 1e-12) << i << " " << j;
     }

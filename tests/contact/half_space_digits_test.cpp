@@ -408,5 +408,45 @@ TEST(CloseToHardness, WhatIsSnappedToTheLimitIsJudgedAgain) {
   }
 }
 
+// --- heights of any size
+
+// V3: the contact of a wave is the same at any scale of its height, or refused by name.
+TEST(HeightsOfAnySize, AreRightOrRefusedByName) {
+  const auto pressed = [](double amplitude, Boundary boundary, bool box) {
+    const Surface wave = test::surface_of(Grid{8, 8, 1, 1}, [&](int i, int j) {
+      return amplitude * std::cos(2 * pi * i / 8) * std::cos(2 * pi * j / 8);
+    });
+    Scene scene{wave.with_material(test::elastic(1e11)), rigid_material(), boundary, HalfSpaceOptions{},
+                Accuracy{}};
+    if (box) scene.elasticity = BoxOptions{};
+    return test::press(scene, PressBy::pressure, box ? 1e10 : 1e11 * amplitude);
+  };
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+    for (const bool box : {false, true}) {
+      const State known = pressed(1e-6, boundary, box);
+      int right = 0, refused = 0;
+      for (int power = -320; power <= 308; power += 4) {
+        const double amplitude = std::pow(10.0, power);
+        try {
+          const State state = pressed(amplitude, boundary, box);
+          EXPECT_EQ(state.contacts(), known.contacts()) << power;
+          EXPECT_NEAR(state.approach() / amplitude, known.approach() / 1e-6, 1e-4) << power;
+          EXPECT_TRUE(std::isfinite(state.energy())) << power;
+          EXPECT_NEAR(state.mean_gap() / amplitude, known.mean_gap() / 1e-6, 1e-4) << power;
+          ++right;
+        } catch (const Error& error) {
+          const std::string why = error.what();
+          EXPECT_TRUE(why.find("range of a double") != std::string::npos ||
+                      why.find("1e-280") != std::string::npos ||
+                      why.find("check the units") != std::string::npos)
+              << power << ": " << why;
+          ++refused;
+        }
+      }
+      EXPECT_GT(right, 70);
+      EXPECT_GT(refused, 10);
+    }
+}
+
 }  // namespace
 }  // namespace asperity::half_space_digits_test

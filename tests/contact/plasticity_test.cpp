@@ -46,8 +46,76 @@ TEST(Plasticity, TheSofterBodyLimitsThePressureAndTakesTheGreaterShare) {
   const PlannedYield yield =
       yield_of(scene_of(rough.with_material(metal(1e9)), rough.with_material(metal(3e9))));
   EXPECT_EQ(yield.hardness(), 1e9);
-  EXPECT_DOUBLE_EQ(lower_plastic_share(yield.lower_hardness, yield.upper_hardness), 0.75);
+  EXPECT_GT(lower_plastic_share(yield.lower_hardness, yield.upper_hardness), 0.99);
   EXPECT_FALSE(yield.hardens());
+}
+
+// P7: shares of the approach that J2 plasticity below the surface gives, by the ratio of the hardnesses.
+TEST(Plasticity, TheShareOfTheHarderBodyFallsSmoothlyToNothing) {
+  const auto of_harder = [](double ratio) { return lower_plastic_share(ratio * 1e9, 1e9); };
+  EXPECT_EQ(of_harder(1), 0.5);
+  EXPECT_NEAR(of_harder(1.2), 0.246, 5e-4);
+  EXPECT_NEAR(of_harder(1.5), 0.0625, 5e-5);
+  EXPECT_NEAR(of_harder(2), 0.0036, 5e-5);
+  EXPECT_LT(of_harder(3), 1e-5);
+  double before = 1;
+  for (double ratio = 0.2; ratio < 6; ratio *= 1.01) {
+    const double share = of_harder(ratio);
+    EXPECT_LE(share, before);
+    EXPECT_NEAR(share + lower_plastic_share(1e9, ratio * 1e9), 1, 1e-15) << ratio;
+    before = share;
+  }
+  // Any pair of numbers that two materials may have.
+  for (const double hard : {1e-300, 1e-3, 1.0, 1e9, 1e300})
+    for (const double soft : {1e-300, 1e-3, 1.0, 1e9, 1e300})
+      EXPECT_EQ(lower_plastic_share(hard, soft), hard > soft ? 0 : hard < soft ? 1 : 0.5);
+}
+
+// P7: of one hardness and one Poisson's ratio, the strain below the faces goes as 1/E.
+TEST(Plasticity, OfOneHardnessTheStifferBodyTakesLessAsItsModulus) {
+  Material stiff = metal(1e9), soft = metal(1e9);
+  stiff.young = 210e9;
+  soft.young = 70e9;
+  const auto share = [](const Scene& scene) {
+    const PlannedYield yield = yield_of(scene);
+    return lower_plastic_share(yield.lower_hardness, yield.upper_hardness, yield.modulus_ratio);
+  };
+  EXPECT_DOUBLE_EQ(share(scene_of(rough.with_material(stiff), rough.with_material(soft))), 0.25);
+  EXPECT_DOUBLE_EQ(share(scene_of(rough.with_material(soft), rough.with_material(stiff))), 0.75);
+  EXPECT_EQ(share(scene_of(rough.with_material(stiff), rough.with_material(stiff))), 0.5);
+  // Nothing elastic, no moduli.
+  Scene rigid = scene_of(rough.with_material(stiff), rough.with_material(soft), {}, Boundary::free);
+  rigid.elasticity = RigidOptions{};
+  EXPECT_EQ(share(rigid), 0.5);
+  // Boxes of a stiffness of their own need no modulus, and use one where both are there.
+  Scene boxes = rigid;
+  boxes.elasticity = BoxOptions{1e12};
+  EXPECT_DOUBLE_EQ(share(boxes), 0.25);
+  Material unknown;
+  unknown.hardness = 1e9;
+  boxes.upper = rough.with_material(unknown);
+  EXPECT_EQ(share(boxes), 0.5);
+}
+
+// P8: the plan says by what the bodies share.
+TEST(Plasticity, ThePlanSaysWhoTakesWhatAndByWhat) {
+  const auto sentence = [](const Scene& scene) {
+    std::string text;
+    for (const PlannedTerm& term : make_plan(scene, geometry_of(scene)).terms)
+      if (term.effect == "plasticity") text = term.sentence;
+    return text;
+  };
+  const Surface one = rough.with_material(metal(1e9)), other = rough.with_material(metal(1.5e9));
+  EXPECT_EQ(
+      sentence(scene_of(one, other)),
+      "pressure up to 1 GPa; the lower body takes 93.8 % of what yields, by the ratio of their hardness");
+  EXPECT_NE(sentence(scene_of(one, one, {{}, 5e13}))
+                .find("50 % of what yields, by the ratio of their "
+                      "hardness at each node, which grows"),
+            std::string::npos);
+  EXPECT_NE(sentence(scene_of(one, rigid_material())).find("the lower body takes 100 % of what yields"),
+            std::string::npos);
+  EXPECT_EQ(sentence(scene_of(one, rigid_material())).find("ratio"), std::string::npos);
 }
 
 TEST(Plasticity, EqualBodiesShareHalfEach) { EXPECT_EQ(lower_plastic_share(1.1e9, 1.1e9), 0.5); }
@@ -107,7 +175,10 @@ TEST(Plasticity, OptionsOutOfRangeAreNamed) {
 TEST(Plasticity, EachBodyLosesItsShareWhereItLay) {
   const Grid grid{6, 6, 6, 6};
   const Surface lower = surface_of(grid, [](int i, int j) { return i + 10.0 * j; }).with_material(metal(1e9));
-  const Surface upper = surface_of(grid, [](int i, int j) { return 0.5 * i * j; }).with_material(metal(3e9));
+  // Of one hardness, and a third of the other's modulus: a quarter of what yields.
+  Material stiff = metal(1e9);
+  stiff.young = 3 * *metal(1e9).young;
+  const Surface upper = surface_of(grid, [](int i, int j) { return 0.5 * i * j; }).with_material(stiff);
   const Scene scene = scene_of(lower, upper);
   const Pose pose(LatticeIsometry(6, 6).turned(1).shifted(2, 5));
   const ContactGeometry geometry = geometry_of(scene, pose);
@@ -176,6 +247,26 @@ TEST(Plasticity, HardeningIsRememberedInEachBodysFrame) {
   int both = 0;
   for (std::size_t k = 0; k < 36; ++k) both += (*local.lower)[k] > 1e9 && (*local.upper)[k] > 1e9;
   EXPECT_EQ(both, 0);
+}
+
+// P8: where events have hardened one body, the other takes what yields there.
+TEST(Plasticity, SharesGoByWhatEachNodeHasHardenedTo) {
+  const Surface body = rough.with_material(metal(1e9));
+  const Scene scene = scene_of(body, body, {{}, 5e13});
+  const LatticeIsometry lattice(6, 6);
+  HardnessMemory memory;
+  Field hardened(6, 6, 1e9);
+  hardened(2, 2) = 1.5e9;
+  memory.lower = std::make_shared<const Field>(std::move(hardened));
+  const ContactGeometry geometry(scene, lattice, memory);
+  PlasticChange change{Field(6, 6), Field(6, 6)};
+  for (const int i : {2, 4}) {
+    change.approach(i, 2) = 1;
+    change.hardness(i, 2) = 2e9;
+  }
+  const YieldedBodies after = yielded_bodies(geometry, yield_of(scene), change);
+  EXPECT_DOUBLE_EQ(after.lower.height(4, 2), body.height(4, 2) - 0.5);
+  EXPECT_NEAR(after.lower.height(2, 2), body.height(2, 2) - lower_plastic_share(1.5e9, 1e9), 1e-15);
 }
 
 }  // namespace

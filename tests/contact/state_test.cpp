@@ -181,5 +181,21 @@ TEST(State, TextTellsValuesWithTheirErrorsCostAndResidual) {
   EXPECT_EQ(st.effects_run(), std::vector<std::string>{"elasticity"});
 }
 
+// N12: a flat on all of a periodic tile carries any load and comes no nearer.
+TEST(State, AFlatUnderLoadHasNoFiniteSecantStiffness) {
+  const Surface flat = surface_of(Grid{8, 8, 1, 1}, [](int, int) { return 0.0; }).with_material(elastic(1e9));
+  Scene scene = scene_of(flat, rigid_material(), {}, Boundary::periodic);
+  scene.elasticity = HalfSpaceOptions{};
+  const State loaded = press(scene, PressBy::pressure, 4e7);
+  EXPECT_EQ(loaded.approach(), 0);
+  EXPECT_EQ(loaded.secant_stiffness(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(loaded.stiffness(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(press(scene, PressBy::pressure, 0).secant_stiffness(), 0);
+  // Any roughness gives way.
+  scene.lower = random_surface(8, 8, 1).with_material(elastic(1e9));
+  const State rough = press(scene, PressBy::pressure, 4e7);
+  EXPECT_EQ(rough.secant_stiffness(), rough.pressure() / rough.approach());
+}
+
 }  // namespace
 }  // namespace asperity::state_test

@@ -50,6 +50,22 @@ TEST(Quantity, DecimalUnitsAreRoundedOnce) {
   EXPECT_EQ(parse_quantity_as("0.0000001 GPa", dimension::pressure), 100.0);
 }
 
+TEST(Quantity, B6IsCountedInAnotherUnitOfItsKind) {
+  EXPECT_EQ(parse_quantity_in("10 MPa", "MPa"), 10);
+  EXPECT_EQ(parse_quantity_in("0.1 um", "um"), 0.1);
+  EXPECT_EQ(parse_quantity_in("0.3 GPa", "MPa"), 300);
+  EXPECT_EQ(parse_quantity_in("7 deg", "deg"), 7);
+  EXPECT_EQ(parse_quantity_in("90 min", "h"), 1.5);
+  EXPECT_EQ(parse_quantity_in("5 %", ""), 0.05);
+  EXPECT_EQ(parse_quantity_in("5 %", "-"), 0.05);
+  EXPECT_EQ(parse_quantity_in("0.05", ""), 0.05);
+  EXPECT_EQ(parse_quantity_in("0.05 1", "%"), 5);
+  EXPECT_THROW(parse_quantity_in("5", "%"), Error);
+  EXPECT_THROW(parse_quantity_in("10 N", "MPa"), Error);
+  EXPECT_THROW(parse_quantity_in("10 MPa", ""), Error);
+  EXPECT_THROW(parse_quantity_in("10", "deg"), Error);
+}
+
 TEST(Quantity, EveryWholeNumberOfMicrometresIsTheNearestDouble) {
   for (int n = 1; n <= 5000; ++n) {
     const std::string digits = std::to_string(n);

@@ -49,6 +49,17 @@ TEST(ChartAxis, ConvertsUnitsThatAreNotSi) {
   EXPECT_DOUBLE_EQ(layout.factor, 1000);
 }
 
+// B9: a share in per cent stays one, with its unit.
+TEST(ChartAxis, B9SharesKeepTheirPerCent) {
+  const AxisLayout layout = lay(axis("share", "%"), {10, 30});
+  EXPECT_EQ(layout.label, "share (%)");
+  EXPECT_EQ(layout.factor, 1);
+  EXPECT_NEAR(layout.low, 9.2, 1e-12);
+  EXPECT_NEAR(layout.high, 30.8, 1e-12);
+  EXPECT_EQ(lay(axis("n", "1"), {10, 30}).label, "n");
+  EXPECT_EQ(printed_quantity(10, "%", 4), "10 %");
+}
+
 TEST(ChartAxis, PrintsUnknownUnitsAsTheyAre) {
   const AxisLayout layout = lay(axis("n", "trials"), {1, 5});
   EXPECT_EQ(layout.label, "n (trials)");

@@ -83,6 +83,16 @@ TEST(Chart, SaysWhatIsNotDrawn) {
                 "1 of 6 values are not drawn: `mu` is not above zero, and its axis is logarithmic"}));
 }
 
+// B13: a number that is too large for the plot is no missing one.
+TEST(Chart, B13SaysThatANumberIsTooLarge) {
+  LineChart chart = simple();
+  chart.series[0].y[0] = 2e300;
+  std::vector<std::string> warnings;
+  script_of(chart, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("too large to draw (above 1e300)"), std::string::npos) << warnings[0];
+}
+
 TEST(Chart, RefusesToDrawNothing) {
   LineChart chart = simple();
   chart.series[0].y = {-1, -1, 0};

@@ -234,5 +234,89 @@ TEST(Expectation, RefusesToSayNothing) {
             "bad_value: `increasing_in` and `decreasing_in` both name `D`; keep one of them");
 }
 
+// B6: a bound written with a unit is counted in the unit of its column.
+struct UnitCase {
+  const char* column;    // its unit
+  const char* quantity;  // of the bound
+  double cell;           // the same in the column's unit
+};
+constexpr UnitCase same_kind[] = {{"MPa", "10 MPa", 10},       {"MPa", "0.01 GPa", 10},
+                                  {"kPa", "10 MPa", 10000},    {"Pa", "10 MPa", 1e7},
+                                  {"um", "0.1 um", 0.1},       {"nm", "0.1 um", 100},
+                                  {"m", "250 um", 250e-6},     {"h", "90 min", 1.5},
+                                  {"min", "2 h", 120},         {"deg", "30 deg", 30},
+                                  {"turn", "180 deg", 0.5},    {"%", "10 %", 10},
+                                  {"%", "0.1 1", 10},          {"", "0.1", 0.1},
+                                  {"", "10 %", 0.1},           {"N", "3 kN", 3000},
+                                  {"MPa/um", "80 MPa/um", 80}, {"kg m^-3", "2 g/cm^3", 2000}};
+
+TEST(Expectation, B6QuantitiesAreCountedInTheUnitOfTheColumn) {
+  for (const UnitCase& one : same_kind) {
+    SCOPED_TRACE(std::string(one.quantity) + " in " + one.column);
+    for (const double factor : {1.0, 1.001}) {
+      Table table;
+      const std::vector<Entry> row = {{"v", one.cell * factor, one.column}};
+      table.append(row);
+      const bool holds = factor == 1;
+      Expectation near = about("v");
+      near.near = ExpectedValue(std::string_view(one.quantity));
+      near.relative = 0;
+      EXPECT_EQ(judge(near, table).passed, holds) << judge(near, table).sentence;
+      Expectation most = about("v");
+      most.at_most = ExpectedValue(std::string_view(one.quantity));
+      EXPECT_EQ(judge(most, table).passed, holds) << judge(most, table).sentence;
+    }
+  }
+}
+
+TEST(Expectation, B6AnotherKindIsAnError) {
+  const auto refused = [](std::string unit, const char* quantity) {
+    Table table;
+    const std::vector<Entry> row = {{"v", 10.0, std::move(unit)}};
+    table.append(row);
+    Expectation e = about("v");
+    e.at_least = ExpectedValue(std::string_view(quantity));
+    try {
+      return "judged: " + judge(e, table).sentence;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::bad_unit);
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(
+      refused("MPa", "10 N"),
+      "`at_least` is \"10 N\", which is a force, and column `v` is in MPa; give a plain number, which is "
+      "counted in MPa, or a pressure");
+  EXPECT_EQ(
+      refused("MPa", "10"),
+      "`at_least` is \"10\", which has no unit, and column `v` is in MPa; give a plain number, which is "
+      "counted in MPa, or a pressure");
+  EXPECT_EQ(
+      refused("", "10 um"),
+      "`at_least` is \"10 um\", which is a length, and column `v` has no unit; give a plain number, or the "
+      "column its unit: book:units{ v=\"m\" } before the first row");
+  EXPECT_NE(refused("deg", "0.1").find("has no unit"), std::string::npos);
+  EXPECT_NE(refused("%", "10").find("has no unit"), std::string::npos);
+}
+
+TEST(Expectation, B6SaysWhatWasWantedInTheUnitOfTheColumn) {
+  Table table;
+  const std::vector<Entry> row = {{"p", 12.0, "MPa"}};
+  table.append(row);
+  Expectation e = about("p");
+  e.near = ExpectedValue(std::string_view("10000 kPa"));
+  e.within = 1.5;
+  EXPECT_EQ(judge(e, table).sentence, "`p` should be near 10 MPa within 1.5, but row 1 has 12 (1 of 1 row)");
+  e.within = ExpectedValue(std::string_view("0.002 GPa"));
+  EXPECT_EQ(judge(e, table).sentence, "`p` is near 10 MPa within 2 MPa (1 row, 12)");
+  // A quantity beside a plain number: they are compared once both are in the column's unit.
+  Expectation between = about("p");
+  between.at_least = ExpectedValue(std::string_view("5 MPa"));
+  between.at_most = 20.0;
+  EXPECT_TRUE(judge(between, table).passed);
+  between.at_most = 4.0;
+  EXPECT_THROW(judge(between, table), Error);
+}
+
 }  // namespace
 }  // namespace asperity::expectation_test

@@ -66,6 +66,16 @@ TEST_F(Gnuplot, RunsNothingThatStandsInText) {
   EXPECT_FALSE(std::filesystem::exists(mark));
 }
 
+// F9: with few handles gnuplot drew without its fonts, complained, and nobody heard.
+TEST_F(Gnuplot, F9WhatItSaysThoughItDrawsIsAWarningThatNamesThePicture) {
+  const GnuplotResult odd = run_gnuplot(script(PictureFormat::png, "print \"no\\nfont\"\nplot x\n"));
+  EXPECT_TRUE(odd.picture.starts_with("\x89PNG"));
+  EXPECT_EQ(complaints_of(odd, folder / "r.png"),
+            std::vector<std::string>{
+                "`r.png` may look otherwise than it should; gnuplot, which drew it, says: no font"});
+  EXPECT_TRUE(complaints_of(run_gnuplot(script(PictureFormat::png, "plot x\n")), "r.png").empty());
+}
+
 TEST_F(Gnuplot, ReadsAttachedData) {
   const GnuplotData data{"cells", "1 1\n2 4\n"};
   EXPECT_EQ(run_gnuplot(script(PictureFormat::png, "plot 'cells' with lines\n"), {&data, 1}).messages, "");

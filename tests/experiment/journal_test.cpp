@@ -135,6 +135,44 @@ TEST_F(JournalTest, AnotherValueIsWrittenAnewAndAnotherStepIsAnError) {
   EXPECT_EQ(content_of(folder / "j.jsonl"), before);
 }
 
+// F14: a power cut leaves holes, which read as zeros; from there on the run writes its lines again.
+TEST_F(JournalTest, F14IsTakenUpToAHoleAndElseNamesWhatServes) {
+  const auto lines = [](Journal& journal) {
+    for (int k = 1; k <= 4; ++k) journal.write("row", Json::object({{"row", Json::object({{"k", k}})}}));
+  };
+  const std::filesystem::path file = folder / "j.jsonl";
+  {
+    Journal journal(file);
+    lines(journal);
+  }
+  const std::string whole = content_of(file);
+  for (std::size_t from = 0; from < whole.size(); from += 13) {
+    std::string torn = whole;
+    for (std::size_t k = from; k < std::min(from + 20, torn.size()); ++k) torn[k] = '\0';
+    std::ofstream(file, std::ios::binary) << torn;
+    EXPECT_NE(error_of([&] { (void)read_journal(file, false); })
+                  .find("holds zeros, as a power cut leaves them; its results "
+                        "are taken by `asperity run " +
+                        (folder / "script.lua").string() + " --reuse " + folder.string() + "`"),
+              std::string::npos);
+    const auto journal = Journal::again(file);
+    lines(*journal);
+    EXPECT_EQ(content_of(file), whole) << from;
+  }
+}
+
+TEST_F(JournalTest, S3ALinkIsNotTakenUp) {
+  {
+    Journal journal(folder / "victim");
+    journal.write("row");
+    journal.close("end", {}, 1s);
+  }
+  const std::string before = content_of(folder / "victim");
+  std::filesystem::create_symlink(folder / "victim", folder / "j.jsonl");
+  EXPECT_NE(error_of([&] { Journal::again(folder / "j.jsonl"); }).find("is a link"), std::string::npos);
+  EXPECT_EQ(content_of(folder / "victim"), before);
+}
+
 TEST_F(JournalTest, WhatIsNoJournalIsNotTakenUp) {
   EXPECT_NE(error_of([&] { Journal::again(folder / "none.jsonl"); }), "");
   std::ofstream(folder / "j.jsonl") << "{\"n\":2,\"event\":\"x\"}\n";

@@ -65,6 +65,19 @@ TEST(Picture, CarriesUnitsScaleBarAndColourBar) {
   EXPECT_EQ(picture.cells.size(), 64U * 64U * sizeof(float));
 }
 
+// F9: the title of a relief's colour bar lay over its numbers.
+TEST(Picture, F9AReliefNamesItsBarAboveIt) {
+  PictureOptions options;
+  options.view = PictureOptions::View::relief;
+  const std::string script = picture_script(make_grid(8, 8, 1e-4, 1e-4), ramp(8, 8), options).script;
+  EXPECT_EQ(script.find("set cblabel"), std::string::npos);
+  EXPECT_NE(script.find("set label 1 'height (µm)' at screen 0.985, screen 0.8 right front"),
+            std::string::npos)
+      << script;
+  EXPECT_NE(script.find("set colorbox user origin screen 0.88, screen 0.25 size screen 0.022, screen 0.5"),
+            std::string::npos);
+}
+
 TEST(Picture, NodesStandAtTheirPlaces) {
   const PictureScript picture = picture_script(make_grid(4, 4, 4e-6, 4e-6), ramp(4, 4), {});
   EXPECT_NE(picture.script.find("origin=(0,0) dx=1 dy=1 "), std::string::npos) << picture.script;

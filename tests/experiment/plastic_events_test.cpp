@@ -202,7 +202,9 @@ TEST(PlasticEvents, TheSofterBodyLosesMore) {
   SpecimenPair pair(scene);
   const Surface lower = pair.lower(), upper = pair.upper();
   pair.press(pressure(100));
-  EXPECT_NEAR(volume_lost(lower, pair.lower()) / volume_lost(upper, pair.upper()), 3, 1e-9);
+  // P7: three times as hard.
+  const double odds = std::exp(1.5 * (9 - 1.0 / 9));
+  EXPECT_NEAR(volume_lost(lower, pair.lower()) / volume_lost(upper, pair.upper()), odds, 1e-6 * odds);
 }
 
 TEST(PlasticEvents, AFlatCounterBodyStaysFlat) {
@@ -281,7 +283,11 @@ TEST(PlasticEvents, AFreeTurnByAnyAngleMeetsFreshGroundAndNeverResamples) {
 TEST(PlasticEvents, AStepAtTheRimOfAPeriodicHalfSpaceIsWarnedOfOnce) {
   Scene scene = scene_of();
   const Surface& body = scene.lower;
-  scene.lower = Surface(body.grid(), body.heights(), SurfaceTraits{body.material(), false, {}});
+  Field tilted = body.heights();  // M2: what continues across the rim is not warned of
+  const double height = range(tilted.values()).span();
+  for (int i = 0; i < body.grid().nx; ++i)
+    for (int j = 0; j < body.grid().ny; ++j) tilted(i, j) += height * i / body.grid().nx;
+  scene.lower = Surface(body.grid(), std::move(tilted), SurfaceTraits{body.material(), false, {}});
   SpecimenPair pair(scene);
   Warnings monitor;
   pair.press(pressure(10), monitor);

@@ -3,6 +3,7 @@
 // within its limit.
 #include "engine/experiment/result_files.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -163,6 +164,34 @@ TEST_F(ResultFilesTest, WhatWasUsedLongestAgoMakesRoom) {
   ResultFiles nothing(tiny);
   keep(nothing, "key", field);
   EXPECT_EQ(count(tiny.folder), 0U);
+}
+
+TEST_F(ResultFilesTest, F10PartsOfKilledWritersGoAndOthersCount) {
+  const Field field = ramp(64, 64);
+  ResultFilesSetup limited = setup();
+  limited.most_bytes = 250 << 10;
+  std::filesystem::create_directories(limited.folder);
+  const std::filesystem::path old = limited.folder / ".x.00000000-1-0123456789abcdef.part.h5",
+                              now = limited.folder / ".y.00000000-1-0123456789abcdef.part.h5";
+  for (const auto& part : {old, now}) std::ofstream(part) << std::string(200 << 10, 'x');
+  std::filesystem::last_write_time(old,
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::hours(48));
+  ResultFiles files(limited);
+  EXPECT_FALSE(std::filesystem::exists(old));
+  EXPECT_TRUE(std::filesystem::exists(now));
+  keep(files, "key", field);
+  EXPECT_EQ(files.counts().kept, 0);
+  EXPECT_TRUE(std::filesystem::exists(now));  // somebody writes it
+}
+
+TEST_F(ResultFilesTest, F14TheLimitIsToldInItsOwnUnit) {
+  ResultFilesSetup limited = setup();
+  limited.most_bytes = 3 << 10;
+  ResultFiles files(limited);
+  keep(files, "key", ramp(64, 64));
+  ASSERT_EQ(files.notices().size(), 1U);
+  EXPECT_NE(files.notices().front().find("no longer fit the 3 KiB of its store"), std::string::npos)
+      << files.notices().front();
 }
 
 TEST_F(ResultFilesTest, AFolderThatCannotBeMadeIsNoticedAndNothingElse) {

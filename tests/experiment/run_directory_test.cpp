@@ -5,11 +5,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <sstream>
 #include <thread>
 #include <vector>
 
 #include "engine/core/digest.hpp"
+#include "engine/experiment/recorded_run.hpp"
 #include "engine/experiment/run_facts.hpp"
 #include "tests/experiment/run_fixture.hpp"
 
@@ -79,7 +81,7 @@ TEST_F(RunDirectoryTest, BeginsWithScriptManifestAndJournal) {
   EXPECT_NE(
       content_of(run.path() / "journal.jsonl").find("{\"n\":1,\"event\":\"begin\",\"script\":\"fig9.lua\""),
       std::string::npos);
-  EXPECT_EQ(files_in(run.path()), 3U);
+  EXPECT_EQ(files_in(run.path()), 4U);  // and the lock
 }
 
 TEST_F(RunDirectoryTest, OutMayBeMissingOrEmptyOnly) {
@@ -155,7 +157,7 @@ TEST_F(RunDirectoryTest, KeepsItsOwnFilesToItself) {
   RunSetup s = setup();
   s.trusted = true;
   RunDirectory run(s);
-  for (const std::string file : {"manifest.json", "./journal.jsonl", "a/../script.lua"})
+  for (const std::string file : {"manifest.json", "./journal.jsonl", "a/../script.lua", ".lock"})
     EXPECT_EQ(error_of([&] { run.path_for(file); }).substr(0, 14), "not_permitted:") << file;
   EXPECT_EQ(error_of([&] { run.path_for((run.path() / "manifest.json").string()); }).substr(0, 14),
             "not_permitted:");
@@ -305,6 +307,230 @@ TEST_F(RunDirectoryTest, DryRunWritesNothing) {
   EXPECT_TRUE(run.finish(RunStatus::done));
   EXPECT_EQ(files_in(folder), 0U);
   fs::current_path(before);
+}
+
+TEST_F(RunDirectoryTest, F1IsLockedToItsEnd) {
+  RunSetup s = setup();
+  s.out = folder / "r";
+  RunDirectory run(s);
+  const std::string before = content_of(run.path() / "journal.jsonl");
+  RunSetup again = setup();
+  again.resume = s.out;
+  for (const RunSetup& second : {s, again}) {
+    const std::string refusal = error_of([&] { RunDirectory other(second); });
+    EXPECT_NE(refusal.find("is being written by process " + std::to_string(::getpid())), std::string::npos)
+        << refusal;
+  }
+  EXPECT_EQ(content_of(run.path() / "journal.jsonl"), before);
+  EXPECT_TRUE(run.finish(RunStatus::interrupted));
+  EXPECT_EQ(error_of([&] { RunDirectory taken_up(again); }), "");
+}
+
+// F4: a run that died before its first manifest was "not empty" for ever.
+TEST_F(RunDirectoryTest, F4WhatHasNotBegunMayBegin) {
+  RunSetup s = setup();
+  s.out = folder / "r";
+  const auto leave = [&](const std::vector<std::string>& files) {
+    fs::remove_all(*s.out);
+    fs::create_directories(*s.out);
+    for (const std::string& file : files)
+      if (file == "store")
+        fs::create_directory(*s.out / file);
+      else
+        std::ofstream(*s.out / file) << (file == "manifest.json" ? "" : "half");
+  };
+  const std::vector<std::vector<std::string>> not_begun = {
+      {},
+      {"script.lua"},
+      {"script.lua", "journal.jsonl"},
+      {".lock", "script.lua", "journal.jsonl", ".script.1a2b3c4d-7-0123456789abcdef.part.lua"},
+      {"journal.jsonl", "store", ".manifest.12-0.part.json"},
+      {"script.lua", "journal.jsonl", "manifest.json"}};
+  for (const auto& files : not_begun) {
+    leave(files);
+    EXPECT_TRUE(is_not_begun(*s.out));
+    RunDirectory run(s);
+    EXPECT_TRUE(run.finish(RunStatus::done));
+    EXPECT_EQ(content_of(run.path() / "script.lua"), s.script_text);
+    EXPECT_EQ(manifest(run).find("status")->string(), "done");
+    EXPECT_EQ(files_in(run.path()), files.size() == 3 && files[1] == "store" ? 5U : 4U);
+  }
+  for (const auto& files :
+       std::vector<std::vector<std::string>>{{"script.lua", "mine.txt"}, {"journal.json"}}) {
+    leave(files);
+    EXPECT_FALSE(is_not_begun(*s.out));
+    EXPECT_NE(error_of([&] { RunDirectory run(s); }).find("which is not empty"), std::string::npos);
+    EXPECT_EQ(files_in(*s.out), files.size());
+  }
+  leave({});
+  fs::create_symlink(folder / "elsewhere", *s.out / "journal.jsonl");
+  EXPECT_FALSE(is_not_begun(*s.out));
+}
+
+TEST_F(RunDirectoryTest, F4AMoveAsideThatWasCutOffGoesOn) {
+  const fs::path root = folder / "r";
+  fs::create_directories(root / "before-1");
+  fs::create_directories(root / "before-2");
+  fs::create_directories(root / "store");
+  for (const char* file : {"before-1/manifest.json", "before-2/manifest.json", "before-2/journal.jsonl",
+                           "book.csv", "journal.jsonl", ".lock"})
+    std::ofstream(root / file) << file;
+  finish_moving_aside(root);
+  EXPECT_EQ(content_of(root / "before-2" / "book.csv"), "book.csv");
+  EXPECT_EQ(content_of(root / "before-2" / "journal.jsonl"), "before-2/journal.jsonl");
+  EXPECT_TRUE(fs::exists(root / "store"));
+  EXPECT_TRUE(is_not_begun(root));
+}
+
+TEST_F(RunDirectoryTest, F3AFinishedRunIsMendedOrSaysWhatCannotBe) {
+  RunSetup s = setup();
+  s.out = folder / "r";
+  const auto work = [](RunDirectory& run, double value) {
+    const std::vector<Entry> row = {{"mu", value}};
+    run.notebook("book")->write(row);
+    std::ofstream(run.path_for("maps/a.txt")) << "a map";
+  };
+  std::string whole;
+  {
+    RunDirectory run(s);
+    work(run, 0.4);
+    EXPECT_TRUE(run.finish(RunStatus::done));
+    Json json = manifest(run);
+    whole = json.set("unhashed", Json()).text();
+  }
+  RunSetup again = setup();
+  again.resume = s.out;
+  const auto damage = [&](int how) {
+    if (how == 0) fs::resize_file(*s.out / "maps/a.txt", 0);
+    if (how == 1) fs::remove(*s.out / "book.csv");
+    if (how == 2) std::ofstream(*s.out / "book.csv") << "mu\n0.5\n";
+  };
+  for (int how = 0; how < 3; ++how) {
+    damage(how);
+    EXPECT_EQ(altered_outputs(read_run(*s.out)).size(), 1U);
+    {
+      const RunDirectory cut_off(again);  // the mending itself is cut off
+    }
+    RunDirectory run(again);
+    work(run, 0.4);
+    EXPECT_TRUE(run.finish(RunStatus::done));
+    EXPECT_TRUE(run.mended());
+    EXPECT_TRUE(altered_outputs(read_run(*s.out)).empty());
+    Json json = manifest(run);
+    EXPECT_EQ(json.find("unhashed")->find("recorded_outputs"), nullptr);
+    EXPECT_EQ(json.set("unhashed", Json()).text(), whole);
+  }
+  damage(2);
+  RunDirectory run(again);
+  work(run, 0.6);
+  EXPECT_NE(
+      error_of([&] { run.finish(RunStatus::done); }).find("`book.csv` could not be made again as recorded"),
+      std::string::npos);
+  EXPECT_FALSE(run.mended());
+  EXPECT_EQ(manifest(run).find("status")->string(), "failed");
+}
+
+TEST_F(RunDirectoryTest, F3TheJournalIsKnownByItsDigest) {
+  RunSetup s = setup();
+  s.out = folder / "r";
+  {
+    RunDirectory run(s);
+    const std::vector<Entry> row = {
+        {"mu", 0.1 + 0.2}, {"text", std::string("a\"b")}, {"whole", 3.0}, {"nan", std::nan("")}};
+    run.notebook("book")->write(row);
+    EXPECT_TRUE(run.finish(RunStatus::done));
+  }
+  EXPECT_EQ(read_run(*s.out).journal_fault, "");
+  const std::string whole = content_of(*s.out / "journal.jsonl");
+  std::string altered = whole;
+  altered[altered.find("whole\":3") + 7] = '4';
+  std::ofstream(*s.out / "journal.jsonl", std::ios::binary) << altered;
+  EXPECT_NE(read_run(*s.out).journal_fault.find("was altered since the run"), std::string::npos);
+  std::ofstream(*s.out / "journal.jsonl", std::ios::binary) << whole.substr(0, whole.find('\n') + 1);
+  EXPECT_NE(read_run(*s.out).journal_fault, "");
+  fs::remove(*s.out / "journal.jsonl");
+  EXPECT_NE(read_run(*s.out, true).journal_fault, "");
+  EXPECT_THROW(read_run(*s.out), Error);
+}
+
+TEST_F(RunDirectoryTest, F14AJournalThatIsTakenAwayUnderWayIsNoticed) {
+  RunSetup s = setup();
+  s.out = folder / "r";
+  RunDirectory run(s);
+  fs::remove(run.path() / "journal.jsonl");
+  EXPECT_NE(error_of([&] { run.finish(RunStatus::done); }).find("was taken away while the run wrote it"),
+            std::string::npos);
+  EXPECT_EQ(manifest(run).find("status")->string(), "failed");
+  RunSetup again = setup();
+  again.resume = s.out;
+  again.journal_lost = true;
+  RunDirectory taken_up(again);
+  EXPECT_TRUE(taken_up.finish(RunStatus::done));
+  EXPECT_EQ(read_run(*s.out).journal.size(), 2U);
+}
+
+// S3: each of a run's own files and folders, replaced by a link to somebody else's.
+TEST_F(RunDirectoryTest, S3ALinkInTheirPlaceIsRefusedAndLeadsNowhere) {
+  RunSetup s = setup();
+  s.out = folder / "r";
+  {
+    RunDirectory run(s);
+    EXPECT_TRUE(run.finish(RunStatus::interrupted));
+  }
+  fs::create_directory(folder / "victim");
+  RunSetup again = setup();
+  again.resume = s.out;
+  for (const char* own : {"script.lua", "manifest.json", "journal.jsonl", ".lock", "store"})
+    for (const bool anew : {false, true}) {
+      const fs::path file = *s.out / own, aside = folder / "aside", victim = folder / "victim" / own;
+      fs::remove_all(aside);
+      if (fs::exists(file)) {
+        fs::rename(file, aside);
+        fs::copy_file(aside, victim, fs::copy_options::overwrite_existing);
+      } else {
+        fs::create_directories(victim);
+      }
+      fs::create_symlink(victim, file);
+      const std::string before = fs::is_directory(victim) ? "" : content_of(victim);
+      again.anew = anew;
+      EXPECT_NE(error_of([&] { RunDirectory run(again); }).find("` is a link"), std::string::npos) << own;
+      EXPECT_EQ(fs::is_directory(victim) ? "" : content_of(victim), before) << own;
+      EXPECT_TRUE(fs::is_symlink(file)) << own;
+      fs::remove(file);
+      if (fs::exists(aside)) fs::rename(aside, file);
+    }
+  again.anew = false;
+  EXPECT_EQ(error_of([&] { RunDirectory run(again); }), "");
+}
+
+// S3: a table that is a link is written anew in its place.
+TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
+  RunDirectory run(setup());
+  std::vector<Entry> row = {{"k", 1.0}};
+  run.notebook("book")->write(row);
+  std::ofstream(folder / "victim") << "mine\n";
+  fs::remove(run.path() / "book.csv");
+  fs::create_symlink(folder / "victim", run.path() / "book.csv");
+  run.notebook("book")->write(row);
+  EXPECT_EQ(content_of(folder / "victim"), "mine\n");
+  EXPECT_EQ(content_of(run.path() / "book.csv"), "k\n1\n1\n");
+}
+
+TEST_F(RunDirectoryTest, F10TakenUpItHasNoPartsOfAKilledWriter) {
+  RunSetup s = setup();
+  s.out = folder / "r";
+  {
+    RunDirectory run(s);
+    fs::create_directories(run.path() / "store");
+    for (const char* part : {".n.12-3.part.csv", "store/.x.1a2b3c4d-1-0123456789abcdef.part.h5"})
+      std::ofstream(run.path() / part) << "half";
+    EXPECT_TRUE(run.finish(RunStatus::interrupted));
+  }
+  RunSetup again = setup();
+  again.resume = s.out;
+  const RunDirectory run(again);
+  EXPECT_EQ(files_in(run.path()), 5U);
+  EXPECT_EQ(files_in(run.path() / "store"), 0U);
 }
 
 }  // namespace

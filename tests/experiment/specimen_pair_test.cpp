@@ -179,5 +179,34 @@ TEST(SpecimenPair, AnElasticFlatIsDentedWhereItLies) {
     }
 }
 
+// B1: said once for a pair, and not before one body overhangs the other.
+TEST(SpecimenPair, AnOverhangIsWarnedOf) {
+  class Warned final : public Monitor {
+   public:
+    void progress(std::string_view, double) override {}
+    void warn(std::string_view sentence) override { sentences.emplace_back(sentence); }
+    std::vector<std::string> sentences;
+  } monitor;
+  SpecimenPair pair(rough_pair(Boundary::free));
+  const std::string home = pair.press(pressure(1), monitor).digest();
+  pair.rotate(quarter);
+  EXPECT_EQ(pair.press(pressure(1), monitor).overlap_fraction(), 1);
+  EXPECT_TRUE(monitor.sentences.empty());
+  pair.rotate(0.5 * quarter);
+  const State turned = pair.press(pressure(1), monitor);
+  EXPECT_LT(turned.overlap_fraction(), 1);
+  ASSERT_EQ(monitor.sentences.size(), 1U);
+  EXPECT_NE(monitor.sentences[0].find("the bodies face each other on"), std::string::npos);
+  pair.press(pressure(2), monitor);
+  EXPECT_EQ(monitor.sentences.size(), 1U);
+  EXPECT_EQ(pair.plan().overlap, turned.overlap_fraction());
+  pair.rotate(-1.5 * quarter);
+  EXPECT_EQ(pair.press(pressure(1)).digest(), home);
+  // Under a flat there is no rim to turn over.
+  SpecimenPair flat(scene_of(random_surface(12, 12, 1), rigid_material(), 3.0, Boundary::free));
+  flat.rotate(0.5 * quarter);
+  EXPECT_EQ(flat.press(pressure(1)).overlap_fraction(), 1);
+}
+
 }  // namespace
 }  // namespace asperity::specimen_pair_test

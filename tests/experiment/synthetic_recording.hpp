@@ -41,6 +41,7 @@ struct SyntheticPress {
   std::vector<SyntheticHold> holds;
   double step = 0.1, jitter = 0.5;  // s, and share of it
   double noise = 0;                 // N
+  double likeness = 0;              // of the noise of neighbouring readings: 0.9 after a slow filter
   double offset = 0, drift = 0;     // N, and N over the whole
   double missing = 0;               // share of cells without load, within holds and rests
   double first_rest = 20;
@@ -95,6 +96,8 @@ inline PressRecording play(const SyntheticPress& press, unsigned seed, Synthetic
   recording.name = "synthetic.csv";
   const double end = time;
   std::size_t corner = 0;
+  double scatter = 0;
+  const double fresh = std::sqrt(1 - press.likeness * press.likeness);
   const bool turned = !turns.empty();
   std::vector<double> times;
   for (double t = 0; t < end;) {
@@ -109,7 +112,8 @@ inline PressRecording play(const SyntheticPress& press, unsigned seed, Synthetic
     const auto& b = truth.corners[corner + 1];
     const double clean =
         a.load + (b.load - a.load) * (b.time > a.time ? (t - a.time) / (b.time - a.time) : 0);
-    double reading = clean + press.offset + press.drift * t / end + press.noise * normal(random);
+    scatter = press.likeness * scatter + fresh * normal(random);
+    double reading = clean + press.offset + press.drift * t / end + press.noise * scatter;
     // Missing where neither this nor the next few samples are near a corner.
     const bool steady = a.load == b.load && t - a.time > 5 * press.step && b.time - t > 5 * press.step;
     if (steady && uniform(random) < press.missing) reading = std::numeric_limits<double>::quiet_NaN();

@@ -50,12 +50,53 @@ TEST(TiltHalfSpace, SlipsAtTheRealAreaPerLoadOfTheProbe) {
   EXPECT_NE(result.note.find("calibrated"), std::string::npos);
 }
 
-TEST(TiltHalfSpace, TheAngleDoesNotDependOnTheWeight) {
+TEST(TiltHalfSpace, TheAngleDoesNotDependOnAWeightBelowTheProbes) {
   const SpecimenPair pair = on_quartz();
   TiltTrialOptions light = stage({30 * megapascal}), heavy = light;
   light.stage.mass = 1e-6;
-  heavy.stage.mass = 10;
+  heavy.stage.mass = 0.19;  // 29.8 MPa
   EXPECT_NEAR(raise(pair, law, light).angle, raise(pair, law, heavy).angle, 1e-12);
+}
+
+// B5: a weight that presses harder than a probe is not extrapolated to.
+TEST(TiltHalfSpace, AWeightAboveTheProbesIsSolvedItself) {
+  const SpecimenPair pair = on_quartz();
+  const double area = pair.lower().grid().area();
+  const TiltResult light = raise(pair, law, stage({30 * megapascal, 60 * megapascal}));
+  EXPECT_TRUE(light.at_weight.empty());
+  ASSERT_TRUE(light.probe_spread.has_value());
+  EXPECT_GT(*light.probe_spread, 0);
+  double before = 2;
+  for (const double pressure : {40 * megapascal, 200 * megapascal, 1000 * megapascal, 8000 * megapascal}) {
+    TiltTrialOptions options = stage({30 * megapascal, 60 * megapascal});
+    options.repeats = 2;
+    options.stage.mass = pressure * area / options.stage.gravity;
+    const TiltResult result = raise(pair, law, options);
+    ASSERT_EQ(result.at_weight.size(), 2U);
+    EXPECT_NEAR(result.at_weight[0].pressure, pressure, 1e-6 * pressure);
+    // The law on what presses when it slips is what holds it then.
+    SpecimenPair copy = pair;
+    const State state = copy.press({PressBy::pressure, pressure * std::cos(result.angle), {}});
+    const FrictionResult friction = law.on(state);
+    const double corrected = state.corrected_area_fraction() / state.area_fraction();
+    const double mu = (friction.adhesive_force * corrected + friction.load_force) / state.load();
+    // Area is counted in nodes, and one of them may let go between the two loads.
+    EXPECT_NEAR(std::tan(result.angle), mu, 1.5 * mu / static_cast<double>(state.contacts())) << pressure;
+    EXPECT_LT(result.angle, before) << pressure;  // area grows less than in proportion
+    before = result.angle;
+    EXPECT_NE(result.note.find("above the smallest probe pressure"), std::string::npos) << result.note;
+    EXPECT_EQ(result.note.find("down to the weight"), std::string::npos) << result.note;
+  }
+}
+
+// B5: no weight above the hardness.
+TEST(TiltHalfSpace, AWeightThatTheHardnessCannotCarryIsRefused) {
+  Scene scene = on_quartz().scene();
+  scene.plasticity = PlasticityOptions{};
+  TiltTrialOptions options = stage({30 * megapascal});
+  options.stage.mass = 1e6;
+  EXPECT_NE(error_of([&] { raise(SpecimenPair(scene), law, options); }).find("cannot be carried"),
+            std::string::npos);
 }
 
 TEST(TiltHalfSpace, AProbeUnderFiftyNodesIsRaisedAndSaysSo) {

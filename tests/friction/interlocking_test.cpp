@@ -261,5 +261,22 @@ TEST(Interlocking, AStateThatDoesNotNameItHasNoFieldMade) {
   EXPECT_EQ(memory::held(), before);
 }
 
+// B1: at the rim of the overlap slopes are taken to its inside, as at the rim of the tile.
+TEST(Interlocking, JunctionsBesideGroundThatNothingFacesHaveTheirSlopes) {
+  const Grid bar{8, 16, 0.8, 1.6};
+  const Scene scene = scene_of(surface_of(bar, [](int i, int j) { return 0.01 * i + 0.02 * j; }),
+                               surface_of(bar, [](int, int) { return 0.0; }), 1.0);
+  const auto geometry =
+      std::make_shared<const ContactGeometry>(scene, Pose(LatticeIsometry(8, 16)).turned(0.5 * pi, bar));
+  const State st = make_solver(make_plan(scene, *geometry), geometry)->press({PressBy::indentation, 2, {}});
+  ASSERT_EQ(st.contacts(), 64);
+  const Slopes slopes = junction_slopes(st);
+  for (int j = 4; j < 12; ++j)
+    for (int i = 0; i < 8; ++i) {
+      EXPECT_NEAR(slopes.x(i, j), 0.05, 1e-12) << i << " " << j;
+      EXPECT_NEAR(slopes.y(i, j), 0.10, 1e-12) << i << " " << j;
+    }
+}
+
 }  // namespace
 }  // namespace asperity::interlocking_test

@@ -48,11 +48,24 @@ TEST(SlipAngle, ScalesWithTheWeight) {
 TEST(SlipAngle, TheStepChangesOnlyWhatIsHeld) {
   const double exact = slip_angle(line(0, 0.5), 1, 0.1 * degree, right).angle;
   EXPECT_NEAR(exact, std::atan(0.5), 1e-15);
-  for (const double step : {0.001, 0.7, 1.0, 7.0, 26.0, 27.0, 90.0}) {
+  for (const double step : {0.001, 0.7, 1.0, 7.0, 26.0}) {
     const SlipAngle slip = slip_angle(line(0, 0.5), 1, step * degree, right);
     EXPECT_NEAR(slip.angle, exact, 1e-12);
     EXPECT_NEAR(slip.held / degree, std::floor(26.565051177078 / step) * step, 1e-9) << step;
   }
+}
+
+// B7: one radian for one degree holds no step, which is no coefficient of 0.
+TEST(SlipAngle, B7AStepAboveTheAngleOfSlipIsAnError) {
+  for (const double step : {27.0 * degree, 1.0, 90.0 * degree})
+    EXPECT_NE(error_of([&] {
+                slip_angle(line(0, 0.5), 1, step, right);
+              }).find("above the angle of slip of 26.5651 deg: no step would be held"),
+              std::string::npos)
+        << step;
+  // Nothing holds where nothing rubs, and a step as wide as the angle is held.
+  EXPECT_EQ(slip_angle(line(0, 0), 1, degree, right).held, 0);
+  EXPECT_GT(slip_angle(line(0, 0.5), 1, std::atan(0.5) * (1 - 1e-12), right).held, 0);
 }
 
 TEST(SlipAngle, StepsDoNotPileUpRounding) {

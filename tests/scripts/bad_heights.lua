@@ -15,7 +15,7 @@ refused(function() S.from_table{ size=1, heights={ { 1, math.huge } } } end, "fi
 refused(function() S.from_table{ size=1, heights={ { 1, "2" } } } end, 'heights[1][2] is the string "2"')
 refused(function() S.from_table{ size=1, heights={ { 1, 2 }, { 3 } } } end, "row 2 of `heights` is a table of 1")
 refused(function() S.from_table{ size=1, heights={} } end, "a table of rows of numbers")
-refused(function() S.from_table{ size=1, heights={ {} } } end, "cells")
+refused(function() S.from_table{ size=1, heights={ {} } } end, "its first row is empty")
 refused(function() S.from_function{ cells=4, size=1, height=function() return 0/0 end } end, "finite")
 refused(function() S.from_function{ cells=4, size=1, height=function() return "1" end } end, "returned the string \"1\"")
 refused(function() S.from_function{ cells=4, size=1, height=function() error "no" end } end, "the function `height` failed", "no")

@@ -47,11 +47,12 @@ refused(function() P{ { shift={ x=1 } } }:write "log.csv" end, "a press log cann
 refused(function() P.reed "x.csv" end, "lab.protocol has no field `reed` (did you mean `read`?)")
 refused(function() P.read "nothing.csv" end, "there is no file")
 local c = lab.contact{ lower=lab.surface.sine{ cells=8, size=1, amplitude=1e-3, material=lab.material "steel" }, upper=lab.rigid, effects={ elasticity="box" } }
-local next_event = p:on(c)
+local next_event, ended = p:on(c), p:on(c)
+assert(ended().kind == "release")
+assert(ended() == nil)
+refused(function() ended() end, "the iterator is finished")
 refused(function() p.on(c, p) end, "was called on a contact, not on a protocol")
 c:close()
 refused(function() p:on(c) end, "`contact` was closed")
-assert(next_event().kind == "release")
-assert(next_event() == nil)
-refused(function() next_event() end, "the iterator is finished")
+refused(function() next_event() end, "the contact of the protocol was closed inside its loop")
 print "all refused"

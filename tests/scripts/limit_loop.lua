@@ -1,7 +1,10 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
+-- B10: the line that ran, with a traceback.
 --! flags: --limit-time 500ms
 --! exit: 1
 --! error: the time limit
+--! error: limit_loop.lua:12: the time limit of the run is reached
+--! error: limit_loop.lua:12: in main chunk
 --! file: manifest.json: "status": "failed"
 --! file: rows.csv: 1
 local lab = require "asperity"

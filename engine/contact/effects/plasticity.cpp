@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <variant>
 
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -49,13 +50,42 @@ Surface with_heights(const Surface& body, Field heights) {
 
 std::string share_text(double share) { return format_short(100 * share, 3) + " %"; }
 
+// E_lower/E_upper, by which bodies of one hardness share what yields below their faces.
+double modulus_ratio_of(const ContactGeometry& geometry, const Plan& plan) {
+  const auto* box = std::get_if<BoxOperator>(&plan.elasticity);
+  if (box != nullptr && !std::isfinite(box->stiffness)) return 1;  // rigid but for what yields
+  const auto young = [](const Material* material) {
+    return material != nullptr && !material->rigid && material->young ? *material->young : 0.0;
+  };
+  const double lower = young(lower_material(geometry.lower())),
+               upper = young(upper_material(geometry.upper()));
+  const double ratio = lower / upper;
+  return lower > 0 && upper > 0 && ratio > 0 && std::isfinite(ratio) ? ratio : 1;
+}
+
+// How what yields is shared, and by what where both bodies may yield.
+std::string sharing_text(const PlannedYield& yield) {
+  const double share = lower_plastic_share(yield.lower_hardness, yield.upper_hardness, yield.modulus_ratio);
+  std::string text = "; the lower body takes " + share_text(share) + " of what yields";
+  if (!std::isfinite(yield.lower_hardness) || !std::isfinite(yield.upper_hardness)) return text;
+  text += ", by the ratio of their " +
+          std::string(yield.hardens() ? "hardness at each node, which grows" : "hardness");
+  if (yield.modulus_ratio != 1) text += ", and of their `young`";
+  return text;
+}
+
 }  // namespace
 
-double lower_plastic_share(double lower_hardness, double upper_hardness) {
+double lower_plastic_share(double lower_hardness, double upper_hardness, double modulus_ratio) {
   if (!std::isfinite(upper_hardness)) return 1;
   if (!std::isfinite(lower_hardness)) return 0;
-  // As a ratio, so that huge hardnesses do not overflow in the sum.
-  return 1 / (1 + lower_hardness / upper_hardness);
+  // Far beyond these ratios one body takes all; the exponential must stay a number.
+  constexpr double least = 1e-3, most = 1e3, greatest_exponent = 700;
+  const double ratio = std::clamp(lower_hardness / upper_hardness, least, most);
+  const double exponent = 1.5 * (ratio * ratio - 1 / (ratio * ratio));
+  if (exponent > greatest_exponent) return 0;
+  if (exponent < -greatest_exponent) return 1;
+  return 1 / (1 + std::exp(exponent) * modulus_ratio);
 }
 
 void plan_plasticity(const PlasticityOptions& options, const ContactGeometry& geometry, Plan& plan) {
@@ -71,14 +101,14 @@ void plan_plasticity(const PlasticityOptions& options, const ContactGeometry& ge
     throw Error(ErrorCode::bad_state, "the effect `plasticity` has no body that can yield",
                 "a rigid body and a flat counter-body take no share: give a rough body a material with "
                 "`hardness`, or leave the effect out");
-  const double share = lower_plastic_share(yield.lower_hardness, yield.upper_hardness);
+  yield.modulus_ratio = modulus_ratio_of(geometry, plan);
   std::string sentence =
       std::isfinite(yield.hardness())
           ? "pressure up to " + format_quantity(yield.hardness(), dimension::pressure) +
                 (yield.hardens()
                      ? ", then hardening by " + format_quantity(yield.hardening, dimension::stiffness)
                      : std::string()) +
-                "; the lower body takes " + share_text(share) + " of what yields"
+                sharing_text(yield)
           : std::string("nothing yields: the hardness is infinite");
   plan.terms.push_back({"plasticity", std::move(sentence)});
   if (yield.hardens()) {
@@ -127,7 +157,7 @@ YieldedBodies yielded_bodies(const ContactGeometry& geometry, const PlannedYield
   const LocalHardness local = local_hardness(geometry, yield);
   const auto lower_share = [&](std::size_t k) {
     return lower_plastic_share(local.lower ? (*local.lower)[k] : yield.lower_hardness,
-                               local.upper ? (*local.upper)[k] : yield.upper_hardness);
+                               local.upper ? (*local.upper)[k] : yield.upper_hardness, yield.modulus_ratio);
   };
 
   Field lower = geometry.lower().heights();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plasticity: the pressure is capped by the hardness of the softer body, 0 <= p <= H, and the plastic
-// approach w that the cap leaves open is taken from both bodies: H_j/(H_i + H_j) of it by body i. With
-// hardening a node carries H + K_h w instead. Volume is removed, not redistributed; a rigid body and a
-// flat counter-body take no share.
+// approach w that the cap leaves open is taken from both bodies, half each of like ones and nearly all from
+// the softer of unlike ones (lower_plastic_share), by the hardness that each node has by then. With hardening
+// a node carries H + K_h w instead. Volume is removed, not redistributed; a rigid body and a flat
+// counter-body take no share.
 #pragma once
 
 #include <optional>

@@ -32,7 +32,7 @@ struct HoleFill {
 struct ReadOptions {
   std::optional<double> size_x, size_y;  // m, nodes times spacing
   std::optional<double> unit;            // m per height of the file
-  std::optional<double> unit_xy;         // m per number of a position, of files that hold positions
+  std::optional<double> unit_xy{};       // m per number of a position, of files that hold positions
   HoleFill fill;
   std::string format;   // a name of formats() in format.hpp; empty: found out
   std::string channel;  // which of several maps in the file; empty: the first of heights
@@ -40,9 +40,9 @@ struct ReadOptions {
 };
 
 struct ReadProfileOptions {
-  std::optional<double> spacing;  // m between samples
-  std::optional<double> unit;     // m per height of the file
-  std::optional<double> unit_xy;  // m per number of a position, of files that hold positions
+  std::optional<double> spacing;    // m between samples
+  std::optional<double> unit;       // m per height of the file
+  std::optional<double> unit_xy{};  // m per number of a position, of files that hold positions
   HoleFill fill;
   std::string format, channel;
 };

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The name aside carries process and counter, so that two runs, or two threads of one, may write the
-// same path; the last to finish wins.
+// Two runs, or two threads of one, may write the same path under names of their own aside; the last to finish
+// wins.
 #include "engine/surface/io/staged_file.hpp"
 
-#include <unistd.h>
-
-#include <atomic>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/part_file.hpp"
 #include "engine/surface/io/source_file.hpp"
 
 namespace asperity {
 
 StagedFile::StagedFile(std::string path) : path_(std::move(path)) {
   namespace fs = std::filesystem;
-  static std::atomic<int> counter{0};
   const fs::path whole(path_);
   const fs::path directory = whole.has_parent_path() ? whole.parent_path() : fs::path(".");
   std::error_code failure;
@@ -29,9 +26,7 @@ StagedFile::StagedFile(std::string path) : path_(std::move(path)) {
   // A rename would put the file in the place of a device.
   if (fs::is_other(whole, failure))
     throw Error(ErrorCode::bad_file, file_name(path_) + " is not a plain file", "give the name of one");
-  aside_ = (directory / ("." + whole.filename().string() + "." + std::to_string(::getpid()) + "-" +
-                         std::to_string(counter.fetch_add(1)) + ".part"))
-               .string();
+  aside_ = part_beside(whole).string();
 }
 
 StagedFile::~StagedFile() {

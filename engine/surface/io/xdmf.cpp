@@ -5,6 +5,7 @@
 #include <array>
 
 #include "engine/core/text.hpp"
+#include "engine/surface/io/source_file.hpp"
 #include "engine/surface/io/staged_file.hpp"
 
 namespace asperity {
@@ -37,6 +38,11 @@ struct NumberType {
 std::filesystem::path xdmf_path(const std::filesystem::path& hdf5) {
   std::filesystem::path path = hdf5;
   return path.replace_extension(".xdmf");
+}
+
+bool has_xdmf_beside(const std::filesystem::path& file) {
+  const std::string extension = file_extension(file.string());
+  return extension == "h5" || extension == "hdf5";
 }
 
 std::string xdmf_text(const Grid& grid, std::string_view name, const Hdf5Content& content,

@@ -17,6 +17,9 @@ namespace asperity {
 // The path of the XDMF file that goes with an HDF5 file: the same with the ending .xdmf.
 std::filesystem::path xdmf_path(const std::filesystem::path& hdf5);
 
+// Whether a file of this name is HDF5 by its ending, which is written with an XDMF file beside it.
+bool has_xdmf_beside(const std::filesystem::path& file);
+
 // The XML for the arrays of shape (ny, nx) in `content`, which stands or will stand in the file `hdf5` of the
 // same folder.
 std::string xdmf_text(const Grid& grid, std::string_view name, const Hdf5Content& content,

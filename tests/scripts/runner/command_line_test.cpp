@@ -208,6 +208,46 @@ TEST_F(CommandLine, LessonsAreListedShownCopiedAndRun) {
   EXPECT_NE(call({"lesson", "tild"}).error.find("did you mean `tilt`?"), std::string::npos);
 }
 
+// B8: no option takes the word after its value, be that the script or the run.
+TEST_F(CommandLine, B8OptionsStandBeforeTheScriptOrAfterIt) {
+  write("s.lua", "print 'ran'");
+  ASSERT_EQ(call({"run", "s.lua", "--out", "kept"}).status, 0);
+  const std::vector<std::vector<std::string>> options_of_run = {{"--reuse", "kept"},
+                                                                {"--reuse", "kept", "--reuse", "kept"},
+                                                                {"--seed", "3"},
+                                                                {"--limit-time", "60s"},
+                                                                {"--limit-memory", "1G"},
+                                                                {"--threads", "1"},
+                                                                {"--store-limit", "1G"},
+                                                                {"--store", "shelf"},
+                                                                {"--trust"},
+                                                                {"--store", "shelf", "--shard", "1/1"}};
+  for (const std::vector<std::string>& options : options_of_run) {
+    std::vector<std::string> before = {"run"}, after = {"run", "s.lua"};
+    before.insert(before.end(), options.begin(), options.end());
+    before.emplace_back("s.lua");
+    after.insert(after.end(), options.begin(), options.end());
+    for (const std::vector<std::string>& arguments : {before, after}) {
+      const Outcome outcome = call(arguments);
+      EXPECT_EQ(outcome.status, 0) << options[0] << ": " << outcome.error;
+      EXPECT_EQ(outcome.output, "ran\n") << options[0] << ": " << outcome.error;
+    }
+  }
+  EXPECT_EQ(call({"run", "--out", "first", "s.lua"}).output, "ran\n");
+  EXPECT_EQ(call({"check", "--seed", "3", "--limit-time", "60s", "s.lua"}).status, 0);
+  EXPECT_EQ(call({"explain", "--json", "--seed", "3", "s.lua"}).status, 0);
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--set", "press.pressure=1"}, {"--set", "cells=8", "--set", "size=1"}}) {
+    std::vector<std::string> before = {"replay"}, after = {"replay", "kept"};
+    before.insert(before.end(), options.begin(), options.end());
+    before.emplace_back("kept");
+    after.insert(after.end(), options.begin(), options.end());
+    const Outcome one = call(before), other = call(after);
+    EXPECT_EQ(one.status, other.status) << one.error << other.error;
+    EXPECT_NE(one.status, 2) << one.error;
+  }
+}
+
 TEST_F(CommandLine, AnUnwritableFolderIsAnErrorOfUsage) {
   write("s.lua", "print 'x'");
   EXPECT_EQ(call({"run", "s.lua", "--out", "/proc/nothing/here"}).status, 2);

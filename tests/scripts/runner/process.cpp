@@ -135,7 +135,8 @@ std::vector<std::string> faults_of_run(const fs::path& run) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(run)) {
     const std::string name = entry.path().filename().string();
     if (entry.path().extension() == ".csv") check_table(entry.path(), faults);
-    if (name.find(".tmp") != std::string::npos || name.find(".part") != std::string::npos || name[0] == '.')
+    if (name.find(".tmp") != std::string::npos || name.find(".part") != std::string::npos ||
+        (name[0] == '.' && name != ".lock"))  // the folder's lock stays, free, for the next who asks for it
       faults.push_back(name + " was left behind");
   }
   return faults;

@@ -96,7 +96,7 @@ nonsense(
 show(s)
 s:write "flat.npy"
 book = lab.notebook "rows"
-for k = 1, 3 do book:write{ N=k, Ra=k * 1e-6 } end
+for k = 1, 3 do book:write{ N=k, ["Ra [m]"]=k * 1e-6 } end
 s.size[1]; -- after the value
 book:expect("Ra", { at_most="1 um" })
 LUA

@@ -4,20 +4,23 @@
 # to its end; journal, notebooks, chart and manifest are then those of the run that nobody disturbed, to the
 # byte. And what else may befall it: Ctrl-C, torn or altered results, a full disk, an edited script.
 #
-#   tests/scripts/runner/resume.sh PROGRAM FOLDER [KILLS]
+#   tests/scripts/runner/resume.sh PROGRAM FOLDER [KILLS [CELLS]]
 set -eu
 . "$(dirname "$0")/saying.sh"
 program=$1
 folder=$2
 kills=${3:-5}
+cells=${4:-512}
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
 
 # Plastic memory, random streams, two notebooks (one that gets a column late), an ensemble and a chart.
-cat > events.lua <<'LUA'
-local lab = require "asperity"
-local n, label = 512, ...
+cat > events.lua <<LUA
+local n = $cells
+LUA
+cat >> events.lua <<'LUA'
+local lab, label = require "asperity", ...
 local al = lab.material "Al-2011"
 local function body(seed)
   return lab.surface.self_affine{ cells = n, size = "1 mm", hurst = 0.8, rms_slope = 0.1, short_wave = "40 um",
@@ -36,7 +39,7 @@ for event = 1, 8 do
   c:place{ seed = event }
 end
 local rows = lab.ensemble{ over = { pressure = { 1e6, 2e6, 4e6 }, seed = { 1, 2, 3 } }, run = function(case)
-  local rough = lab.surface.self_affine{ cells = 512, size = "1 mm", hurst = 0.8, rms_slope = 0.1,
+  local rough = lab.surface.self_affine{ cells = n, size = "1 mm", hurst = 0.8, rms_slope = 0.1,
     short_wave = "40 um", seed = case.seed, material = lab.material "Al-2011" }
   local st = lab.contact{ lower = rough, upper = lab.rigid, boundary = "periodic",
     effects = { elasticity = "half_space" } }:press{ pressure = case.pressure }
@@ -102,7 +105,8 @@ grep -l "lab.ensemble" torn/store/*.h5 | xargs rm -f
 first=$(ls torn/store/*.h5 | head -n 1)
 last=$(ls torn/store/*.h5 | tail -n 1)
 head -c 1000 "whole/store/${first##*/}" > "$first.new" && mv "$first.new" "$first"
-cp "$last" "$last.new" && printf 'x' | dd of="$last.new" bs=1 seek=150000 conv=notrunc 2> /dev/null
+cp "$last" "$last.new"
+printf 'x' | dd of="$last.new" bs=1 seek=$(($(wc -c < "$last") / 2)) conv=notrunc 2> /dev/null
 mv "$last.new" "$last"
 ends 0 "taken from the store" "$program" run --resume torn
 [ "$(grep -c "computed again" output)" = 2 ] || { cat output; fail "damaged results were not told of"; }

@@ -32,7 +32,7 @@ const Scalar scalars[] = {
     {"peak_pressure", [](const State& s) { return s.peak_pressure(); }},
     {"mean_gap", [](const State& s) { return s.mean_gap(); }},
     {"stiffness", [](const State& s) { return s.stiffness(); }, true},
-    {"secant_stiffness", [](const State& s) { return s.secant_stiffness(); }},
+    {"secant_stiffness", [](const State& s) { return s.secant_stiffness(); }, true},
     {"energy", [](const State& s) { return s.energy(); }},
     {"residual", [](const State& s) { return s.residual(); }},
     {"penetration", [](const State& s) { return s.certificate().penetration; }},

@@ -19,7 +19,10 @@ struct BoxSolver::Ready {
   StateCost cost;
 
   Ready(std::shared_ptr<const ContactGeometry> g, const BoxOperator& b)
-      : geometry(std::move(g)), box(b), drops(geometry->combined().values()) {}
+      : geometry(std::move(g)),
+        box(b),
+        drops(geometry->overhangs() ? SortedDrops(geometry->facing_heights())
+                                    : SortedDrops(geometry->combined().values())) {}
 
   static std::shared_ptr<const Ready> make(std::shared_ptr<const ContactGeometry> geometry,
                                            const BoxOperator& box) {
@@ -42,7 +45,7 @@ class BoxSolver::UnderLoad final : public Solution {
   std::int64_t contacts() const override { return static_cast<std::int64_t>(touched_); }
   double peak_pressure() const override { return ready_->box.stiffness * at_.approach; }
   double stiffness() const override {
-    return ready_->box.stiffness * (static_cast<double>(touched_) / static_cast<double>(drops().size()));
+    return ready_->box.stiffness * (static_cast<double>(touched_) / nodes());
   }
   double flatten() const override {
     return drops().peak_to_valley() > 0 ? std::min(1.0, at_.approach / drops().peak_to_valley()) : 0.0;
@@ -81,7 +84,10 @@ class BoxSolver::UnderLoad final : public Solution {
   Field upper_under_load() const override;
 
  private:
+  // Of the nodes that face the other body; mean pressures are over all nodes of the tile.
   const SortedDrops& drops() const { return ready_->drops; }
+  double nodes() const { return static_cast<double>(geometry().grid().nodes()); }
+  // None where nothing faces the ground, of which the height is NaN.
   double shortening(double h) const { return std::max(0.0, at_.approach - (drops().peak() - h)); }
   template <class Function>
   Field from_heights(Function function) const {
@@ -121,7 +127,7 @@ Certificate BoxSolver::UnderLoad::certificate() const {
 
   // Heights that are all equal have no rms; the approach is then the only length.
   const double length = drops().rms() > 0 ? drops().rms() : at_.approach;
-  const double mean = total.value() / static_cast<double>(g.size());
+  const double mean = total.value() / nodes();
   result.penetration = std::max(0.0, -least_gap) / length;
   result.tension = -least_pressure / at_.pressure;
   result.complementarity = apart.value() / total.value() / length;
@@ -135,9 +141,9 @@ SolutionError BoxSolver::UnderLoad::error() const {
   SolutionError error{.load = 0.0};
   if (!(at_.approach > 0)) return error;
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-  const double k = ready_->box.stiffness, n = static_cast<double>(drops().size());
+  const double k = ready_->box.stiffness, facing = static_cast<double>(drops().size());
   const double cell = geometry().grid().cell_area(), depth = at_.approach;
-  const double wanted = at_.pressure / k * n;
+  const double wanted = at_.pressure / k * nodes();
   double off =
       rounding * depth + std::abs(drops().shortening(depth) - wanted) / static_cast<double>(touched_);
   const auto low = [&] { return std::max(0.0, depth - off); };
@@ -149,7 +155,8 @@ SolutionError BoxSolver::UnderLoad::error() const {
   const double high = depth + off;
   error.load = rounding * at_.load + k * std::abs(drops().shortening(depth) - wanted) * cell;
   error.approach = off;
-  error.mean_gap = (drops().remaining_gap(low()) - drops().remaining_gap(high)) / n + rounding * mean_gap();
+  error.mean_gap =
+      (drops().remaining_gap(low()) - drops().remaining_gap(high)) / facing + rounding * mean_gap();
   error.energy = 0.5 * k * cell * (drops().squared_shortening(high) - drops().squared_shortening(low())) +
                  rounding * energy();
   error.peak_pressure = k * off + rounding * peak_pressure();
@@ -215,7 +222,7 @@ const StateCost& BoxSolver::preparation() const { return ready_->cost; }
 BoxSolver::Load BoxSolver::resolve(const PressRequest& request) const {
   const double k = ready_->box.stiffness;
   const SortedDrops& drops = ready_->drops;
-  const auto nodes = static_cast<double>(drops.size());
+  const auto nodes = static_cast<double>(geometry().grid().nodes());
   const double tile = geometry().grid().area();
   const bool by_depth =
       request.by == PressBy::approach || request.by == PressBy::indentation || request.by == PressBy::flatten;

@@ -36,7 +36,8 @@ struct YieldingBoxSolver::Ready {
         box(b),
         yield(y),
         hardness(y.hardens() ? local_hardness(*geometry, y) : LocalHardness{}),
-        drops(geometry->combined().values()),
+        drops(geometry->overhangs() ? SortedDrops(geometry->facing_heights())
+                                    : SortedDrops(geometry->combined().values())),
         alike({b.stiffness, y.hardens() ? y.hardening : 0}, drops.drops(), y.hardness()) {}
 
   static std::shared_ptr<const Ready> make(std::shared_ptr<const ContactGeometry> geometry,
@@ -49,10 +50,16 @@ struct YieldingBoxSolver::Ready {
 
   std::shared_ptr<const YieldingElements> elements(const YieldLaw& law) const {
     if (!law.yield) return std::make_shared<const YieldingElements>(alike, law.cap);
-    Array<double> below(drops.size());
+    Array<double> below, yields;
+    below.reserve(drops.size());
+    yields.reserve(drops.size());
     const std::span<const double> h = geometry->combined().values();
-    std::transform(h.begin(), h.end(), below.begin(), [&](double z) { return drops.peak() - z; });
-    return std::make_shared<const YieldingElements>(alike.law(), below, law.yield->values());
+    for (std::size_t k = 0; k < h.size(); ++k) {
+      if (std::isnan(h[k])) continue;
+      below.push_back(drops.peak() - h[k]);
+      yields.push_back((*law.yield)[k]);
+    }
+    return std::make_shared<const YieldingElements>(alike.law(), below, yields);
   }
 };
 
@@ -96,7 +103,9 @@ class YieldingBoxSolver::UnderLoad final : public Solution {
     const double height = drops().peak_to_valley();
     return height > 0 ? std::min(1.0, approach() / height) : 0.0;
   }
-  double mean_gap() const override { return drops().remaining_gap(approach()) / nodes(); }
+  double mean_gap() const override {
+    return drops().remaining_gap(approach()) / static_cast<double>(drops().size());
+  }
   double energy() const override {
     return 0.5 * cell() * sum([](const Element& e) { return e.pressure * e.elastic; });
   }
@@ -140,7 +149,9 @@ class YieldingBoxSolver::UnderLoad final : public Solution {
   }
 
   const SortedDrops& drops() const { return ready_->drops; }
-  double nodes() const { return static_cast<double>(drops().size()); }
+  // Of the tile, over which mean pressures are; elements are those that face the other body.
+  double nodes() const { return static_cast<double>(geometry().grid().nodes()); }
+  double mean_over_elements() const { return pressure_ / geometry().overlap_fraction(); }
   double cell() const { return geometry().grid().cell_area(); }
   CarriedLoad carried() const { return {pressure_, factor_}; }
   Deformation deformation() const {
@@ -179,7 +190,7 @@ class YieldingBoxSolver::UnderLoad final : public Solution {
   double greatest(Function function) const {
     return greatest_at(plane_, function);
   }
-  // In the frame of the lower body.
+  // In the frame of the lower body; nothing happens where nothing faces it, of which the height is NaN.
   template <class Function>
   Field field(Function function) const {
     Field result = geometry().combined();
@@ -241,8 +252,8 @@ SolutionError YieldingBoxSolver::UnderLoad::error() const {
   const ElementLaw& law = elements_->law();
   double off = std::max(box_rounding * depth, 2 * least);
   const auto brackets = [&] {
-    return elements_->mean_pressure(depth - off) <= pressure_ * (1 - box_rounding) &&
-           elements_->mean_pressure(depth + off) >= pressure_ * (1 + box_rounding);
+    return elements_->mean_pressure(depth - off) <= mean_over_elements() * (1 - box_rounding) &&
+           elements_->mean_pressure(depth + off) >= mean_over_elements() * (1 + box_rounding);
   };
   const double furthest = depth + drops().peak_to_valley() + law.depth_at_yield(peak_pressure_);
   while (!brackets() && off < furthest) off *= 2;
@@ -255,9 +266,9 @@ SolutionError YieldingBoxSolver::UnderLoad::error() const {
                std::abs(sum([](const Element& e) { return e.pressure; }) / nodes() - pressure_) *
                    geometry().grid().area();
   error.approach = off;
-  error.mean_gap =
-      (drops().remaining_gap(std::max(0.0, depth - off)) - drops().remaining_gap(depth + off)) / nodes() +
-      box_rounding * mean_gap();
+  error.mean_gap = (drops().remaining_gap(std::max(0.0, depth - off)) - drops().remaining_gap(depth + off)) /
+                       static_cast<double>(drops().size()) +
+                   box_rounding * mean_gap();
   error.energy = 0.5 * cell() * between([](const Element& e) { return e.pressure * e.elastic; }) +
                  box_rounding * energy();
   error.peak_pressure =
@@ -283,6 +294,7 @@ State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
   check(request);
   const CostScope scope;
   const double height = geometry().peak_to_valley(), tile = geometry().grid().area();
+  const double overlap = geometry().overlap_fraction();
   const double factor = ready_->yield.creep ? softening(*ready_->yield.creep, request.dwell) : 1.0;
   const YieldLaw law = yield_law(ready_->yield, ready_->hardness, factor);
   const auto elements = ready_->elements(law);
@@ -300,18 +312,22 @@ State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
   if (request.value > 0 && by_load) {
     pressure = request.by == PressBy::load ? request.value / tile : request.value;
     load = request.by == PressBy::load ? request.value : request.value * tile;
-    if (pressure >= elements->greatest_mean_pressure())
+    const double greatest = elements->greatest_mean_pressure();
+    if (pressure / overlap >= greatest)
       throw Error(ErrorCode::infeasible,
                   "a mean pressure of " + format_quantity(pressure, dimension::pressure) +
                       " cannot be carried: the elements carry " +
-                      format_quantity(elements->greatest_mean_pressure(), dimension::pressure) +
-                      " at most, their `hardness`",
+                      format_quantity(greatest * overlap, dimension::pressure) +
+                      " at most, their `hardness`" +
+                      (overlap < 1 ? " on the " + format_short(100 * overlap, 3) +
+                                         " % of the tile where the bodies face each other"
+                                   : std::string()),
                   "press with less than the hardness, or give `hardening`");
-    plane = elements->plane_under(pressure);
+    plane = elements->plane_under(pressure / overlap);
   } else if (request.value > 0) {
     const double depth = request.by == PressBy::approach ? request.value : request.value * height;
     plane = {depth, depth, 1};
-    pressure = elements->mean_pressure(depth);
+    pressure = elements->mean_pressure(depth) * overlap;
     load = pressure * tile;
   }
 

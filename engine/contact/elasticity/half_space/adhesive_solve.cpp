@@ -26,7 +26,9 @@ constexpr int most_applications = 20000;  // of K, all tangents together
 // Lengths in cells, pressures in E*: u = K p.
 class AdhesiveDescent {
  public:
-  AdhesiveDescent(const AdhesiveProblem& problem, Monitor& monitor)
+  // One of the last two is what is asked for, the other 0; Pa, m.
+  AdhesiveDescent(const AdhesiveProblem& problem, double asked_pressure, double asked_approach,
+                  Monitor& monitor)
       : problem_(problem),
         grid_(problem.contact.grid),
         nodes_(grid_.nodes()),
@@ -46,12 +48,22 @@ class AdhesiveDescent {
         free_(nodes_),
         task_(monitor, "adhesion", 1000) {
     const auto h = problem.contact.heights->values();
-    const double peak = range(h).max;
+    const double peak = known_range(h).max;
     for_nodes(nodes_, [&](std::size_t k) { drop_[k] = (peak - h[k]) / length_; });
+    double longest = 0;
     for (const GapTerm& term : problem.attraction) {
       greatest_ += term.greatest() / modulus_;
       shortest_ = std::min(shortest_, term.range / length_);
+      longest = std::max(longest, term.range / length_);
     }
+    if (!problem.contact.overhangs) return;
+    // Ground that nothing faces is where nothing touches it, nor attracts it to the last bit: e^−800 is 0.
+    constexpr double faded = 800;
+    const double pressed = std::abs(asked_pressure) + greatest_ * modulus_;
+    deep_ = known_range(drop_).max + std::abs(asked_approach) / length_ + faded * longest +
+            out_of_reach(problem.contact, pressed) / length_;
+    for (double& drop : drop_)
+      if (std::isnan(drop)) drop = deep_;
   }
 
   void begin_from(const AdhesiveAnswer& start) {
@@ -100,7 +112,7 @@ class AdhesiveDescent {
     if (now > 0)
       for_nodes(nodes_, [&](std::size_t k) { p_[k] *= target / now; });
     else
-      std::fill(p_.begin(), p_.end(), target);
+      for_nodes(nodes_, [&](std::size_t k) { p_[k] = drop_[k] < deep_ ? target : 0.0; });
   }
   double contact(double close, double target);
 
@@ -110,6 +122,7 @@ class AdhesiveDescent {
   Grid grid_;
   std::size_t nodes_;
   double length_, modulus_;
+  double deep_ = std::numeric_limits<double>::infinity();  // of ground that nothing faces
   double greatest_ = 0, shortest_ = std::numeric_limits<double>::infinity();
   HalfSpaceCompliance compliance_;
   ContactPreconditioner preconditioner_;
@@ -283,7 +296,7 @@ AdhesiveAnswer AdhesiveDescent::answer() const {
     result.attraction[k] = q_[k] * modulus_;
   }
   at.approach = approach * length_;
-  at.offset = at.approach - range(problem_.contact.heights->values()).max;
+  at.offset = at.approach - known_range(problem_.contact.heights->values()).max;
   result.mean_attraction = mean(q_) * modulus_;
   at.mean_pressure = mean(p_) * modulus_ - result.mean_attraction;
   at.contacts = std::count_if(p_.begin(), p_.end(), [](double p) { return p > 0; });
@@ -350,7 +363,7 @@ AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approac
                       format_quantity(most, dimension::length) + ", and more load brings it no nearer",
                   "ask for a smaller `approach`, or press by `pressure`");
   }
-  AdhesiveDescent descent(problem, monitor);
+  AdhesiveDescent descent(problem, 0, approach, monitor);
   if (start != nullptr) descent.begin_from(*start);
   descent.approach = approach / contact.grid.hx();
   descent.run(contact.tolerance);
@@ -364,7 +377,7 @@ AdhesiveAnswer adhere_at_pressure(const AdhesiveProblem& problem, double mean_pr
   if (!std::isfinite(mean_pressure))
     throw Error(ErrorCode::bad_value, "the mean pressure is " + format_short(mean_pressure) + " Pa",
                 "give a finite pressure");
-  AdhesiveDescent descent(problem, monitor);
+  AdhesiveDescent descent(problem, mean_pressure, 0, monitor);
   if (start != nullptr)
     descent.begin_from(*start);
   else

@@ -20,8 +20,8 @@ namespace asperity {
 
 namespace {
 
-double rms_height_of(const Field& heights) {
-  const double middle = mean(heights.values());
+double rms_height_of(std::span<const double> heights) {
+  const double middle = mean(heights);
   return std::sqrt(over_nodes<1>(heights.size(),
                                  [&](std::size_t k, double* v) {
                                    v[0] = (heights[k] - middle) * (heights[k] - middle);
@@ -73,7 +73,7 @@ class AdhesiveSolver::UnderLoad final : public Solution {
     constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
     SolutionError error{.load = by_load_ ? rounding * std::abs(load()) : unknown};
     error.approach = error.mean_gap = error.energy = error.peak_pressure = unknown;
-    error.contacts = {0, static_cast<std::int64_t>(grid().nodes())};
+    error.contacts = {0, geometry().facing()};
     error.may_differ = error.contacts.high;
     return error;
   }
@@ -83,15 +83,21 @@ class AdhesiveSolver::UnderLoad final : public Solution {
   }
   double flatten() const override {
     const double height = geometry().peak_to_valley();
-    return height > 0 ? 1 - range(at_.contact.gap.values()).span() / height : 0.0;
+    if (!(height > 0)) return 0;
+    const auto ends = over_nodes<0, 2>(at_.contact.gap.size(), [&](std::size_t k, double* v) {
+      const double gap = faces(k) ? at_.contact.gap[k] : std::numeric_limits<double>::quiet_NaN();
+      v[0] = gap;  // a minimum goes over what is a number
+      v[1] = -gap;
+    });
+    return 1 - (-ends[1] - ends[0]) / height;
   }
   double mean_gap() const override {
-    return sum([&](std::size_t k) { return std::max(0.0, at_.contact.gap[k]); }) /
-           static_cast<double>(grid().nodes());
+    return sum([&](std::size_t k) { return faces(k) ? std::max(0.0, at_.contact.gap[k]) : 0.0; }) /
+           static_cast<double>(geometry().facing());
   }
   double energy() const override {
     return 0.5 * grid().cell_area() * sum([&](std::size_t k) {
-             return (at_.contact.pressure[k] - at_.attraction[k]) * displacement(k);
+             return faces(k) ? (at_.contact.pressure[k] - at_.attraction[k]) * displacement(k) : 0.0;
            });
   }
   PressureSplit split(double threshold) const override {
@@ -118,12 +124,21 @@ class AdhesiveSolver::UnderLoad final : public Solution {
         [&](std::size_t k) { return at_.contact.pressure[k] > 0 ? 0.0 : std::max(0.0, at_.contact.gap[k]); });
   }
   Field displacement_field() const override {
-    return field([&](std::size_t k) { return displacement(k); });
+    Field u = field([&](std::size_t k) { return displacement(k); });
+    if (!geometry().overhangs()) return u;
+    // Ground that nothing faces moves with the rest.
+    const Field all =
+        displacement_under(ready_->problem.contact,
+                           field([&](std::size_t k) { return at_.contact.pressure[k] - at_.attraction[k]; }));
+    for (std::size_t k = 0; k < u.size(); ++k)
+      if (!faces(k)) u[k] = all[k];
+    return u;
   }
   Field lower_under_load() const override {
     Field z = geometry().lower().heights();
     const double share = ready_->half_space.lower_share;
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * displacement(k);
+    const Field u = displacement_field();
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * u[k];
     return z;
   }
   Field upper_under_load() const override {
@@ -138,6 +153,7 @@ class AdhesiveSolver::UnderLoad final : public Solution {
 
  private:
   const Grid& grid() const { return ready_->problem.contact.grid; }
+  bool faces(std::size_t k) const { return !geometry().overhangs() || !std::isnan(geometry().combined()[k]); }
   // K (p − σ) of both bodies.
   double displacement(std::size_t k) const {
     return at_.contact.gap[k] +
@@ -172,7 +188,9 @@ AdhesiveSolver::AdhesiveSolver(const Plan& plan, const HalfSpaceOperator& half_s
   contact.boundary = ready->geometry->boundary();
   contact.modulus = half_space.modulus;
   contact.heights = {ready->geometry, &ready->geometry->combined()};
-  contact.rms = rms_height_of(*contact.heights);
+  contact.overhangs = ready->geometry->overhangs();
+  contact.rms = contact.overhangs ? rms_height_of(ready->geometry->facing_heights())
+                                  : rms_height_of(contact.heights->values());
   contact.tolerance = plan.accuracy.tolerance;
   contact.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
   for (const GapTerm& term : plan.attraction)

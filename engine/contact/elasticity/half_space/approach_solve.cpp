@@ -60,11 +60,18 @@ struct Root {
   double slope = 1.5;  // d ln p̄ / d ln measure
 };
 
+// The mean pressure at which all ground that something faces is at the cap.
+double greatest_load(const HalfSpaceProblem& problem) {
+  if (!problem.overhangs) return problem.yield.cap;
+  return problem.yield.cap * (static_cast<double>(known_count(problem.heights->values())) /
+                              static_cast<double>(problem.grid.nodes()));
+}
+
 // A pressure that presses about a tenth of the rms roughness flat, to begin with where no grid is coarser.
 double first_guess(const HalfSpaceProblem& problem, double target_approach) {
   const double side = std::max(problem.grid.size_x, problem.grid.size_y);
   const double guess = 0.1 * problem.modulus * target_approach / side;
-  return problem.yield.caps() ? std::min(guess, 0.5 * problem.yield.cap) : guess;
+  return problem.yield.caps() ? std::min(guess, 0.5 * greatest_load(problem)) : guess;
 }
 
 struct Tried {
@@ -111,7 +118,7 @@ double whole_nodes(const HalfSpaceProblem& problem, double pressure, double low,
 
 Search search(const HalfSpaceProblem& problem, const WantedLength& wanted, Root root, double accuracy,
               double loosest, Monitor& monitor) {
-  const double highest = problem.yield.caps() ? problem.yield.cap * (1 - 1e-12) : infinity;
+  const double highest = problem.yield.caps() ? greatest_load(problem) * (1 - 1e-12) : infinity;
   HalfSpaceProblem now = problem;
   now.best_effort = true;
   constexpr double by_rounding = 1e-13;
@@ -240,7 +247,7 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
                     " m, less than 1e-280 of the tile: no double holds the pressures it takes",
                 "give a larger approach, or none");
   const auto heights = problem.heights->values();
-  const Range span = range(heights);
+  const Range span = known_range(heights);
   if (problem.boundary == Boundary::periodic && !problem.yield.hardens()) {
     const double most = problem.yield.caps() ? span.span() : span.max - mean(heights);
     if (approach > most || (approach == most && !(approach == 0)))
@@ -253,7 +260,7 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
   WantedLength wanted;
   // Coarser grids miss the highest node: their approach is counted from it all the same.
   wanted.measure = [peak = span.max](const HalfSpaceProblem& on, const HalfSpaceAnswer& answer) {
-    return answer.approach + (peak - range(on.heights->values()).max);
+    return answer.approach + (peak - known_range(on.heights->values()).max);
   };
   wanted.target = approach;
   if (problem.rms > 0) wanted.sharpness = 0.5 * std::min(1.0, approach / problem.rms);
@@ -293,15 +300,17 @@ double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answ
 double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
   const Field& h = *problem.heights;
   const Field& g = answer.gap;
-  const Range span = range(h.values());
+  const Range span = known_range(h.values());
   if (!(span.span() > 0) || answer.contacts == 0) return 0;
   constexpr double few_digits = 1e-4;
   if (answer.approach < few_digits * span.span()) return sunk_lightly(problem, answer, span) / span.span();
-  // h − u − w = −(g + w + δ), w what yielded.
+  // h − u − w = −(g + w + δ), w what yielded; neither of them where nothing faces the ground.
   const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
     const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
-    v[0] = capped ? std::max(0.0, g[k]) : g[k] + hardened(problem.yield, answer, k);
-    v[1] = -v[0];
+    const double low = capped ? std::max(0.0, g[k]) : g[k] + hardened(problem.yield, answer, k);
+    const bool faces = !std::isnan(h[k]);
+    v[0] = faces ? low : infinity;
+    v[1] = faces ? -low : infinity;
   });
   return 1 - (-ends[1] - ends[0]) / span.span();
 }
@@ -314,10 +323,10 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
     return flattened(on, answer);
   };
   wanted.target = fraction;
-  wanted.length = range(problem.heights->values()).span();
+  wanted.length = known_range(problem.heights->values()).span();
   wanted.sharpness = 0.5 * fraction;
   wanted.what = "a flattening of " + format_short(fraction);
-  return solve_for(problem, wanted, fraction * range(problem.heights->values()).span(), monitor);
+  return solve_for(problem, wanted, fraction * wanted.length, monitor);
 }
 
 }  // namespace asperity

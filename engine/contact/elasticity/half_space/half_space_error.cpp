@@ -44,6 +44,7 @@ class Bounds {
         reported_(reported),
         nodes_(problem.grid.nodes()),
         n_(static_cast<double>(nodes_)),
+        facing_(problem.overhangs ? static_cast<double>(known_count(problem.heights->values())) : n_),
         periodic_(problem.boundary == Boundary::periodic),
         pascal_(answer.peak_pressure),
         metre_(pascal_ / problem.modulus * problem.grid.hx()),
@@ -69,6 +70,7 @@ class Bounds {
   }
 
  private:
+  bool faces(std::size_t k) const { return !problem_.overhangs || !std::isnan((*problem_.heights)[k]); }
   double pressure(std::size_t k) const { return pressure_[k]; }
   // Where the law of the pressure changes: the cap, or the yield pressure.
   double limit(std::size_t k) const {
@@ -92,7 +94,7 @@ class Bounds {
   const HalfSpaceAnswer& at_;
   const Reported& reported_;
   std::size_t nodes_;
-  double n_;
+  double n_, facing_;  // all nodes, and those that something faces
   bool periodic_;
   double pascal_, metre_, joule_;  // SI values of the units
   double give_, cap_;              // 1/K_h, H
@@ -155,8 +157,11 @@ void Bounds::take_gaps() {
   const double from_pressures = std::sqrt(spectrum_.greatest * spectrum_.node * sums[1] / n_);
   gap_rounding_ = relative_rounding * (-sums[2] + at_.approach / metre_ + from_pressures);
   const Field& h = *problem_.heights;
-  const double peak = range(h.values()).max;
-  for_nodes(nodes_, [&](std::size_t k) { gap_[k] += ((peak - h[k]) - at_.approach) / metre_; });
+  const double peak = known_range(h.values()).max;
+  for_nodes(nodes_, [&](std::size_t k) {
+    // Ground that nothing faces is out of reach of both solutions.
+    gap_[k] = faces(k) ? gap_[k] + ((peak - h[k]) - at_.approach) / metre_ : at_.gap[k] / metre_;
+  });
   // What rounding alone does to the pressures counts as distance, and so does a load that is still not right.
   const double miss =
       std::abs(total_ / n_ * pascal_ - at_.mean_pressure) / std::max(at_.mean_pressure, 1e-300);
@@ -282,7 +287,7 @@ void Bounds::follow_asked_approach() {
   constexpr int most_tries = 12;
   for (int turn = 0; turn < most_tries; ++turn) {
     const auto inside = [&](std::size_t k) {
-      return gap_[k] <= margin && !(std::isfinite(cap_) && gap_[k] < -margin);
+      return faces(k) && gap_[k] <= margin && !(std::isfinite(cap_) && gap_[k] < -margin);
     };
     const double count =
         over_nodes<1>(nodes_, [&](std::size_t k, double* v) { v[0] = inside(k) ? 1.0 : 0.0; })[0];
@@ -310,6 +315,10 @@ void Bounds::follow_asked_approach() {
 SolutionError Bounds::result() {
   const bool caps = std::isfinite(cap_), hardens = give_ > 0;
   const auto counts = over_nodes<9>(nodes_, [&](std::size_t k, double* v) {
+    if (!faces(k)) {
+      std::fill_n(v, 9, 0.0);
+      return;
+    }
     const double p = pressure(k), gap = gap_[k], bound = limit(k);
     const double unsure = near_gap_ + relative_rounding * std::abs(gap);
     const bool touches = p > near_pressure_ || (gap < -unsure && (caps || hardens));
@@ -364,9 +373,10 @@ SolutionError Bounds::result() {
     error.plastic_volume = plastic * volume + relative_rounding * reported_.plastic_volume;
   }
   // mean(g⁺) = mean(g) + mean(g⁻), and the mean of K d is no more than the longest wave of it.
-  const double sunk = periodic_ ? 0 : std::sqrt(spectrum_.greatest / n_) * distance_;
+  const double sunk = periodic_ ? 0 : std::sqrt(spectrum_.greatest / facing_) * distance_;
   const double reported = reported_.mean_gap / metre_;
-  const double gap_error = approach_error_ + sunk + openings / n_ + std::abs(counts[8] / n_ - reported);
+  const double gap_error =
+      approach_error_ + sunk + openings / facing_ + std::abs(counts[8] / facing_ - reported);
   error.mean_gap = gap_error * metre_ + relative_rounding * (reported_.mean_gap + at_.approach);
 
   const double load = at_.mean_pressure * problem_.grid.area();

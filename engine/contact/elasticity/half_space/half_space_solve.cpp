@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
+#include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/nested_descent.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/unconverged.hpp"
@@ -20,6 +22,13 @@ namespace {
 
 std::string pascals(double p) { return format_quantity(p, dimension::pressure); }
 
+// Of the nodes, those that something faces.
+double facing_share(const HalfSpaceProblem& problem) {
+  if (!problem.overhangs) return 1;
+  return static_cast<double>(known_count(problem.heights->values())) /
+         static_cast<double>(problem.grid.nodes());
+}
+
 void check(const HalfSpaceProblem& problem, double mean_pressure) {
   check(problem.yield, problem.grid.nx, problem.grid.ny);
   if (!problem.heights || problem.heights->size() != problem.grid.nodes())
@@ -33,10 +42,17 @@ void check(const HalfSpaceProblem& problem, double mean_pressure) {
                     " Pa, less than 1e-280 of the contact modulus: no double holds its gaps",
                 "give a larger pressure, or none");
   const YieldLaw& law = problem.yield;
-  if (law.caps() && mean_pressure >= law.cap) {
+  const double facing = facing_share(problem);
+  if (law.caps() && mean_pressure >= law.cap * facing) {
     // To the last digit where fewer would not tell the two apart.
     const bool alike = mean_pressure != law.cap && pascals(mean_pressure) == pascals(law.cap);
     const auto shown = [&](double p) { return alike ? format_exact(p) + " Pa" : pascals(p); };
+    if (facing < 1)
+      throw Error(ErrorCode::infeasible,
+                  "a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
+                      shown(law.cap) + ", and the bodies face each other on " +
+                      format_short(100 * facing, 3) + " % of the tile",
+                  "press with less than " + pascals(law.cap * facing) + ", or give `hardening`");
     throw Error(ErrorCode::infeasible,
                 "a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
                     shown(law.cap) + ", and every node would have to carry as much or more",
@@ -54,8 +70,13 @@ double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
 // periodic one that is so only where rounding alone would be seen.
 bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
   const auto heights = problem.heights->values();
-  const auto differs = [first = heights.front()](double h) { return h != first; };
-  if (!(problem.rms > 0) || std::none_of(heights.begin(), heights.end(), differs)) return false;
+  if (!(problem.rms > 0)) return false;
+  if (problem.overhangs) {
+    if (known_range(heights).span() == 0) return false;
+  } else {
+    const auto differs = [first = heights.front()](double h) { return h != first; };
+    if (std::none_of(heights.begin(), heights.end(), differs)) return false;
+  }
   const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
   return problem.rms > least * punch_length(problem, mean_pressure);
 }
@@ -69,7 +90,7 @@ struct CellUnits {
 
 CellUnits cell_units(const HalfSpaceProblem& problem, double mean_pressure, bool flat) {
   CellUnits units;
-  units.origin = mean(problem.heights->values());
+  units.origin = problem.overhangs ? known_mean(problem.heights->values()) : mean(problem.heights->values());
   units.height = flat ? mean_pressure / problem.modulus * problem.grid.hx() : problem.rms;
   units.pressure = problem.modulus * (units.height / problem.grid.hx());
   return units;
@@ -105,9 +126,48 @@ double rough_slope(const HalfSpaceProblem& problem) {
   return std::sqrt(added_up(rows)[0] / static_cast<double>(h.size()));
 }
 
+double peak_of(const HalfSpaceProblem& problem) {
+  return (problem.overhangs ? known_range : range)(problem.heights->values()).max;
+}
+
+// The heights, those of ground that nothing faces out of reach.
+Field with_ground_out_of_reach(const HalfSpaceProblem& problem, double lowest, double mean_pressure) {
+  Field heights = *problem.heights;
+  const double there = lowest - out_of_reach(problem, mean_pressure);
+  if (!std::isfinite(there))
+    throw Error(ErrorCode::bad_value,
+                "`pressure` is " + pascals(mean_pressure) +
+                    ", so large that the numbers of the solution leave the range of a double",
+                "check its unit");
+  for (double& h : heights.values())
+    if (std::isnan(h)) h = there;
+  return heights;
+}
+
 double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.yield)[k] : law.cap; }
 
 }  // namespace
+
+double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {
+  const Grid& grid = problem.grid;
+  // Love's kernel is greatest at the middle of its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy)), and
+  // asinh x is below x.
+  const double own = 2 * (grid.hx() + grid.hy()) / (std::numbers::pi * problem.modulus);
+  const double give = problem.yield.hardens() ? 1 / problem.yield.hardening : 0.0;
+  const double most = mean_pressure * static_cast<double>(grid.nodes());
+  const double height = known_range(problem.heights->values()).span();
+  return 2 * (height + most * (own + give)) + problem.rms;
+}
+
+Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure) {
+  const Grid& grid = problem.grid;
+  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary);
+  Field u(grid.nx, grid.ny);
+  compliance.apply(pressure.values(), u.values());
+  const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
+  for (double& value : u.values()) value *= length;
+  return u;
+}
 
 void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   const YieldLaw& law = problem.yield;
@@ -173,8 +233,10 @@ namespace {
 HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
   HalfSpaceAnswer answer;
   answer.pressure = Field(problem.grid.nx, problem.grid.ny);
-  const double peak = range(problem.heights->values()).max;
-  answer.gap = *problem.heights;
+  const double peak = peak_of(problem);
+  answer.gap = problem.overhangs
+                   ? with_ground_out_of_reach(problem, known_range(problem.heights->values()).min, 0)
+                   : *problem.heights;
   for (double& g : answer.gap.values()) g = peak - g;
   answer.offset = -peak;
   answer.solver = "first touch";
@@ -214,9 +276,13 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
     pressure[k] = p >= cell_cap ? cap : within;
     gap[k] = (gap[k] - offset) * units.height;
   });
+  // What nothing faces is out of the contact already, but for what a pass may have left there by rounding.
+  if (problem.overhangs)
+    for (std::size_t k = 0; k < answer.pressure.size(); ++k)
+      if (std::isnan((*problem.heights)[k])) answer.pressure[k] = 0;
   answer.mean_pressure = mean_pressure;
   const double offset = cell.offset * units.height;
-  const double peak = range(problem.heights->values()).max;
+  const double peak = peak_of(problem);
   answer.approach = cell.from_peak ? offset : (peak - units.origin) + offset;
   answer.offset = cell.from_peak ? offset - peak : offset - units.origin;
   answer.iterations = cell.applications;
@@ -254,7 +320,12 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
 
   CellProblem cell;
   cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, 1, problem.single};
-  cell.heights = problem.heights->values();
+  Field out_of_the_way;
+  if (problem.overhangs) {
+    cell.lowest = known_range(problem.heights->values()).min;
+    out_of_the_way = with_ground_out_of_reach(problem, cell.lowest, mean_pressure);
+  }
+  cell.heights = (problem.overhangs ? out_of_the_way : *problem.heights).values();
   cell.origin = units.origin;
   cell.factor = 1 / units.height;
   cell.limit = cell_limit(problem.yield, units);

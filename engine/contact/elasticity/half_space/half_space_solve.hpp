@@ -22,9 +22,11 @@ namespace asperity {
 struct HalfSpaceProblem {
   Grid grid;
   Boundary boundary = Boundary::periodic;
-  double modulus = 0;                    // E*, Pa
-  std::shared_ptr<const Field> heights;  // h, m
-  double rms = 0;                        // of h about its mean, m; 0 for a flat
+  double modulus = 0;  // E*, Pa
+  // h, m. On a free tile it may be missing (NaN) where nothing faces the ground, which then never carries.
+  std::shared_ptr<const Field> heights;
+  bool overhangs = false;  // whether it is missing anywhere
+  double rms = 0;          // of h about its mean, m; 0 for a flat
   YieldLaw yield;
   double tolerance = 1e-6;   // greatest entry of the certificate
   bool best_effort = false;  // hand out what was reached instead of throwing
@@ -34,9 +36,11 @@ struct HalfSpaceProblem {
 };
 
 struct HalfSpaceAnswer {
-  Field pressure;     // Pa; exactly 0 and exactly the cap at the bounds
-  Field gap;          // m, Kp − h − δ: 0 where 0 < p < limit, >= 0 where p = 0, −w where it yielded
-  double offset = 0;  // δ, m
+  Field pressure;  // Pa; exactly 0 and exactly the cap at the bounds
+  // m, Kp − h − δ: 0 where 0 < p < limit, >= 0 where p = 0, −w where it yielded; above zero, and no more to
+  // be said of it, where h is missing
+  Field gap;
+  double offset = 0;          // δ, m
   double mean_pressure = 0;   // Pa, as prescribed
   double approach = 0;        // m, max h + δ
   std::int64_t contacts = 0;  // nodes with p > 0
@@ -51,6 +55,8 @@ struct HalfSpaceAnswer {
 
 // Heights that are all equal, or differ by rounding alone, have no rms; the certificate then takes p̄√area/E*
 // for its length, about what the tile would sink as one punch.
+// Means of pressures are over all nodes of the tile. Ground that nothing faces is put deeper than a load of
+// all nodes on any one of them could reach, and never enters the contact.
 // Costs a fixed number of O(n log n) applications of K (some 20 to 40) and holds about ten fields besides
 // the answer. A null `start` begins from nested grids; otherwise from the pressures of `start`, an
 // answer on the same grid. Throws Error{infeasible} where p̄ >= cap, {bad_value} where p̄ is negative, not
@@ -59,6 +65,14 @@ struct HalfSpaceAnswer {
 // threads.
 HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,
                                   const HalfSpaceAnswer* start, Monitor& monitor);
+
+// How far ground that nothing faces is put below the lowest that something does, m: as bodies with Σ p of
+// `mean_pressure` over all nodes come no nearer than u + w at the one node that carries it all, twice that
+// and twice the peak-to-valley is out of reach.
+double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure);
+
+// u = K p of both bodies, m, where something faces the ground and where nothing does. One application.
+Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure);
 
 // Counts, peak pressure and certificate anew, of the pressures and gaps that `answer` holds. O(n).
 void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -21,12 +22,21 @@ namespace asperity {
 
 namespace {
 
-double rms_of(const Field& heights) {
-  const double middle = mean(heights.values());
+double rms_of(std::span<const double> heights) {
+  const double middle = mean(heights), n = static_cast<double>(heights.size());
   Array<double> squares(heights.size());
-  std::transform(heights.values().begin(), heights.values().end(), squares.begin(),
+  std::transform(heights.begin(), heights.end(), squares.begin(),
                  [&](double h) { return (h - middle) * (h - middle); });
-  return std::sqrt(block_sum(squares) / static_cast<double>(heights.size()));
+  const double sum = block_sum(squares), most = range(heights).span();
+  // Heights so small that their squares underflow are taken times a power of two.
+  constexpr double least = 1e-140;
+  if (!(most > 0 && most < least)) return std::sqrt(sum / n);
+  const int power = -std::ilogb(most);
+  std::transform(heights.begin(), heights.end(), squares.begin(), [&](double h) {
+    const double from_middle = std::ldexp(h - middle, power);
+    return from_middle * from_middle;
+  });
+  return std::ldexp(std::sqrt(block_sum(squares) / n), -power);
 }
 
 }  // namespace
@@ -51,7 +61,9 @@ struct HalfSpaceSolver::Ready {
     problem.boundary = ready->geometry->boundary();
     problem.modulus = half_space.modulus;
     problem.heights = {ready->geometry, &ready->geometry->combined()};
-    problem.rms = rms_of(*problem.heights);
+    problem.overhangs = ready->geometry->overhangs();
+    problem.rms =
+        problem.overhangs ? rms_of(ready->geometry->facing_heights()) : rms_of(problem.heights->values());
     problem.tolerance = plan.accuracy.tolerance;
     problem.single = plan.accuracy.precision == Accuracy::Precision::single;
     problem.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
@@ -95,7 +107,8 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
   }
   double flatten() const override { return std::max(0.0, flattened(problem_, at_)); }  // rounding apart
   double mean_gap() const override {
-    return sum([&](std::size_t k) { return std::max(0.0, at_.gap[k]); }) / nodes();
+    return sum([&](std::size_t k) { return faces(k) ? std::max(0.0, at_.gap[k]) : 0.0; }) /
+           static_cast<double>(geometry().facing());
   }
   double energy() const override;
   PressureSplit split(double threshold) const override;
@@ -119,13 +132,20 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
     return field([&](std::size_t k) { return at_.pressure[k] > 0 ? 0.0 : std::max(0.0, at_.gap[k]); });
   }
   Field displacement_field() const override {
-    return field([&](std::size_t k) { return displacement(k); });
+    Field u = field([&](std::size_t k) { return displacement(k); });
+    if (!problem_.overhangs) return u;
+    // Ground that nothing faces sinks with the rest.
+    const Field all = displacement_under(problem_, at_.pressure);
+    for (std::size_t k = 0; k < u.size(); ++k)
+      if (!faces(k)) u[k] = all[k];
+    return u;
   }
   Field lower_under_load() const override { return lower_heights(geometry(), ready_->yield, deformation()); }
   Field upper_under_load() const override { return upper_heights(geometry(), ready_->yield, deformation()); }
 
  private:
   double nodes() const { return static_cast<double>(at_.pressure.size()); }
+  bool faces(std::size_t k) const { return !problem_.overhangs || !std::isnan((*problem_.heights)[k]); }
   // The elastic displacement of both bodies: what K p gives. Near a light contact all terms are small.
   double displacement(std::size_t k) const {
     return at_.gap[k] + (at_.approach - (geometry().combined_range().max - (*problem_.heights)[k]));
@@ -175,7 +195,7 @@ double HalfSpaceSolver::UnderLoad::energy() const {
     compliance.apply_inverse(displacement_field().values(), pressure.values());
     for (double& p : pressure.values()) p *= problem_.modulus / grid.hx();
   }
-  const double twice = sum([&](std::size_t k) { return pressure[k] * displacement(k); });
+  const double twice = sum([&](std::size_t k) { return faces(k) ? pressure[k] * displacement(k) : 0.0; });
   return std::max(0.0, 0.5 * twice * problem_.grid.cell_area());  // a sum of squares, but for rounding
 }
 
@@ -254,6 +274,15 @@ State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) cons
            : by == "flatten" ? solve_at_flattening(problem, value, monitor)
                              : solve_at_pressure(problem, value, nullptr, monitor);
   });
+  // The energy is a sum of products of pressures and lengths.
+  const HalfSpaceAnswer& answer = solved.result;
+  const double most = answer.peak_pressure * (std::abs(answer.approach) + height);
+  if (!std::isfinite(most * static_cast<double>(problem.grid.nodes())) ||
+      !std::isfinite(answer.mean_pressure * problem.grid.area()))
+    throw Error(ErrorCode::bad_value,
+                quoted(name(request.by)) + " is " + format_short(request.value) +
+                    ", so large that the numbers of the solution leave the range of a double",
+                "check its unit and that of the heights");
   auto solution =
       std::make_shared<const UnderLoad>(ready_, std::move(problem), std::move(solved.result), factor, asked);
   return State(std::move(solution), plan_, elasticity_alone(solved.cost));

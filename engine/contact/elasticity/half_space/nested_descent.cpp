@@ -163,6 +163,12 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
       prolong(from, carried, 1 / from.pitch_x, step.shape, p);
       carried = UnsetArray<double>();
     }
+    if (std::isfinite(problem.lowest)) {
+      const std::span<const double> raw = finest ? problem.heights : std::span<const double>(step.heights);
+      // Less than any shift to the load can make up for.
+      for (std::size_t k = 0; k < nodes; ++k)
+        if (raw[k] < problem.lowest) p[k] = std::min(p[k], -2 * level.total_load());
+    }
     project_to_load(p, {}, upper, level.total_load(), p);
 
     ChainEnd end = run_chain(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);

@@ -5,6 +5,7 @@
 // interface.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 
@@ -18,6 +19,10 @@ struct CellProblem {
   LevelShape shape;
   std::span<const double> heights;  // any unit; (height − origin)·factor is in cell units
   double origin = 0, factor = 1;
+  // Ground that lies lower has nothing over it: it begins without pressure, and whoever states the problem
+  // put it where nothing comes. In the unit of the heights, on a free tile only, whose coarser grids are
+  // nodes of the finer ones.
+  double lowest = -std::numeric_limits<double>::infinity();
   PressureLimit limit;
   double mean_pressure = 0;
   double length = 1;  // what gaps are measured by

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a solution of the equations does not know of itself: that they were asked where they say little of
+// real bodies. Small slopes (a half-space is flat before it is loaded), pressures well under the contact
+// modulus (elasticity is linear), and pressures that the material carries without yielding. None of these
+// is an error of the solver, and none changes a number.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/contact/state.hpp"
+
+namespace asperity {
+
+// Sentences, most often none. Throws Error{bad_state} for a state that was closed. O(n).
+std::vector<std::string> doubts(const State& state);
+
+}  // namespace asperity

@@ -1,0 +1,37 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- A prediction beside what was found, in one line: `require "asperity.guess"{ said = my_guess.percent, found = 0.26,
+-- of = "the share that touches", unit = "%" }`. Where nothing was said, nothing is printed. A guess is a number, or
+-- a string with one and perhaps its unit ("10 %"); what is no number is answered, not passed over.
+local keys = { said=true, found=true, of=true, unit=true, near=true }
+
+-- The number in a guess; nil where there is none, or where another unit stands behind it.
+local function number_of(said, unit)
+  if type(said) ~= "string" then return math.type(said) and said or nil end
+  local digits, behind = said:match "^%s*([-+]?%d*%.?%d*[eE]?[-+]?%d*)%s*(.-)%s*$"
+  local number = digits and tonumber(digits)
+  if behind ~= "" and behind ~= unit then return nil end
+  return number
+end
+
+local function verdict(number, found, near)
+  if math.abs(number - found) <= near * math.abs(found) then return "which is near" end
+  if number * found <= 0 then return "which is not near" end
+  local ratio = number / found
+  return ratio > 1 and ("%.2g times too much"):format(ratio) or ("%.2g times too little"):format(1 / ratio)
+end
+
+return function(guess)
+  for key in pairs(guess) do
+    if not keys[key] then error("a guess has no key `" .. tostring(key) .. "`", 2) end
+  end
+  if guess.said == nil then return end
+  local unit = guess.unit and " " .. guess.unit or ""
+  local number = number_of(guess.said, guess.unit)
+  if not number then
+    print(("You said `%s` of %s, which is no number%s: it is %.3g%s."):format(tostring(guess.said), guess.of,
+      guess.unit and " of " .. guess.unit or "", guess.found, unit))
+    return
+  end
+  print(("You said %g%s of %s: it is %.3g%s, %s."):format(number, unit, guess.of, guess.found, unit,
+    verdict(number, guess.found, guess.near or 0.2)))
+end

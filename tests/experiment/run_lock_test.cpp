@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The lock of a run directory: one holder at a time, named to all others, and none once its process has
+// ended.
+#include "engine/experiment/run_lock.hpp"
+
+#include <sys/utsname.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include "tests/experiment/run_fixture.hpp"
+
+namespace asperity::run_lock_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunLockTest : public InFolder {
+ protected:
+  std::string held_by(pid_t process) const {
+    utsname system{};
+    ::uname(&system);
+    return "`" + folder.string() + "` is being written by process " + std::to_string(process) + " on " +
+           system.nodename;
+  }
+  // Another process that holds the lock until it is killed.
+  pid_t holder(const RunLock::Ask& ask = RunLock::ask_system) const {
+    int ready[2];
+    EXPECT_EQ(::pipe(ready), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      try {
+        const std::shared_ptr<RunLock> lock = RunLock::take(folder, ask);
+        if (::write(ready[1], "y", 1) == 1)
+          for (;;) ::pause();
+      } catch (const Error&) {
+      }
+      ::_exit(1);
+    }
+    ::close(ready[1]);
+    char byte = 0;
+    EXPECT_EQ(::read(ready[0], &byte, 1), 1);
+    ::close(ready[0]);
+    return child;
+  }
+  static void kill(pid_t process) {
+    ::kill(process, SIGKILL);
+    ::waitpid(process, nullptr, 0);
+  }
+  static int no_locks(int) { return ENOLCK; }
+};
+
+TEST_F(RunLockTest, F1TheSecondComerIsToldProcessAndHostAndChangesNothing) {
+  const std::shared_ptr<RunLock> lock = RunLock::take(folder);
+  const std::string before = content_of(folder / ".lock");
+  for (int k = 0; k < 3; ++k)
+    EXPECT_EQ(
+        error_of([&] { RunLock::take(folder); }),
+        "bad_state: " + held_by(::getpid()) + "; wait until that one has ended, or give another directory");
+  EXPECT_NE(error_of([&] { RunLock::take_if_known(folder); }), "");
+  EXPECT_EQ(content_of(folder / ".lock"), before);
+  EXPECT_EQ(files_in(folder), 1U);
+  lock->release();
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
+}
+
+TEST_F(RunLockTest, F1IsFreeOnceItsProcessIsKilled) {
+  const pid_t child = holder();
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }).find("bad_state: " + held_by(child)), 0U);
+  kill(child);
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
+}
+
+// Of many at once one holds it.
+TEST_F(RunLockTest, F1OfManyOneHasIt) {
+  std::vector<pid_t> children;
+  for (int k = 0; k < 8; ++k) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      try {
+        const std::shared_ptr<RunLock> lock = RunLock::take(folder);
+        ::usleep(300'000);
+        ::_exit(0);
+      } catch (const Error& error) {
+        ::_exit(std::string(error.what()).find("is being written by process ") != std::string::npos ? 2 : 3);
+      }
+    }
+    children.push_back(child);
+  }
+  int held = 0, refused = 0;
+  for (const pid_t child : children) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    held += WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 1 : 0;
+    refused += WIFEXITED(status) && WEXITSTATUS(status) == 2 ? 1 : 0;
+  }
+  EXPECT_EQ(held, 1);
+  EXPECT_EQ(refused, 7);
+}
+
+TEST_F(RunLockTest, F1WithoutLocksProcessAndHostDecide) {
+  const pid_t child = holder(no_locks);
+  EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }),
+            "bad_state: " + held_by(child) + "; wait until that one has ended, or give another directory");
+  kill(child);
+  {
+    const std::shared_ptr<RunLock> lock = RunLock::take(folder, no_locks);
+    EXPECT_NE(lock->notice().find("gives no locks"), std::string::npos);
+    EXPECT_NE(error_of([&] { RunLock::take(folder, no_locks); }), "");
+  }
+  EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }), "");
+  EXPECT_EQ(RunLock::take(folder)->notice(), "");
+  std::ofstream(folder / ".lock")
+      << "{\"process\":1,\"host\":\"another\",\"machine_start\":\"x\",\"process_space\":\"\","
+         "\"process_start\":\"1\"}\n";
+  EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }),
+            "bad_state: `" + folder.string() +
+                "` is being written by process 1 on another; if that one has ended, remove `" +
+                (folder / ".lock").string() + "`; this file system gives no locks, which would tell");
+}
+
+// Text that is no name stands for nobody.
+TEST_F(RunLockTest, ATornNameHoldsNothing) {
+  for (const char* text : {"", "{\"process\":1", "[]\n", "{}\n", "\n"}) {
+    std::ofstream(folder / ".lock") << text;
+    EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }), "") << text;
+    std::ofstream(folder / ".lock") << text;
+    EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "") << text;
+  }
+}
+
+TEST_F(RunLockTest, S3IsNoLink) {
+  std::ofstream(folder / "victim") << "mine";
+  fs::create_symlink(folder / "victim", folder / ".lock");
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }),
+            "bad_file: `" + (folder / ".lock").string() +
+                "` is a link; a run writes its own files where they are; take the link away");
+  EXPECT_EQ(content_of(folder / "victim"), "mine");
+}
+
+TEST_F(RunLockTest, IsNotMadeWhereOnlyAskedFor) {
+  EXPECT_EQ(RunLock::take_if_known(folder), nullptr);
+  EXPECT_EQ(files_in(folder), 0U);
+}
+
+}  // namespace
+}  // namespace asperity::run_lock_test
