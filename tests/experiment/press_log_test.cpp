@@ -233,7 +233,7 @@ TEST_F(PressLog, UnknownColumnsAreLeftOutWithAWarning) {
   EXPECT_EQ(events("pressure [MPa],operator,dwel [s]\n1,Li,5\n"), "press 1 MPa\n");
   ASSERT_EQ(listener.warnings.size(), 1U);
   EXPECT_EQ(listener.warnings[0], "\"" + path() +
-                                      "\" has columns of which a protocol makes nothing: \"operator\", "
+                                      "\" has columns that a protocol does not use: \"operator\", "
                                       "\"dwel [s]\" (did you mean `dwell`?)");
 }
 
