@@ -259,10 +259,15 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     };
     SlipAngle slip = slip_angle(friction, options.stage);
     if (weight) {
-      // Once more, with what presses when it slips solved for itself.
-      if (const double pressure = weight_pressure * std::cos(slip.angle);
-          slip.slipped && pressure > resolved) {
+      // Again, with what presses when it slips solved for itself, until it slips there. Area is counted in
+      // nodes: where one lets go between two pressures, the rounds may end with both sides of it solved.
+      constexpr int most_rounds = 12;
+      double before = weight_pressure;
+      for (int round = 0; round < most_rounds; ++round) {
+        const double pressure = weight_pressure * std::cos(slip.angle);
+        if (!slip.slipped || !(pressure > resolved) || pressure == before) break;
         weight->solve(pressure);
+        before = pressure;
         slip = slip_angle(friction, options.stage);
       }
       result.at_weight.push_back(weight->at_the_weight());
