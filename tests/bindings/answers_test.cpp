@@ -107,7 +107,7 @@ TEST_F(Answers, EveryErrorNamesTheLineOfTheScript) {
 TEST_F(Answers, NumbersInStringsFollowOneRule) {
   EXPECT_EQ(value("lab.surface.sine{ cells='64', size='1 mm', amplitude='1 um' }.cells[1]"), "64");
   refuses("lab.surface.sine{ cells='64 um', size='1 mm', amplitude='1 um' }",
-          "a length where a number is wanted");
+          "a length where a plain number is wanted");
   refuses("lab.surface.sine{ cells='6.5', size='1 mm', amplitude='1 um' }",
           "`cells` is \"6.5\"; give a whole");
 }
