@@ -51,7 +51,7 @@ mistake overread engine/surface/io/binary_cursor.cpp \
 mistake example examples/stylus_and_tip.lua 's/short_wave = short_wave/short_waves = short_wave/' \
   "its tests" "examples: stylus_and_tip.*Failed"
 mistake digest engine/core/digest.cpp "s/raw('i', 1,/raw('d', 1,/" \
-  "its tests" "core:.*Digest.*Failed"
+  "its tests" "FAILED.*Digest"
 mistake package lab 's/ libzip-dev / /' \
   "a newcomer's first chart in a clean root (beside the others)" "libzip"
 mistake lesson scripts/lessons/01_roughness.lua 's/ra="0.5 um"/ra="0.5 mm"/' \

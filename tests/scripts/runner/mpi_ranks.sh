@@ -11,9 +11,8 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export TMPDIR="$PWD"
 # Open MPI looks for a way to other machines first, though there are none here.
 command -v ssh > /dev/null 2>&1 || export OMPI_MCA_plm_rsh_agent=true
-# After an interrupt it waits this long before SIGTERM and as long again before SIGKILL; its one second is short on a
-# machine that builds something meanwhile.
-export OMPI_MCA_odls_base_sigkill_timeout=5
+# Ranks that wait let others have the processor: other tests run beside these.
+export OMPI_MCA_mpi_yield_when_idle=1
 
 # ranks count command...
 ranks() { count=$1; shift; timeout -k 5 200 mpirun --oversubscribe --bind-to none -n "$count" "$@"; }
@@ -34,7 +33,11 @@ processes_of() {
 ends_soon() {
   how=$1
   shift
-  mpirun --oversubscribe --bind-to none -n 2 "$program" run long.lua --threads 1 --out "$how" > "$how.txt" 2>&1 &
+  # So long mpirun waits before SIGTERM and again before SIGKILL, whatever has ended meanwhile; its one second is short
+  # for a rank that writes down where it was interrupted, on a machine that builds something beside.
+  patience=1
+  [ "$how" != interrupt ] || patience=5
+  OMPI_MCA_odls_base_sigkill_timeout=$patience mpirun --oversubscribe --bind-to none -n 2 "$program" run long.lua --threads 1 --out "$how" > "$how.txt" 2>&1 &
   launcher=$!
   tries=0
   until "$@"; do
