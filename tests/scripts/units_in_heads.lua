@@ -14,7 +14,7 @@ local function refused(call, ...)
 end
 local function near(a, b) assert(math.abs(a - b) <= 1e-12 * math.abs(b), a .. " is not " .. b) end
 
-local own = file_of("own.csv", "x [mm];y [mm];z [um]\n0;0;1,2\n0,1;0;1,5\n0,2;0;1,1\n0;0,1;0,9\n0,1;0,1;2,0\n0,2;0,1;1,7\n")
+local own = file_of("own.txt", "x [mm];y [mm];z [um]\n0;0;1,2\n0,1;0;1,5\n0,2;0;1,1\n0;0,1;0,9\n0,1;0,1;2,0\n0,2;0,1;1,7\n")
 local s = lab.surface.read(own)
 assert(s.cells[1] == 3 and s.cells[2] == 2)
 near(s.size[1], 0.3e-3)
