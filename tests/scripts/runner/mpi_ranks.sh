@@ -33,11 +33,12 @@ processes_of() {
 ends_soon() {
   how=$1
   shift
-  # So long mpirun waits before SIGTERM and again before SIGKILL, whatever has ended meanwhile; its one second is short
-  # for a rank that writes down where it was interrupted, on a machine that builds something beside.
+  # mpirun waits so many seconds before SIGTERM and again before SIGKILL, whatever has ended meanwhile. One, its default,
+  # is short for a rank that records where it was interrupted while the machine builds something.
   patience=1
   [ "$how" != interrupt ] || patience=5
-  OMPI_MCA_odls_base_sigkill_timeout=$patience mpirun --oversubscribe --bind-to none -n 2 "$program" run long.lua --threads 1 --out "$how" > "$how.txt" 2>&1 &
+  OMPI_MCA_odls_base_sigkill_timeout=$patience mpirun --oversubscribe --bind-to none -n 2 \
+    "$program" run long.lua --threads 1 --out "$how" > "$how.txt" 2>&1 &
   launcher=$!
   tries=0
   until "$@"; do
