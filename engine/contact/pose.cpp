@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -18,7 +19,7 @@ constexpr double quarter = 0.5 * std::numbers::pi;
 // no node of the original lies around.
 Field turned_field(const Field& field, const Grid& grid, double angle, double outside) {
   Field result(grid.nx, grid.ny);
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = elementary::cos(angle), s = elementary::sin(angle);
   const double middle_i = 0.5 * (grid.nx - 1), middle_j = 0.5 * (grid.ny - 1);
   const double hx = grid.hx(), hy = grid.hy();
   // The cell a place lies in and how far along; a place past the rim by rounding is on the rim.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/random.hpp"
@@ -76,7 +77,7 @@ void add_sentence(std::string& note, const std::string& sentence) {
 }
 
 double tangent(double angle) {
-  return angle >= 0.5 * std::numbers::pi ? std::numeric_limits<double>::infinity() : std::tan(angle);
+  return angle >= 0.5 * std::numbers::pi ? std::numeric_limits<double>::infinity() : elementary::tan(angle);
 }
 
 double standard_deviation(const std::vector<double>& values) {
