@@ -36,7 +36,7 @@ struct ThreadConstants {
 // A function of MPFR, rounded once, subnormal results too.
 template <class Function, class... Arguments>
 [[gnu::noinline]] double rounded_slowly(Function function, Arguments... arguments) {
-  thread_local const ThreadConstants constants;
+  thread_local const ThreadConstants constants{};
   static_cast<void>(constants);
   struct Exponents {
     mpfr_exp_t least = mpfr_get_emin(), greatest = mpfr_get_emax();

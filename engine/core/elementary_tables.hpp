@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "engine/core/pairs.hpp"
 
@@ -21,14 +22,22 @@ constexpr Pair short_high(Pair value, double unit) {
   return {high, (value.high - high) + value.low};
 }
 
+// 1/n, n = 1 … 43.
+constexpr std::array<Pair, 44> inverses() {
+  std::array<Pair, 44> table{};
+  for (std::size_t n = 1; n < table.size(); ++n) table[n] = pairs::over({1, 0}, {static_cast<double>(n), 0});
+  return table;
+}
+
 // 2^(j/128), j = 0 … 127, multiples of 2^-25 and the rest: Taylor's series of exp(j ln 2/128).
 constexpr std::array<Pair, 128> powers_of_two() {
   std::array<Pair, 128> table{};
+  const auto inverse = inverses();
   for (int j = 0; j < 128; ++j) {
     const Pair x = pairs::times(ln2, {j / 128.0, 0});
     Pair value{1, 0};
-    for (int n = 30; n >= 1; --n)
-      value = pairs::plus({1, 0}, pairs::over(pairs::times(x, value), {static_cast<double>(n), 0}));
+    for (std::size_t n = 28; n >= 1; --n)
+      value = pairs::plus({1, 0}, pairs::times(pairs::times(x, value), inverse[n]));
     table[static_cast<std::size_t>(j)] = short_high(value, 0x1p-25);
   }
   return table;
@@ -38,14 +47,15 @@ constexpr std::array<Pair, 128> powers_of_two() {
 // cosine.
 constexpr std::array<Pair, 257> sines() {
   std::array<Pair, 257> table{};
+  const auto inverse = inverses();
   for (int j = 0; j <= 256; ++j) {
     const bool near = j <= 128;
     const Pair x = pairs::times(pi, {(near ? j : 256 - j) / 512.0, 0});
     const Pair square = pairs::times(x, x);
     Pair value{1, 0};
-    for (int n = 26; n >= 2; n -= 2) {
-      const double divisor = near ? n * (n + 1.0) : n * (n - 1.0);
-      const Pair term = pairs::over(pairs::times(square, value), {divisor, 0});
+    for (std::size_t n = 26; n >= 2; n -= 2) {
+      const Pair divided = pairs::times(inverse[n], inverse[near ? n + 1 : n - 1]);
+      const Pair term = pairs::times(pairs::times(square, value), divided);
       value = pairs::plus({1, 0}, {-term.high, -term.low});
     }
     if (near) value = pairs::times(x, value);
@@ -62,6 +72,7 @@ struct Reciprocal {
 };
 constexpr std::array<Reciprocal, 256> reciprocals() {
   std::array<Reciprocal, 256> table{};
+  const auto inverse = inverses();
   for (int i = 0; i < 256; ++i) {
     const double middle = i < 152 ? (360.5 + i) / 512 : (104.5 + i) / 256;
     const double reciprocal = i == 151 || i == 152 ? 1 : pairs::to_multiple(1 / middle, 0x1p-9);
@@ -69,8 +80,8 @@ constexpr std::array<Reciprocal, 256> reciprocals() {
     const Pair z = pairs::over({reciprocal - 1, 0}, {reciprocal + 1, 0});
     const Pair square = pairs::times(z, z);
     Pair value{0, 0};
-    for (int n = 51; n >= 1; n -= 2)
-      value = pairs::plus(pairs::over({1, 0}, {static_cast<double>(n), 0}), pairs::times(square, value));
+    for (std::size_t n = 43; n < inverse.size(); n -= 2)  // down to 1
+      value = pairs::plus(inverse[n], pairs::times(square, value));
     value = pairs::times(z, value);
     const Pair split = short_high({-2 * value.high, -2 * value.low}, 0x1p-42);
     table[static_cast<std::size_t>(i)] = {reciprocal, split.high, split.low};
