@@ -14,6 +14,7 @@
 #include "engine/core/text.hpp"
 #include "engine/experiment/recorded_run.hpp"
 #include "engine/experiment/run_directory.hpp"
+#include "engine/experiment/run_facts.hpp"
 
 namespace asperity::cli {
 
@@ -30,6 +31,19 @@ void print_versions(const RecordedRun& recorded, const RecordedRun& again) {
     std::printf("  %s was %s then, %s now\n", name.c_str(), version.text().c_str(),
                 now != nullptr ? now->text().c_str() : "absent");
   }
+}
+
+// The engine's results are the same bits on every processor; what the script computes by `^` and `math`, and
+// contacts spread over ranks, may not be.
+void print_machines(const RecordedRun& recorded, const RecordedRun& again) {
+  const auto machine_of = [](const RecordedRun& run) -> const Json* {
+    const Json* unhashed = run.manifest.find("unhashed");
+    return unhashed != nullptr ? unhashed->find("machine") : nullptr;
+  };
+  const Json *then = machine_of(recorded), *now = machine_of(again);
+  if (then == nullptr || now == nullptr) return;
+  for (const std::string& line : differing_machines(*then, *now))
+    std::printf("  recorded on %s\n", line.c_str());
 }
 
 void print_differences(const std::vector<Difference>& found, const char* first, const char* second) {
@@ -67,6 +81,7 @@ int compare(const RecordedRun& recorded, const std::filesystem::path& place, boo
               (found.size() == 1 ? "one difference" : std::to_string(found.size()) + " differences").c_str());
   print_differences(found, "recorded", "now");
   print_versions(recorded, again);
+  print_machines(recorded, again);
   return different;
 }
 

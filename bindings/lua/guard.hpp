@@ -14,6 +14,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/core/rounding_mode.hpp"
 
 namespace asperity::lua {
 
@@ -30,6 +31,7 @@ int deliver(lua_State* L, const Values& results);
 // message of an error that does not begin with it.
 template <class Run>
 int guarded(lua_State* L, const std::string& name, Run run) {
+  const RoundToNearest whatever_the_host_does;
   try {
     stop_flag().check();
     return deliver(L, run());

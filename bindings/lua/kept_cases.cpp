@@ -8,6 +8,7 @@
 #include "bindings/lua/ranks.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/core/byte_string.hpp"
+#include "engine/core/c_library_identity.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/experiment/run_facts.hpp"
@@ -137,7 +138,8 @@ KeptCases::KeptCases(const Session& session, const Parcel& run) {
 
 std::string KeptCases::key_of(const CaseSetup& setup, bool drew) const {
   Digester digester;
-  digester.add(case_form).add(content_.digest).add(setup.depth);
+  // A case's own arithmetic is the C library's: machines where that rounds otherwise do not share cases.
+  digester.add(case_form).add(c_library_functions()).add(content_.digest).add(setup.depth);
   digester.add(static_cast<std::int64_t>(setup.values.size()));
   bool whole = content_.whole;
   for (const CaseValue& value : setup.values) {

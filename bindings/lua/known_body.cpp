@@ -12,6 +12,7 @@
 #include "bindings/lua/grid_keys.hpp"
 #include "bindings/lua/registry.hpp"
 #include "bindings/lua/surface.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::lua {
@@ -89,8 +90,8 @@ Surface stand_in(const KnownBody& body) {
   Field heights(cells, cells);
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j)
-      heights(i, j) = 1e-3 * std::min(size_x, size_y) * std::cos(2 * std::numbers::pi * i / cells) *
-                      std::cos(2 * std::numbers::pi * j / cells);
+      heights(i, j) = 1e-3 * std::min(size_x, size_y) * elementary::cos(2 * std::numbers::pi * i / cells) *
+                      elementary::cos(2 * std::numbers::pi * j / cells);
   SurfaceTraits traits;
   traits.material = body.material;
   traits.periodic = true;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Profiles: lab.profile and the methods of a profile.
-#include <cmath>
 #include <numbers>
 
 #include "bindings/lua/catalogue.hpp"
@@ -8,6 +7,7 @@
 #include "bindings/lua/measure.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/surface.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/experiment/picture_profile.hpp"
 #include "engine/metrology/levelling.hpp"
 #include "engine/surface/io/read.hpp"
@@ -41,8 +41,8 @@ Values outline(Call& call) {
   Array<double> x(h.size()), y(h.size());
   for (std::size_t k = 0; k < h.size(); ++k) {
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(h.size());
-    x[k] = (*p.closed_radius() + h[k]) * std::cos(angle);
-    y[k] = (*p.closed_radius() + h[k]) * std::sin(angle);
+    x[k] = (*p.closed_radius() + h[k]) * elementary::cos(angle);
+    y[k] = (*p.closed_radius() + h[k]) * elementary::sin(angle);
   }
   return {profile_numbers(x), profile_numbers(y)};
 }

@@ -164,7 +164,7 @@ const Module& spread_module() {
         "the "
         "ranks of `mpirun -n K asperity run`, none of which holds the whole grid. In a process alone the "
         "same "
-        "with one slab.";
+        "with one slab. Over several ranks last digits hang on the processor and the C library.";
     auto add = [&](const char* name, Body body, const char* sentence, const BlockInfo& block,
                    const char* example) {
       m.functions.push_back({.name = name,

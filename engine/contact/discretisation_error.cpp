@@ -13,6 +13,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -106,11 +107,11 @@ Differences differences(const State& state, double (State::*value)() const, doub
   const double fine = of(state), half = of(levels[0].state);
   if (levels.size() == 1) {
     // One difference may be small by accident; half an order less makes up for it.
-    const double growth = std::pow(levels[0].ratio, order - 0.5) - 1;
+    const double growth = elementary::pow(levels[0].ratio, order - 0.5) - 1;
     return {std::abs(fine - half) / growth};
   }
   const double quarter = of(levels[1].state);
-  const double r = std::pow(levels[0].ratio, order), s = std::pow(levels[1].ratio, order);
+  const double r = elementary::pow(levels[0].ratio, order), s = elementary::pow(levels[1].ratio, order);
   const double first = (fine - half) / (r - 1), second = (half - quarter) / ((s - 1) * r);
   if (!std::isfinite(first) || !std::isfinite(second))
     return {fine == half && half == quarter ? 0.0 : std::numeric_limits<double>::infinity()};
@@ -146,7 +147,7 @@ void estimate_by_finer(const State& state, const Estimated& quantity, bool by_ap
   if (better == value) return;  // infinite ones too
   result.error = quantity.growth * std::abs(value - better);
   if (quantity.kind == Kind::corrected)
-    result.error = std::hypot(result.error, doubt_of_outline * (state.area_fraction() - value));
+    result.error = elementary::hypot(result.error, doubt_of_outline * (state.area_fraction() - value));
   if (quantity.kind == Kind::peak)
     result.error = std::max(result.error, rise_between_nodes(*state.field("pressure"), wraps));
   result.extrapolated = better;

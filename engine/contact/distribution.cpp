@@ -2,9 +2,9 @@
 #include "engine/contact/distribution.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 
@@ -24,9 +24,10 @@ std::vector<double> geometric_edges(double least, double greatest, int bins) {
     least *= 0.5;
     greatest *= 2;
   }
-  const double ratio = std::log(greatest / least);
+  const double ratio = elementary::log(greatest / least);
   std::vector<double> edges;
-  for (int k = 0; k <= bins; ++k) edges.push_back(least * std::exp(ratio * (static_cast<double>(k) / bins)));
+  for (int k = 0; k <= bins; ++k)
+    edges.push_back(least * elementary::exp(ratio * (static_cast<double>(k) / bins)));
   edges.front() = least;
   edges.back() = greatest;
   return edges;

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/surface/operations/resampling.hpp"
@@ -64,7 +65,7 @@ double between(const Field& field, double x, double y, int last_x, int last_y, d
 // Turned by `angle` about the middle of the nodes of the contact, which are every third one; NaN where the
 // body of the contact has no node.
 Field turned_about(const Field& field, const Grid& given, const Grid& fine, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = elementary::cos(angle), s = elementary::sin(angle);
   const int last_x = (given.nx - 1) * (fine.nx / given.nx), last_y = (given.ny - 1) * (fine.ny / given.ny);
   const double hx = fine.hx(), hy = fine.hy(), middle_x = 0.5 * last_x, middle_y = 0.5 * last_y;
   Field result(fine.nx, fine.ny);

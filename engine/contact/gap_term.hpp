@@ -5,8 +5,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <string>
+
+#include "engine/core/elementary_functions.hpp"
 
 namespace asperity {
 
@@ -27,11 +28,11 @@ struct GapTerm {
     if (law == GapLaw::dugdale)
       return greatest() * (edge > 0 ? std::clamp((1 + edge - g / range) / (2 * edge), 0.0, 1.0)
                                     : static_cast<double>(g < range));
-    return greatest() * std::exp(-g / range);
+    return greatest() * elementary::exp(-g / range);
   }
   // J/m² below what two faces far apart have, so <= 0.
   double potential(double g) const {
-    if (law == GapLaw::exponential) return -work * std::exp(-g / range);
+    if (law == GapLaw::exponential) return -work * elementary::exp(-g / range);
     const double x = g / range, left = std::max(0.0, 1 + edge - x);
     return -work * (left < 2 * edge ? left * left / (4 * edge) : std::max(0.0, 1 - x));
   }

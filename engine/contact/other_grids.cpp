@@ -14,6 +14,7 @@
 #include "engine/contact/finer_heights.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/core/cost.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/operations/resampling.hpp"
@@ -29,7 +30,7 @@ int halved(int cells) { return cells < 2 * fewest_cells ? cells : (cells + 1) / 
 
 double transform_work(const Grid& grid) {
   const auto n = static_cast<double>(grid.nodes());
-  return n * std::log2(std::max(n, 2.0));
+  return n * elementary::log2(std::max(n, 2.0));
 }
 
 Field on_cells(const Field& field, const Grid& from, const Grid& to, bool periodic) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -19,7 +20,7 @@ constexpr double snap = 1e-9;  // rad, to a whole number of quarter turns
 // no node of the original lies around.
 Field turned_field(const Field& field, const Grid& grid, double angle, double outside) {
   Field result(grid.nx, grid.ny);
-  double c = std::cos(angle), s = std::sin(angle);
+  double c = elementary::cos(angle), s = elementary::sin(angle);
   const double middle_i = 0.5 * (grid.nx - 1), middle_j = 0.5 * (grid.ny - 1);
   double hx = grid.hx(), hy = grid.hy();
   // A quarter turn of square cells brings nodes onto nodes, or between them by half a cell: without rounding.

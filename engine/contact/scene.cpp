@@ -8,6 +8,7 @@
 
 #include "engine/contact/discretisation_error.hpp"
 #include "engine/contact/finer_heights.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -196,7 +197,7 @@ void check(const Scene& scene) {
 }
 
 double softening(const CreepOptions& creep, std::optional<double> dwell) {
-  const auto growth = [&](double time) { return 1 + creep.rate * std::log1p(time / creep.onset); };
+  const auto growth = [&](double time) { return 1 + creep.rate * elementary::log1p(time / creep.onset); };
   return dwell ? growth(creep.reference) / growth(*dwell) : 1.0;
 }
 

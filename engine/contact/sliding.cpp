@@ -3,13 +3,14 @@
 
 #include <cmath>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
 
 double strengthening(const AgeingOptions& ageing, std::optional<double> rest) {
-  return rest ? 1 + ageing.rate * std::log1p(*rest / ageing.onset) : 1.0;
+  return rest ? 1 + ageing.rate * elementary::log1p(*rest / ageing.onset) : 1.0;
 }
 
 void check(const SlidingEffects& effects) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"
@@ -108,7 +109,7 @@ constexpr double smallest_step = 0x1p-32;
 
 mpfr_prec_t precision(double gamma, double span, int n_max) {
   constexpr mpfr_prec_t result_bits = 64, guard_bits = 64, least = 384;
-  const auto whole_bits = static_cast<mpfr_prec_t>(std::ceil(n_max * std::log2(gamma)));
+  const auto whole_bits = static_cast<mpfr_prec_t>(std::ceil(n_max * elementary::log2(gamma)));
   const mpfr_prec_t span_bits = std::max(std::ilogb(span) + 1, 0);
   return std::max(whole_bits + span_bits + result_bits + guard_bits, least);
 }
@@ -121,8 +122,7 @@ UnitPhase unit_phase(std::uint64_t turns) {
   const std::uint64_t quarter = (turns + (std::uint64_t{1} << 61)) >> 62;
   const auto rest = static_cast<std::int64_t>(turns - (quarter << 62));
   const double angle = static_cast<double>(rest) * (2.0 * std::numbers::pi * 0x1p-64);
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
+  const auto [s, c] = elementary::sincos(angle);
   switch (quarter) {
     case 0:
       return {c, s};
@@ -136,7 +136,7 @@ UnitPhase unit_phase(std::uint64_t turns) {
 }
 
 int greatest_wave_order(double gamma) {
-  const double octaves = std::log2(gamma);
+  const double octaves = elementary::log2(gamma);
   if (!(octaves * max_wave_order > max_wave_octaves)) return max_wave_order;
   int order = static_cast<int>(max_wave_octaves / octaves);
   // The quotient may round either way across a whole number; the product decides.

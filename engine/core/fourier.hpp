@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real Fourier transforms in one and two dimensions, built from FFTW's one-dimensional estimated
-// plans: rows first, then gathered blocks of columns, each transform on one thread, so that the
-// bits do not depend on the number of threads. Unnormalised forwards; inverse divides by n.
-// Plans are made once per length and kept. Thread-safe. Any length from 1.
+// Real Fourier transforms in one and two dimensions: rows first, then columns, in batches of lanes
+// (fourier_batch.hpp), so that the bits depend neither on the number of threads nor on the processor.
+// Unnormalised forwards; inverse divides by n. Tables are made once per length and kept. Thread-safe. Any
+// length from 1; one with a prime factor above 7 takes some six times as long.
 #pragma once
 
 #include <complex>

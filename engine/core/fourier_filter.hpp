@@ -3,8 +3,7 @@
 // place of the result. Rows are transformed first; then blocks of columns are gathered, transformed,
 // multiplied and transformed back while they are in the cache. Either periodic, or padded with zeros
 // to a longer period (a convolution that does not wrap), in which case the rows of zeros are never
-// stored. FFTW's one-dimensional estimated plans, each run on one thread: the same bits for any number
-// of threads and from run to run.
+// stored. Any period; the same bits for any number of threads and on every processor.
 #pragma once
 
 #include <complex>
@@ -12,6 +11,7 @@
 #include <functional>
 #include <span>
 
+#include "engine/core/fourier_batch.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/scratch_pool.hpp"
 
@@ -52,6 +52,7 @@ class FourierFilter {
   int stride_;                                // from row to row of the spectrum
   std::complex<double>* spectrum_ = nullptr;  // in `out` or in own_
   Array<std::complex<double>> own_;
+  const BatchFourier &along_, &across_;
   ScratchPool<Scratch> scratch_;
 };
 

@@ -4,14 +4,15 @@
 #include "engine/core/fourier_lane_filter.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <numbers>
 #include <optional>
 #include <type_traits>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier_blocks.hpp"
+#include "engine/core/lane_transpose.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -22,32 +23,9 @@ namespace {
 // to foresee.
 constexpr int lane_rows_ahead = 16;
 
-using Singles = Lanes<float>::Vector;
-using Doubles = Lanes<double>::Vector;
-
-inline __attribute__((always_inline)) void interleave(const Doubles& a, const Doubles& b, Doubles& low,
-                                                      Doubles& high) {
-  const Doubles l = __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
-  high = __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
-  low = l;
-}
-
-inline __attribute__((always_inline)) void interleave(const Singles& a, const Singles& b, Singles& low,
-                                                      Singles& high) {
-  const Singles l = __builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
-  high = __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
-  low = l;
-}
-
-// x[i][l] and x[l][i] change places: as many perfect shuffles of rows as there are bits in an index.
-template <int lanes, class Vector>
-inline __attribute__((always_inline)) void transpose(Vector* x) {
-  for (int step = 1; step < lanes; step *= 2) {
-    Vector y[lanes];
-    for (int i = 0; i < lanes / 2; ++i) interleave(x[i], x[i + lanes / 2], y[2 * i], y[2 * i + 1]);
-    for (int i = 0; i < lanes; ++i) x[i] = y[i];
-  }
-}
+using lane_transpose::Doubles;
+using lane_transpose::Singles;
+using lane_transpose::transpose;
 
 inline void read(const double* from, double /*scale*/, Doubles& to) { std::memcpy(&to, from, sizeof to); }
 typedef float HalfSingles __attribute__((vector_size(32)));
@@ -126,9 +104,9 @@ FourierLaneFilter<Real>::FourierLaneFilter(int nx, int ny, int period_x, int per
       factors_(static_cast<std::size_t>(blocks_) * static_cast<std::size_t>(period_y / 2 + 1)),
       last_factors_(static_cast<std::size_t>(period_y / 2 + 1)) {
   for (int k = 0; k <= half_ / 2; ++k) {
-    const double angle = 2 * std::numbers::pi * k / period_x;
-    turns_[2 * static_cast<std::size_t>(k)] = static_cast<Real>(std::cos(angle));
-    turns_[2 * static_cast<std::size_t>(k) + 1] = static_cast<Real>(-std::sin(angle));
+    const elementary::SineCosine at = elementary::sincos(2 * std::numbers::pi * k / period_x);
+    turns_[2 * static_cast<std::size_t>(k)] = static_cast<Real>(at.cosine);
+    turns_[2 * static_cast<std::size_t>(k) + 1] = static_cast<Real>(-at.sine);
   }
   set_multiplier(multiplier);
 }

@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/fourier_lanes.hpp"
 
-#include <cmath>
 #include <numbers>
 #include <string>
+#include <type_traits>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {
 
-namespace {
-
-// cos and sin of 2π k/n, 0 <= k < n, from the first octant, so that equal angles have equal bits.
-struct Turn {
-  double cosine, sine;
-};
-Turn turn(std::int64_t k, std::int64_t n) {
+UnitTurn unit_turn(std::int64_t k, std::int64_t n) {
   const std::int64_t eighths = 8 * k / n;
   auto angle = [n](std::int64_t part) {
     return 2 * std::numbers::pi * static_cast<double>(part) / static_cast<double>(8 * n);
@@ -24,7 +19,7 @@ Turn turn(std::int64_t k, std::int64_t n) {
   const std::int64_t rest = 8 * k - eighths * n;
   const bool odd = eighths % 2 != 0;
   const double part = angle(odd ? n - rest : rest);
-  const double near = std::cos(part), far = std::sin(part);
+  const auto [far, near] = elementary::sincos(part);
   switch (eighths) {
     case 0:
       return {near, far};
@@ -44,6 +39,8 @@ Turn turn(std::int64_t k, std::int64_t n) {
       return {near, -far};
   }
 }
+
+namespace {
 
 // Small transforms of a, in place; forwards the kernel is e^{−2πi pq/radix}. All by reference: vectors are
 // never passed by value.
@@ -100,7 +97,7 @@ struct OddFactors {
   Real cosine[radix], sine[radix];
   OddFactors() {
     for (int k = 0; k < radix; ++k) {
-      const Turn t = turn(k, radix);
+      const UnitTurn t = unit_turn(k, radix);
       cosine[k] = static_cast<Real>(t.cosine);
       sine[k] = static_cast<Real>(t.sine);
     }
@@ -142,15 +139,15 @@ inline __attribute__((always_inline)) void butterfly_odd(const OddFactors<radix,
 
 }  // namespace
 
-template <class Real>
-bool LaneFourier<Real>::possible(int n) {
+template <class Real, int lanes>
+bool LaneFourier<Real, lanes>::possible(int n) {
   for (const int factor : {2, 3, 5, 7})
     while (n > 1 && n % factor == 0) n /= factor;
   return n == 1;
 }
 
-template <class Real>
-LaneFourier<Real>::LaneFourier(int n) : n_(n), places_(static_cast<std::size_t>(n > 0 ? n : 0)) {
+template <class Real, int lanes>
+LaneFourier<Real, lanes>::LaneFourier(int n) : n_(n), places_(static_cast<std::size_t>(n > 0 ? n : 0)) {
   if (n < 1 || !possible(n))
     throw Error(ErrorCode::internal, "no transform of length " + std::to_string(n) + " in lanes");
   int rest = n, twos = 0;
@@ -169,7 +166,7 @@ LaneFourier<Real>::LaneFourier(int n) : n_(n), places_(static_cast<std::size_t>(
     stages_.push_back({radix, part, factors_.size()});
     for (int k = 0; k < part; ++k)
       for (int q = 1; q < radix; ++q) {
-        const Turn t = turn(static_cast<std::int64_t>(k) * q % block, block);
+        const UnitTurn t = unit_turn(static_cast<std::int64_t>(k) * q % block, block);
         factors_.push_back(static_cast<Real>(t.cosine));
         factors_.push_back(static_cast<Real>(-t.sine));
       }
@@ -185,9 +182,9 @@ LaneFourier<Real>::LaneFourier(int n) : n_(n), places_(static_cast<std::size_t>(
   }
 }
 
-template <class Real>
+template <class Real, int lanes>
 template <bool forwards, int radix>
-void LaneFourier<Real>::butterflies(const Stage& stage, Complex* values) const {
+void LaneFourier<Real, lanes>::butterflies(const Stage& stage, Complex* values) const {
   const std::ptrdiff_t part = stage.part;
   const Real* factor = factors_.data() + stage.factor;
   struct Nothing {};
@@ -222,9 +219,9 @@ void LaneFourier<Real>::butterflies(const Stage& stage, Complex* values) const {
 }
 
 // A block is finished before the next is begun: it is in the nearest cache.
-template <class Real>
+template <class Real, int lanes>
 template <bool forwards>
-void LaneFourier<Real>::run(std::size_t number, Complex* values) const {
+void LaneFourier<Real, lanes>::run(std::size_t number, Complex* values) const {
   if (number == stages_.size()) return;
   const Stage& stage = stages_[number];
   const auto parts = [&] {
@@ -256,17 +253,18 @@ void LaneFourier<Real>::run(std::size_t number, Complex* values) const {
   if constexpr (forwards) parts();
 }
 
-template <class Real>
-void LaneFourier<Real>::forward(Complex* values) const {
+template <class Real, int lanes>
+void LaneFourier<Real, lanes>::forward(Complex* values) const {
   run<true>(0, values);
 }
 
-template <class Real>
-void LaneFourier<Real>::inverse(Complex* values) const {
+template <class Real, int lanes>
+void LaneFourier<Real, lanes>::inverse(Complex* values) const {
   run<false>(0, values);
 }
 
 template class LaneFourier<float>;
 template class LaneFourier<double>;
+template class LaneFourier<double, 1>;
 
 }  // namespace asperity

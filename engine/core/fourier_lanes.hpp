@@ -3,33 +3,46 @@
 // decimation in frequency leaves the bins in an order of its own, place(), and decimation in time takes them
 // back from it, so that a filter never sorts. Lengths whose prime factors are 2, 3, 5 and 7. A lane
 // meets the same operations whatever the width of the machine's vectors: the same bits. Unnormalised.
-// It stands beside FFTW, which does every other transform, for the filters of the half-space alone: FFTW
-// sorts each spectrum that a filter only multiplies, and chooses its operations, and so the last bits, by the
-// machine.
+// All transforms of one process are built of it (fourier_batch.hpp). FFTW, which does those of one contact
+// over the ranks of mpirun, chooses its operations by the processor, and takes its factors from the C
+// library, which does so too: the last bits differ.
 #pragma once
 
+#include <cstdint>
 #include <vector>
-
-#include "engine/core/memory.hpp"
 
 namespace asperity {
 
 // `count` numbers that are worked on together: two cache lines are the real and imaginary parts of as many
-// complex ones.
-template <class Real>
+// complex ones. One number is worked on by itself.
+template <class Real, int lanes = 64 / static_cast<int>(sizeof(Real))>
 struct Lanes {
-  static constexpr int bytes = 64;
-  static constexpr int count = bytes / static_cast<int>(sizeof(Real));
+  static constexpr int count = lanes;
+  static constexpr int bytes = count * static_cast<int>(sizeof(Real));
   typedef Real Vector __attribute__((vector_size(bytes), may_alias));
   struct Complex {
     Vector re, im;
   };
 };
-
 template <class Real>
+struct Lanes<Real, 1> {
+  static constexpr int count = 1;
+  using Vector = Real;
+  struct Complex {
+    Vector re, im;
+  };
+};
+
+// cos and sin of 2π k/n, 0 <= k < n, from the first octant, so that equal angles have equal bits.
+struct UnitTurn {
+  double cosine, sine;
+};
+UnitTurn unit_turn(std::int64_t k, std::int64_t n);
+
+template <class Real, int lanes = Lanes<Real>::count>
 class LaneFourier {
  public:
-  using Complex = typename Lanes<Real>::Complex;
+  using Complex = typename Lanes<Real, lanes>::Complex;
 
   // n >= 1 with no prime factor but 2, 3, 5 and 7.
   explicit LaneFourier(int n);
@@ -55,11 +68,13 @@ class LaneFourier {
 
   int n_;
   std::vector<Stage> stages_;
-  Array<Real> factors_;  // e^{−2πi kq/n} as pairs, q = 1 … radix − 1 for each k
-  Array<int> places_;
+  // Of the size of a row: not counted.
+  std::vector<Real> factors_;  // e^{−2πi kq/n} as pairs, q = 1 … radix − 1 for each k
+  std::vector<int> places_;
 };
 
 extern template class LaneFourier<float>;
 extern template class LaneFourier<double>;
+extern template class LaneFourier<double, 1>;
 
 }  // namespace asperity

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/core/constants.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -161,8 +162,8 @@ class Reader {
     if (!decimal) {
       quantity.value = quantity.value * numerator_ / denominator_;
       // Powers of ten up to 22 are exact doubles: dividing by one rounds once.
-      quantity.value =
-          ten_ < 0 ? quantity.value / std::pow(10.0, -ten_) : quantity.value * std::pow(10.0, ten_);
+      quantity.value = ten_ < 0 ? quantity.value / elementary::pow(10.0, -ten_)
+                                : quantity.value * elementary::pow(10.0, ten_);
     }
     if (!std::isfinite(quantity.value)) out_of_range();
     return quantity;

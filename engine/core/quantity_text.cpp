@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -98,7 +99,7 @@ DisplayUnit display_unit_for(double magnitude, Dimension dimension, int digits) 
   }
   DisplayUnit best = units.front();
   // What prints as 1000 of one unit is 1 of the next.
-  const double prints_as_one = 1 - 0.5 * std::pow(10.0, -digits);
+  const double prints_as_one = 1 - 0.5 * elementary::pow(10.0, -digits);
   for (const DisplayUnit& unit : units)
     if (magnitude >= unit.factor * prints_as_one) best = unit;
   return best;

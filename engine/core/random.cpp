@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/elementary_functions.hpp"
+
 namespace asperity {
 
 Stream::Stream(std::uint64_t seed, std::string_view name) : key_(splitmix64(seed, 0)) {
@@ -22,7 +24,7 @@ std::uint64_t Stream::below(std::uint64_t k, std::uint64_t n) const {
 double Stream::normal(std::uint64_t k) const {
   const double u = 1.0 - uniform(2 * k);  // in (0, 1]
   const double v = uniform(2 * k + 1);
-  return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
+  return std::sqrt(-2.0 * elementary::log(u)) * elementary::cos(2.0 * std::numbers::pi * v);
 }
 
 }  // namespace asperity

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/contact/discretisation_error.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/text.hpp"
@@ -30,7 +31,7 @@ constexpr double tightest = 1e-10, loosest = 1e-3;
 
 double transform_work(int nx, int ny) {
   const double n = static_cast<double>(nx) * ny;
-  return n * std::log2(std::max(n, 2.0));
+  return n * elementary::log2(std::max(n, 2.0));
 }
 
 double rms_of(const Field& heights) {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -32,9 +33,9 @@ Scale scale_for(std::string_view unit, double largest, bool logarithmic) {
   if (unit.empty()) {
     // A plain number that would need many zeros takes a power of ten into the label.
     if (!logarithmic && largest > 0 && std::isfinite(largest) && (largest < 1e-3 || largest >= 1e5)) {
-      const int power = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+      const int power = 3 * static_cast<int>(std::floor(elementary::log10(largest) / 3));
       if (power < -300) return {};
-      return {"10" + superscript(power), std::pow(10.0, power)};
+      return {"10" + superscript(power), elementary::pow(10.0, power)};
     }
     return {};
   }
@@ -59,11 +60,11 @@ std::string with_minus_sign(std::string label) {
 
 // `value` with the digits that a step of `step` needs.
 std::string tic_label(double value, double step) {
-  const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+  const int decimals = std::max(0, static_cast<int>(std::ceil(-elementary::log10(step) - 1e-9)));
   if (decimals > 6 || std::abs(value) >= 1e7) {
     const double ratio = std::abs(value) < step ? 1 : std::abs(value) / step;
     return with_minus_sign(format_short(std::abs(value) < step / 2 ? 0.0 : value,
-                                        static_cast<int>(std::log10(ratio) + 1e-6) + 2));
+                                        static_cast<int>(elementary::log10(ratio) + 1e-6) + 2));
   }
   std::array<char, 48> text{};
   std::snprintf(text.data(), text.size(), "%.*f", decimals, value == 0 ? 0.0 : value);
@@ -89,20 +90,20 @@ std::vector<Tic> linear_tics(double low, double high, int wanted, bool whole = f
 
 std::string power_label(int mantissa, int power, bool plain) {
   if (power == 0 || (plain && power >= -3 && power <= 4))
-    return format_short(mantissa * std::pow(10.0, power), 6);
+    return format_short(mantissa * elementary::pow(10.0, power), 6);
   return (mantissa == 1 ? "" : std::to_string(mantissa) + "·") + std::string("10") + superscript(power);
 }
 
 std::vector<Tic> logarithmic_tics(double low, double high) {
-  const double decades = std::log10(high) - std::log10(low);
-  const int first = static_cast<int>(std::floor(std::log10(low))),
-            last = static_cast<int>(std::ceil(std::log10(high)));
+  const double decades = elementary::log10(high) - elementary::log10(low);
+  const int first = static_cast<int>(std::floor(elementary::log10(low))),
+            last = static_cast<int>(std::ceil(elementary::log10(high)));
   // Less than two thirds of a decade holds too few of 1, 2, 5.
   if (decades < 0.67) return linear_tics(low, high, 6);
   const int every = std::max(1, static_cast<int>(std::ceil(decades / 8)));
   std::vector<Tic> tics;
   for (int power = first; power <= last; ++power) {
-    const double decade = std::pow(10.0, power);
+    const double decade = elementary::pow(10.0, power);
     for (int mantissa = 1; mantissa <= 9; ++mantissa) {
       const double at = mantissa * decade;
       if (at < low * (1 - 1e-12) || at > high * (1 + 1e-12) || !std::isfinite(at)) continue;
@@ -118,7 +119,7 @@ std::vector<Tic> logarithmic_tics(double low, double high) {
 }  // namespace
 
 double round_below(double value) {
-  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  const double decade = elementary::pow(10.0, std::floor(elementary::log10(value)));
   const double share = value / decade;
   constexpr double slack = 1e-9;
   const double mantissa = share >= 5 - slack ? 5 : share >= 2 - slack ? 2 : 1;
@@ -198,7 +199,8 @@ AxisLayout lay_out(const ChartAxis& axis, std::span<const double> values, double
   if (axis.logarithmic) {
     // One value alone gets a third of a decade on each side.
     if (high < low * (1 + 1e-9)) margin = 0, low /= 2, high *= 2;
-    const double stretch = axis.range ? 1 : std::exp(margin * (std::log(high) - std::log(low)));
+    const double stretch =
+        axis.range ? 1 : elementary::exp(margin * (elementary::log(high) - elementary::log(low)));
     layout.low = std::max(low / stretch, 1e-305);
     layout.high = std::min(high * stretch, 1e305);
     layout.tics = logarithmic_tics(layout.low, layout.high);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/recorded_turns.hpp"
@@ -173,7 +174,8 @@ class EventMaker {
       span.load = on ? load_of(mark) : 0;
       span.load_error = marks_.independent_noise() / std::sqrt(std::max(1.0, mark.line.n));
       if (const Mark* rest = nearest_rest(k); rest != nullptr && !options_.zero)
-        span.load_error = std::hypot(span.load_error, marks_.independent_noise() / std::sqrt(rest->line.n));
+        span.load_error =
+            elementary::hypot(span.load_error, marks_.independent_noise() / std::sqrt(rest->line.n));
       span.dwell_error = mark.dwell_error;
       span.first_line = first;
       span.last_line = last;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {
@@ -15,7 +16,7 @@ constexpr double greatest_correlation = 0.98, least_correlation = 0.4;
 
 // The variance of a second difference over so many readings, of noise of variance 1.
 double bend_variance(double r, int stride) {
-  const double far = std::pow(r, stride);
+  const double far = elementary::pow(r, stride);
   return 1.5 - 2 * far + 0.5 * far * far;
 }
 

@@ -2,10 +2,10 @@
 #include "engine/experiment/picture_profile.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {
@@ -44,8 +44,8 @@ void add_outline(const Profile& profile, ChartSeries& series) {
   for (std::size_t k = 0; k <= heights.size(); ++k) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(heights.size());
     const double r = radius + heights[k % heights.size()];
-    series.x.push_back(r * std::cos(angle));
-    series.y.push_back(r * std::sin(angle));
+    series.x.push_back(r * elementary::cos(angle));
+    series.y.push_back(r * elementary::sin(angle));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -76,7 +77,7 @@ void RecordingMarks::take_samples() {
   for (std::size_t k = 0; k + 1 < t_.size(); ++k) steps.push_back(t_[k + 1] - t_[k]);
   interval_ = median_of(steps);
   shortest_hold_ = options_.shortest_hold.value_or(4 * interval_);
-  evidence_ = options_.evidence.value_or(10 + 4 * std::log(static_cast<double>(t_.size())));
+  evidence_ = options_.evidence.value_or(10 + 4 * elementary::log(static_cast<double>(t_.size())));
   top_ = highest_of_three(y_, 1);
   bottom_ = highest_of_three(y_, -1);
   range_ = top_ - bottom_;
@@ -375,10 +376,10 @@ std::string RecordingMarks::share(double value) { return format_short(100 * valu
 
 double rounded(double value, double error) {
   if (!(error > 0) || !std::isfinite(value)) return value;
-  const int power = static_cast<int>(std::floor(std::log10(error)));
+  const int power = static_cast<int>(std::floor(elementary::log10(error)));
   if (power < -300 || power > 300) return value;
-  return power < 0 ? std::round(value * std::pow(10.0, -power)) / std::pow(10.0, -power)
-                   : std::round(value / std::pow(10.0, power)) * std::pow(10.0, power);
+  return power < 0 ? std::round(value * elementary::pow(10.0, -power)) / elementary::pow(10.0, -power)
+                   : std::round(value / elementary::pow(10.0, power)) * elementary::pow(10.0, power);
 }
 
 }  // namespace asperity

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/experiment/hidden_ramp.hpp"
 #include "engine/experiment/recording_marks.hpp"
 
@@ -103,7 +104,7 @@ bool RecordingMarks::drop_doubtful() {
   for (std::size_t k = 0; k < marks_.size(); ++k) {
     Mark& mark = marks_[k];
     const auto loaded = [this](std::size_t i) { return i < marks_.size() && marks_[i].loaded(); };
-    const double doubt = std::hypot(mark.begin_doubt, mark.end_doubt);
+    const double doubt = elementary::hypot(mark.begin_doubt, mark.end_doubt);
     if (mark.kind != Mark::Kind::hold || mark.end - mark.begin > 3 * doubt) continue;
     if (!loaded(k - 1) && !loaded(k + 1)) continue;
     const double top = *std::max_element(y_.begin() + static_cast<std::ptrdiff_t>(mark.first),
@@ -155,7 +156,7 @@ void RecordingMarks::time_each() {
   }
   double last = t_.front();
   for (Mark& mark : marks_) {
-    if (mark.kind != Mark::Kind::peak) mark.dwell_error = std::hypot(mark.begin_error, mark.end_error);
+    if (mark.kind != Mark::Kind::peak) mark.dwell_error = elementary::hypot(mark.begin_error, mark.end_error);
     // In order, whatever the noise made of corners that nearly meet.
     mark.begin = std::max(mark.begin, last);
     mark.end = std::max(mark.end, mark.begin);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/experiment/json.hpp"
 
@@ -13,8 +14,14 @@ namespace asperity {
 // "2025-01-31T12:00:00Z".
 std::string utc_now();
 
-// Processor, number of processors, memory in bytes, operating system. What cannot be found is left out.
+// Processor and its vector instructions, number of processors, memory in bytes, operating system; C library
+// and how its functions round here (c_library_identity.hpp), identity of the build. What cannot be found is
+// left out.
 Json machine_facts();
+
+// What differs between two machine_facts() that last digits may hang on, a line each: "another processor: X,
+// here Y". Empty where nothing does, or where the first is of a version that noted none of it.
+std::vector<std::string> differing_machines(const Json& then, const Json& now);
 
 // Digest of a file's content, read in pieces of 1 MiB. Throws Error{bad_file}.
 std::string file_digest(const std::filesystem::path& path);

@@ -2,8 +2,8 @@
 #include "engine/experiment/slip_growth.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {
@@ -17,7 +17,7 @@ SlipShare share_at(const Solver& contact, const State& state, double friction, d
   if (!(friction > 0)) return share;
   // The slip angle itself is known to rounding only.
   constexpr double rounding = 1e-9;
-  const double ratio = std::tan(angle) / friction;
+  const double ratio = elementary::tan(angle) / friction;
   share.ratio = ratio < 1 - rounding ? ratio : 1;
   const PartialSlip slip = shear(contact, state, {{}, share.ratio, friction}, monitor);
   share.slip_fraction = slip.slip_fraction();
@@ -59,7 +59,7 @@ std::vector<SlipShare> slip_growth(const SpecimenPair& pair, const JunctionLaw& 
       growth.push_back(share_at(*contact, *probe, friction, angle, monitor));
       growth.back().displacement.reset();
     } else {
-      const State state = contact->press({PressBy::load, weight * std::cos(angle), {}}, monitor);
+      const State state = contact->press({PressBy::load, weight * elementary::cos(angle), {}}, monitor);
       growth.push_back(share_at(*contact, state, law.on(state, options.rest).mu.value_or(0), angle, monitor));
     }
     task.advance();

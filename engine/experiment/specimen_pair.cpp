@@ -60,9 +60,10 @@ struct Differences {
 template <class At>
 Differences differences(int along, int lines, const At& at) {
   Differences found;
+  const auto squared = [](double difference) { return difference * difference; };
   for (int line = 0; line < lines; ++line) {
-    for (int k = 0; k + 1 < along; ++k) found.inside += std::pow(at(k + 1, line) - at(k, line), 2);
-    found.across += std::pow(at(0, line) - at(along - 1, line), 2);
+    for (int k = 0; k + 1 < along; ++k) found.inside += squared(at(k + 1, line) - at(k, line));
+    found.across += squared(at(0, line) - at(along - 1, line));
   }
   found.inside /= std::max(1.0, static_cast<double>(along - 1) * lines);
   found.across /= lines;

@@ -8,6 +8,7 @@
 #include <map>
 #include <span>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/random.hpp"
@@ -140,7 +141,7 @@ void add_sentence(std::string& note, const std::string& sentence) {
 }
 
 double tangent(double angle) {
-  return angle >= 0.5 * std::numbers::pi ? std::numeric_limits<double>::infinity() : std::tan(angle);
+  return angle >= 0.5 * std::numbers::pi ? std::numeric_limits<double>::infinity() : elementary::tan(angle);
 }
 
 double standard_deviation(const std::vector<double>& values) {
@@ -264,7 +265,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
       constexpr int most_rounds = 12;
       double before = weight_pressure;
       for (int round = 0; round < most_rounds; ++round) {
-        const double pressure = weight_pressure * std::cos(slip.angle);
+        const double pressure = weight_pressure * elementary::cos(slip.angle);
         if (!slip.slipped || !(pressure > resolved) || pressure == before) break;
         weight->solve(pressure);
         before = pressure;

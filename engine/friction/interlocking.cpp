@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {
@@ -103,7 +104,7 @@ InterlockedJunctions interlock(const JunctionLaw& law, const State& state,
   if (state.contacts() == 0) return result;
   const Slopes slopes = junction_slopes(state);
   const std::shared_ptr<const Field> pressure = state.field("pressure");
-  const double c = std::cos(options.direction), s = std::sin(options.direction);
+  const double c = elementary::cos(options.direction), s = elementary::sin(options.direction);
   Field extra(pressure->nx(), pressure->ny());
   std::int64_t capped = 0, locked = 0;
   for (std::size_t k = 0; k < extra.size(); ++k) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
@@ -49,12 +50,12 @@ SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, 
   check_stage(step, limit);
   limit = std::min(limit, right_angle);
   auto holds = [&](double angle) {
-    const double force = friction(weight * std::cos(angle));
+    const double force = friction(weight * elementary::cos(angle));
     if (!(force >= 0 && std::isfinite(force)))
       throw Error(ErrorCode::bad_value,
                   "the friction force at " + degrees(angle) + " is " + format_short(force) + " N",
                   "it must be finite and not negative");
-    return force >= weight * std::sin(angle);
+    return force >= weight * elementary::sin(angle);
   };
 
   double held = 0;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
@@ -69,11 +70,11 @@ std::vector<int> chosen_steps(const FractalDimensionOptions& options, int sample
 double log_ordinate(DimensionMethod method, double statistic) {
   switch (method) {
     case DimensionMethod::length:
-      return std::log1p(statistic);
+      return elementary::log1p(statistic);
     case DimensionMethod::psd:
       return statistic;
     default:
-      return std::log(statistic);
+      return elementary::log(statistic);
   }
 }
 
@@ -109,7 +110,7 @@ double reported(DimensionMethod method, double statistic, double unit) {
     case DimensionMethod::length:
       return 1 + statistic;
     case DimensionMethod::psd:
-      return std::exp(statistic) * unit * unit;
+      return elementary::exp(statistic) * unit * unit;
     case DimensionMethod::structure:
       return statistic * unit * unit;
     case DimensionMethod::madogram:
@@ -226,8 +227,8 @@ std::string gap_in_spectrum(int samples, bool wrap, std::span<const double> log_
     above_line[k] -= line.intercept + line.slope * log_wavelengths[k];
   const std::optional<std::size_t> empty = empty_band(samples, wrap, above_line);
   if (!empty) return {};
-  return "waves of about " + format_short(std::exp(log_wavelengths[*empty]), 2) + " samples hold " +
-         format_short(std::exp(above_line[*empty]), 2) +
+  return "waves of about " + format_short(elementary::exp(log_wavelengths[*empty]), 2) + " samples hold " +
+         format_short(elementary::exp(above_line[*empty]), 2) +
          " of the power that the line gives them: the spectrum is one of lines with gaps between them, or it "
          "ends or bends; draw `spectrum`, or use the method `structure`";
 }
@@ -260,7 +261,7 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
 
   std::vector<double> log_steps(width);
   std::transform(step_values.begin(), step_values.end(), log_steps.begin(),
-                 [](double s) { return std::log(s); });
+                 [](double s) { return elementary::log(s); });
   const Tables tables = tabulate(set, method, {method, steps, wrap, options.offsets}, log_steps);
 
   FractalDimension result;
@@ -388,7 +389,7 @@ std::vector<int> geometric_steps(int first, int last, int count) {
   const double ratio = static_cast<double>(last) / first;
   for (int k = 0; k < count; ++k) {
     const double place = count > 1 ? static_cast<double>(k) / (count - 1) : 0;
-    const int step = static_cast<int>(std::lround(first * std::pow(ratio, place)));
+    const int step = static_cast<int>(std::lround(first * elementary::pow(ratio, place)));
     if (steps.empty() || step > steps.back()) steps.push_back(step);
   }
   return steps;

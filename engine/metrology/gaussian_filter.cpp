@@ -3,11 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier.hpp"
+#include "engine/core/fourier_batch.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 #include "engine/metrology/blocked_sums.hpp"
 
@@ -44,8 +50,8 @@ GaussianFilter checked(const GaussianFilter& filter) {
 double kept(const GaussianFilter& filter, double q_squared) {
   const double unit = ln2 * q_squared / (4 * std::numbers::pi * std::numbers::pi);
   double share = 1;
-  if (filter.short_wave) share *= std::exp(-unit * *filter.short_wave * *filter.short_wave);
-  if (filter.long_wave) share *= -std::expm1(-unit * *filter.long_wave * *filter.long_wave);
+  if (filter.short_wave) share *= elementary::exp(-unit * *filter.short_wave * *filter.short_wave);
+  if (filter.long_wave) share *= -elementary::expm1(-unit * *filter.long_wave * *filter.long_wave);
   return share;
 }
 
@@ -64,18 +70,20 @@ class LineFilter {
  public:
   LineFilter(int n, double spacing, double cut_off)
       : reach_(static_cast<int>(std::min<double>(n - 1, std::floor(kernel_reach * (cut_off / spacing))))),
-        padded_(smooth_length(n + reach_)) {
+        padded_(smooth_length(n + reach_)),
+        batch_(padded_) {
     Array<double> kernel(static_cast<std::size_t>(padded_));
     Array<double> cumulative(static_cast<std::size_t>(reach_) + 1);
     double sum = 0;
     for (int k = 0; k <= reach_; ++k) {
       const double r = k * (spacing / cut_off);
-      const double weight = std::exp(-(std::numbers::pi * std::numbers::pi / ln2) * r * r);
+      const double weight = elementary::exp(-(std::numbers::pi * std::numbers::pi / ln2) * r * r);
       kernel[static_cast<std::size_t>(k)] = weight;
       kernel[static_cast<std::size_t>(k == 0 ? 0 : padded_ - k)] = weight;
       cumulative[static_cast<std::size_t>(k)] = sum += weight;
     }
-    response_ = fourier_forward(kernel);
+    // The kernel is even: its transform is real.
+    for (const std::complex<double> bin : fourier_forward(kernel)) response_.push_back(bin.real() / padded_);
     weights_.resize(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i)
       weights_[static_cast<std::size_t>(i)] =
@@ -86,41 +94,53 @@ class LineFilter {
   // Whether a line comes back as it went in.
   bool idle() const { return reach_ == 0; }
 
-  // Replaces the samples by their mean line.
-  void apply(std::span<double> line) const {
-    Array<double> padded(static_cast<std::size_t>(padded_));
-    std::copy(line.begin(), line.end(), padded.begin());
-    Array<std::complex<double>> spectrum = fourier_forward(padded);
-    for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= response_[k].real();
-    const Array<double> smooth = fourier_inverse(spectrum, padded_);
-    for (std::size_t i = 0; i < line.size(); ++i) line[i] = smooth[i] / weights_[i];
+  // Lines that are worked on together.
+  static constexpr int lines = BatchFourier::rows;
+  BatchFourier::Work work() const { return BatchFourier::Work(batch_); }
+
+  // Replaces the samples of up to `lines` lines by their mean lines.
+  void apply(BatchFourier::Work& work, std::span<double* const> line) const {
+    const auto count = static_cast<int>(line.size()), n = static_cast<int>(weights_.size());
+    batch_.load_reals(work, line.data(), n, count);
+    batch_.forward(work);
+    batch_.multiply_even(work, response_.data());
+    batch_.inverse(work);
+    batch_.store_reals(work, count, n, 1, line.data());
+    for (double* const values : line)
+      for (int i = 0; i < n; ++i) values[i] /= weights_[static_cast<std::size_t>(i)];
   }
 
  private:
   int reach_, padded_;
-  Array<std::complex<double>> response_;
+  BatchFourier batch_;
+  Array<double> response_;
   Array<double> weights_;
 };
 
 void filter_rows(Field& z, const LineFilter& filter) {
-  constexpr int rows_per_turn = 8;
   if (filter.idle()) return;
-  parallel_for((z.ny() + rows_per_turn - 1) / rows_per_turn, [&](std::int64_t turn) {
-    const int first = static_cast<int>(turn) * rows_per_turn;
-    for (int j = first; j < std::min(z.ny(), first + rows_per_turn); ++j) filter.apply(z.row(j));
+  parallel_for((z.ny() + LineFilter::lines - 1) / LineFilter::lines, [&](std::int64_t turn) {
+    BatchFourier::Work work = filter.work();
+    const int first = static_cast<int>(turn) * LineFilter::lines;
+    std::vector<double*> lines;
+    for (int j = first; j < std::min(z.ny(), first + LineFilter::lines); ++j)
+      lines.push_back(z.row(j).data());
+    filter.apply(work, lines);
   });
 }
 
 void filter_columns(Field& z, const LineFilter& filter) {
-  constexpr int columns_per_turn = 16;
   if (filter.idle()) return;
-  parallel_for((z.nx() + columns_per_turn - 1) / columns_per_turn, [&](std::int64_t turn) {
-    const int first = static_cast<int>(turn) * columns_per_turn;
-    const int width = std::min(columns_per_turn, z.nx() - first);
+  parallel_for((z.nx() + LineFilter::lines - 1) / LineFilter::lines, [&](std::int64_t turn) {
+    BatchFourier::Work work = filter.work();
+    const int first = static_cast<int>(turn) * LineFilter::lines;
+    const int width = std::min(LineFilter::lines, z.nx() - first);
     Field columns(z.ny(), width);
     for (int j = 0; j < z.ny(); ++j)
       for (int c = 0; c < width; ++c) columns(j, c) = z(first + c, j);
-    for (int c = 0; c < width; ++c) filter.apply(columns.row(c));
+    std::vector<double*> lines;
+    for (int c = 0; c < width; ++c) lines.push_back(columns.row(c).data());
+    filter.apply(work, lines);
     for (int j = 0; j < z.ny(); ++j)
       for (int c = 0; c < width; ++c) z(first + c, j) = columns(j, c);
   });
@@ -171,7 +191,7 @@ Field filtered(Field z, const Grid& grid, bool periodic, const GaussianFilter& f
 
 double gaussian_transmission(double cut_off, double wavelength) {
   const double ratio = cut_off / wavelength;
-  return std::exp2(-ratio * ratio);
+  return elementary::exp2(-ratio * ratio);
 }
 
 Surface gaussian_filtered(const Surface& surface, const GaussianFilter& filter) {

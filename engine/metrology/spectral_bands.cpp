@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/fourier.hpp"
 #include "engine/core/memory.hpp"
 
@@ -38,8 +39,8 @@ std::vector<double> band_wavelengths(int n, bool wrap) {
   std::vector<double> result;
   for (const SpectralBand& band : spectral_bands(n, wrap)) {
     double sum = 0;
-    for (int k = band.first; k <= band.last; ++k) sum += std::log(static_cast<double>(k));
-    result.push_back(n / std::exp(sum / band.ordinates()));
+    for (int k = band.first; k <= band.last; ++k) sum += elementary::log(static_cast<double>(k));
+    result.push_back(n / elementary::exp(sum / band.ordinates()));
   }
   return result;
 }
@@ -51,7 +52,7 @@ void band_log_powers(std::span<const double> heights, double unit, bool wrap, st
   double total = 0;
   for (int i = 0; i < n; ++i) {
     double& value = samples[static_cast<std::size_t>(i)];
-    const double s = std::sin(std::numbers::pi * (i + 0.5) / n);
+    const double s = elementary::sin(std::numbers::pi * (i + 0.5) / n);
     value = (value - centre) / unit * (wrap ? 1 : s * s);
     total += value * value;
   }
@@ -64,7 +65,7 @@ void band_log_powers(std::span<const double> heights, double unit, bool wrap, st
     for (int k = bands[b].first; k <= bands[b].last; ++k)
       sum += std::norm(waves[static_cast<std::size_t>(k)]);
     const int ordinates = bands[b].ordinates();
-    log_powers[b] = std::log(std::max(sum / ordinates, floor)) +
+    log_powers[b] = elementary::log(std::max(sum / ordinates, floor)) +
                     log_mean_deficit(independent_ordinates(ordinates, !wrap));
   }
 }
@@ -81,8 +82,8 @@ double log_mean_deficit(double independent) {
   for (; v < far_out; v += 1) below += 1 / v;
   const double r = 1 / (v * v);
   const double digamma =
-      std::log(v) - 0.5 / v - r * (1.0 / 12 - r * (1.0 / 120 - r * (1.0 / 252 - r / 240))) - below;
-  return std::log(independent) - digamma;
+      elementary::log(v) - 0.5 / v - r * (1.0 / 12 - r * (1.0 / 120 - r * (1.0 / 252 - r / 240))) - below;
+  return elementary::log(independent) - digamma;
 }
 
 // The same, 6.4.6 and 6.4.12.

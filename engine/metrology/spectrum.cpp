@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/constants.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier.hpp"
 #include "engine/metrology/blocked_sums.hpp"
@@ -20,7 +21,7 @@ Array<double> window_samples(Window window, int n) {
   Array<double> samples(static_cast<std::size_t>(n), 1.0);
   if (window == Window::hann && n > 1)
     for (int i = 0; i < n; ++i) {
-      const double s = std::sin(pi * (i + 0.5) / n);
+      const double s = elementary::sin(pi * (i + 0.5) / n);
       samples[static_cast<std::size_t>(i)] = s * s;
     }
   return samples;
@@ -56,7 +57,7 @@ struct Shells {
   std::size_t of(double q) const {
     if (bins == 0) return static_cast<std::size_t>(std::floor(q / fundamental + 0.5));
     const double place =
-        corner > fundamental ? std::log(q / fundamental) / std::log(corner / fundamental) : 0;
+        corner > fundamental ? elementary::log(q / fundamental) / elementary::log(corner / fundamental) : 0;
     return static_cast<std::size_t>(std::clamp(std::floor(bins * place), 0.0, bins - 1.0));
   }
   std::size_t size() const { return bins > 0 ? static_cast<std::size_t>(bins) : of(corner) + 2; }
@@ -65,7 +66,7 @@ struct Shells {
 Shells shells_of(const Grid& grid, int bins) {
   const double x = grid.nx > 1 ? 2 * pi / grid.size_x : 0, y = grid.ny > 1 ? 2 * pi / grid.size_y : 0;
   const double least = x > 0 && y > 0 ? std::min(x, y) : std::max(x, y);
-  return {least, std::hypot(x * (grid.nx / 2), y * (grid.ny / 2)), bins};
+  return {least, elementary::hypot(x * (grid.nx / 2), y * (grid.ny / 2)), bins};
 }
 
 // `measure` is the area of a surface, the length of a profile.

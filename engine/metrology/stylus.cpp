@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
@@ -62,8 +63,8 @@ double ratio(double with, double without) { return with == without ? 1 : with / 
 // The angles from x at which a line of some length fits into a rectangle, within one quarter turn; nothing
 // where it fits at none. The diagonal itself fits in spite of rounding.
 std::optional<Range> fitting_angles(double length, double width, double height) {
-  const double low = length > width ? std::acos(width / length) : 0;
-  const double high = length > height ? std::asin(height / length) : 0.5 * std::numbers::pi;
+  const double low = length > width ? elementary::acos(width / length) : 0;
+  const double high = length > height ? elementary::asin(height / length) : 0.5 * std::numbers::pi;
   if (low > high + same) return {};
   return Range{.min = low, .max = std::max(low, high)};
 }
@@ -114,8 +115,8 @@ std::vector<Traverse> Stylus::lines(const Surface& surface, int count, std::uint
     refuse("a trace of `length` " + metres(length_) +
                " does not fit on a surface that is not periodic, with nodes over " + metres(width) + " x " +
                metres(height),
-           std::hypot(width, height) >= 2 * spacing_
-               ? "give a `length` of at most " + metres(std::hypot(width, height)) + ", its diagonal"
+           elementary::hypot(width, height) >= 2 * spacing_
+               ? "give a `length` of at most " + metres(elementary::hypot(width, height)) + ", its diagonal"
                : "give a larger surface");
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const double across = stream.uniform(4 * k), along = stream.uniform(4 * k + 1);
@@ -126,18 +127,19 @@ std::vector<Traverse> Stylus::lines(const Surface& surface, int count, std::uint
     }
     // One quarter turn stands for all: the rest is which end is the first, by both axes.
     const double angle = angles->min + angles->span() * turn;
-    const double dx = travel * std::cos(angle), dy = travel * std::sin(angle);
+    const double dx = travel * elementary::cos(angle), dy = travel * elementary::sin(angle);
     const std::uint64_t quarter = stream.below(4 * k + 3, 4);
     const bool back_x = (quarter & 1) != 0, back_y = (quarter & 2) != 0;
     const double x = across * std::max(width - dx, 0.0), y = along * std::max(height - dy, 0.0);
-    lines[k] = {{back_x ? x + dx : x, back_y ? y + dy : y}, std::atan2(back_y ? -dy : dy, back_x ? -dx : dx)};
+    lines[k] = {{back_x ? x + dx : x, back_y ? y + dy : y},
+                elementary::atan2(back_y ? -dy : dy, back_x ? -dx : dx)};
   }
   return lines;
 }
 
 Point Stylus::at(const Traverse& line, std::size_t k) const {
   const double way = static_cast<double>(k) * spacing_;
-  return {line.start.x + way * std::cos(line.angle), line.start.y + way * std::sin(line.angle)};
+  return {line.start.x + way * elementary::cos(line.angle), line.start.y + way * elementary::sin(line.angle)};
 }
 
 Profile Stylus::trace(const Surface& surface, const Traverse& line) const {

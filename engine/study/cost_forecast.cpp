@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 #include <utility>
+
+#include "engine/core/elementary_functions.hpp"
 
 namespace asperity {
 
@@ -16,11 +17,11 @@ constexpr std::array<std::string_view, 3> modelled = {"cells", "cells_factor", "
 double model(std::string_view name, double value) {
   if (name == "cells") {
     const double n = std::max(value, 2.0);
-    return n * n * std::log(n);
+    return n * n * elementary::log(n);
   }
   if (name == "cells_factor") return value * value;
   // One more, for what a solve does before its first iteration.
-  return 1 + std::max(0.0, -std::log10(std::max(value, 1e-300)));
+  return 1 + std::max(0.0, -elementary::log10(std::max(value, 1e-300)));
 }
 
 bool is_modelled(std::string_view name) {
@@ -56,9 +57,10 @@ double CostForecast::ratio(const Knobs& knobs, const Measured& reference) const 
       if (relative(other.knobs) != relative(reference.knobs) || other.seconds <= 0) continue;
       constexpr double steepest = 4;
       const double power =
-          std::clamp(std::log(reference.seconds / other.seconds) / std::log(*had / *before), 0.0, steepest);
+          std::clamp(elementary::log(reference.seconds / other.seconds) / elementary::log(*had / *before),
+                     0.0, steepest);
       // Lists that go along together grow as one.
-      return factor * std::pow(*wanted / *had, power);
+      return factor * elementary::pow(*wanted / *had, power);
     }
   }
   return factor;

@@ -22,6 +22,26 @@ TEST(RunFacts, MachineHasProcessors) {
   EXPECT_NE(machine_facts().find("system"), nullptr);
 }
 
+TEST(RunFacts, MachineNamesWhatLastDigitsHangOn) {  // N10
+  const Json here = machine_facts();
+  for (const char* name : {"c_library_functions", "build"}) EXPECT_NE(here.find(name), nullptr) << name;
+  EXPECT_TRUE(differing_machines(here, here).empty());
+  Json there = here;
+  there.set("processor", "Z80")
+      .set("c_library", "another 1.0")
+      .set("c_library_functions", "0")
+      .set("memory", 1);
+  const std::vector<std::string> lines = differing_machines(there, here);
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  if (here.find("processor") != nullptr)
+    EXPECT_NE(all.find("another processor: Z80, here "), std::string::npos);
+  EXPECT_NE(all.find("rounding of the C library's functions"), std::string::npos) << all;
+  EXPECT_EQ(all.find("memory"), std::string::npos);
+  // A run of an earlier version noted less.
+  EXPECT_TRUE(differing_machines(Json::object(), here).empty());
+}
+
 TEST_F(RunFactsTest, DigestTellsContentsApart) {
   const std::string large(3 << 20, 'x');
   write_aside(folder / "a", large);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/contact/effects/adhesion.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 
@@ -16,9 +17,10 @@ Meniscus meniscus(const CapillarityOptions& options) {
   if (options.pressure)
     pressure = *options.pressure;
   else if (*options.humidity > 0)  // dry air has no meniscus
-    pressure = gas_constant * options.temperature * -std::log(*options.humidity) / options.molar_volume;
+    pressure =
+        gas_constant * options.temperature * -elementary::log(*options.humidity) / options.molar_volume;
   if (!(pressure > 0)) return {};
-  return {pressure, 2 * tension / pressure * std::cos(options.contact_angle)};
+  return {pressure, 2 * tension / pressure * elementary::cos(options.contact_angle)};
 }
 
 void plan_capillarity(const CapillarityOptions& options, const ContactGeometry& geometry, Plan& plan) {

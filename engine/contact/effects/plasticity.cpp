@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -85,7 +86,7 @@ double lower_plastic_share(double lower_hardness, double upper_hardness, double 
   const double exponent = 1.5 * (ratio * ratio - 1 / (ratio * ratio));
   if (exponent > greatest_exponent) return 0;
   if (exponent < -greatest_exponent) return 1;
-  return 1 / (1 + std::exp(exponent) * modulus_ratio);
+  return 1 / (1 + elementary::exp(exponent) * modulus_ratio);
 }
 
 void plan_plasticity(const PlasticityOptions& options, const ContactGeometry& geometry, Plan& plan) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/slabs/mpi_team.hpp"
 
-#include "engine/core/fourier_plan.hpp"
 #include "engine/core/mpi/slabs.hpp"
+#include "engine/core/slabs/slab_fourier.hpp"
 
 namespace asperity {
 

@@ -1,44 +1,82 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/slabs/slab_fourier.hpp"
 
-#include <fftw3.h>
+#include <algorithm>
+#include <array>
 
-#include "engine/core/error.hpp"
-#include "engine/core/fourier_plan.hpp"
+#include "engine/core/fourier_batch.hpp"
 
 namespace asperity {
 
 namespace {
 
+// Rows and columns in batches, on this thread.
 class SlabFourierOfOne final : public SlabFourier {
  public:
-  SlabFourierOfOne(int nx, int ny) {
+  SlabFourierOfOne(int nx, int ny)
+      : nx_(nx), ny_(ny), along_(BatchFourier::of_length(nx)), across_(BatchFourier::of_length(ny)) {
     waves_ = nx / 2 + 1;
     step_b_ = waves_;
     stride_ = 2 * step_b_;
     buffer_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(ny));
-    auto* const bins = reinterpret_cast<fftw_complex*>(buffer_.data());
-    const auto lock = lock_fourier_planner();
-    forward_ = fftw_plan_dft_r2c_2d(ny, nx, buffer_.data(), bins, FFTW_ESTIMATE);
-    back_ = fftw_plan_dft_c2r_2d(ny, nx, bins, buffer_.data(), FFTW_ESTIMATE);
-    if (forward_ == nullptr || back_ == nullptr)
-      throw Error(ErrorCode::internal, "FFTW has no plan for a transform of this grid");
   }
-  ~SlabFourierOfOne() override {
-    const auto lock = lock_fourier_planner();
-    if (forward_ != nullptr) fftw_destroy_plan(forward_);
-    if (back_ != nullptr) fftw_destroy_plan(back_);
+
+  void forward() override {
+    BatchFourier::Work work(along_);
+    for (int first = 0; first < ny_; first += BatchFourier::rows) {
+      const int here = std::min(BatchFourier::rows, ny_ - first);
+      std::array<const double*, BatchFourier::rows> from;
+      std::array<std::complex<double>*, BatchFourier::rows> to;
+      for (int r = 0; r < here; ++r) {
+        from[static_cast<std::size_t>(r)] = row(first + r);
+        to[static_cast<std::size_t>(r)] = &bin(0, first + r);
+      }
+      along_.real_forward(work, from.data(), nx_, here, to.data());
+    }
+    columns([this](BatchFourier::Work& column, std::complex<double>* at, int count) {
+      across_.load(column, at, step_b_, ny_, count);
+      across_.forward(column);
+      across_.store_bins(column, at, step_b_, count);
+    });
   }
-  SlabFourierOfOne(const SlabFourierOfOne&) = delete;
-  SlabFourierOfOne& operator=(const SlabFourierOfOne&) = delete;
-  void forward() override { fftw_execute(forward_); }
-  void inverse() override { fftw_execute(back_); }
+
+  void inverse() override {
+    columns([this](BatchFourier::Work& column, std::complex<double>* at, int count) {
+      across_.load_bins(column, at, step_b_, count);
+      across_.inverse(column);
+      across_.store(column, at, step_b_, ny_, count);
+    });
+    BatchFourier::Work work(along_);
+    for (int first = 0; first < ny_; first += BatchFourier::rows) {
+      const int here = std::min(BatchFourier::rows, ny_ - first);
+      std::array<const std::complex<double>*, BatchFourier::rows> from;
+      std::array<double*, BatchFourier::rows> to;
+      for (int r = 0; r < here; ++r) {
+        from[static_cast<std::size_t>(r)] = &bin(0, first + r);
+        to[static_cast<std::size_t>(r)] = row(first + r);
+      }
+      along_.real_inverse(work, from.data(), here, nx_, 1, to.data());
+    }
+  }
 
  private:
-  fftw_plan forward_ = nullptr, back_ = nullptr;
+  template <class Act>
+  void columns(const Act& act) {
+    BatchFourier::Work work(across_);
+    for (int first = 0; first < waves_; first += BatchFourier::columns)
+      act(work, &bin(first, 0), std::min(BatchFourier::columns, waves_ - first));
+  }
+
+  int nx_, ny_;
+  const BatchFourier &along_, &across_;
 };
 
 }  // namespace
+
+std::unique_lock<std::mutex> lock_fourier_planner() {
+  static std::mutex mutex;
+  return std::unique_lock(mutex);
+}
 
 std::unique_ptr<SlabFourier> fourier_alone(int nx, int ny) {
   return std::make_unique<SlabFourierOfOne>(nx, ny);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The real Fourier transform of a field in slabs, in place in a buffer of its own: each process holds rows of
 // the field before and some of the waves along x, with all those along y, after. Unnormalised both ways. No
-// plan is measured, so the same number of processes gives the same bits.
+// plan is measured, so the same number of processes gives the same bits on one kind of processor. One process
+// gives the same on all; of several FFTW chooses the operations by the processor, and takes factors from the
+// C library: elsewhere the last bits may differ.
 #pragma once
 
 #include <complex>
 #include <cstddef>
 #include <memory>
+#include <mutex>
 
 #include "engine/core/memory.hpp"
 #include "engine/core/slabs/slab.hpp"
@@ -39,7 +42,10 @@ class SlabFourier {
   int first_wave_ = 0, waves_ = 0;
 };
 
-// Of a process alone, by FFTW's transform of the whole field.
+// Of a process alone, in batches of lanes: the same bits on every processor.
 std::unique_ptr<SlabFourier> fourier_alone(int nx, int ny);
+
+// Held while plans are made or destroyed: FFTW's planner is not thread-safe.
+std::unique_lock<std::mutex> lock_fourier_planner();
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/constants.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/study/exact/in_range.hpp"
 
 namespace asperity::exact {
@@ -26,8 +27,8 @@ Hertz complete(double radius, double load, double approach) {
 }  // namespace
 
 Hertz hertz_under_load(double radius, double modulus, double load) {
-  const double root = std::cbrt(0.75 * load / modulus);
-  return complete(radius, load, root * (root / std::cbrt(radius)));
+  const double root = elementary::cbrt(0.75 * load / modulus);
+  return complete(radius, load, root * (root / elementary::cbrt(radius)));
 }
 
 Hertz hertz_at_approach(double radius, double modulus, double approach) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/study/exact/persson.hpp"
 
-#include <cmath>
 #include <numbers>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::exact {
@@ -15,7 +15,8 @@ PerssonArea persson_area(double modulus, double rms_slope, double pressure, doub
                 "lower the pressure");
   // At this distance, in standard deviations, the edge at H is out of sight.
   constexpr double far = 40;
-  if (hardness - pressure > far * 0.5 * width) return {std::erf(std::numbers::sqrt2 * (pressure / width)), 0};
+  if (hardness - pressure > far * 0.5 * width)
+    return {elementary::erf(std::numbers::sqrt2 * (pressure / width)), 0};
   // Mode k of the density is sin(kπp/H), of weight 2/H sin(kπp̄/H) e^(−λ_k). Its share of the area is its
   // integral over 0 … H, and its share of the load its first moment.
   PerssonArea area;
@@ -25,7 +26,8 @@ PerssonArea persson_area(double modulus, double rms_slope, double pressure, doub
     const double wave = k * std::numbers::pi;
     const double exponent = wave * wave * decay;
     if (exponent > 745) break;
-    const double weight = 2 / wave * std::sin(wave * (pressure / hardness)) * std::exp(-exponent);
+    const double weight =
+        2 / wave * elementary::sin(wave * (pressure / hardness)) * elementary::exp(-exponent);
     if (k % 2 == 1) area.elastic += 2 * weight;
     carried += k % 2 == 1 ? weight : -weight;
   }

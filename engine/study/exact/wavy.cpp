@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/core/constants.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/text.hpp"
 #include "engine/study/exact/in_range.hpp"
 
@@ -26,10 +27,10 @@ WavyContact one_wave(double amplitude, double wavelength, double modulus, double
   const double f = pressure / full;
   if (f >= 1) return full_contact(amplitude, full, pressure, 0.25);
   in_range({f});
-  const double log_f = std::log(f);
+  const double log_f = elementary::log(f);
   WavyContact contact;
   contact.full_pressure = full;
-  contact.area_fraction = 2 / pi * std::asin(std::sqrt(f));
+  contact.area_fraction = 2 / pi * elementary::asin(std::sqrt(f));
   contact.peak_pressure = 2 * std::sqrt(full) * std::sqrt(pressure);
   contact.mean_gap = amplitude * (1 - f + f * log_f);
   contact.approach = amplitude * f * (1 - log_f);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::exact {
@@ -54,7 +55,7 @@ void cosine_of_turns(mpfr_ptr result, mpfr_ptr turns, mpfr_ptr pi, Number& angle
 }  // namespace
 
 double weierstrass_mandelbrot_height(const WeierstrassMandelbrotOptions& o, int i, int j) {
-  const auto bits = static_cast<mpfr_prec_t>(guard_bits + std::ceil(o.n_max * std::log2(o.gamma)));
+  const auto bits = static_cast<mpfr_prec_t>(guard_bits + std::ceil(o.n_max * elementary::log2(o.gamma)));
   Number sum(bits), step(bits), turns(bits), pi(bits), cosine(bits), sine(bits), angle(bits);
   Number phase(guard_bits), term(guard_bits), short_angle(guard_bits), weight(guard_bits);
   mpfr_const_pi(pi, MPFR_RNDN);

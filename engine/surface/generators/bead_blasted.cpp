@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
@@ -93,7 +94,7 @@ class Ground {
     if (removed == 0) return;
     const auto rim = [&](double r2) {
       const double t = (std::sqrt(r2) / dent.radius - rim_radius) / rim_width;
-      return std::exp(-t * t);
+      return elementary::exp(-t * t);
     };
     const double total = visit(dent, rim_reach, [&](double&, double r2) {
       return std::array{rim(r2), 0.0};

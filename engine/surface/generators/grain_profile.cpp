@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/constants.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/random.hpp"
@@ -47,11 +48,11 @@ std::vector<GrainTerm> grain_terms(const GrainProfileOptions& options) {
   const Stream stream(options.seed, "grain_profile");
   std::vector<GrainTerm> terms;
   for (int n = 0;; ++n) {
-    const double waves = std::floor(3 * std::pow(options.gamma, n) + 0.5);
+    const double waves = std::floor(3 * elementary::pow(options.gamma, n) + 0.5);
     if (2 * waves >= options.points) return terms;
     const auto k = static_cast<int>(waves);
     if (!terms.empty() && terms.back().waves == k) continue;
-    terms.push_back({k, std::pow(options.gamma, (options.D - 2) * n),
+    terms.push_back({k, elementary::pow(options.gamma, (options.D - 2) * n),
                      two_pi * stream.uniform(static_cast<std::uint64_t>(n))});
   }
 }
@@ -71,8 +72,8 @@ Array<double> grain_outline(const GrainProfileOptions& options, Monitor& monitor
       for (std::int64_t i = start; i < std::min(start + block, points); ++i) {
         double sum = 0;
         for (const GrainTerm& term : terms)
-          sum +=
-              term.amplitude * (std::cos(term.phase) - std::cos(angle(term.waves, i, points) + term.phase));
+          sum += term.amplitude *
+                 (elementary::cos(term.phase) - elementary::cos(angle(term.waves, i, points) + term.phase));
         w[static_cast<std::size_t>(i)] = sum;
       }
     });
@@ -87,7 +88,7 @@ double grain_structure_function(const GrainProfileOptions& options, std::int64_t
   for (const GrainTerm& term : grain_terms(options)) {
     const std::int64_t within = (lag % points + points) % points;
     // 1 - cos x = 2 sin²(x/2), which keeps its digits at short lags.
-    const double sine = std::sin(angle(term.waves, within, points) / 2);
+    const double sine = elementary::sin(angle(term.waves, within, points) / 2);
     sum += 2 * term.amplitude * term.amplitude * sine * sine;
   }
   return sum;

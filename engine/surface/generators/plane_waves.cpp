@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/generators/plane_waves.hpp"
 
-// GCC 12 takes the deliberately undefined registers of its own AVX-512 header for a mistake (GCC bug 105593).
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-#include <Eigen/Core>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <tuple>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/exact_phase.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/surface/generators/table_product.hpp"
 
 namespace asperity {
 
@@ -34,8 +26,9 @@ struct Standing {
 
 Standing standing(const PlaneWave& wave) {
   constexpr std::uint64_t half_turn = std::uint64_t{1} << 63;
-  const double c = wave.amplitude * std::cos(wave.phase);
-  const double s = wave.amplitude * std::sin(wave.phase);
+  const elementary::SineCosine phase = elementary::sincos(wave.phase);
+  const double c = wave.amplitude * phase.cosine;
+  const double s = wave.amplitude * phase.sine;
   Standing w{wave.step_x, wave.step_y, c, -s, -s, -c};
   if (w.step_x > half_turn) {
     w.step_x = 0 - w.step_x;
@@ -127,7 +120,8 @@ std::size_t sum_axis_waves(std::span<const Standing> waves, Array<double>& along
   return k;
 }
 
-constexpr int tile = 256;  // nodes a side
+constexpr int tile = 240;  // nodes a side
+static_assert(tile % table_product::row_step == 0 && tile % table_product::column_step == 0);
 constexpr std::int64_t tiles_between_looks = 64;
 
 // Waves whose tables are held at a time.
@@ -137,9 +131,26 @@ std::int64_t waves_at_once(int nx, int ny) {
   return std::clamp(table_doubles / (2 * (std::int64_t{nx} + ny)), fewest, most);
 }
 
-using ColumnTable = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor>>;
-using RowTable = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-using Heights = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor>>;
+// The least multiple of `step` that holds `count`.
+std::int64_t whole_steps(std::int64_t count, int step) { return (count + step - 1) / step * step; }
+
+// A tile of the product; one that is no whole number of steps by way of a larger one.
+void add_tile(const double* left, std::int64_t left_stride, const double* right, std::int64_t right_stride,
+              int depth, double* heights, std::int64_t stride, int rows, int columns) {
+  const auto all_rows = static_cast<int>(whole_steps(rows, table_product::row_step)),
+             all_columns = static_cast<int>(whole_steps(columns, table_product::column_step));
+  if (all_rows == rows && all_columns == columns) {
+    table_product::add(rows, columns, depth, left, left_stride, right, right_stride, heights, stride);
+    return;
+  }
+  Array<double> larger(static_cast<std::size_t>(all_rows) * static_cast<std::size_t>(all_columns));
+  for (int b = 0; b < columns; ++b)
+    std::copy_n(heights + b * stride, rows, larger.data() + std::ptrdiff_t{b} * all_rows);
+  table_product::add(all_rows, all_columns, depth, left, left_stride, right, right_stride, larger.data(),
+                     all_rows);
+  for (int b = 0; b < columns; ++b)
+    std::copy_n(larger.data() + std::ptrdiff_t{b} * all_rows, rows, heights + b * stride);
+}
 
 }  // namespace
 
@@ -157,9 +168,10 @@ Field sum_of_plane_waves(int nx, int ny, std::span<const PlaneWave> waves, Monit
   const std::int64_t width = (count + passes - 1) / passes;
 
   Field field(nx, ny);
-  Heights heights(field.data(), nx, ny);  // column j of the map is row j of the field
-  Array<double> table_x(static_cast<std::size_t>(2 * width * nx)),
-      table_y(static_cast<std::size_t>(2 * width * ny));
+  const std::int64_t stride_x = whole_steps(nx, table_product::row_step),
+                     stride_y = whole_steps(ny, table_product::column_step);
+  Array<double> table_x(static_cast<std::size_t>(2 * width * stride_x)),
+      table_y(static_cast<std::size_t>(2 * width * stride_y));
   const std::int64_t tiles_x = (nx + tile - 1) / tile, tiles_y = (ny + tile - 1) / tile;
   const std::int64_t tiles = tiles_x * tiles_y;
   Task task(monitor, what, passes * tiles);
@@ -168,26 +180,26 @@ Field sum_of_plane_waves(int nx, int ny, std::span<const PlaneWave> waves, Monit
     const std::int64_t first = pass * width, here = std::min(width, count - first);
     parallel_for(here, [&](std::int64_t k) {
       const Standing& w = oblique[static_cast<std::size_t>(first + k)];
-      double* x = table_x.data() + 2 * k * nx;
-      double* y = table_y.data() + 2 * k * ny;
-      fill_rows(w.step_x, nx, {1, 0}, x, {0, 1}, x + nx);
-      fill_rows(w.step_y, ny, {w.cc, w.cs}, y, {w.sc, w.ss}, y + ny);
+      double* x = table_x.data() + 2 * k * stride_x;
+      double* y = table_y.data() + 2 * k * stride_y;
+      fill_rows(w.step_x, nx, {1, 0}, x, {0, 1}, x + stride_x);
+      fill_rows(w.step_y, ny, {w.cc, w.cs}, y, {w.sc, w.ss}, y + stride_y);
     });
-    const ColumnTable left(table_x.data(), nx, 2 * here);
-    const RowTable right(table_y.data(), 2 * here, ny);
     for (std::int64_t band = 0; band < tiles; band += tiles_between_looks) {
       const std::int64_t in_band = std::min(tiles_between_looks, tiles - band);
       parallel_for(in_band, [&](std::int64_t t) {
         const std::int64_t i = (band + t) % tiles_x * tile, j = (band + t) / tiles_x * tile;
         const std::int64_t ni = std::min<std::int64_t>(tile, nx - i),
                            nj = std::min<std::int64_t>(tile, ny - j);
-        auto block = heights.block(i, j, ni, nj);
-        if (pass == 0) {
-          const Eigen::Map<const Eigen::ArrayXd> x(along_x.data() + i, ni);
+        // Column j of the product is row j of the field.
+        if (pass == 0)
           for (std::int64_t b = 0; b < nj; ++b)
-            block.col(b).array() = x + along_y[static_cast<std::size_t>(j + b)];
-        }
-        if (here > 0) block.noalias() += left.middleRows(i, ni) * right.middleCols(j, nj);
+            for (std::int64_t a = 0; a < ni; ++a)
+              field.data()[(j + b) * nx + i + a] =
+                  along_x[static_cast<std::size_t>(i + a)] + along_y[static_cast<std::size_t>(j + b)];
+        if (here > 0)
+          add_tile(table_x.data() + i, stride_x, table_y.data() + j, stride_y, static_cast<int>(2 * here),
+                   field.data() + j * nx + i, nx, static_cast<int>(ni), static_cast<int>(nj));
       });
       task.advance(in_band);
     }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/constants.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/surface/generators/option_checks.hpp"
 
 namespace asperity {
@@ -87,10 +88,11 @@ std::complex<double> SelfAffineModes::amplitude(int a, int b, double wave_number
   const auto zigzag = static_cast<std::uint64_t>(b >= 0 ? 2 * std::int64_t{b} : -2 * std::int64_t{b} - 1);
   const std::uint64_t key = (static_cast<std::uint64_t>(a) << 32) | zigzag;
   const double fall =
-      wave_number_squared > roll_ ? std::pow(wave_number_squared / roll_, -0.5 * (1 + hurst_)) : 1.0;
+      wave_number_squared > roll_ ? elementary::pow(wave_number_squared / roll_, -0.5 * (1 + hurst_)) : 1.0;
   // A complex normal: exponential power, uniform phase.
-  const double modulus = std::sqrt(-std::log(1.0 - stream_.uniform(2 * key)));
-  return std::polar(fall * modulus, two_pi * stream_.uniform(2 * key + 1));
+  const double modulus = std::sqrt(-elementary::log(1.0 - stream_.uniform(2 * key)));
+  const elementary::SineCosine phase = elementary::sincos(two_pi * stream_.uniform(2 * key + 1));
+  return {fall * modulus * phase.cosine, fall * modulus * phase.sine};
 }
 
 }  // namespace asperity

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/constants.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -19,7 +20,7 @@ namespace {
 // cos(2π turns) for turns in [0, 1/2], exact at every eighth where the cosine is.
 double cosine_of_turns(double turns) {
   if (turns > 0.25) return -cosine_of_turns(0.5 - turns);
-  return turns > 0.125 ? std::sin(two_pi * (0.25 - turns)) : std::cos(two_pi * turns);
+  return turns > 0.125 ? elementary::sin(two_pi * (0.25 - turns)) : elementary::cos(two_pi * turns);
 }
 
 struct Waves {

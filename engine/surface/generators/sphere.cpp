@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -18,7 +19,7 @@ Surface cap_on(const Grid& grid, double radius, bool cap, double apex_i, double 
   Field heights(grid.nx, grid.ny);
   for (int j = 0; j < grid.ny; ++j)
     for (int i = 0; i < grid.nx; ++i) {
-      const double r = std::hypot((i - apex_i) * grid.hx(), (j - apex_j) * grid.hy());
+      const double r = elementary::hypot((i - apex_i) * grid.hx(), (j - apex_j) * grid.hy());
       const double s = cap ? std::min(r / radius, 1.0) : r / radius;
       // r²/(R + √(R² - r²)) keeps the digits that √(R² - r²) - R loses near the apex.
       heights(i, j) = cap ? -r * s / (1 + std::sqrt((1 - s) * (1 + s))) : -r * s / 2;
@@ -37,7 +38,7 @@ Surface sphere_surface(const SphereOptions& options, Monitor&) {
   const int apex_i = grid.nx / 2;
   const int apex_j = grid.ny / 2;
   const bool cap = options.shape == SphereShape::sphere;
-  const double corner = std::hypot(apex_i * grid.hx(), apex_j * grid.hy());
+  const double corner = elementary::hypot(apex_i * grid.hx(), apex_j * grid.hy());
   constexpr double rounding = 1e-12;
   if (cap && corner > radius * (1 + rounding))
     throw Error(ErrorCode::bad_value,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/exact_phase.hpp"
 #include "engine/core/parallel.hpp"
@@ -43,12 +44,14 @@ Grid check(const WeierstrassMandelbrotOptions& o) {
 }
 
 // γ^((D−3)n), never through γⁿ: 0 once it underflows.
-double relative_amplitude(double D, double log_gamma, int n) { return std::exp((D - 3.0) * n * log_gamma); }
+double relative_amplitude(double D, double log_gamma, int n) {
+  return elementary::exp((D - 3.0) * n * log_gamma);
+}
 
 // The last order whose wave, with all that follow it, can still change a bit of the heights.
 int last_audible_order(const WeierstrassMandelbrotOptions& o) {
   constexpr double inaudible = 0x1p-60;
-  const double log_gamma = std::log(o.gamma);
+  const double log_gamma = elementary::log(o.gamma);
   double tail = 0;
   for (int n = o.n_max; n > 0; --n) {
     tail += relative_amplitude(o.D, log_gamma, n);
@@ -78,7 +81,7 @@ double phase(const WeierstrassMandelbrotOptions& o, int m, int n) {
 // The waves of orders up to `kept` to be summed, with amplitudes relative to order 0.
 Array<PlaneWave> plane_waves(const WeierstrassMandelbrotOptions& o, const PhaseIncrements& increments,
                              int kept) {
-  const double log_gamma = std::log(o.gamma);
+  const double log_gamma = elementary::log(o.gamma);
   const int last = std::min(last_audible_order(o), kept);
   Array<PlaneWave> waves;
   waves.reserve(static_cast<std::size_t>(o.M) * static_cast<std::size_t>(last + 1));
@@ -131,8 +134,9 @@ Surface summed(const WeierstrassMandelbrotOptions& options, const Grid& grid,
                       .heights;
 
   // L (G/L)^(D−2) without forming G/L, which could overflow where the result does not.
-  const double scale = std::pow(options.L, 3.0 - options.D) * std::pow(options.G, options.D - 2.0) *
-                       std::sqrt(std::log(options.gamma) / options.M);
+  const double scale = elementary::pow(options.L, 3.0 - options.D) *
+                       elementary::pow(options.G, options.D - 2.0) *
+                       std::sqrt(elementary::log(options.gamma) / options.M);
   // Taking Σ a cos φ from the product itself makes z(0, 0) zero exactly.
   const double base = heights(0, 0);
   constexpr std::size_t block = 1 << 16;
@@ -169,7 +173,7 @@ double golden_phase_turns(int n_max, int m, int n) {
 }
 
 double share_of_variance_beyond(int last_resolved, double D, double gamma, int n_max) {
-  const double log_gamma = std::log(gamma);
+  const double log_gamma = elementary::log(gamma);
   double all = 0, beyond = 0;
   for (int n = n_max; n >= 0; --n) {
     const double amplitude = relative_amplitude(D, log_gamma, n);

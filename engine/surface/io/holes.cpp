@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -353,7 +354,7 @@ int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
   direction = scaled;
   double descent = product(residual, scaled, work);
   double error = largest(scaled);
-  const double decades = std::log(std::max(error, 2 * enough) / enough);
+  const double decades = elementary::log(std::max(error, 2 * enough) / enough);
   std::int64_t told = 0;
   int turn = 0;
   for (; error > enough; ++turn) {
@@ -372,7 +373,7 @@ int fill_harmonic(Field& heights, double hx, double hy, Monitor& monitor) {
     const double turnback = next / descent;
     for (std::size_t k = 0; k < n; ++k) direction[k] = scaled[k] + turnback * direction[k];
     descent = next;
-    const double left = error > enough ? std::log(error / enough) / decades : 0.0;
+    const double left = error > enough ? elementary::log(error / enough) / decades : 0.0;
     const auto now = static_cast<std::int64_t>(static_cast<double>(parts) * std::clamp(1 - left, 0.0, 1.0));
     task.advance(std::max<std::int64_t>(now - told, 0));
     told = std::max(told, now);

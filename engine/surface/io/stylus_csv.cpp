@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -133,7 +134,7 @@ HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
     refuse_file(file, "has too many samples");
   const Line fit = fitted(positions);
   // Rounding moves a position by half of its last digit at most.
-  const double allowed = std::max(0.5 * fit.spacing, 0.6 * std::pow(10.0, -places));
+  const double allowed = std::max(0.5 * fit.spacing, 0.6 * elementary::pow(10.0, -places));
   if (!(fit.spacing > 0) || !std::isfinite(fit.spacing))
     refuse_file(file, "has positions that do not increase");
   for (std::size_t k = 0; k < positions.size(); ++k)

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier.hpp"
 #include "engine/core/parallel.hpp"
@@ -42,8 +43,8 @@ Field shifted_by_cells(const Field& heights, int right, int up) {
 std::complex<double> phase(double cells, int wave, int n) {
   const double turns = cells * wave / n;
   const double angle = -2 * std::numbers::pi * (turns - std::round(turns));
-  if (2 * wave == n || 2 * wave == -n) return std::cos(angle);
-  return {std::cos(angle), std::sin(angle)};
+  if (2 * wave == n || 2 * wave == -n) return elementary::cos(angle);
+  return {elementary::cos(angle), elementary::sin(angle)};
 }
 
 Field shifted_by_waves(const Field& heights, double right, double up) {
@@ -116,7 +117,7 @@ Surface rotated(const Surface& surface, double angle) {
     return turn == 0 ? surface : quarter_turned(surface, turn);
   }
   const Grid& g = surface.grid();
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = elementary::cos(angle), s = elementary::sin(angle);
   const bool periodic = surface.traits().periodic;
   const double width = (g.nx - 1) * g.hx(), height = (g.ny - 1) * g.hy();
   int nx = g.nx, ny = g.ny;

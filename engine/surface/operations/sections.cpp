@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -92,7 +93,7 @@ Profile profile_between(const Surface& surface, Point from, Point to, std::optio
     if (!std::isfinite(coordinate))
       throw Error(ErrorCode::bad_value, "an end of the line is at " + format_short(coordinate) + " m",
                   "give finite coordinates in `from` and `to`");
-  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const double length = elementary::hypot(to.x - from.x, to.y - from.y);
   if (!(length > 0))
     throw Error(ErrorCode::bad_value, "`from` and `to` are the same point", "give the two ends of a line");
   // The slack keeps a line of exactly n cells from becoming n + 1 through rounding.

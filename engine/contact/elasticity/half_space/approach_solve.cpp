@@ -12,6 +12,7 @@
 #include "engine/contact/elasticity/half_space/level_transfer.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
 #include "engine/core/constants.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -133,7 +134,7 @@ Search search(const HalfSpaceProblem& problem, const WantedLength& wanted, Root 
   for (int solve = 0; solve < most_solves; ++solve) {
     const HalfSpaceAnswer* start = result.answer.pressure.empty() ? nullptr : &result.answer;
     // Only a near state is worth starting from; a far one is found quicker on nested grids.
-    if (start && std::abs(std::log(pressure / start->mean_pressure)) > 0.2) start = nullptr;
+    if (start && std::abs(elementary::log(pressure / start->mean_pressure)) > 0.2) start = nullptr;
     result.answer = solve_at_pressure(now, pressure, start, monitor);
     close_within_reach(problem, wanted, result.answer);
     const Tried at{pressure, wanted.measure(problem, result.answer)};
@@ -146,7 +147,8 @@ Search search(const HalfSpaceProblem& problem, const WantedLength& wanted, Root 
     }
     if (last.pressure > 0 && at.pressure != last.pressure && at.measure > 0 && last.measure > 0 &&
         at.measure != last.measure) {
-      const double slope = std::log(at.pressure / last.pressure) / std::log(at.measure / last.measure);
+      const double slope =
+          elementary::log(at.pressure / last.pressure) / elementary::log(at.measure / last.measure);
       if (slope > 0 && std::isfinite(slope)) result.root.slope = slope;
     }
     last = at;
@@ -170,8 +172,8 @@ Search search(const HalfSpaceProblem& problem, const WantedLength& wanted, Root 
       high = at.pressure < high.pressure ? at : high;
     }
     now.tolerance = tighter;
-    double next = at.measure > 0 ? pressure * std::pow(wanted.target / at.measure,
-                                                       std::clamp(result.root.slope, 0.05, 1e6))
+    double next = at.measure > 0 ? pressure * elementary::pow(wanted.target / at.measure,
+                                                              std::clamp(result.root.slope, 0.05, 1e6))
                                  : 4 * pressure;
     next = std::clamp(next, pressure / 100, pressure * 100);
     bool bracketed = high.pressure < infinity && low.pressure > 0;

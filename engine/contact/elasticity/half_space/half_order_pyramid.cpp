@@ -2,11 +2,11 @@
 #include "engine/contact/elasticity/half_space/half_order_pyramid.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "engine/contact/elasticity/half_space/lane_terms.hpp"
 #include "engine/core/cost.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
@@ -154,7 +154,7 @@ double product_of_rows(const float* a, const float* b, int n) {
   return sum;
 }
 
-double work(double nodes) { return nodes * std::log2(std::max(nodes, 2.0)); }
+double work(double nodes) { return nodes * elementary::log2(std::max(nodes, 2.0)); }
 
 }  // namespace
 
@@ -196,7 +196,7 @@ HalfOrderPyramid::HalfOrderPyramid(int nx, int ny, double aspect, Boundary bound
     for (int b = 0; b < bins_y; ++b)
       multiplier_[static_cast<std::size_t>(a) * static_cast<std::size_t>(bins_y) +
                   static_cast<std::size_t>(b)] =
-          std::numbers::pi * std::hypot(static_cast<double>(a) / period_x, b / (period_y * aspect));
+          std::numbers::pi * elementary::hypot(static_cast<double>(a) / period_x, b / (period_y * aspect));
   work_.resize(last.in.size());
 }
 

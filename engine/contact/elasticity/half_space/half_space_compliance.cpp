@@ -2,15 +2,19 @@
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "engine/contact/elasticity/half_space/love_kernel.hpp"
 #include "engine/core/cost.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier.hpp"
+#include "engine/core/fourier_batch.hpp"
 #include "engine/core/fourier_filter.hpp"
 #include "engine/core/fourier_lane_filter.hpp"
 #include "engine/core/parallel.hpp"
@@ -34,47 +38,65 @@ void periodic_multiplier(int nx, int ny, double aspect, int a, std::span<double>
   if (a == 0) factors[0] = 0;
 }
 
-// The transform of an even sequence, given from 0 to period/2, is real; it replaces it.
-void transform_even(std::span<double> half, int period) {
-  Array<double> whole(static_cast<std::size_t>(period));
-  for (int k = 0; k < period; ++k)
-    whole[static_cast<std::size_t>(k)] = half[static_cast<std::size_t>(std::min(k, period - k))];
-  const auto bins = fourier_forward(whole);
-  std::transform(bins.begin(), bins.end(), half.begin(), [](std::complex<double> bin) { return bin.real(); });
+// The transforms of even sequences, each given from 0 to period/2, are real; they replace them.
+constexpr int sequences_at_once = BatchFourier::rows;
+void transform_even(const BatchFourier& fourier, std::span<double* const> halves) {
+  const int period = fourier.length();
+  const auto count = static_cast<int>(halves.size());
+  const auto whole_length = static_cast<std::size_t>(period), bins = static_cast<std::size_t>(fourier.bins());
+  BatchFourier::Work work(fourier);
+  Array<double> wholes(whole_length * halves.size());
+  Array<std::complex<double>> spectra(bins * halves.size());
+  std::array<const double*, sequences_at_once> from;
+  std::array<std::complex<double>*, sequences_at_once> to;
+  for (std::size_t r = 0; r < halves.size(); ++r) {
+    double* const whole = wholes.data() + r * whole_length;
+    for (int k = 0; k < period; ++k) whole[k] = halves[r][std::min(k, period - k)];
+    from[r] = whole;
+    to[r] = spectra.data() + r * bins;
+  }
+  fourier.real_forward(work, from.data(), period, count, to.data());
+  for (std::size_t r = 0; r < halves.size(); ++r)
+    std::transform(to[r], to[r] + bins, halves[r], [](std::complex<double> bin) { return bin.real(); });
 }
 
 // Love's coefficients at all distances up to half the padded period, evenly continued, transformed. The
 // distances that no pair of nodes has are multiplied with zeros only.
 void free_multiplier(int period_x, int period_y, double aspect, std::span<double> multiplier) {
   const LoveKernel love(aspect);
+  const BatchFourier along(period_x), across(period_y);
   const int bins_x = period_x / 2 + 1, bins_y = period_y / 2 + 1;
-  constexpr int rows_per_block = 8;
-  parallel_for((bins_y + rows_per_block - 1) / rows_per_block, [&](std::int64_t block) {
-    const int first = static_cast<int>(block) * rows_per_block;
-    const int rows = std::min(rows_per_block, bins_y - first);
+  const auto batches = [](int count) { return (count + sequences_at_once - 1) / sequences_at_once; };
+  parallel_for(batches(bins_y), [&](std::int64_t block) {
+    const int first = static_cast<int>(block) * sequences_at_once;
+    const int rows = std::min(sequences_at_once, bins_y - first);
     const auto row_length = static_cast<std::size_t>(bins_x);
-    Array<double> values(row_length * rows_per_block);
+    Array<double> values(row_length * sequences_at_once);
+    std::vector<double*> halves;
     for (int j = 0; j < rows; ++j) {
-      const std::span row(values.data() + static_cast<std::size_t>(j) * row_length, row_length);
-      for (int i = 0; i < bins_x; ++i) row[static_cast<std::size_t>(i)] = love(i, first + j);
-      transform_even(row, period_x);
+      double* const row = values.data() + static_cast<std::size_t>(j) * row_length;
+      for (int i = 0; i < bins_x; ++i) row[i] = love(i, first + j);
+      halves.push_back(row);
     }
+    transform_even(along, halves);
     for (std::size_t a = 0; a < row_length; ++a)
       for (int j = 0; j < rows; ++j)
         multiplier[a * static_cast<std::size_t>(bins_y) + static_cast<std::size_t>(first + j)] =
             values[static_cast<std::size_t>(j) * row_length + a];
   });
-  parallel_for(bins_x, [&](std::int64_t a) {
-    transform_even(multiplier.subspan(static_cast<std::size_t>(a) * static_cast<std::size_t>(bins_y),
-                                      static_cast<std::size_t>(bins_y)),
-                   period_y);
+  parallel_for(batches(bins_x), [&](std::int64_t block) {
+    const int first = static_cast<int>(block) * sequences_at_once;
+    std::vector<double*> halves;
+    for (int a = first; a < std::min(first + sequences_at_once, bins_x); ++a)
+      halves.push_back(multiplier.data() + static_cast<std::size_t>(a) * static_cast<std::size_t>(bins_y));
+    transform_even(across, halves);
   });
 }
 
 }  // namespace
 
-// By lanes where the period allows, else by the library's transforms. Of two precisions one rests: what
-// double alone would hold, and the multiplier in single.
+// By lanes of rows where the period allows, else by transforms of any length. Of two precisions one rests:
+// what double alone would hold, and the multiplier in single.
 struct HalfSpaceCompliance::Parts {
   int nx, ny, period_x, period_y;
   double aspect;
@@ -279,7 +301,7 @@ HalfSpaceCompliance::Spectrum HalfSpaceCompliance::spectrum() const {
 
 double HalfSpaceCompliance::transform_work() const {
   const double n = static_cast<double>(parts_->period_x) * parts_->period_y;
-  return n * std::log2(std::max(n, 2.0));
+  return n * elementary::log2(std::max(n, 2.0));
 }
 
 std::int64_t HalfSpaceCompliance::bytes(int nx, int ny, Boundary boundary, bool single) {

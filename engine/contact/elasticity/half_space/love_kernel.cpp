@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/elementary_functions.hpp"
+
 namespace asperity {
 
 namespace {
@@ -33,9 +35,9 @@ constexpr std::array<Node, 8> rule_16{{{0.095012509837637440, 0.1894506104550685
 // as one area sine, whose argument has no cancellation.
 double line(double x, double y, double half) {
   const double near = y - half, beyond = y + half;
-  if (near <= 0) return std::asinh(beyond / x) - std::asinh(near / x);
+  if (near <= 0) return elementary::asinh(beyond / x) - elementary::asinh(near / x);
   const double r_near = std::sqrt(x * x + near * near), r_beyond = std::sqrt(x * x + beyond * beyond);
-  return std::asinh(4 * y * half / (beyond * r_near + near * r_beyond));
+  return elementary::asinh(4 * y * half / (beyond * r_near + near * r_beyond));
 }
 
 // Mean over |ξ| < half of line(x − ξ, y, other).
@@ -59,14 +61,15 @@ double integrate(double x, double half, double y, double other) {
 
 // A corner's share of the rectangle: F(x, y) = x asinh(y/|x|) + y asinh(x/|y|).
 double corner(double x, double y) {
-  const double first = x == 0 ? 0 : x * std::asinh(y / std::abs(x));
-  const double second = y == 0 ? 0 : y * std::asinh(x / std::abs(y));
+  const double first = x == 0 ? 0 : x * elementary::asinh(y / std::abs(x));
+  const double second = y == 0 ? 0 : y * elementary::asinh(x / std::abs(y));
   return first + second;
 }
 
 }  // namespace
 
-LoveKernel::LoveKernel(double aspect) : aspect_(aspect), far_(std::pow(100 * std::max(1.0, aspect), 2)) {}
+LoveKernel::LoveKernel(double aspect)
+    : aspect_(aspect), far_(elementary::pow(100 * std::max(1.0, aspect), 2)) {}
 
 double LoveKernel::operator()(double i, double j) const {
   i = std::abs(i);

@@ -13,6 +13,7 @@
 #include "engine/contact/elasticity/half_space/level_transfer.hpp"
 #include "engine/contact/elasticity/half_space/light_contact.hpp"
 #include "engine/contact/elasticity/half_space/load_projection.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {
@@ -28,7 +29,7 @@ class Progress {
   void report(double begin, double end, double residual, double tolerance) {
     double gained = 0;
     if (residual > 0 && tolerance < 1)
-      gained = std::clamp(std::log(std::min(residual, 1.0)) / std::log(tolerance), 0.0, 1.0);
+      gained = std::clamp(elementary::log(std::min(residual, 1.0)) / elementary::log(tolerance), 0.0, 1.0);
     const auto now = static_cast<std::int64_t>(total * (begin + (end - begin) * gained));
     task_.advance(std::max<std::int64_t>(0, now - done_));
     done_ = std::max(done_, now);
@@ -51,7 +52,7 @@ struct Step {                       // one grid of the nest
 
 double work(const LevelShape& shape) {
   const double n = static_cast<double>(shape.nodes());
-  return n * std::log(std::max(n, 2.0));
+  return n * elementary::log(std::max(n, 2.0));
 }
 
 PressureLimit limit_on(const PressureLimit& finest, const Step& step) {

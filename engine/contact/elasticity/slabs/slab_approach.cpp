@@ -11,6 +11,7 @@
 #include "engine/contact/elasticity/slabs/slab_solve.hpp"
 #include "engine/contact/elasticity/slabs/slab_transfer.hpp"
 #include "engine/core/constants.hpp"
+#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -64,13 +65,13 @@ Found search(Team& team, const SlabContactProblem& problem, double target, doubl
   now.best_effort = true;
   const double share = std::min(1.0, target / problem.surface.rms);
   now.tolerance = std::max(1e-13, 0.2 * std::min(problem.tolerance, accuracy) * share);
-  const double highest = std::log(problem.cap) - 1e-12;  // infinite without a cap
+  const double highest = elementary::log(problem.cap) - 1e-12;  // infinite without a cap
   double low = -infinity, high = infinity, low_excess = 0, high_excess = 0;
   Found found;
   double x = std::min(root.logarithm, highest), last_x = x, last_excess = 0;
   for (int solve = 0; solve < most_solves; ++solve) {
     found.answer =
-        solve_slabs_at_pressure(team, now, std::exp(x), solve > 0 ? &found.answer : nullptr, monitor);
+        solve_slabs_at_pressure(team, now, elementary::exp(x), solve > 0 ? &found.answer : nullptr, monitor);
     const double excess = found.answer.offset + peak - target;
     if (solve > 0 && x != last_x) {
       const double slope = (excess - last_excess) / (x - last_x);
@@ -119,7 +120,7 @@ SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& 
                 "give less, or `pressure`");
   Root root;
   root.logarithm =
-      std::log(0.1 * problem.modulus * approach / std::max(surface.grid.size_x, surface.grid.size_y));
+      elementary::log(0.1 * problem.modulus * approach / std::max(surface.grid.size_x, surface.grid.size_y));
   constexpr double light = 0.2, rough_accuracy = 1e-3;
   if (approach > light * surface.rms)
     if (const auto coarse = coarser_problem(team, problem))

@@ -11,6 +11,7 @@
 #include "engine/contact/elasticity/slabs/slab_light_contact.hpp"
 #include "engine/contact/elasticity/slabs/slab_quality.hpp"
 #include "engine/contact/elasticity/slabs/slab_transfer.hpp"
+#include "engine/core/elementary_functions.hpp"
 
 namespace asperity {
 
@@ -23,7 +24,7 @@ class Progress {
   void report(double begin, double end, double residual, double tolerance) {
     double gained = 0;
     if (residual > 0 && tolerance < 1)
-      gained = std::clamp(std::log(std::min(residual, 1.0)) / std::log(tolerance), 0.0, 1.0);
+      gained = std::clamp(elementary::log(std::min(residual, 1.0)) / elementary::log(tolerance), 0.0, 1.0);
     const auto now = static_cast<std::int64_t>(total * (begin + (end - begin) * gained));
     task_.advance(std::max<std::int64_t>(0, now - done_));
     done_ = std::max(done_, now);
@@ -43,7 +44,9 @@ struct Step {                       // one grid of the nest
   double mean_pressure = 0;
 };
 
-double work_of(const Slab& slab) { return slab.all_nodes() * std::log(std::max(slab.all_nodes(), 2.0)); }
+double work_of(const Slab& slab) {
+  return slab.all_nodes() * elementary::log(std::max(slab.all_nodes(), 2.0));
+}
 
 std::vector<Step> nest(Team& team, const SlabCellProblem& problem, bool alone) {
   std::vector<Step> steps(1);

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Each fast function makes its value as high + low, with an error that a bound holds; if high + (low ± bound)
+// round alike, that is the result, else MPFR decides. Arguments are reduced by tables until three or four
+// terms of a series are enough, the first one or two of them exact. MPFR also takes what is rare: huge
+// angles, subnormal results, zeros and infinities.
+#include "engine/core/elementary_functions.hpp"
+
+#include <mpfr.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "engine/core/elementary_tables.hpp"
+#include "engine/core/pairs.hpp"
+
+namespace asperity::elementary {
+
+namespace {
+
+using pairs::Pair;
+
+constexpr auto power_table = elementary_tables::powers_of_two();
+constexpr auto sine_table = elementary_tables::sines();
+constexpr auto reciprocal_table = elementary_tables::reciprocals();
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// MPFR keeps π and log 2 per thread; a thread that ends would leave them behind.
+struct ThreadConstants {
+  ~ThreadConstants() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
+};
+
+// A function of MPFR, rounded once, subnormal results too.
+template <class Function, class... Arguments>
+[[gnu::noinline]] double rounded_slowly(Function function, Arguments... arguments) {
+  thread_local const ThreadConstants constants{};
+  static_cast<void>(constants);
+  struct Exponents {
+    mpfr_exp_t least = mpfr_get_emin(), greatest = mpfr_get_emax();
+    ~Exponents() {
+      mpfr_set_emin(least);
+      mpfr_set_emax(greatest);
+    }
+  };
+  struct Number {
+    mpfr_t value;
+    explicit Number(double x) {
+      mpfr_init2(value, 53);
+      mpfr_set_d(value, x, MPFR_RNDN);
+    }
+    ~Number() { mpfr_clear(value); }
+    Number(const Number&) = delete;
+    Number& operator=(const Number&) = delete;
+  };
+  Number result(0);
+  int direction = 0;
+  [&](const auto&... number) {
+    direction = function(result.value, number.value..., MPFR_RNDN);
+  }(Number(arguments)...);
+  const Exponents before;
+  mpfr_set_emin(-1073);
+  mpfr_set_emax(1024);
+  direction = mpfr_check_range(result.value, direction, MPFR_RNDN);
+  mpfr_subnormalize(result.value, direction, MPFR_RNDN);
+  return mpfr_get_d(result.value, MPFR_RNDN);
+}
+
+// A value not rounded yet: high + low, wrong by `bound` at most.
+struct Unrounded {
+  double high, low, bound;
+};
+
+// Whether both ends of the bound round alike; `result` is one of them.
+inline bool decided(const Unrounded& value, double& result) {
+  result = value.high + (value.low - value.bound);
+  return result == value.high + (value.low + value.bound);
+}
+
+// A logarithm: high + low, wrong by 2^-67 of itself at most.
+//
+// x = 2^e m, m c' = 1 + r with a short c' = 1/c, so that r is exact in two parts: log x = e ln 2 + log c +
+// r − r²/2 + r³/3 … The first three are summed exactly, and r² from a short part of r.
+inline Pair logarithm(double x, double x_low = 0) {
+  constexpr std::uint64_t first = 0x3fe6800000000000;  // 360/512
+  constexpr double ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const std::uint64_t above = bits - first;
+  const auto e = static_cast<std::int64_t>(above) >> 52;
+  const elementary_tables::Reciprocal& near = reciprocal_table[(above >> 44) & 255];
+  const std::uint64_t significand = bits - (above & 0xfff0000000000000);
+  const double m = std::bit_cast<double>(significand);
+  const double m_high = std::bit_cast<double>(significand & 0xfffffffff8000000);
+  Pair r = pairs::quick_sum(m_high * near.reciprocal - 1, (m - m_high) * near.reciprocal);
+  if (x_low != 0) {
+    const double scale = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - e) << 52);
+    r.low += x_low * scale * near.reciprocal;
+    r = pairs::quick_sum(r.high, r.low);
+  }
+  const double power = static_cast<double>(e);
+  const double base = power * ln2_high + near.log_high;
+  const double r_short = pairs::to_multiple(r.high, 0x1p-34);
+  const Pair linear = pairs::quick_sum(base, r.high);
+  const Pair square = pairs::quick_sum(linear.high, -0.5 * (r_short * r_short));
+  const double z = r.high, z2 = z * z;
+  const double tail =
+      (1.0 / 3 - z * 0.25) + z2 * ((0.2 - z * (1.0 / 6)) + z2 * ((1.0 / 7 - z * 0.125) + z2 * (1.0 / 9)));
+  const double low = (power * ln2_low + near.log_low) + r.low * (1 - z * (1 - z)) -
+                     0.5 * ((z - r_short) * (z + r_short)) + z * z2 * tail;
+  return {square.high, (linear.low + square.low) + low};
+}
+
+// 2^k (high + low), high in [0.99, 2), wrong by 2^-67 at most; |x| < 2^16, x_low small beside it.
+//
+// x = (128 k + j) ln 2/128 + r: e^x = 2^k 2^(j/128) (1 + r + r²/2 …), the second factor exact in a short
+// part, times a short part of r.
+struct Power {
+  double high, low;
+  std::int64_t k;
+};
+inline Power power_of_e(double x, double x_low) {
+  constexpr double steps = 0x1.71547652b82fep+7;  // 128/ln 2
+  constexpr double part1 = 0x1.62e42ff000000p-8, part2 = -0x1.718432a200000p-42,
+                   part3 = 0x1.3c7673007e5edp-76;
+  const double n = pairs::to_multiple(x * steps, 1);
+  const Pair first = pairs::sum(x - n * part1, -(n * part2));
+  const Pair r = pairs::sum(first.high, first.low - n * part3 + x_low);
+  const auto whole = static_cast<std::int64_t>(n);
+  const Pair& base = power_table[static_cast<std::size_t>(whole & 127)];
+  const double r_short = pairs::to_multiple(r.high, 0x1p-34);
+  const double z = r.high, z2 = z * z;
+  const double tail = ((z - r_short) + r.low) +
+                      z2 * ((0.5 + z * (1.0 / 6)) + z2 * ((1.0 / 24 + z * (1.0 / 120)) + z2 * (1.0 / 720)));
+  const Pair main = pairs::quick_sum(base.high, base.high * r_short);
+  return {main.high, main.low + (base.low + base.low * r_short + (base.high + base.low) * tail), whole >> 7};
+}
+
+inline double times_power_of_two(double x, std::int64_t k) {
+  return x * std::bit_cast<double>(static_cast<std::uint64_t>(1023 + k) << 52);
+}
+
+constexpr double power_error = 0x1p-66;
+
+// An angle x = (256 q + j) π/512 + high + low, |high| < π/1023. False where the parts would be too short:
+// near multiples of π/2, or x is huge.
+struct Angle {
+  double high, low;
+  unsigned quarter, j;
+};
+inline bool reduce(double x, Angle& angle) {
+  constexpr double steps = 0x1.45f306dc9c883p+7;  // 512/π
+  constexpr double part1 = 0x1.921fb54p-8, part2 = 0x1.10b4612p-38, part3 = -0x1.676733bp-68,
+                   part4 = 0x1.701b839a25205p-100;
+  if (!(std::abs(x) < 65536)) return false;
+  const double n = pairs::to_multiple(x * steps, 1);
+  if (n == 0) {
+    angle = {x, 0, 0, 0};
+    return true;
+  }
+  const Pair first = pairs::sum(x - n * part1, -(n * part2));
+  const Pair second = pairs::sum(first.high, -(n * part3));
+  const double size = std::abs(second.high);
+  if (size < std::abs(n) * 0x1p-75 || (size < 0x1p-43 && first.low != 0)) return false;
+  const Pair rest = pairs::quick_sum(second.high, (first.low + second.low) - n * part4);
+  const auto whole = static_cast<std::int64_t>(n);
+  angle = {rest.high, rest.low, static_cast<unsigned>(whole >> 8) & 3, static_cast<unsigned>(whole & 255)};
+  return true;
+}
+
+// s + c b − s b²/2 − c b³/6 … = s cos b + c sin b, s > 2^-8; wrong by 2^-66 of itself at most.
+inline Unrounded turned(const Pair& s, const Pair& c, double sign, const Angle& b) {
+  const double z = b.high, z2 = z * z;
+  const double z_short = pairs::to_multiple(z, 0x1p-34);
+  const double c_all = sign * (c.high + c.low), s_all = s.high + s.low;
+  const double sine_rest =
+      ((z - z_short) + b.low) - z * z2 * (1.0 / 6 - z2 * (1.0 / 120 - z2 * (1.0 / 5040)));
+  const double cosine_rest = z2 * (0.5 - z2 * (1.0 / 24 - z2 * (1.0 / 720)));
+  const Pair main = pairs::quick_sum(s.high, sign * c.high * z_short);
+  const double low = (s.low + sign * c.low * z_short) + (c_all * sine_rest - s_all * cosine_rest);
+  return {main.high, main.low + low, main.high * 0x1p-66};
+}
+
+// sin(jπ/512 + b) and cos(jπ/512 + b), as `quarter` has none.
+inline Unrounded sine_of(const Angle& b) {
+  if (b.j == 0) {
+    const double z = b.high, z2 = z * z;
+    const double cubic = z * z2 * (1.0 / 6 - z2 * (1.0 / 120 - z2 * (1.0 / 5040)));
+    return {z, b.low - cubic, std::abs(z) * 0x1p-66};
+  }
+  return turned(sine_table[b.j], sine_table[256 - b.j], 1, b);
+}
+inline Unrounded cosine_of(const Angle& b) { return turned(sine_table[256 - b.j], sine_table[b.j], -1, b); }
+
+// sin (or cos, a quarter on) of the reduced angle; false where undecided.
+inline bool sine_in_quarter(const Angle& angle, unsigned quarter, double& result) {
+  const bool settled = decided(quarter % 2 == 0 ? sine_of(angle) : cosine_of(angle), result);
+  if (quarter >= 2) result = -result;
+  return settled;
+}
+
+inline bool is_normal_positive(double x) {
+  return x >= std::numeric_limits<double>::min() && x <= std::numeric_limits<double>::max();
+}
+
+// √(square.high + square.low) as high + low, wrong by 2^-100 of itself.
+inline Pair root_of(const Pair& square) {
+  const double root = std::sqrt(square.high);
+  const Pair back = pairs::product(root, root);
+  return {root, ((square.high - back.high) - back.low + square.low) / (2 * root)};
+}
+
+// log x, by what log1p, log2 and log10 share.
+inline double scaled_logarithm(double x, const Pair& scale, bool& settled) {
+  const Pair ln = logarithm(x);
+  const Pair p = pairs::product(ln.high, scale.high);
+  double result = 0;
+  settled = decided({p.high, p.low + (ln.high * scale.low + ln.low * scale.high), std::abs(p.high) * 0x1p-65},
+                    result);
+  return result;
+}
+
+}  // namespace
+
+double sin(double x) {
+  Angle angle;
+  double result = 0;
+  if (std::abs(x) < 0x1p-27) return x;  // |x| − |x|³/6 is nearer to |x| than half a last place
+  if (reduce(x, angle) && sine_in_quarter(angle, angle.quarter, result)) return result;
+  return rounded_slowly(mpfr_sin, x);
+}
+
+double cos(double x) {
+  Angle angle;
+  double result = 0;
+  if (reduce(x, angle) && sine_in_quarter(angle, (angle.quarter + 1) & 3, result)) return result;
+  return rounded_slowly(mpfr_cos, x);
+}
+
+SineCosine sincos(double x) {
+  Angle angle;
+  if (std::abs(x) < 0x1p-27 || !reduce(x, angle)) return {sin(x), cos(x)};
+  SineCosine result{};
+  if (!sine_in_quarter(angle, angle.quarter, result.sine)) result.sine = rounded_slowly(mpfr_sin, x);
+  if (!sine_in_quarter(angle, (angle.quarter + 1) & 3, result.cosine))
+    result.cosine = rounded_slowly(mpfr_cos, x);
+  return result;
+}
+
+double exp(double x) {
+  if (x > -708 && x < 709) {
+    const Power p = power_of_e(x, 0);
+    double result = 0;
+    if (decided({p.high, p.low, power_error}, result)) return times_power_of_two(result, p.k);
+  } else if (x < -746) {
+    return 0;
+  } else if (x > 710) {
+    return infinity;
+  }
+  return rounded_slowly(mpfr_exp, x);
+}
+
+double exp2(double x) {
+  if (std::abs(x) < 1021) {
+    const Pair scaled = pairs::product(x, elementary_tables::ln2.high);
+    const Power p = power_of_e(scaled.high, scaled.low + x * elementary_tables::ln2.low);
+    double result = 0;
+    if (decided({p.high, p.low, power_error}, result)) return times_power_of_two(result, p.k);
+  }
+  return rounded_slowly(mpfr_exp2, x);
+}
+
+double expm1(double x) {
+  double result = 0;
+  if (std::abs(x) < 0x1p-54) return x;
+  if (std::abs(x) < 0x1p-9) {
+    const double x_short = pairs::to_multiple(x, 0x1p-35);
+    const Pair main = pairs::quick_sum(x, 0.5 * (x_short * x_short));
+    const double low =
+        0.5 * ((x - x_short) * (x + x_short)) +
+        x * x * x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x * (1.0 / 720 + x * (1.0 / 5040)))));
+    if (decided({main.high, main.low + low, std::abs(main.high) * 0x1p-66}, result)) return result;
+  } else if (x < -40) {
+    return -1;
+  } else if (x < 709) {
+    const Power p = power_of_e(x, 0);
+    const double high = times_power_of_two(p.high, p.k);
+    const Pair main = pairs::sum(high, -1);
+    if (decided({main.high, main.low + times_power_of_two(p.low, p.k), times_power_of_two(power_error, p.k)},
+                result))
+      return result;
+  }
+  return rounded_slowly(mpfr_expm1, x);
+}
+
+double log(double x) {
+  if (is_normal_positive(x)) {
+    const Pair ln = logarithm(x);
+    double result = 0;
+    if (decided({ln.high, ln.low, std::abs(ln.high) * 0x1p-66}, result)) return result;
+  }
+  return rounded_slowly(mpfr_log, x);
+}
+
+double log2(double x) {
+  constexpr Pair scale{0x1.71547652b82fep+0, 0x1.777d0ffda0d24p-56};  // 1/ln 2
+  if (is_normal_positive(x)) {
+    bool settled = false;
+    const double result = scaled_logarithm(x, scale, settled);
+    if (settled) return result;
+  }
+  return rounded_slowly(mpfr_log2, x);
+}
+
+double log10(double x) {
+  constexpr Pair scale{0x1.bcb7b1526e50ep-2, 0x1.95355baaafad3p-57};  // 1/ln 10
+  if (is_normal_positive(x)) {
+    bool settled = false;
+    const double result = scaled_logarithm(x, scale, settled);
+    if (settled) return result;
+  }
+  return rounded_slowly(mpfr_log10, x);
+}
+
+double log1p(double x) {
+  if (std::abs(x) < 0x1p-54) return x;
+  if (x > -1 && x < infinity) {
+    const Pair argument = x < 0x1p60 ? pairs::sum(1, x) : Pair{x, 0};
+    if (argument.high > 0) {
+      const Pair ln = logarithm(argument.high, argument.low);
+      double result = 0;
+      if (decided({ln.high, ln.low, std::abs(ln.high) * 0x1p-65}, result)) return result;
+    }
+  }
+  return rounded_slowly(mpfr_log1p, x);
+}
+
+double pow(double x, double y) {
+  if (y == 1) return x;
+  if (is_normal_positive(x) && x != 1) {
+    const Pair ln = logarithm(x);
+    const double size = std::abs(y * ln.high);
+    if (size < 700 && size > 0x1p-60) {
+      const Pair main = pairs::product(y, ln.high);
+      const Pair p = pairs::quick_sum(main.high, main.low + y * ln.low);
+      const Power power = power_of_e(p.high, p.low);
+      double result = 0;
+      if (decided({power.high, power.low, power_error + size * 0x1p-66}, result))
+        return times_power_of_two(result, power.k);
+    }
+  }
+  return rounded_slowly(mpfr_pow, x, y);
+}
+
+double hypot(double x, double y) {
+  if (std::isfinite(x) && std::isfinite(y)) {
+    double long_side = std::abs(x), short_side = std::abs(y);
+    if (long_side < short_side) std::swap(long_side, short_side);
+    if (short_side <= long_side * 0x1p-28) {
+      // Half a last place is at least 2^-54 of the longer side, the shorter adds 2^-57 of it at most.
+      if (short_side == 0 || long_side >= 0x1p-900) return long_side;
+    } else if (long_side >= 0x1p-960 && long_side <= 0x1p1022) {
+      const std::uint64_t exponent = std::bit_cast<std::uint64_t>(long_side) >> 52;
+      const double scale = std::bit_cast<double>((2046 - exponent) << 52);
+      const double a = long_side * scale, b = short_side * scale;
+      const Pair aa = pairs::product(a, a), bb = pairs::product(b, b);
+      const Pair whole = pairs::quick_sum(aa.high, bb.high);
+      const Pair root = root_of({whole.high, whole.low + (aa.low + bb.low)});
+      double result = 0;
+      if (decided({root.high, root.low, root.high * 0x1p-98}, result))
+        return result * std::bit_cast<double>(exponent << 52);
+    }
+  }
+  return rounded_slowly(mpfr_hypot, x, y);
+}
+
+double asinh(double x) {
+  const double size = std::abs(x);
+  double result = 0;
+  if (size < 0x1p-27) return x;
+  if (size < 0x1p-9) {
+    const double square = x * x;
+    const double cubic =
+        x * square * (1.0 / 6 - square * (3.0 / 40 - square * (15.0 / 336 - square * (105.0 / 3456))));
+    if (decided({x, -cubic, size * 0x1p-66}, result)) return result;
+  } else if (size <= 0x1p1000) {
+    // log(|x| + √(x² + 1))
+    Pair argument{2 * size, 0.5 / size};
+    if (size < 0x1p28) {
+      const Pair square = pairs::product(size, size);
+      const Pair whole = pairs::sum(square.high, 1);
+      const Pair root = root_of({whole.high, whole.low + square.low});
+      argument = pairs::quick_sum(root.high, size);
+      argument = pairs::quick_sum(argument.high, argument.low + root.low);
+    }
+    const Pair ln = logarithm(argument.high, argument.low);
+    if (decided({ln.high, ln.low, std::abs(ln.high) * 0x1p-65}, result)) return x < 0 ? -result : result;
+  }
+  return rounded_slowly(mpfr_asinh, x);
+}
+
+double tan(double x) { return rounded_slowly(mpfr_tan, x); }
+double asin(double x) { return rounded_slowly(mpfr_asin, x); }
+double acos(double x) { return rounded_slowly(mpfr_acos, x); }
+double atan(double x) { return rounded_slowly(mpfr_atan, x); }
+double atan2(double y, double x) { return rounded_slowly(mpfr_atan2, y, x); }
+double cbrt(double x) { return rounded_slowly(mpfr_cbrt, x); }
+double erf(double x) { return rounded_slowly(mpfr_erf, x); }
+
+}  // namespace asperity::elementary

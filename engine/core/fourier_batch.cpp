@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/fourier_batch.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <mutex>
+
+#include "engine/core/lane_transpose.hpp"
+
+namespace asperity {
+
+namespace {
+
+using lane_transpose::Doubles;
+
+// Rows ahead of the one being gathered that are asked for: their addresses are too far apart for the
+// processor to foresee.
+constexpr int batch_rows_ahead = 12;
+
+template <int lanes>
+int convolution_length(int n) {
+  if (LaneFourier<double, lanes>::possible(n)) return n;
+  int length = 2 * n - 1;
+  while (!LaneFourier<double, lanes>::possible(length)) ++length;
+  return length;
+}
+
+}  // namespace
+
+template <int lanes>
+AnyLengthFourier<lanes>::AnyLengthFourier(int n) : n_(n), smooth_(convolution_length<lanes>(n)) {
+  const int length = smooth_.length();
+  if (length == n) return;
+  // k² modulo 2n: the exact phase of the chirp.
+  chirp_.resize(2 * static_cast<std::size_t>(n));
+  for (std::int64_t k = 0; k < n; ++k) {
+    const UnitTurn phase = unit_turn(k * k % (2 * std::int64_t{n}), 2 * std::int64_t{n});
+    chirp_[2 * static_cast<std::size_t>(k)] = phase.cosine;
+    chirp_[2 * static_cast<std::size_t>(k) + 1] = -phase.sine;
+  }
+  const LaneFourier<double, 1> single(length);
+  std::vector<Lanes<double, 1>::Complex> kernel(static_cast<std::size_t>(length), {0, 0});
+  for (int k = 0; k < n; ++k) {
+    const auto at = 2 * static_cast<std::size_t>(k);
+    kernel[static_cast<std::size_t>(k)] = {chirp_[at], -chirp_[at + 1]};
+    if (k > 0) kernel[static_cast<std::size_t>(length - k)] = kernel[static_cast<std::size_t>(k)];
+  }
+  single.forward(kernel.data());
+  response_.resize(2 * static_cast<std::size_t>(length));
+  for (int k = 0; k < length; ++k) {
+    const auto from = static_cast<std::size_t>(single.place(k));
+    const auto to = 2 * static_cast<std::size_t>(smooth_.place(k));
+    response_[to] = kernel[from].re / length;
+    response_[to + 1] = kernel[from].im / length;
+  }
+}
+
+// The inverse is the forward transform of the conjugate, conjugated.
+template <int lanes>
+template <bool forwards>
+void AnyLengthFourier<lanes>::by_convolution(Complex* values, Complex* work) const {
+  const double* const chirp = chirp_.data();
+  for (std::ptrdiff_t k = 0; k < n_; ++k) {
+    const double c = chirp[2 * k], s = forwards ? chirp[2 * k + 1] : -chirp[2 * k + 1];
+    const Complex& x = values[k];
+    work[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
+  }
+  std::fill(work + n_, work + smooth_.length(), Complex{});
+  smooth_.forward(work);
+  const double* const response = response_.data();
+  if constexpr (forwards) {
+    for (std::ptrdiff_t k = 0; k < smooth_.length(); ++k) {
+      const double c = response[2 * k], s = response[2 * k + 1];
+      const Complex x = work[k];
+      work[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
+    }
+  } else {
+    // The kernel is even, so that its conjugate has the conjugate transform.
+    for (std::ptrdiff_t k = 0; k < smooth_.length(); ++k) {
+      const double c = response[2 * k], s = -response[2 * k + 1];
+      const Complex x = work[k];
+      work[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
+    }
+  }
+  smooth_.inverse(work);
+  for (std::ptrdiff_t k = 0; k < n_; ++k) {
+    const double c = chirp[2 * k], s = forwards ? chirp[2 * k + 1] : -chirp[2 * k + 1];
+    const Complex& x = work[k];
+    values[k] = {x.re * c - x.im * s, x.re * s + x.im * c};
+  }
+}
+
+template <int lanes>
+void AnyLengthFourier<lanes>::forward(Complex* values, Complex* work) const {
+  if (smooth_.length() == n_)
+    smooth_.forward(values);
+  else
+    by_convolution<true>(values, work);
+}
+
+template <int lanes>
+void AnyLengthFourier<lanes>::inverse(Complex* values, Complex* work) const {
+  if (smooth_.length() == n_)
+    smooth_.inverse(values);
+  else
+    by_convolution<false>(values, work);
+}
+
+template class AnyLengthFourier<1>;
+template class AnyLengthFourier<Lanes<double>::count>;
+
+BatchFourier::Work::Work(const BatchFourier& batch)
+    : values(static_cast<std::size_t>(batch.length())), more(batch.fourier_.work_length()) {}
+
+std::size_t BatchFourier::work_values(int n) {
+  const int length = convolution_length<columns>(n);
+  return static_cast<std::size_t>(length == n ? n : n + length);
+}
+
+const BatchFourier& BatchFourier::of_length(int n) {
+  static std::mutex mutex;
+  static std::map<int, std::unique_ptr<const BatchFourier>> kept;
+  const std::lock_guard lock(mutex);
+  std::unique_ptr<const BatchFourier>& batch = kept[n];
+  if (!batch) batch = std::make_unique<const BatchFourier>(n);
+  return *batch;
+}
+
+// Lane l holds signal l as its real part and signal l + columns as its imaginary one.
+void BatchFourier::load_reals(Work& work, const double* const* in, int given, int count) const {
+  Lane* const values = work.values.data();
+  const auto signal = [&](int r) { return in[std::min(r, count - 1)]; };
+  const int whole = given / columns * columns;
+  for (int i = 0; i < whole; i += columns) {
+    Doubles re[columns], im[columns];
+    for (int l = 0; l < columns; ++l) {
+      std::memcpy(&re[l], signal(l) + i, sizeof re[l]);
+      std::memcpy(&im[l], signal(l + columns) + i, sizeof im[l]);
+    }
+    lane_transpose::transpose<columns>(re);
+    lane_transpose::transpose<columns>(im);
+    for (int k = 0; k < columns; ++k) values[i + k] = {re[k], im[k]};
+  }
+  for (int i = whole; i < given; ++i)
+    for (int l = 0; l < columns; ++l) {
+      values[i].re[l] = signal(l)[i];
+      values[i].im[l] = signal(l + columns)[i];
+    }
+  std::fill(values + given, values + length(), Lane{});
+}
+
+void BatchFourier::store_reals(const Work& work, int count, int wanted, double scale,
+                               double* const* out) const {
+  const Lane* const values = work.values.data();
+  const int whole = wanted / columns * columns;
+  for (int i = 0; i < whole; i += columns) {
+    Doubles re[columns], im[columns];
+    for (int k = 0; k < columns; ++k) {
+      re[k] = values[i + k].re * scale;
+      im[k] = values[i + k].im * scale;
+    }
+    lane_transpose::transpose<columns>(re);
+    lane_transpose::transpose<columns>(im);
+    for (int r = 0; r < count; ++r)
+      std::memcpy(out[r] + i, r < columns ? &re[r] : &im[r - columns], sizeof re[0]);
+  }
+  for (int i = whole; i < wanted; ++i)
+    for (int r = 0; r < count; ++r)
+      out[r][i] = (r < columns ? values[i].re[r] : values[i].im[r - columns]) * scale;
+}
+
+void BatchFourier::multiply_even(Work& work, const double* factors) const {
+  Lane* const values = work.values.data();
+  const auto multiply = [&](int bin, double factor) {
+    Lane& value = values[place(bin)];
+    value.re *= factor;
+    value.im *= factor;
+  };
+  for (int b = 0; b < bins(); ++b) {
+    multiply(b, factors[b]);
+    if (b > 0 && 2 * b < length()) multiply(length() - b, factors[b]);
+  }
+}
+
+void BatchFourier::real_forward(Work& work, const double* const* in, int given, int count,
+                                std::complex<double>* const* out) const {
+  const int n = length();
+  load_reals(work, in, given, count);
+  forward(work);
+  const Lane* const values = work.values.data();
+  // Z = A + iB: A(k) = (Z(k) + conj Z(−k))/2, B(k) = (Z(k) − conj Z(−k))/2i.
+  for (int first = 0; first < bins(); first += columns) {
+    Doubles part[4][columns];  // A's real and imaginary, B's real and imaginary part
+    const int here = std::min(columns, bins() - first);
+    for (int c = 0; c < columns; ++c) {
+      const int k = first + std::min(c, here - 1);
+      const Lane& low = values[place(k)];
+      const Lane& high = values[place(k == 0 ? 0 : n - k)];
+      part[0][c] = (low.re + high.re) * 0.5;
+      part[1][c] = (low.im - high.im) * 0.5;
+      part[2][c] = (low.im + high.im) * 0.5;
+      part[3][c] = (high.re - low.re) * 0.5;
+    }
+    for (auto& square : part) lane_transpose::transpose<columns>(square);
+    for (int r = 0; r < count; ++r) {
+      const int of = r < columns ? 0 : 2, l = r % columns;
+      Doubles pairs[2];
+      lane_transpose::interleave(part[of][l], part[of + 1][l], pairs[0], pairs[1]);
+      std::memcpy(static_cast<void*>(out[r] + first), pairs,
+                  sizeof(std::complex<double>) * static_cast<std::size_t>(here));
+    }
+  }
+}
+
+void BatchFourier::real_inverse(Work& work, const std::complex<double>* const* in, int count, int wanted,
+                                double scale, double* const* out) const {
+  const int n = length();
+  Lane* const values = work.values.data();
+  for (int first = 0; first < bins(); first += columns) {
+    Doubles part[4][columns];
+    const int here = std::min(columns, bins() - first);
+    for (int r = 0; r < rows; ++r) {
+      const int of = r < columns ? 0 : 2, l = r % columns;
+      Doubles pairs[2] = {};
+      std::memcpy(pairs, in[std::min(r, count - 1)] + first,
+                  sizeof(std::complex<double>) * static_cast<std::size_t>(here));
+      lane_transpose::separate(pairs[0], pairs[1], part[of][l], part[of + 1][l]);
+    }
+    for (auto& square : part) lane_transpose::transpose<columns>(square);
+    for (int c = 0; c < here; ++c) {
+      const int k = first + c;
+      const Doubles &a = part[0][c], &b = part[1][c], &x = part[2][c], &y = part[3][c];
+      if (k == 0 || 2 * k == n) {
+        values[place(k)] = {a, x};
+      } else {
+        values[place(k)] = {a - y, b + x};
+        values[place(n - k)] = {a + y, x - b};
+      }
+    }
+  }
+  inverse(work);
+  store_reals(work, count, wanted, scale, out);
+}
+
+template <class Place>
+void BatchFourier::load_to(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given,
+                           int count, Place place) const {
+  Lane* const values = work.values.data();
+  for (int b = 0; b < given; ++b, from += stride) {
+    const std::complex<double>* const ahead =
+        from + (b + batch_rows_ahead < given ? batch_rows_ahead * stride : 0);
+    __builtin_prefetch(ahead, 1);
+    __builtin_prefetch(ahead + columns / 2, 1);
+    Doubles pairs[2] = {};
+    if (count == columns)
+      std::memcpy(pairs, static_cast<const void*>(from), sizeof pairs);
+    else
+      std::memcpy(pairs, static_cast<const void*>(from),
+                  sizeof(std::complex<double>) * static_cast<std::size_t>(count));
+    Lane& to = values[place(b)];
+    lane_transpose::separate(pairs[0], pairs[1], to.re, to.im);
+  }
+  for (int b = given; b < length(); ++b) values[place(b)] = {};
+}
+
+template <class Place>
+void BatchFourier::store_from(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted,
+                              int count, Place place) const {
+  const Lane* const values = work.values.data();
+  for (int b = 0; b < wanted; ++b, to += stride) {
+    std::complex<double>* const ahead = to + (b + batch_rows_ahead < wanted ? batch_rows_ahead * stride : 0);
+    __builtin_prefetch(ahead, 1);
+    __builtin_prefetch(ahead + columns / 2, 1);
+    Doubles pairs[2];
+    const Lane& from = values[place(b)];
+    lane_transpose::interleave(from.re, from.im, pairs[0], pairs[1]);
+    if (count == columns)
+      std::memcpy(static_cast<void*>(to), pairs, sizeof pairs);
+    else
+      std::memcpy(static_cast<void*>(to), pairs,
+                  sizeof(std::complex<double>) * static_cast<std::size_t>(count));
+  }
+}
+
+void BatchFourier::load(Work& work, const std::complex<double>* from, std::ptrdiff_t stride, int given,
+                        int count) const {
+  load_to(work, from, stride, given, count, [](int b) { return b; });
+}
+
+void BatchFourier::load_bins(Work& work, const std::complex<double>* from, std::ptrdiff_t stride,
+                             int count) const {
+  load_to(work, from, stride, length(), count, [this](int b) { return place(b); });
+}
+
+void BatchFourier::store(const Work& work, std::complex<double>* to, std::ptrdiff_t stride, int wanted,
+                         int count) const {
+  store_from(work, to, stride, wanted, count, [](int b) { return b; });
+}
+
+void BatchFourier::store_bins(const Work& work, std::complex<double>* to, std::ptrdiff_t stride,
+                              int count) const {
+  store_from(work, to, stride, length(), count, [this](int b) { return place(b); });
+}
+
+}  // namespace asperity

@@ -1,0 +1,31 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# N10: results do not hang on the C library's sine, exponential, logarithm or power, which choose by the processor:
+# no file of engine/ calls one but the file that tells C libraries apart, nor a function of the standard library
+# built on one, nor a random distribution (the names of unfinished files alone are drawn by the system); they are in
+# engine/core/elementary_functions.hpp. And Eigen is asked for products in one file alone, which fixes what Eigen chooses.
+# usage: elementary.sh [the project's folder]
+set -eu
+cd "${1:-$(dirname -- "$0")/../..}"
+
+names='sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|exp|exp2|expm1|log|log2|log10|log1p|pow'
+names="$names|hypot|cbrt|erf|erfc|tgamma|lgamma|polar|arg|sincos|cyl_bessel_[a-z]+|cyl_neumann|sph_bessel|expint"
+names="$names|(comp_)?ellint_[123]|riemann_zeta|beta|legendre|laguerre|hermite"
+found=0
+if grep -rnE "(std|__builtin)(::|_)($names)[fl]?\b *\(" engine bindings/lua --include='*.cpp' --include='*.hpp' |
+  grep -v '^engine/core/c_library_identity\.cpp:'; then
+  echo "use elementary:: of engine/core/elementary_functions.hpp: the C library rounds by the processor"
+  found=1
+fi
+if grep -rnE "<random>|std::(normal|lognormal|exponential|gamma|weibull)_distribution" engine \
+  --include='*.cpp' --include='*.hpp' | grep -v '^engine/core/part_file\.cpp:'; then
+  echo "use engine/core/random.hpp: distributions of the standard library are each compiler's own"
+  found=1
+fi
+if grep -rn '<Eigen/' engine --include='*.cpp' --include='*.hpp' |
+  grep -v '^engine/surface/generators/table_product\.cpp:'; then
+  echo "Eigen chooses its operations by the processor: see engine/surface/generators/table_product.hpp"
+  found=1
+fi
+grep -q 'elementary::sincos(' engine/core/fourier_lanes.cpp || { echo "the check reads no sources"; found=1; }
+exit $found
