@@ -25,17 +25,15 @@ const Block<SelfAffineKeys>& spread_self_affine_block() {
 }
 Values spread_self_affine_body(Call& call) {
   SelfAffineKeys keys = call.options(spread_self_affine_block());
-  keys.grid = keys.make();
   return spread_result(slab_self_affine(team_of(call), keys, call.session().monitor()), keys.body_material);
 }
 
 const Block<SineKeys>& spread_sine_block() {
-  static const Block<SineKeys> block{"lab.spread.sine", sine_keys()};
+  static const Block<SineKeys> block{"lab.spread.sine", sine_keys(), check_sine_keys};
   return block;
 }
 Values spread_sine_body(Call& call) {
   SineKeys keys = call.options(spread_sine_block());
-  keys.grid = keys.make();
   return spread_result(slab_sine(team_of(call), keys, call.session().monitor()), keys.body_material);
 }
 

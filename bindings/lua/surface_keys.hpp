@@ -25,6 +25,11 @@ inline std::vector<Option<SineKeys>> sine_keys() {
           material_key()};
 }
 
+inline void check_sine_keys(SineKeys& keys, Problems&) {
+  keys.grid = keys.make();
+  (void)sine_factors(keys);
+}
+
 struct SelfAffineKeys : GridKeys, SelfAffineOptions {};
 inline std::vector<Option<SelfAffineKeys>> self_affine_keys() {
   using O = SelfAffineOptions;
@@ -55,6 +60,8 @@ inline void check_self_affine_keys(SelfAffineKeys& keys, Problems& problems) {
   if (given != 1)
     problems.push_back("give exactly one of `rms_height`, `rms_slope` and `ra`, which sets the amplitude; " +
                        std::to_string(given) + " are given");
+  keys.grid = keys.make();
+  if (problems.empty()) require_makeable(keys);
 }
 
 // `height` is only checked here: who calls it stands beside the call.

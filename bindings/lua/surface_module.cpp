@@ -46,12 +46,11 @@ Values weierstrass_mandelbrot_body(Call& call) {
 // --- the simple shapes
 
 const Block<SineKeys>& sine_block() {
-  static const Block<SineKeys> block{"lab.surface.sine", sine_keys()};
+  static const Block<SineKeys> block{"lab.surface.sine", sine_keys(), check_sine_keys};
   return block;
 }
 Values sine_body(Call& call) {
   SineKeys keys = call.options(sine_block());
-  keys.grid = keys.make();
   return result(sine_surface(keys, call.session().monitor()), keys.body_material);
 }
 
@@ -76,12 +75,15 @@ const Block<SphereKeys>& sphere_block() {
        choice("shape", &SphereOptions::shape,
               {{"sphere", SphereShape::sphere}, {"paraboloid", SphereShape::paraboloid}},
               "a true sphere, or the paraboloid r^2/2R of the same curvature"),
-       material_key()}};
+       material_key()},
+      [](SphereKeys& keys, Problems&) {
+        keys.grid = keys.make();
+        require_makeable(keys);
+      }};
   return block;
 }
 Values sphere_body(Call& call) {
   SphereKeys keys = call.options(sphere_block());
-  keys.grid = keys.make();
   return result(sphere_surface(keys, call.session().monitor()), keys.body_material);
 }
 
@@ -92,7 +94,6 @@ const Block<SelfAffineKeys>& self_affine_block() {
 }
 Values self_affine_body(Call& call) {
   SelfAffineKeys keys = call.options(self_affine_block());
-  keys.grid = keys.make();
   return result(self_affine_surface(keys, call.session().monitor()), keys.body_material);
 }
 
@@ -150,12 +151,15 @@ const Block<BeadBlastedKeys>& bead_blasted_block() {
            .defaults_to("{\"25 um\", \"60 um\"}"),
        number("coverage", &O::coverage, above(0), "area of all dents over that of the surface"),
        std::move(fine).defaults_to("{}"),
-       integer("seed", &O::seed, at_least(0), "of the dents and the texture"), material_key()}};
+       integer("seed", &O::seed, at_least(0), "of the dents and the texture"), material_key()},
+      [](K& keys, Problems&) {
+        keys.grid = keys.make();
+        require_makeable(keys);
+      }};
   return block;
 }
 Values bead_blasted_body(Call& call) {
   BeadBlastedKeys keys = call.options(bead_blasted_block());
-  keys.grid = keys.make();
   return result(bead_blasted_surface(keys, call.session().monitor()), keys.body_material);
 }
 

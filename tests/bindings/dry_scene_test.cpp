@@ -55,6 +55,14 @@ const char* const refused[] = {
     "interlocking={} } }",
     "contact{ lower=rough{ material=al }, upper=lab.rigid, effects={ elasticity='box' }, accuracy={ "
     "precision='single' } }",
+    // Surfaces that their cells cannot carry.
+    "rough{ short_wave='40 um' }",
+    "rough{ long_wave='3 mm' }",
+    "lab.surface.sine{ cells=32, size='1 mm', amplitude='1 um', wavelength='50 um' }",
+    "lab.surface.sphere{ cells=32, size='1 mm', radius='0.5 mm' }",
+    "lab.surface.bead_blasted{ cells=32, size='1 mm', ra='1 um' }",
+    "lab.surface.bead_blasted{ cells=128, size='1 mm', ra='1 um', fine={ hurst=0.8, roll_off='50 um', "
+    "short_wave='2 um' } }",
     // Bodies that do not fit.
     "contact{ lower=rough{ material=al }, upper=rough{ cells=64 }, effects={ elasticity='box' } }",
     "contact{ lower=rough{ material=al }, upper=rough{ size='2 mm', short_wave='200 um' }:mirrored(), "

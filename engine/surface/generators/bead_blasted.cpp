@@ -188,8 +188,9 @@ Scale scale_to(Field& heights, double ra) {
   return {average, ra / now};
 }
 
-// The texture under its own key names.
-Surface texture(const BeadBlastedOptions& o, const Grid& grid, Monitor& monitor) {
+// The options of the texture under its own key names, handed to `use`, whose refusals name the texture.
+template <class Use>
+auto with_texture(const BeadBlastedOptions& o, const Grid& grid, const Use& use) {
   SelfAffineOptions fine;
   fine.grid = grid;
   fine.hurst = o.fine->hurst;
@@ -198,7 +199,7 @@ Surface texture(const BeadBlastedOptions& o, const Grid& grid, Monitor& monitor)
   fine.short_wave = o.fine->short_wave;
   fine.seed = Stream(o.seed, "bead_blasted texture").bits(0);
   try {
-    return self_affine_surface(fine, monitor);
+    return use(fine);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_value) throw;
     throw Error(error.code(), "the fine texture: " + error.sentence(),
@@ -237,7 +238,10 @@ Surface blasted(const BeadBlastedOptions& options, const Decided* decided, Monit
   // Before the dents, so that a texture which cannot be had is refused at once.
   std::optional<Surface> fine;
   if (options.fine)
-    fine = decided == nullptr ? texture(options, grid, monitor) : (*decided->fine)(grid.nx, grid.ny, monitor);
+    fine = decided != nullptr ? (*decided->fine)(grid.nx, grid.ny, monitor)
+                              : with_texture(options, grid, [&](const SelfAffineOptions& texture) {
+                                  return self_affine_surface(texture, monitor);
+                                });
 
   Field heights = dented(options, grid, monitor);
   Decided now;
@@ -271,6 +275,12 @@ double dent_count(const BeadBlastedOptions& o) {
   const double radius = 0.5 * (o.dent_low + o.dent_high);
   const double count = o.coverage * (o.grid.size_x / radius) * (o.grid.size_y / radius) / std::numbers::pi;
   return std::max(1.0, std::round(count));
+}
+
+void require_makeable(const BeadBlastedOptions& options) {
+  const Grid grid = check(options);
+  if (options.fine)
+    with_texture(options, grid, [](const SelfAffineOptions& texture) { require_makeable(texture); });
 }
 
 Surface bead_blasted_surface(const BeadBlastedOptions& options, Monitor& monitor) {

@@ -52,4 +52,7 @@ double dent_count(const BeadBlastedOptions& options);
 // dent wider than its bead, or cells longer than the smallest dent's radius.
 Surface bead_blasted_surface(const BeadBlastedOptions& options, Monitor& monitor = Monitor::silent());
 
+// Throws as bead_blasted_surface for an option out of range; makes nothing.
+void require_makeable(const BeadBlastedOptions& options);
+
 }  // namespace asperity

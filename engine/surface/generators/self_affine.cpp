@@ -54,6 +54,11 @@ MadeHeights heights_of(const SelfAffineOptions& options, const Grid& grid, const
 
 }  // namespace
 
+void require_makeable(const SelfAffineOptions& options) {
+  const Grid& grid = options.grid;
+  (void)checked_band(options, make_grid(grid.nx, grid.ny, grid.size_x, grid.size_y));
+}
+
 Surface self_affine_surface(const SelfAffineOptions& options, Monitor& monitor) {
   const Grid grid = make_grid(options.grid.nx, options.grid.ny, options.grid.size_x, options.grid.size_y);
   const SelfAffineBand band = checked_band(options, grid);

@@ -35,4 +35,7 @@ struct SelfAffineOptions {
 // number of threads. Throws Error{bad_value} naming the option that is out of range.
 Surface self_affine_surface(const SelfAffineOptions& options, Monitor& monitor = Monitor::silent());
 
+// Throws as self_affine_surface for an option out of range; makes nothing.
+void require_makeable(const SelfAffineOptions& options);
+
 }  // namespace asperity

@@ -29,24 +29,29 @@ Surface cap_on(const Grid& grid, double radius, bool cap, double apex_i, double 
 
 }  // namespace
 
-Surface sphere_surface(const SphereOptions& options, Monitor&) {
+void require_makeable(const SphereOptions& options) {
   const Grid grid = make_grid(options.grid.nx, options.grid.ny, options.grid.size_x, options.grid.size_y);
   const double radius = options.radius;
   if (!(std::isfinite(radius) && radius > 0))
     throw Error(ErrorCode::bad_value, "`radius` is " + format_short(radius) + " m",
                 "give a finite length above zero");
-  const int apex_i = grid.nx / 2;
-  const int apex_j = grid.ny / 2;
-  const bool cap = options.shape == SphereShape::sphere;
-  const double corner = elementary::hypot(apex_i * grid.hx(), apex_j * grid.hy());
+  const double corner = elementary::hypot(grid.nx / 2 * grid.hx(), grid.ny / 2 * grid.hy());
   constexpr double rounding = 1e-12;
-  if (cap && corner > radius * (1 + rounding))
+  if (options.shape == SphereShape::sphere && corner > radius * (1 + rounding))
     throw Error(ErrorCode::bad_value,
                 "`radius` is " + format_quantity(radius, dimension::length) +
                     ", but the corner of the grid is " + format_quantity(corner, dimension::length) +
                     " from the apex",
                 "give a larger radius, a smaller `size`, or shape = \"paraboloid\"");
+}
 
+Surface sphere_surface(const SphereOptions& options, Monitor&) {
+  require_makeable(options);
+  const Grid grid = make_grid(options.grid.nx, options.grid.ny, options.grid.size_x, options.grid.size_y);
+  const double radius = options.radius;
+  const int apex_i = grid.nx / 2;
+  const int apex_j = grid.ny / 2;
+  const bool cap = options.shape == SphereShape::sphere;
   const Grid first = grid;
   const SurfaceRecipe recipe = [=](int nx, int ny, Monitor&) {
     return cap_on(make_grid(nx, ny, first.size_x, first.size_y), radius, cap,

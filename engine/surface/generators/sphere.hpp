@@ -21,4 +21,7 @@ struct SphereOptions {
 // a sphere does not reach the corner of the grid that is farthest from the apex.
 Surface sphere_surface(const SphereOptions& options, Monitor& monitor = Monitor::silent());
 
+// Throws as sphere_surface for an option out of range; makes nothing.
+void require_makeable(const SphereOptions& options);
+
 }  // namespace asperity
