@@ -72,7 +72,7 @@ std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun
 }
 
 // Another version rounds otherwise, and has other laws: what it adds does not belong to the same run.
-void require_same_version(const RecordedRun& recorded, const std::vector<std::string>& damages) {
+void require_same_version(const RecordedRun& recorded) {
   const std::string version = program_version(recorded);
   if (version == lua::version_text()) return;
   const std::string run = asperity::quoted(recorded.root.string());
@@ -80,8 +80,8 @@ void require_same_version(const RecordedRun& recorded, const std::vector<std::st
   const std::string begins_anew = "add `--reuse " + recorded.root.string() + "` to begin anew there";
   if (recorded.status == "done")
     throw Error(ErrorCode::bad_value,
-                joined(damages, "; ") + "; " + run + " was recorded by " + by + ", and this is " +
-                    lua::version_text() + ", which may not make the same bytes again",
+                joined(damages_of(recorded), "; ") + "; " + run + " was recorded by " + by +
+                    ", and this is " + lua::version_text() + ", which may not make the same bytes again",
                 "mend it with the version that recorded it, or " + begins_anew);
   throw Error(ErrorCode::bad_value,
               run + " was begun by " + by + ", and this is " + lua::version_text() +
@@ -136,11 +136,11 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
   // Nothing is written where all is as it should be, and nothing locked.
   if (recorded.status == "done" && changes_of(command, recorded).empty() && damages_of(recorded).empty())
     return {};
-  if (command.reuse.empty()) require_same_version(recorded, damages_of(recorded));
+  if (command.reuse.empty()) require_same_version(recorded);
   if (leads && command.lock == nullptr) {
     command.lock = RunLock::take(root);
     recorded = read_run(root, true);  // as whoever had the lock left it
-    if (command.reuse.empty()) require_same_version(recorded, damages_of(recorded));
+    if (command.reuse.empty()) require_same_version(recorded);
   }
   const std::vector<std::string> changed = changes_of(command, recorded);
   if (!changed.empty() && command.reuse.empty())

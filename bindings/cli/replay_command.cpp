@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/kept_results.hpp"
@@ -13,7 +17,6 @@
 #include "bindings/lua/version.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
-#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/across_versions.hpp"
 #include "engine/experiment/changed_laws.hpp"
@@ -60,7 +63,7 @@ void print_explained(const std::vector<ExplainedDifference>& found, const char* 
   if (found.size() > most_shown) std::printf("  and %zu more\n", found.size() - most_shown);
 }
 
-std::string number_of(std::size_t count, const char* one, const char* many) {
+std::string count_text(std::size_t count, const char* one, const char* many) {
   return count == 1 ? one : std::to_string(count) + many;
 }
 
@@ -118,7 +121,7 @@ void show_variation(const RecordedRun& recorded, const std::filesystem::path& pl
   }
   std::printf("%s with %s: %s\n", recorded.root.c_str(), what.c_str(),
               found.empty() ? "nothing came out otherwise"
-                            : number_of(found.size(), "one difference", " differences").c_str());
+                            : count_text(found.size(), "one difference", " differences").c_str());
   print_differences(found, "recorded", "varied");
 }
 
@@ -132,15 +135,15 @@ int compare_within(const RecordedRun& recorded, const RecordedRun& again,
                 static_cast<long long>(across.lines), recorded.ended() ? "" : ", as far as it had come");
   if (!across.explained.empty()) {
     std::printf("%s: %s\n", root,
-                number_of(across.explained.size(), "one difference that a changed law explains",
-                          " differences that changed laws explain")
+                count_text(across.explained.size(), "one difference that a changed law explains",
+                           " differences that changed laws explain")
                     .c_str());
     print_explained(across.explained, "recorded", "now");
   }
   if (!across.differences.empty()) {
     std::printf("%s: %s\n", root,
-                number_of(across.differences.size(), "one difference that no changed law explains",
-                          " differences that no changed law explains")
+                count_text(across.differences.size(), "one difference that no changed law explains",
+                           " differences that no changed law explains")
                     .c_str());
     print_differences(across.differences, "recorded", "now");
     print_versions(recorded, again);
@@ -174,7 +177,7 @@ int compare(const RecordedRun& recorded, const std::filesystem::path& place, boo
   }
   if (!changed.empty()) return compare_within(recorded, again, changed);
   std::printf("%s: %s\n", recorded.root.c_str(),
-              number_of(found.size(), "one difference", " differences").c_str());
+              count_text(found.size(), "one difference", " differences").c_str());
   print_differences(found, "recorded", "now");
   print_versions(recorded, again);
   return different;

@@ -125,9 +125,9 @@ bool is_left_out(const std::string& event, const DifferingMember& member) {
 }
 
 // The greatest magnitude of each column of each notebook.
-using Columns = std::map<std::pair<std::string, std::string>, double>;
-Columns greatest_of_columns(const std::vector<Json>& journal) {
-  Columns greatest;
+using ColumnScales = std::map<std::pair<std::string, std::string>, double>;
+ColumnScales greatest_of_columns(const std::vector<Json>& journal) {
+  ColumnScales greatest;
   for (const Json& line : journal) {
     const Json* row = line.find("row");
     if (row == nullptr || !row->is_object()) continue;
@@ -274,7 +274,7 @@ class Comparison {
 
   const RecordedRun &recorded_, &again_;
   const std::span<const LawMet> met_;
-  const Columns columns_;
+  const ColumnScales columns_;
   AcrossVersions result_;
 };
 

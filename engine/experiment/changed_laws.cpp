@@ -8,7 +8,7 @@ namespace asperity {
 
 namespace {
 
-constexpr std::array<ChangedLaw, law_count> laws{{
+constexpr std::array<ChangedLaw, law_count> table_of_laws{{
     {Law::last_digits, "0.2.0", "last digits",
      "sine, cosine, exponential, logarithm and powers were the C library's, which rounds by the processor, "
      "and "
@@ -52,8 +52,8 @@ constexpr std::array<ChangedLaw, law_count> laws{{
 }};
 
 constexpr bool each_in_its_place() {
-  for (std::size_t k = 0; k < laws.size(); ++k)
-    if (static_cast<std::size_t>(laws[k].law) != k) return false;
+  for (std::size_t k = 0; k < table_of_laws.size(); ++k)
+    if (static_cast<std::size_t>(table_of_laws[k].law) != k) return false;
   return true;
 }
 static_assert(each_in_its_place());
@@ -73,9 +73,9 @@ std::optional<std::array<int, 3>> version_numbers(std::string_view text) {
 
 }  // namespace
 
-std::span<const ChangedLaw> changed_laws() { return laws; }
+std::span<const ChangedLaw> changed_laws() { return table_of_laws; }
 
-const ChangedLaw& told(Law law) { return laws[static_cast<std::size_t>(law)]; }
+const ChangedLaw& told(Law law) { return table_of_laws[static_cast<std::size_t>(law)]; }
 
 std::optional<bool> is_earlier(std::string_view version, std::string_view than) {
   const auto one = version_numbers(version), other = version_numbers(than);
@@ -85,7 +85,7 @@ std::optional<bool> is_earlier(std::string_view version, std::string_view than) 
 
 std::vector<const ChangedLaw*> laws_changed_between(std::string_view then, std::string_view now) {
   std::vector<const ChangedLaw*> changed;
-  for (const ChangedLaw& law : laws)
+  for (const ChangedLaw& law : table_of_laws)
     if (is_earlier(then, law.since).value_or(false) && !is_earlier(now, law.since).value_or(true))
       changed.push_back(&law);
   return changed;

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# One version everywhere: CMakeLists.txt, CITATION.cff, the page's package and its lock; CHANGELOG.md begins with it, and
-# has a section for each version since which a law of engine/experiment/changed_laws.cpp holds.
+# One version everywhere: CMakeLists.txt, CITATION.cff, the page's package and its lock, the example that is built on the
+# library; CHANGELOG.md begins with it, and has a section for each version since which a law of
+# engine/experiment/changed_laws.cpp holds.
 # usage: changelog.sh [the project's folder]
 set -eu
 cd "${1:-$(dirname -- "$0")/../..}"
@@ -17,6 +18,8 @@ for file in package.json package-lock.json; do
   named=$(sed -n -e '1,/"version":/s/^ *"version": "\([0-9.]*\)",*$/\1/p' "bindings/web/page/$file")
   [ "$named" = "$version" ] || complain "bindings/web/page/$file is of version $named, CMakeLists.txt of $version"
 done
+wanted=$(sed -n 's/^find_package(asperity \([0-9.]*\) .*/\1/p' examples/library/CMakeLists.txt)
+[ "$wanted" = "${version%.*}" ] || complain "examples/library wants asperity $wanted, and this is version $version"
 first=$(sed -n 's/^## //p' CHANGELOG.md | head -n 1)
 [ "$first" = "$version" ] || complain "CHANGELOG.md begins with $first, and this is version $version"
 for since in $(sed -n 's/^ *{Law::[a-z_]*, "\([0-9.]*\)".*/\1/p' engine/experiment/changed_laws.cpp | sort -u); do
