@@ -242,8 +242,8 @@ int replay(const ReplayCommand& command) {
   const int status = in_run_directory(run, [&](RunContext& context) {
     place = context.run->path();
     laws_met().follow([of = std::weak_ptr(context.run)] {
-      const std::shared_ptr<RunDirectory> run = of.lock();
-      return run != nullptr ? run->journal().count() + 1 : 1;
+      const std::shared_ptr<RunDirectory> again = of.lock();
+      return again != nullptr ? again->journal().count() + 1 : 1;
     });
     if (variation && command.from)
       variation->in_force = [journal = &context.run->journal(), from = *command.from] {
