@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bindings/lua/version.hpp"
 #include "engine/core/build_identity.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -70,6 +71,24 @@ std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun
   return changed;
 }
 
+// Another version rounds otherwise, and has other laws: what it adds does not belong to the same run.
+void require_same_version(const RecordedRun& recorded) {
+  const std::string version = program_version(recorded);
+  if (version == lua::version_text()) return;
+  const std::string run = asperity::quoted(recorded.root.string());
+  const std::string by = version.empty() ? "a version it does not name" : "version " + version;
+  const std::string begins_anew = "add `--reuse " + recorded.root.string() + "` to begin anew there";
+  if (recorded.status == "done")
+    throw Error(ErrorCode::bad_value,
+                joined(damages_of(recorded), "; ") + "; " + run + " was recorded by " + by +
+                    ", and this is " + lua::version_text() + ", which may not make the same bytes again",
+                "mend it with the version that recorded it, or " + begins_anew);
+  throw Error(ErrorCode::bad_value,
+              run + " was begun by " + by + ", and this is " + lua::version_text() +
+                  ": two versions in one record could not be told apart",
+              "go on with the version that began it, or " + begins_anew);
+}
+
 }  // namespace
 
 void require_repeatable(const RunCommand& command, const RecordedRun& recorded, const char* purpose) {
@@ -117,9 +136,11 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
   // Nothing is written where all is as it should be, and nothing locked.
   if (recorded.status == "done" && changes_of(command, recorded).empty() && damages_of(recorded).empty())
     return {};
+  if (command.reuse.empty()) require_same_version(recorded);
   if (leads && command.lock == nullptr) {
     command.lock = RunLock::take(root);
     recorded = read_run(root, true);  // as whoever had the lock left it
+    if (command.reuse.empty()) require_same_version(recorded);
   }
   const std::vector<std::string> changed = changes_of(command, recorded);
   if (!changed.empty() && command.reuse.empty())
@@ -128,8 +149,16 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
                     (changed.size() > 1 ? " are" : " is") + " not the one given now",
                 "leave it out to go on as recorded, or add `--reuse " + *command.resume +
                     "` to begin anew there with the results that are still the same");
-  command.anew = !changed.empty();
-  if (command.anew) return command;
+  command.anew = !changed.empty() || program_version(recorded) != lua::version_text();
+  if (command.anew) {
+    if (!command.script.empty()) return command;
+    require_repeatable(command, recorded, "begin it anew");
+    command.script = recorded.script_path;
+    command.text = recorded.script_text;
+    if (command.arguments.empty()) command.arguments = recorded.arguments;
+    if (!command.seed_given) command.seed = static_cast<std::uint64_t>(recorded.seed);
+    return command;
+  }
   if (recorded.status == "done") {
     command.damages = damages_of(recorded);
     if (command.damages.empty()) return {};

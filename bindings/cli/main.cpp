@@ -216,7 +216,11 @@ int main(int argc, char** argv) {
   replay_command.add_option("--limit-time", replay_time, "end it after this long, e.g. 60s or \"2 min\"");
   replay_command.footer(
       "Every call, row, expectation and file is compared by its digest; times and dates are not. "
-      "Exit status 1 where anything differs. What the script prints is dropped.");
+      "Of a run by an earlier version the laws that changed since are listed, and it is compared within "
+      "them: "
+      "numbers to 1e-05, digests of what has other last digits not at all. "
+      "Exit status 1 where anything differs that no changed law explains. What the script prints is "
+      "dropped.");
 
   CLI::App& accuracy_command = *app.add_subcommand(
       "accuracy",

@@ -4,14 +4,22 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/kept_results.hpp"
 #include "bindings/cli/muted.hpp"
 #include "bindings/lua/variation.hpp"
+#include "bindings/lua/version.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/across_versions.hpp"
+#include "engine/experiment/changed_laws.hpp"
 #include "engine/experiment/recorded_run.hpp"
 #include "engine/experiment/run_directory.hpp"
 #include "engine/experiment/run_facts.hpp"
@@ -36,39 +44,138 @@ void print_versions(const RecordedRun& recorded, const RecordedRun& again) {
 // The engine's results are the same bits on every processor; what the script computes by `^` and `math`, and
 // contacts spread over ranks, may not be.
 void print_machines(const RecordedRun& recorded, const RecordedRun& again) {
-  const auto machine_of = [](const RecordedRun& run) -> const Json* {
-    const Json* unhashed = run.manifest.find("unhashed");
-    return unhashed != nullptr ? unhashed->find("machine") : nullptr;
-  };
-  const Json *then = machine_of(recorded), *now = machine_of(again);
-  if (then == nullptr || now == nullptr) return;
-  for (const std::string& line : differing_machines(*then, *now))
+  for (const std::string& line : differing_machines(recorded.machine, again.machine))
     std::printf("  recorded on %s\n", line.c_str());
 }
 
+constexpr std::size_t most_shown = 10;
+
+void print_difference(const Difference& found, const char* first, const char* second) {
+  std::printf("  %s\n    %-8s  %s\n    %-8s  %s\n", found.where.c_str(), first, found.recorded.c_str(),
+              second, found.again.c_str());
+}
+
 void print_differences(const std::vector<Difference>& found, const char* first, const char* second) {
-  constexpr std::size_t most = 10;
-  for (std::size_t k = 0; k < std::min(found.size(), most); ++k)
-    std::printf("  %s\n    %-8s  %s\n    %-8s  %s\n", found[k].where.c_str(), first,
-                found[k].recorded.c_str(), second, found[k].again.c_str());
-  if (found.size() > most) std::printf("  and %zu more\n", found.size() - most);
+  for (std::size_t k = 0; k < std::min(found.size(), most_shown); ++k)
+    print_difference(found[k], first, second);
+  if (found.size() > most_shown) std::printf("  and %zu more\n", found.size() - most_shown);
+}
+
+void print_explained(const std::vector<ExplainedDifference>& found, const char* first, const char* second) {
+  for (std::size_t k = 0; k < std::min(found.size(), most_shown); ++k) {
+    print_difference(found[k].difference, first, second);
+    std::vector<std::string> names;
+    for (const ChangedLaw* law : found[k].laws) names.emplace_back(law->name);
+    std::printf("    by        %s\n", joined(names, " or ").c_str());
+  }
+  if (found.size() > most_shown) std::printf("  and %zu more\n", found.size() - most_shown);
+}
+
+std::string count_text(std::size_t count, const char* one, const char* many) {
+  return count == 1 ? one : std::to_string(count) + many;
+}
+
+// What the run that has just ended met of the laws that changed since the recorded one.
+std::vector<LawMet> met_of(const std::vector<const ChangedLaw*>& changed) {
+  std::vector<LawMet> met;
+  for (const ChangedLaw* law : changed)
+    if (const std::int64_t line = laws_met().first_line(law->law); line > 0) met.push_back({law, line});
+  return met;
+}
+
+// Says which version recorded it, where that is another one, and which laws changed in between. Empty: the
+// two are compared to the byte.
+std::vector<const ChangedLaw*> say_what_changed(const RecordedRun& recorded) {
+  const std::string then = program_version(recorded), now = lua::version_text();
+  if (then == now) return {};
+  std::printf("%s was recorded by %s, and this is %s", recorded.root.c_str(),
+              then.empty() ? "a version it does not name" : ("version " + then).c_str(), now.c_str());
+  std::vector<const ChangedLaw*> changed = laws_changed_between(then, now);
+  if (changed.empty()) {
+    std::printf("%s\n", is_earlier(then, now).value_or(false)
+                            ? "; no law changed in between"
+                            : ", which cannot tell what changed in between: compared to the byte");
+    return {};
+  }
+  std::printf(". Laws that changed in between:\n");
+  std::vector<std::string> others;
+  for (const ChangedLaw* law : changed) {
+    const std::int64_t line = laws_met().first_line(law->law);
+    if (law->law != Law::last_digits && line == 0) {
+      others.emplace_back(law->name);
+      continue;
+    }
+    const std::string met = line > 0 ? ", met by line " + std::to_string(line) : "";
+    std::printf("  %s (since %s%s)\n    before    %s\n    now       %s\n    moves     %s\n",
+                std::string(law->name).c_str(), std::string(law->since).c_str(), met.c_str(),
+                std::string(law->before).c_str(), std::string(law->now).c_str(),
+                std::string(law->moves).c_str());
+  }
+  if (!others.empty()) std::printf("  not met by this run: %s\n", joined(others, " and ").c_str());
+  return changed;
 }
 
 // Prints what came out otherwise.
 void show_variation(const RecordedRun& recorded, const std::filesystem::path& place,
                     const std::string& what) {
-  const std::vector<Difference> found = differences(recorded, read_run(place));
+  const RecordedRun again = read_run(place);
+  const std::vector<const ChangedLaw*> changed = say_what_changed(recorded);
+  std::vector<Difference> found;
+  if (changed.empty()) {
+    found = differences(recorded, again);
+  } else {
+    AcrossVersions across = compare_across_versions(recorded, again, {});
+    found = std::move(across.differences);
+  }
   std::printf("%s with %s: %s\n", recorded.root.c_str(), what.c_str(),
-              found.empty()       ? "nothing came out otherwise"
-              : found.size() == 1 ? "one difference"
-                                  : (std::to_string(found.size()) + " differences").c_str());
+              found.empty() ? "nothing came out otherwise"
+                            : count_text(found.size(), "one difference", " differences").c_str());
   print_differences(found, "recorded", "varied");
+}
+
+// Of a run by an earlier version, within the laws that changed; the exit status.
+int compare_within(const RecordedRun& recorded, const RecordedRun& again,
+                   const std::vector<const ChangedLaw*>& changed) {
+  const AcrossVersions across = compare_across_versions(recorded, again, met_of(changed));
+  const char* const root = recorded.root.c_str();
+  if (across.differences.empty() && across.explained.empty())
+    std::printf("%s: the same again within these laws, %lld lines of the journal%s\n", root,
+                static_cast<long long>(across.lines), recorded.ended() ? "" : ", as far as it had come");
+  if (!across.explained.empty()) {
+    std::printf("%s: %s\n", root,
+                count_text(across.explained.size(), "one difference that a changed law explains",
+                           " differences that changed laws explain")
+                    .c_str());
+    print_explained(across.explained, "recorded", "now");
+  }
+  if (!across.differences.empty()) {
+    std::printf("%s: %s\n", root,
+                count_text(across.differences.size(), "one difference that no changed law explains",
+                           " differences that no changed law explains")
+                    .c_str());
+    print_differences(across.differences, "recorded", "now");
+    print_versions(recorded, again);
+    print_machines(recorded, again);
+  }
+  if (across.in_last_digits > 0)
+    std::printf("  other last digits, by less than %s of the number: %lld\n",
+                format_short(digits_kept).c_str(), static_cast<long long>(across.in_last_digits));
+  if (across.digests > 0)
+    std::printf("  digests that other last digits change, not comparable: %lld\n",
+                static_cast<long long>(across.digests));
+  if (!across.outputs.empty()) {
+    std::vector<std::string> names;
+    for (const std::string& file : across.outputs) names.push_back(quoted(file));
+    std::printf("  files with another digest, not comparable: %s\n", joined(names, " and ").c_str());
+  }
+  return across.differences.empty() ? equal : different;
 }
 
 // Prints how the two compare; the exit status. `altered`: files of the record are not what the run wrote.
 int compare(const RecordedRun& recorded, const std::filesystem::path& place, bool altered) {
   const RecordedRun again = read_run(place);
   const std::vector<Difference> found = differences(recorded, again);
+  const std::vector<const ChangedLaw*> changed = say_what_changed(recorded);
   if (found.empty()) {
     std::printf("%s: the same again, %zu lines of the journal%s\n", recorded.root.c_str(),
                 recorded.ended() ? recorded.journal.size() : again.journal.size(),
@@ -77,8 +184,9 @@ int compare(const RecordedRun& recorded, const std::filesystem::path& place, boo
                                   : " and every file");
     return equal;
   }
+  if (!changed.empty()) return compare_within(recorded, again, changed);
   std::printf("%s: %s\n", recorded.root.c_str(),
-              (found.size() == 1 ? "one difference" : std::to_string(found.size()) + " differences").c_str());
+              count_text(found.size(), "one difference", " differences").c_str());
   print_differences(found, "recorded", "now");
   print_versions(recorded, again);
   print_machines(recorded, again);
@@ -143,6 +251,10 @@ int replay(const ReplayCommand& command) {
   std::optional<Muted> muted(std::in_place);
   const int status = in_run_directory(run, [&](RunContext& context) {
     place = context.run->path();
+    laws_met().follow([of = std::weak_ptr(context.run)] {
+      const std::shared_ptr<RunDirectory> again = of.lock();
+      return again != nullptr ? again->journal().count() + 1 : 1;
+    });
     if (variation && command.from)
       variation->in_force = [journal = &context.run->journal(), from = *command.from] {
         return journal->count() + 1 >= from;

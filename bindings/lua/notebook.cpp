@@ -6,6 +6,7 @@
 
 #include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/session.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/experiment/notebook_chart.hpp"
 #include "engine/experiment/run_directory.hpp"
 
@@ -62,6 +63,7 @@ void keep_quantity(Entry& entry, const std::string& unit) {
     if (!begins_a_number(*text)) return;  // "worn" stays text
     try {
       entry.value = parse_quantity_in(*text, unit);
+      laws_met().meet(Law::column_units);
     } catch (const Error& error) {
       throw Error(ErrorCode::bad_unit, "column " + quoted(entry.column) + ": " + error.sentence(),
                   error.hint());

@@ -8,7 +8,7 @@
 
 namespace asperity::lua {
 
-std::string version_text();  // "0.1.0"
+std::string version_text();  // "0.2.0"
 // Name and version of the program, its compiler, Lua and the libraries it was built with.
 std::vector<std::pair<std::string, std::string>> version_facts();
 

@@ -14,6 +14,7 @@
 #include "engine/contact/effects/tangential.hpp"
 #include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -78,6 +79,7 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
   Plan plan;
   plan.title = tile_text(geometry.grid(), scene.boundary);
   plan.overlap = geometry.overlap_fraction();
+  if (geometry.overhangs()) laws_met().meet(Law::overlap);
   plan.accuracy = scene.accuracy;
   if (!geometry.upper_is_flat())
     plan.buffers.push_back(

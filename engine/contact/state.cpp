@@ -17,6 +17,7 @@
 #include "engine/contact/regions.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -219,7 +220,9 @@ double State::separation() const {
 double State::secant_stiffness() const {
   if (approach() > 0) return pressure() / approach();
   // A flat on a flat over all of a periodic tile: it gives nowhere way before anywhere else.
-  return approach() == 0 && pressure() > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+  if (!(approach() == 0 && pressure() > 0)) return 0.0;
+  laws_met().meet(Law::flat_stiffness);
+  return std::numeric_limits<double>::infinity();
 }
 double State::area() const { return static_cast<double>(contacts()) * shared_->grid().cell_area(); }
 

@@ -44,6 +44,12 @@ class Json {
 
   bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
   bool is_object() const { return std::holds_alternative<Members>(value_); }
+  bool is_list() const { return std::holds_alternative<List>(value_); }
+  bool is_string() const { return std::holds_alternative<std::string>(value_); }
+  // Of JSON: not the strings "nan", "inf" and "-inf".
+  bool is_number() const {
+    return std::holds_alternative<std::int64_t>(value_) || std::holds_alternative<double>(value_);
+  }
 
   // Replaces the member of that name or adds it last; a null becomes an object first. Throws
   // Error{internal} on anything else.

@@ -42,21 +42,6 @@ std::string described(const Json& line) {
   return "";
 }
 
-// One member by its value, several by their names and values.
-Difference difference_of(std::string where, const std::vector<DifferingMember>& members) {
-  const auto join_path = [&](const std::string& path) { return path.empty() ? where : where + ", " + path; };
-  if (members.size() == 1)
-    return {join_path(members[0].path), brief(members[0].one), brief(members[0].other)};
-  const auto list = [&](const Json* DifferingMember::*side) {
-    constexpr std::size_t most = 6;
-    std::string text;
-    for (std::size_t k = 0; k < std::min(members.size(), most); ++k)
-      text += (k > 0 ? ", " : "") + members[k].path + " " + brief(members[k].*side);
-    return members.size() > most ? text + " …" : text;
-  };
-  return {std::move(where), list(&DifferingMember::one), list(&DifferingMember::other)};
-}
-
 void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::vector<Difference>& found) {
   std::size_t compared = std::max(recorded.journal.size(), again.journal.size());
   if (!recorded.ended()) {
@@ -106,6 +91,25 @@ void compare_files(const RecordedRun& recorded, const RecordedRun& again, std::s
 
 }  // namespace
 
+Difference difference_of(std::string where, const std::vector<DifferingMember>& members) {
+  const auto join_path = [&](const std::string& path) { return path.empty() ? where : where + ", " + path; };
+  if (members.size() == 1)
+    return {join_path(members[0].path), brief(members[0].one), brief(members[0].other)};
+  const auto list = [&](const Json* DifferingMember::*side) {
+    constexpr std::size_t most = 6;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(members.size(), most); ++k)
+      text += (k > 0 ? ", " : "") + members[k].path + " " + brief(members[k].*side);
+    return members.size() > most ? text + " …" : text;
+  };
+  return {std::move(where), list(&DifferingMember::one), list(&DifferingMember::other)};
+}
+
+std::string program_version(const RecordedRun& run) {
+  const Json* version = run.versions.is_object() ? run.versions.find("asperity") : nullptr;
+  return version != nullptr && version->is_string() ? version->string() : std::string();
+}
+
 Json read_manifest(const fs::path& root) {
   const fs::path file = root / "manifest.json";
   return Json::parse(whole_file(file), quoted(file.string()));
@@ -130,6 +134,7 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   run.seed = static_cast<std::int64_t>(member(manifest, "seed", file).number());
   run.trusted = member(manifest, "trusted", file).boolean();
   run.versions = member(manifest, "versions", file);
+  if (const Json* machine = rest.is_object() ? rest.find("machine") : nullptr) run.machine = *machine;
   run.manifest = without_unhashed(manifest);
   try {
     run.journal = read_journal(root / "journal.jsonl", !run.ended()).lines;

@@ -13,6 +13,8 @@
 
 namespace asperity {
 
+struct DifferingMember;
+
 struct RecordedRun {
   std::filesystem::path root;
   std::string status;       // "done", "failed", "interrupted", "killed", or "running" where it was cut off
@@ -22,6 +24,7 @@ struct RecordedRun {
   std::int64_t seed = 1;
   bool trusted = false;
   Json versions;
+  Json machine = Json::object();      // machine_facts() of where it ran; empty where they were not noted
   std::vector<Json> journal;  // a line each
   std::string journal_fault;  // what is wrong with it: a sentence, and what serves in its place; else ""
   std::string journal_hint;
@@ -30,6 +33,9 @@ struct RecordedRun {
   // Whether it came to its own end, so that its journal is whole and its files are listed.
   bool ended() const { return status == "done" || status == "failed"; }
 };
+
+// The version of the program that recorded it, "0.1.0"; "" where the record does not say.
+std::string program_version(const RecordedRun& run);
 
 // The manifest alone. Throws Error{bad_file} where there is none or it is no JSON.
 Json read_manifest(const std::filesystem::path& root);
@@ -47,6 +53,9 @@ struct Difference {
   std::string where;  // "line 4, contact:press, result"
   std::string recorded, again;
 };
+
+// Of members that differ: one by its value, several by their names and values.
+Difference difference_of(std::string where, const std::vector<DifferingMember>& members);
 
 // In the order of the journal, then inputs, outputs and expectations. Of a run that did not come to its end
 // only the lines it wrote are compared.

@@ -7,6 +7,7 @@
 
 #include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/noise_correlation.hpp"
@@ -128,6 +129,7 @@ void RecordingMarks::follow_correlation() {
   for (int round = 0; round < rounds; ++round) {
     const std::optional<NoiseCorrelation> found = noise_correlation(t_, y_, pieces_);
     if (!found || !(range_ > 8 * found->deviation)) return;
+    laws_met().meet(Law::alike_readings);
     effective_noise_ = noise_ = found->deviation;
     independent_ = found->independent;
     pieces_ = straight_pieces(t_, y_, piece_noise(), evidence_, monitor_);

@@ -10,6 +10,7 @@
 
 #include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/random.hpp"
 #include "engine/core/text.hpp"
@@ -245,8 +246,10 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     // What the probes resolve is solved; what is lighter follows from them.
     const double resolved = half_space ? least_pressure(probes) : 0;
     if (!flat) weight.reset();
-    if (half_space && weight_pressure > resolved && !weight)
+    if (half_space && weight_pressure > resolved && !weight) {
+      laws_met().meet(Law::tilt_weight);
       weight.emplace(*solver, law, options, resolved, weight_pressure, monitor);
+    }
     std::int64_t contacts = 0;  // under the greatest load of the trial
     const auto friction = [&](double normal_force) {
       if (half_space) {

@@ -228,7 +228,7 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
       const [, , what, id, part, ...rest] = url.pathname.split('/').map(decodeURIComponent);
       if (what === 'about')
         return send(200, {
-          version: '0.1.0',
+          version: '0.2.0',
           limits: { memory_bytes: 1e9, seconds: 30, output_bytes: 1e6, runs: most },
           classroom: false,
         });

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # asperity replay: equal runs, one that failed, one that ended by os.exit, one that was cut off, records that
-# were altered, and a script whose numbers differ from run to run.
+# were altered, a script whose numbers differ from run to run, and runs by another version.
 #
 #   tests/scripts/runner/replay.sh PROGRAM FOLDER
 set -eu
@@ -86,4 +86,72 @@ if grep -q "row.same" output; then fail "a column that is the same is told"; fi
 # Trust is given on the command line, never by the directory of a run.
 ends 2 'add `--trust` to replay it so' "$program" replay clock --out untrusted
 ends 2 'leave `--trust` out to replay' "$program" replay run --out trusted --trust
+
+# A run by an earlier version is compared within the laws that changed since. 0.1.0 kept no digest of its journal.
+version=$("$program" --version | sed 's/^asperity //')
+of_version() { # VERSION RUN COPY
+  cp -r "$2" "$3"
+  sed -i -e "s/\"asperity\": \"$version\"/\"asperity\": \"$1\"/" -e '/^  "journal": {/,/}/d' "$3/manifest.json"
+}
+of_version 0.1.0 run earlier
+ends 0 "the same again, " "$program" replay earlier --out earlier-again
+says "earlier was recorded by version 0.1.0, and this is $version" output
+says "last digits (since 0.2.0)" output
+says "not met by this run: bodies that do not cover each other" output
+of_version 0.1.0 run digits
+sed -i -E -e '3s/"result":"[0-9a-f]*"/"result":"00000000000000000000000000000000"/' \
+  -e '4s/("chance":0\.[0-9]{9})[0-9]*/\11/' digits/journal.jsonl
+ends 0 "digits: the same again within these laws" "$program" replay digits --out digits-again
+says "other last digits, by less than 1e-05 of the number: 1" output
+says "digests that other last digits change, not comparable: 1" output
+of_version 0.1.0 run numbers
+sed -i '4s/"chance":[0-9.e-]*/"chance":1.5/' numbers/journal.jsonl
+ends 1 "numbers: one difference that no changed law explains" "$program" replay numbers --out numbers-again
+says "line 4, events, row.chance" output
+# Nobody here knows the laws of a later version.
+of_version 99.0.0 run later
+ends 0 "which cannot tell what changed in between: compared to the byte" "$program" replay later --out later-again
+of_version 99.0.0 run later-digits
+sed -i -E '4s/("chance":0\.[0-9]{9})[0-9]*/\11/' later-digits/journal.jsonl
+ends 1 "later-digits: one difference" "$program" replay later-digits --out later-digits-again
+
+# A law explains what comes after it was met, and nothing before.
+cat > pair.lua <<'LUA'
+local lab = require "asperity"
+local function body(seed, hardness)
+  return lab.surface.self_affine{ cells = 32, size = 1, hurst = 0.8, rms_height = 0.01, short_wave = 0.2, seed = seed,
+    material = lab.material{ young = 1, poisson = 0.3, hardness = hardness } }
+end
+local lower, upper = body(1, 0.1), body(2, 0.12)
+lab.notebook "before":write{ Ra = lower:roughness().Ra }
+local c = lab.contact{ lower = lower, upper = upper, boundary = "periodic",
+  effects = { elasticity = "half_space", plasticity = {} } }
+c:press{ pressure = 0.02 }
+lab.notebook "after":write{ Ra = c:upper():roughness().Ra }
+LUA
+"$program" run pair.lua --out pair > printed 2>&1
+of_version 0.1.0 pair shared
+sed -i '/"notebook":"after"/s/"Ra":[0-9.e-]*/"Ra":0.5/' shared/journal.jsonl
+ends 0 "shared: one difference that a changed law explains" "$program" replay shared --out shared-again
+says "by        shares of unlike bodies" output
+of_version 0.1.0 pair rough
+sed -i '/"notebook":"before"/s/"Ra":[0-9.e-]*/"Ra":0.5/' rough/journal.jsonl
+ends 1 "rough: one difference that no changed law explains" "$program" replay rough --out rough-again
+
+# Two versions never write one record.
+of_version 0.1.0 run begun
+sed -i 's/"status": "done"/"status": "running"/' begun/manifest.json
+head -n 4 run/journal.jsonl > begun/journal.jsonl
+cp begun/manifest.json manifest-before
+ends 2 "was begun by version 0.1.0" "$program" run --resume begun
+cmp begun/manifest.json manifest-before
+cmp run/events.csv begun/events.csv
+ends 0 "results in" "$program" run --resume begun --reuse begun
+says "\"asperity\": \"$version\"" begun/manifest.json
+says '"status": "done"' begun/manifest.json
+cmp run/worn.npy begun/worn.npy
+of_version 0.1.0 run damaged
+rm damaged/worn.npy
+ends 2 "which may not make the same bytes again" "$program" run --resume damaged
+ends 0 "nothing to resume" "$program" run --resume earlier
 echo "replay: all as it should be"

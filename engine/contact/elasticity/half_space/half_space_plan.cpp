@@ -5,6 +5,7 @@
 
 #include "engine/contact/elastic_bodies.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -30,6 +31,9 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   plan.buffers.push_back({"work of the solver", grids(!periodic ? 11 : single ? 7.5 : 8), false});
   if (geometry.overhangs())
     plan.buffers.push_back({"heights, those that nothing faces out of reach", grids(1), false});
+  constexpr double long_cells = 4;  // where the preconditioner goes along lines of nodes
+  const double aspect = geometry.grid().hy() / geometry.grid().hx();
+  if (aspect >= long_cells || aspect * long_cells <= 1) laws_met().meet(Law::long_cells);
   plan.transforms = periodic ? 40 : 60;
   // Measured on two threads: a transform of a million nodes takes some 3 ms with all that goes with it, one
   // of 67 million 430 ms.

@@ -16,6 +16,7 @@
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"
 #include "engine/contact/elasticity/half_space/recalled_solve.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -269,6 +270,7 @@ State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) cons
       asked.prescribed = Prescribed::flattening;
       break;
   }
+  if (by != "pressure") laws_met().meet(Law::approach_control);
   Costed<HalfSpaceAnswer> solved = recall_or_solve(problem, by, value, monitor, [&] {
     return by == "approach"  ? solve_at_approach(problem, value, monitor)
            : by == "flatten" ? solve_at_flattening(problem, value, monitor)

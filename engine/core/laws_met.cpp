@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/laws_met.hpp"
+
+#include <utility>
+
+namespace asperity {
+
+void LawsMet::follow(std::function<std::int64_t()> line) {
+  const std::lock_guard lock(mutex_);
+  line_ = std::move(line);
+  lines_.fill(0);
+  followed_ = line_ != nullptr;
+}
+
+std::int64_t LawsMet::first_line(Law law) const {
+  const std::lock_guard lock(mutex_);
+  return lines_[static_cast<std::size_t>(law)];
+}
+
+void LawsMet::keep(Law law) {
+  const std::lock_guard lock(mutex_);
+  std::int64_t& line = lines_[static_cast<std::size_t>(law)];
+  if (line == 0 && line_) line = line_();
+}
+
+LawsMet& laws_met() {
+  static LawsMet of_process;
+  return of_process;
+}
+
+}  // namespace asperity
