@@ -261,7 +261,7 @@ void BatchFourier::load_to(Work& work, const std::complex<double>* from, std::pt
     Lane& to = values[place(b)];
     lane_transpose::separate(pairs[0], pairs[1], to.re, to.im);
   }
-  for (int b = given; b < length(); ++b) values[place(b)] = {};
+  for (int b = given; b < length(); ++b) values[place(b)] = Lane{};
 }
 
 template <class Place>

@@ -24,9 +24,9 @@ struct RecordedRun {
   std::int64_t seed = 1;
   bool trusted = false;
   Json versions;
-  Json machine = Json::object();      // machine_facts() of where it ran; empty where they were not noted
-  std::vector<Json> journal;  // a line each
-  std::string journal_fault;  // what is wrong with it: a sentence, and what serves in its place; else ""
+  Json machine = Json::object();  // machine_facts() of where it ran; empty where they were not noted
+  std::vector<Json> journal;      // a line each
+  std::string journal_fault;      // what is wrong with it: a sentence, and what serves in its place; else ""
   std::string journal_hint;
   Json manifest;
 

@@ -40,7 +40,8 @@ TEST_F(MissingGap, IsNanInValuesAndLeftOutOfSums) {
                 "  end\n"
                 "end end\n"
                 "assert(known == 64)\n"
-                "local off = st.error.algebraic.mean_gap  -- what touches counts as 0 in the field, with its residual in the mean\n"
+                "local off = st.error.algebraic.mean_gap  -- what touches counts as 0 in the field, with its "
+                "residual in the mean\n"
                 "assert(off < 1e-12 and math.abs(sum / known - st.mean_gap) <= off)\n"
                 "assert(math.abs(gap.mean - st.mean_gap) <= off)\n"
                 "assert(gap.min >= 0 and gap.max < 1e-3 and not tostring(gap):find 'nan')"),

@@ -34,8 +34,9 @@ TEST(RunFacts, MachineNamesWhatLastDigitsHangOn) {  // N10
   const std::vector<std::string> lines = differing_machines(there, here);
   std::string all;
   for (const std::string& line : lines) all += line + "\n";
-  if (here.find("processor") != nullptr)
+  if (here.find("processor") != nullptr) {
     EXPECT_NE(all.find("another processor: Z80, here "), std::string::npos);
+  }
   EXPECT_NE(all.find("rounding of the C library's functions"), std::string::npos) << all;
   EXPECT_EQ(all.find("memory"), std::string::npos);
   // A run of an earlier version noted less.
