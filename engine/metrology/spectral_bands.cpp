@@ -45,15 +45,31 @@ std::vector<double> band_wavelengths(int n, bool wrap) {
   return result;
 }
 
+namespace {
+
+// Hann's window of n samples, that of the last length kept: profiles of one surface are all of one length.
+const Array<double>& hann_window(int n) {
+  thread_local Array<double> window;
+  if (window.size() == static_cast<std::size_t>(n)) return window;
+  window.resize(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    const double s = elementary::sin(std::numbers::pi * (i + 0.5) / n);
+    window[static_cast<std::size_t>(i)] = s * s;
+  }
+  return window;
+}
+
+}  // namespace
+
 void band_log_powers(std::span<const double> heights, double unit, bool wrap, std::span<double> log_powers) {
   const auto n = static_cast<int>(heights.size());
   Array<double> samples(heights.begin(), heights.end());
   const double centre = mean(samples);
+  const double* const window = wrap ? nullptr : hann_window(n).data();
   double total = 0;
-  for (int i = 0; i < n; ++i) {
-    double& value = samples[static_cast<std::size_t>(i)];
-    const double s = elementary::sin(std::numbers::pi * (i + 0.5) / n);
-    value = (value - centre) / unit * (wrap ? 1 : s * s);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    double& value = samples[i];
+    value = (value - centre) / unit * (wrap ? 1 : window[i]);
     total += value * value;
   }
   const Array<std::complex<double>> waves = fourier_forward(samples);

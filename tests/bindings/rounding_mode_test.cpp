@@ -7,8 +7,9 @@
 namespace asperity::lua::rounding_mode_test {
 namespace {
 
+// 0.75 is exact: what the host's own parser makes of other numbers hangs on its rounding.
 constexpr const char* digests =
-    "local s = lab.surface.self_affine{ cells=32, size='1 mm', hurst=0.8, ra='1 um', short_wave='80 um', "
+    "local s = lab.surface.self_affine{ cells=32, size='1 mm', hurst=0.75, ra='1 um', short_wave='80 um', "
     "seed=1,"
     " material=lab.material{ young='70.3 GPa', poisson=0.33 } } "
     "local c = lab.contact{ lower=s, upper=lab.rigid, boundary='periodic', effects={ elasticity='half_space' "

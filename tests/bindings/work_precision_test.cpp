@@ -192,7 +192,7 @@ TEST_F(WorkPrecisionTest, AStopKeepsTheRowsThatThereAre) {
 
 TEST_F(WorkPrecisionTest, ADryRunAsksOnce) {
   open_dry();
-  EXPECT_EQ(run("calls = 0 study = lab.work_precision{ truth={ n=9 }, try={ { name='a', n={ 1, 2 } } }, "
+  EXPECT_EQ(run("calls = 0 study = lab.work_precision{ truth={ n=9 }, try={ { name='a', n={ 4, 8 } } }, "
                 "ask=function(k) calls = calls + 1 return lab.surface.sine{ cells=k.n, size=1, amplitude=1 }"
                 ":roughness().Ra end } best = study:cheapest{ error=0.1 } print(best.knobs, "
                 "study:rows()[1].error)"),

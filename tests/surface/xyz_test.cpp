@@ -259,7 +259,7 @@ TEST(Xyz, B3ThreePointsOfFourAndUnevenOnesAreAskedAbout) {
   options.size_x = options.size_y = 1e-3;
   const std::string three = "0\t0\t1\n1\t0\t2\n0\t1\t3\n";
   for (const std::string& text :
-       {three, three + "1.2 1 3\n", std::string("0 0 1\n"), std::string("0 0 1\n1 1 4\n")}) {
+       {three, three + "1.2\t1\t3\n", std::string("0 0 1\n"), std::string("0 0 1\n1 1 4\n")}) {
     const std::string message = message_of([&] { read_surface(SourceFile("hx3.txt", text), options); });
     EXPECT_NE(message.find("`format` = \"text\""), std::string::npos) << text << message;
   }
