@@ -7,7 +7,7 @@
 namespace asperity::lua::rounding_mode_test {
 namespace {
 
-// 0.75 is exact: what the host's own parser makes of other numbers hangs on its rounding.
+// 0.75 and 0.25 are exact: what the host's own parser makes of other numbers hangs on its rounding.
 constexpr const char* digests =
     "local s = lab.surface.self_affine{ cells=32, size='1 mm', hurst=0.75, ra='1 um', short_wave='80 um', "
     "seed=1,"
