@@ -47,7 +47,7 @@ GROUPS = {
     "stability": ("stability: ?", PROGRAM, ("tests/stability",)),
     "fuzz": ("fuzz: ", LUA, ("tests/fuzz",)),
     "scripts": ("(scripts|module): ", PROGRAM, ("tests/scripts",)),
-    "command_line": ("command line: ?(CommandLine|replay|prompt|completion|shard|resume|run directory|power cut)", PROGRAM, ("tests/scripts/runner",)),
+    "command_line": ("command line: ?(CommandLine|replay|prompt|completion|shard|resume|run directory|power cut|processors)", PROGRAM, ("tests/scripts/runner",)),
     "ranks": ("command line: (ranks|spread)", (), ("tests/scripts/runner/ranks.sh", "tests/scripts/runner/spread.sh")),
     "examples": ("examples: ", PROGRAM, ("examples",)),
     "lessons": ("lessons: ", PROGRAM, ("scripts/lessons",)),

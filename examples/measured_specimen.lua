@@ -6,8 +6,8 @@
 --   asperity run examples/measured_specimen.lua -- trace.csv material=steel flat=rigid mass="100 g"
 --
 -- Reads maps (X3P, NPY, text matrices, x y z triples) and stylus traces (a profiler's CSV, taken as a map
--- of one row). size= and unit= are for files that do not tell theirs, fill=interpolate for files with
--- holes; format= names a format that is not recognised. Without a file it makes a specimen, writes it
+-- of one row). size= and unit= are for files that do not tell theirs, unit_xy= for the positions of points that
+-- do not either, fill=interpolate for files with holes; format= names a format that is not recognised. Without a file it makes a specimen, writes it
 -- as X3P and reads that.
 -- What it finds depends on the specimen. What it checks holds for all: levelling takes no roughness that
 -- is not slope, a heavier load never touches less, the friction of the tilt stage is the tangent of
@@ -22,7 +22,7 @@ local words = { ... }
 local path
 if words[1] and not words[1]:find "^%a+=" then path = table.remove(words, 1) end
 local given = arguments({
-  size = "", unit = "", fill = "", format = "", material = "Al-2011", flat = "quartz", mass = "4.3 g",
+  size = "", unit = "", unit_xy = "", fill = "", format = "", material = "Al-2011", flat = "quartz", mass = "4.3 g",
 }, table.unpack(words))
 
 local function if_given(text) return text ~= "" and text or nil end
@@ -34,12 +34,12 @@ end
 local specimen
 if path then
   specimen = lab.surface.read(path, {
-    size = sides(given.size), unit = if_given(given.unit), fill = if_given(given.fill),
-    format = if_given(given.format),
+    size = sides(given.size), unit = if_given(given.unit), unit_xy = if_given(given.unit_xy),
+    fill = if_given(given.fill), format = if_given(given.format),
   })
 else
   print [=[usage: asperity run examples/measured_specimen.lua -- FILE [size="1 mm"] [unit=um]
-       [fill=interpolate] [format=NAME] [material=Al-2011] [flat=quartz] [mass="4.3 g"]]=]
+       [unit_xy=mm] [fill=interpolate] [format=NAME] [material=Al-2011] [flat=quartz] [mass="4.3 g"]]=]
   print "No file was given: here is a specimen made, written as X3P, and read back.\n"
   local made = lab.surface.self_affine{
     cells = 200, size = "500 um", hurst = 0.8, ra = "3 um", roll_off = "125 um", short_wave = "5 um",

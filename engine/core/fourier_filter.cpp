@@ -67,7 +67,7 @@ FourierFilter::~FourierFilter() = default;
 
 std::int64_t FourierFilter::bytes(int nx, int ny, int period_x, int period_y) {
   const auto lane = static_cast<std::int64_t>(sizeof(BatchFourier::Lane));
-  const auto work = [lane](int period) {
+  const auto work = [](int period) {
     return lane * static_cast<std::int64_t>(BatchFourier::work_values(period));
   };
   const std::int64_t a_thread = work(period_x) + work(period_y) + lane * (period_y / 2 + 1) +

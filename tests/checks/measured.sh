@@ -24,5 +24,5 @@ specimen sdf-1.sdf
 specimen sur-2.sur fill=interpolate
 specimen matrix-4.txt
 specimen dektak-1.csv
-specimen xyz-1.txt unit=um
+specimen xyz-1.txt unit=um unit_xy=um
 specimen example-2d.npy unit=um size=1mm
