@@ -6,9 +6,9 @@
 --   asperity run examples/measured_specimen.lua -- trace.csv material=steel flat=rigid mass="100 g"
 --
 -- Reads maps (X3P, NPY, text matrices, x y z triples) and stylus traces (a profiler's CSV, taken as a map
--- of one row). size= and unit= are for files that do not tell theirs, unit_xy= for the positions of points that
--- do not either, fill=interpolate for files with holes; format= names a format that is not recognised. Without a file it makes a specimen, writes it
--- as X3P and reads that.
+-- of one row). size= and unit= are for files that do not tell theirs, unit_xy= for positions of points without a
+-- unit, fill=interpolate for files with holes; format= names a format that is not recognised. Without a file
+-- it makes a specimen, writes it as X3P and reads that.
 -- What it finds depends on the specimen. What it checks holds for all: levelling takes no roughness that
 -- is not slope, a heavier load never touches less, the friction of the tilt stage is the tangent of
 -- its angle. Boxes do not pull on their neighbours: real area and stiffness are those of the model.
