@@ -83,9 +83,10 @@ FUZZED = {"surface": ("engine/surface/io", "engine/core/text", "engine/core/quan
           "bindings": ("bindings/lua",)}
 # What several reproductions and claims have in common; any other file of theirs is one test.
 SHARED_BY_REPRODUCTIONS = ("tests/reproductions/beginning.sh", "tests/reproductions/reproduction.py",
+                           "tests/reproductions/serving.py",
                            "tests/known_to_fail/known_to_fail.sh", "tests/known_to_fail/claims_of_page.mjs")
 USED_BY_REPRODUCTIONS = ("tests/scripts/runner/run_script", "tests/scripts/runner/process", "tests/scripts/runner/saying",
-                         "tests/page/browser", "tests/page/mock_server", "tests/page/run")
+                         "tests/web/client", "tests/page/browser", "tests/page/mock_server", "tests/page/run")
 # What runs over the ranks of mpirun.
 RANKS = re.compile("slab|mpi|spread|ranks|ensemble|crew|parcel|^engine/core/|^bindings/cli/")
 # Files of the build: what differs there may change anything.
