@@ -49,6 +49,8 @@ GROUPS = {
     "scripts": ("(scripts|module): ", PROGRAM, ("tests/scripts",)),
     "command_line": ("command line: ?(CommandLine|replay|prompt|completion|shard|resume|run directory|power cut|processors)", PROGRAM, ("tests/scripts/runner",)),
     "ranks": ("command line: (ranks|spread)", (), ("tests/scripts/runner/ranks.sh", "tests/scripts/runner/spread.sh")),
+    "reproductions": ("(reproductions|known to fail): ", WEB + ("docs", "examples/paper", "README.md"),
+                      ("tests/reproductions", "tests/known_to_fail")),
     "examples": ("examples: ", PROGRAM, ("examples",)),
     "lessons": ("lessons: ", PROGRAM, ("scripts/lessons",)),
     "serve": ("serve: ", ("bindings/lua", "bindings/cli", "bindings/web", "scripts"), ("tests/web",)),
@@ -79,6 +81,12 @@ THREADED = ("core", "surface", "metrology", "contact", "experiment", "bindings",
 FUZZED = {"surface": ("engine/surface/io", "engine/core/text", "engine/core/quantity"),
           "experiment": ("engine/experiment",),
           "bindings": ("bindings/lua",)}
+# What several reproductions and claims have in common; any other file of theirs is one test.
+SHARED_BY_REPRODUCTIONS = ("tests/reproductions/beginning.sh", "tests/reproductions/reproduction.py",
+                           "tests/reproductions/serving.py",
+                           "tests/known_to_fail/known_to_fail.sh", "tests/known_to_fail/claims_of_page.mjs")
+USED_BY_REPRODUCTIONS = ("tests/scripts/runner/run_script", "tests/scripts/runner/process", "tests/scripts/runner/saying",
+                         "tests/web/client", "tests/page/browser", "tests/page/mock_server", "tests/page/run")
 # What runs over the ranks of mpirun.
 RANKS = re.compile("slab|mpi|spread|ranks|ensemble|crew|parcel|^engine/core/|^bindings/cli/")
 # Files of the build: what differs there may change anything.
@@ -195,6 +203,9 @@ class Selection:
             if group == "scripts" and source == path and path.endswith(".lua"):
                 self.names |= {f"scripts: {stem}", f"module: {stem}"}
                 continue
+            if group == "reproductions" and path not in SHARED_BY_REPRODUCTIONS:
+                self.names.add(f"(reproductions|known to fail): {stem.replace('_', ' ')}")
+                continue
             self.release.add(group)
             if "/dignity/" in source:
                 self.sanitize.add("dignity")
@@ -204,6 +215,8 @@ class Selection:
                 self.fuzz |= set(FUZZED)
         if path.startswith("tests/data/") or path.startswith("tests/reference/"):
             self.release |= {"surface", "metrology", "friction", "contact", "experiment", "bindings", "scripts", "examples"}
+        if path.startswith(USED_BY_REPRODUCTIONS):
+            self.release.add("reproductions")
         if path.startswith("tests/package/"):
             self.packages = self.newcomer = True
 

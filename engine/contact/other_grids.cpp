@@ -193,7 +193,7 @@ void plan_estimate(const ContactGeometry& geometry, Plan& plan) {
   if (plan.accuracy.estimate == Accuracy::Estimate::finer) {
     const Grid grid = finer_grid(fine);
     const auto held = static_cast<std::int64_t>(3 * static_cast<double>(grid.nodes()) * sizeof(double));
-    const double solve = static_cast<double>(plan.bytes_peak()) * static_cast<double>(grid.nodes()) /
+    const double solve = static_cast<double>(plan.bytes_grown()) * static_cast<double>(grid.nodes()) /
                          static_cast<double>(fine.nodes());
     work = transform_work(grid) / transform_work(fine);
     plan.estimate = "the same press on " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +

@@ -54,6 +54,12 @@ std::int64_t Plan::bytes_peak() const {
   return sum;
 }
 
+std::int64_t Plan::bytes_grown() const {
+  std::int64_t sum = 0;
+  for (const PlannedBuffer& buffer : buffers) sum += buffer.grows ? buffer.bytes : 0;
+  return sum;
+}
+
 std::string Plan::text() const {
   std::string result = "contact of " + title + "\n";
   if (overlap < 1)

@@ -27,7 +27,8 @@ struct PlannedTerm {
 struct PlannedBuffer {
   std::string name;
   std::int64_t bytes = 0;
-  bool kept = true;  // for as long as the bodies lie like this, or only for a moment
+  bool kept = true;   // for as long as the bodies lie like this, or only for a moment
+  bool grows = true;  // in proportion to the nodes
 };
 
 // Box elements: u = p / stiffness, node by node; of rigid bodies with an infinite stiffness.
@@ -91,8 +92,9 @@ struct Plan {
   // Whether bodies attract each other at all, so that they may be pulled.
   bool attracts() const;
   std::int64_t bytes_kept() const;
-  std::int64_t bytes_peak() const;  // with the momentary ones
-  std::string text() const;         // several lines, each ended
+  std::int64_t bytes_peak() const;   // with the momentary ones
+  std::int64_t bytes_grown() const;  // of those, what goes with the nodes
+  std::string text() const;          // several lines, each ended
 };
 
 // Throws Error that names effect and body when an effect lacks a property of a material, or a default

@@ -242,7 +242,7 @@ Grid finest_grid(const Grid& given, const Plan& plan) {
   if (const std::int64_t limit = memory::limit(); limit > 0)
     most = std::min(most, 0.8 * static_cast<double>(limit - memory::held()));
   Grid finest = given;
-  double bytes = static_cast<double>(plan.bytes_peak());
+  double bytes = static_cast<double>(plan.bytes_grown());
   while (std::max(finest.nx, finest.ny) <= max_cells / 2 && 4 * bytes <= most) {
     finest.nx *= 2;
     finest.ny *= 2;

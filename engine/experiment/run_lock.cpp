@@ -163,10 +163,14 @@ std::shared_ptr<RunLock> RunLock::open(const fs::path& folder, int flags, const 
   }
   if (reason == EAGAIN || reason == EACCES) {
     ::close(std::exchange(lock->descriptor_, -1));  // its name is another's: release() would take it away
-    // Whoever has the lock writes the name next.
+    // Whoever has the lock writes the name next; until then the file may name one that has ended.
     std::optional<LockHolder> holder;
-    for (int tries = 0; !(holder = holder_in(file)) && tries < 50; ++tries)
+    for (int tries = 0; tries < 50; ++tries) {
+      holder = holder_in(file);
+      if (holder && !has_ended(*holder)) break;
+      holder.reset();
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
     throw_held(folder, holder, true);
   }
   lock->hold_by_name();

@@ -60,8 +60,12 @@ for path in ("CMakeLists.txt", "engine/CMakeLists.txt", "cmake/Packages.cmake", 
              ".ci/select_checks.py", "tests/CMakeLists.txt", "tests/support/open_files.cpp"):
     expect(chooser.select([path]).everything, f"{path} may change anything")
 expect(chooser.select(None).everything, "what is not known calls for everything")
-for path in ("examples/rough_on_rough.lua", "scripts/lessons/01_roughness.lua", "tests/scripts/bad_keys.lua"):
-    name = {"e": "examples: rough_on_rough", "s": "lessons: 01_roughness", "t": "scripts: bad_keys"}[path[0]]
+for path, name in {"examples/rough_on_rough.lua": "examples: rough_on_rough", "scripts/lessons/01_roughness.lua": "lessons: 01_roughness",
+                   "tests/scripts/bad_keys.lua": "scripts: bad_keys", "tests/reproductions/F1.sh": "reproductions: F1",
+                   "tests/known_to_fail/B4_box_counting.lua": "known to fail: B4 box counting",
+                   "tests/reproductions/beginning.sh": "reproductions: F3", "tests/page/browser.mjs": "known to fail: T2",
+                   "tests/scripts/runner/run_script.cpp": "reproductions: B1", "docs/accuracy.md": "known to fail: N7",
+                   "bindings/web/http/server.cpp": "reproductions: F1"}.items():
     expect(re.search(chooser.select([path]).lines()["release"], name), f"{path} does not call for {name}")
 
 tests = subprocess.run(["ctest", "--test-dir", build, "-N"], capture_output=True, text=True, check=True).stdout

@@ -3,6 +3,8 @@
 #include "engine/contact/plan.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "tests/contact/contacts.hpp"
@@ -113,6 +115,28 @@ TEST(Plan, BytesForecastAreBytesMeasured) {
   EXPECT_EQ(memory::held() - before, plan.bytes_kept());
   EXPECT_LE(scope.so_far().bytes, plan.bytes_peak());
   EXPECT_GE(scope.so_far().bytes, plan.bytes_peak() * 9 / 10);
+}
+
+// N9: a half-space takes no more than the plan says, and no less than half of it, a mebibyte apart. What has
+// no period of the lanes' transforms, or hardly any nodes, took up to eight times as much.
+TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
+  const std::vector<std::pair<int, int>> tiles{{1, 1},   {2, 2},   {24, 16}, {64, 64}, {97, 97},
+                                               {61, 64}, {128, 8}, {1, 200}, {200, 1}, {192, 192}};
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+    for (const auto& [nx, ny] : tiles)
+      for (const bool hardens : {false, true}) {
+        const Surface rough = random_surface(nx, ny, 1);
+        Material metal = elastic(1e11);
+        metal.hardness = 5e9;
+        Scene scene = scene_of(rough.with_material(metal), rigid_material(), {}, boundary);
+        scene.elasticity = HalfSpaceOptions{};
+        if (hardens) scene.plasticity = PlasticityOptions{{}, 1e11};
+        const Plan plan = plan_of(scene);
+        const State state = test::press(scene, PressBy::pressure, 1e8);
+        const std::int64_t taken = state.cost().total.bytes;
+        EXPECT_LE(taken, plan.bytes_peak()) << nx << " x " << ny << (hardens ? ", hardening" : "");
+        EXPECT_LE(plan.bytes_peak(), 2 * taken + (std::int64_t{1} << 20)) << nx << " x " << ny;
+      }
 }
 
 TEST(Plan, ExplainsItself) {

@@ -205,13 +205,6 @@ TEST_F(PressLog, F8OtherFormsAreRefusedWithTheWordsToMendThem) {
   EXPECT_TRUE(listener.warnings.empty());
 }
 
-// Not read yet, only refused with what to write.
-TEST_F(PressLog, DISABLED_F8_DatesAndOtherTitlesAreRead) {
-  EXPECT_EQ(events("time,Kraft / kN\n2026-11-23T10:00:00,1\n2026-11-23T10:15:00,2\n"),
-            "press 1 kN\npress 2 kN\n");
-  EXPECT_EQ(events("time;load\ns;kN\n0;1\n"), "press 1 kN\n");
-}
-
 // F8: an angle is a reading of a stage; in a table of events the turn is called otherwise.
 TEST_F(PressLog, F8AnAngleAmongEventsIsAskedAbout) {
   events("pressure [MPa],angle [deg],dwell [s]\n1,90,1\n");

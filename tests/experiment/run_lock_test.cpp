@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/experiment/run_fixture.hpp"
@@ -73,6 +75,27 @@ TEST_F(RunLockTest, F1IsFreeOnceItsProcessIsKilled) {
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }).find("bad_state: " + held_by(child)), 0U);
   kill(child);
   EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
+}
+
+// Who has just taken up what a dead process left has not yet written its name.
+TEST_F(RunLockTest, F1WhoIsNamedLives) {
+  const pid_t child = holder();
+  kill(child);
+  fs::create_directory(folder / "other");
+  const std::shared_ptr<RunLock> other = RunLock::take(folder / "other");
+  const std::string name = content_of(folder / "other/.lock");
+  std::thread successor;
+  const auto ask = [&](int) {
+    successor = std::thread([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      std::ofstream(folder / ".lock") << name;
+    });
+    return EAGAIN;
+  };
+  EXPECT_EQ(
+      error_of([&] { RunLock::take(folder, ask); }),
+      "bad_state: " + held_by(::getpid()) + "; wait until that one has ended, or give another directory");
+  successor.join();
 }
 
 // Of many at once one holds it.

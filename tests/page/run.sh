@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs one group of the page's tests; skipped (exit status 77) where npm, the packages or Chromium are missing.
-# usage: run.sh types|mock|served BUILD_FOLDER PROGRAM
+# Runs one group of the page's tests, or a file that is given by its path; skipped (exit status 77) where npm, the packages
+# or Chromium are missing.
+# usage: run.sh types|mock|served|FILE BUILD_FOLDER PROGRAM
 set -eu
 group=$1
 ASPERITY_PAGE_BUILD=$2
@@ -21,4 +22,7 @@ fi
 CHROMIUM=${CHROMIUM:-$(command -v chromium || command -v chromium-browser || true)}
 [ -n "$CHROMIUM" ] || skip "Chromium is not installed (Debian's package chromium)"
 export ASPERITY_PAGE_BUILD ASPERITY_PROGRAM CHROMIUM
-exec "$node" --test "$here/${group}_test.mjs"
+case $group in
+  */*) exec "$node" "$group" ;;
+  *) exec "$node" --test "$here/${group}_test.mjs" ;;
+esac

@@ -123,14 +123,6 @@ std::string in_utf16(const std::string& text) {
   return wide;
 }
 
-// Not read yet, only named.
-TEST(ForeignFormat, DISABLED_F7_TextInUtf16IsRead) {
-  ReadOptions options;
-  options.size_x = options.size_y = options.unit = 1e-6;
-  EXPECT_EQ(read_surface(SourceFile("map.txt", "\xFF\xFE" + in_utf16("1 2\n3 4\n")), options).height(1, 1),
-            4e-6);
-}
-
 TEST(ForeignFormat, F7BcrWithAHeadInUtf16IsRead) {
   const auto head = [](const std::string& kind) {
     const std::string text =

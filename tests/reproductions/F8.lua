@@ -1,0 +1,90 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- F8: press logs. A sensor at its limit is named; filtered noise makes no presses; what is probably meant otherwise is
+-- warned of; units of gauges are read; forms that are not read are refused with the words that mend them.
+--! error: so reads a sensor at its limit
+--! error: "1,250" in line 2
+--! error: goes on after line 3
+--! error: it is taken for zero, which takes the load off
+--! error: did you mean `rotation [deg]`?
+local lab = require "asperity"
+
+local state = 1
+local function normal()
+  local sum = -6
+  for _ = 1, 12 do
+    state = state * 16807 % 2147483647
+    sum = sum + state / 2147483647
+  end
+  return sum
+end
+-- Three holds at ten samples a second, with noise that went through a filter of y(k) = r y(k-1) + e; cut at `limit`.
+local function recording(name, noise, r, limit)
+  local file <close> = assert(io.open(name, "w"))
+  file:write "time [s],load [kN]\n"
+  local k, y, before = 0, 0, 0
+  local function go(to, seconds)
+    local from = before
+    for step = 1, 10 * seconds do
+      y = r * y + math.sqrt(1 - r * r) * noise * normal()
+      k = k + 1
+      local load = from + (to - from) * step / (10 * seconds) + y
+      file:write(("%.1f,%.6f\n"):format(k / 10, math.min(load, limit)))
+    end
+    before = to
+  end
+  go(0, 20)
+  for _, load in ipairs{ 50, 100, 78 } do
+    go(load, 2)
+    go(load, 30)
+    go(0, 2)
+    go(0, 20)
+  end
+  return name
+end
+local function presses(path)
+  local count = 0
+  for _, event in ipairs(lab.protocol.read(path):events()) do count = count + (event.text:find "press" and 1 or 0) end
+  return count
+end
+assert(presses(recording("whole.txt", 0.1, 0, math.huge)) == 3)
+pcall(lab.protocol.read, recording("clipped.txt", 0.1, 0, 50)) -- named among the warnings
+for seed = 1, 5 do
+  state = seed
+  local found = presses(recording("filtered.txt", 0.3, 0.9, math.huge))
+  assert(found == 3, found .. " presses of three in filtered noise, seed " .. seed)
+end
+
+local function log(text)
+  local file <close> = assert(io.open("log.txt", "w"))
+  file:write(text)
+  file:close()
+  return lab.protocol.read "log.txt"
+end
+log "pressure [MPa];dwell [s]\n1,250;5\n100;5\n"
+log "time [min],pressure [MPa],dwell [min]\n0,1,20\n10,1,5\n"
+log "pressure [MPa],rotation [deg]\n1,0\n,90\n1,0\n"
+log "pressure [MPa],angle [deg],dwell [s]\n1,90,1\n"
+for _, unit in ipairs{ "psi", "ksi", "lbf", "kip", "kgf", "tf", "daN", "atm" } do
+  local kind = ({ psi="pressure", ksi="pressure", atm="pressure" })[unit] or "load"
+  assert(#log(kind .. " [" .. unit .. "]\n1\n") == 1, unit)
+end
+local function refused(text, words)
+  local ok, message = pcall(log, text)
+  assert(not ok, words .. ": this was read")
+  assert(message:find(words, 1, true), message)
+end
+refused("time,pressure [MPa]\n2026-11-23T10:00:00,1\n", "holds dates or times of day")
+refused("time;pressure [MPa]\n23.11.2026 10:00:00;1\n", "holds dates or times of day")
+refused("time,pressure [MPa]\n11/23/2026 10:00 AM,1\n", "holds dates or times of day")
+refused("time,pressure [MPa]\n46349.4167,1\n", "looks like a day of a spreadsheet")
+refused("Zeit [s];Kraft [kN]\n0;1\n", "did you mean `load [kN]`?")
+refused("time / s,pressure / MPa\n0,1\n", "did you mean `pressure [MPa]`?")
+refused("time_s,force_kN\n0,1\n", "did you mean `load [kN]`?")
+refused("time,pressure\ns,MPa\n0,1\n", "units stand in the line below")
+refused("Machine 7\n\ntime [s],pressure [MPa]\n0,1\n", "put # before the lines above")
+refused("time [s] pressure [MPa]\n0 1\n", "parts its columns by blanks")
+refused('pressure [MPa],dwell [s]\n"1,5",1\n', "write the decimal sign as a point")
+refused("pressure [MPa],dwell [s]\n10 MPa,1\n", "write its unit into the title")
+refused("pressure [MPa],dwell [s]\n1,1\nTotal\n", "put # before a line that is no row")
+refused("load [N],load [kN]\n1,1\n", 'begin its title with "result "')
+refused("\xFF\xFEp\0r\0", "UTF-16")

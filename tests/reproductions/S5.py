@@ -1,0 +1,27 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# S5: the key that the page is opened with stands in no argument of a program.
+import glob
+import os
+import tempfile
+import time
+
+from serving import Server, program
+
+with tempfile.TemporaryDirectory() as folder:
+    with open(folder + "/xdg-open", "w") as opener:
+        opener.write(f"#!/bin/sh\necho opened > {folder}/opened\nsleep 3\n")
+    os.chmod(folder + "/xdg-open", 0o755)
+    os.environ["PATH"] = folder + ":" + os.environ["PATH"]
+    with Server(program, "--open") as server:
+        for _ in range(200):
+            if os.path.exists(folder + "/opened"):
+                break
+            time.sleep(0.05)
+        assert os.path.exists(folder + "/opened"), "nothing was opened"
+        for name in glob.glob("/proc/[0-9]*/cmdline"):
+            try:
+                with open(name, "rb") as line:
+                    assert server.token.encode() not in line.read(), name
+            except OSError:
+                pass

@@ -1,0 +1,29 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- V1: a press to an indentation, an approach or a flattening takes at most three times the transforms of the same state by
+-- pressure, and 60; none that can be solved is lost; what cannot be reached is refused by that name.
+local lab = require "asperity"
+local m = lab.material{ young=1e11, poisson=0 }
+local function contact(n)
+  return lab.contact{ lower=lab.surface.sine{ cells=n, size=1e-3, amplitude=1e-6, material=m }, upper=lab.rigid, boundary="periodic",
+    effects={ elasticity="half_space", plasticity={ hardness=2e7, hardening=1e11 } } }
+end
+for _, n in ipairs{ 8, 16, 96 } do
+  local st = contact(n):press{ indentation=0.3 }
+  local same = contact(n):press{ pressure=st.pressure }
+  print(n, st.cost.transforms, same.cost.transforms)
+  assert(math.abs(same.approach / st.approach - 1) < 1e-5, same.approach)
+  assert(st.cost.transforms <= 3 * same.cost.transforms + 60, st.cost.transforms)
+end
+local flat = lab.contact{ lower=lab.surface.flat{ cells=8, size=1e-3, material=m }, upper=lab.rigid, boundary="periodic",
+  effects={ elasticity="half_space", plasticity={ hardness=2e7, hardening=1e300 } } }
+local ok, message = pcall(flat.press, flat, { indentation=0.3 })
+assert(not ok and not message:find("e+55", 1, true), message)
+
+-- One that was lost by pressure.
+local soft = lab.material{ young=3498417126.8865466, poisson=0, hardness=1135771.91093065 }
+local hard = lab.contact{
+  lower=lab.surface.sine{ cells=96, size=0.0006020977480034872, amplitude=3.948845195143764e-05, directions=2, material=soft },
+  upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space", plasticity={ hardening=2663206453.0237713 } } }
+local st = hard:press{ pressure=889262.1864497022 }
+print(st.residual, st.cost.transforms)
+assert(st.converged)

@@ -1,0 +1,45 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Mistakes that were answered badly or not at all, each with what its answer must hold now.
+--! error: no wave is longer than
+--! error: carry no wave so short
+--! error: placing a flat upper body changes nothing
+--! error: turning a flat upper body changes nothing
+local lab = require "asperity"
+local al = lab.material "Al-2011"
+local s = lab.surface.sine{ cells=32, size="1 mm", amplitude="1 um", material=al }
+local function contact(lower)
+  return lab.contact{ lower=lower or s, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
+end
+local function refused(words, call, ...)
+  local ok, message = pcall(call, ...)
+  assert(not ok, words .. ": this was accepted")
+  assert(message:find(words, 1, true), message)
+  assert(message:find("messages.lua:%d+:"), message .. ": no line of the script")
+end
+refused("os.execute", os.execute, "ls")
+refused("nosuch", io.lines, "nosuch")
+refused("nosuch.lua", dofile, "nosuch.lua")
+refused("an empty list", function() contact():sweep{ pressure={} } end)
+refused("of the sweep was closed inside its loop", function()
+  local c = contact()
+  for _ in c:sweep{ pressure={ 1e5, 2e5 } } do c:close() end
+end)
+local closed = contact()
+closed:close()
+closed:close()
+refused("`rate`", lab.stylus, { speed="1 mm/s" })
+local filtered = s:profile{ row=0 }:filtered{ long_wave="10 mm" }
+local short = s:filtered{ short_wave="1 nm" }
+contact():place{ seed=2 }
+contact():rotate "90 deg"
+for _, st in ipairs{ contact(s:scaled{ amplitude="10 mm" }):press{ pressure="1 kPa" }, contact():press{ pressure="500 GPa" } } do
+  assert(tostring(st):find("warning", 1, true), tostring(st))
+end
+assert(lab.surface.sine{ cells="64", size="1 mm", amplitude="1 um" }.cells[1] == 64)
+refused("a surface is no table", function() for _ in pairs(s) do end end)
+refused("quantities are strings", function() return "1 um" + 1 end)
+refused("HV", lab.material, { hardness="100 HV" })
+local book = lab.notebook "grits"
+book:write{ grit="P80", Ra=1 }
+book:write{ grit="P120", Ra=2 }
+refused("holds names", book.chart, book, { x="grit", y="Ra" })
