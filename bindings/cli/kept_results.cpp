@@ -72,7 +72,8 @@ std::optional<RunCommand> taken_up(RunCommand command) {
   }
   const RecordedRun recorded = read_run(root);
   std::vector<std::string> changed;
-  if (!command.script.empty() && read_script(command.script) != recorded.script_text)
+  if (!command.script.empty() &&
+      (command.text ? *command.text : read_script(command.script)) != recorded.script_text)
     changed.emplace_back("the script");
   if (!command.arguments.empty() && command.arguments != recorded.arguments)
     changed.emplace_back("its arguments");

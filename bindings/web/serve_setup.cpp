@@ -23,11 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr int most_students = 400;
 
-std::int64_t machine_memory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
-  return pages > 0 && page > 0 ? static_cast<std::int64_t>(pages) * page : std::int64_t{4} << 30;
-}
-
 bool is_v6(const std::string& address) {
   in6_addr parsed{};
   return ::inet_pton(AF_INET6, address.c_str(), &parsed) == 1;
@@ -65,6 +60,11 @@ std::vector<std::string> names_in(const std::string& path) {
 }
 
 }  // namespace
+
+std::int64_t machine_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? static_cast<std::int64_t>(pages) * page : std::int64_t{4} << 30;
+}
 
 std::vector<Person> people_of(const ServeCommand& command) {
   std::vector<std::string> names;

@@ -105,12 +105,13 @@ RunDirectory::RunDirectory(RunSetup setup, std::function<std::string()> text)
       later_(std::move(setup)),
       text_(std::move(text)) {}
 
+fs::path RunDirectory::made_for(const RunSetup& setup) {
+  return setup.out ? given_directory(*setup.out) : numbered_directory(setup.runs, setup.script_name);
+}
+
 void RunDirectory::make(const RunSetup& setup) {
   // Absolute, so that a script which changes the working directory moves nothing.
-  root_ = fs::absolute(setup.resume ? *setup.resume
-                       : setup.out  ? given_directory(*setup.out)
-                                    : numbered_directory(setup.runs, setup.script_name))
-              .lexically_normal();
+  root_ = fs::absolute(setup.resume ? *setup.resume : made_for(setup)).lexically_normal();
   if (setup.resume && setup.anew) move_aside(root_);
   begin(setup);
 }
@@ -139,6 +140,10 @@ void RunDirectory::begin(const RunSetup& setup) {
       .set("arguments", Json::strings(setup.arguments))
       .set("seed", setup.seed)
       .set("trusted", setup.trusted);
+  if (!setup.barriers.is_null()) {
+    manifest_.set("confined", true);
+    unhashed_.set("barriers", setup.barriers);
+  }
   unhashed_.set("started", utc_now())
       .set("directory", root_.string())
       .set("script_path", setup.script_name)

@@ -45,6 +45,7 @@ struct RunSetup {
   std::int64_t seed = 1;
   int threads = 1;
   Json versions = Json::object();  // program, libraries, compiler
+  Json barriers{};  // what held a confined run and what it could read; null for one that was not confined
 };
 
 enum class RunStatus { running, done, failed, interrupted, killed };
@@ -66,6 +67,10 @@ class RunDirectory {
 
   // Of a run that is taken up again: whether it is still where it had been before.
   bool repeating() const { return journal_->repeating(); }
+  // Makes the directory of a new run, as the constructor would, for one that another process will be: that one is
+  // given it as `out`. Throws as the constructor does.
+  static std::filesystem::path made_for(const RunSetup& setup);
+
   // Where results of heavy calls are kept.
   std::filesystem::path store() const { return root_ / "store"; }
   // The files, and the folder they are in, without which the run cannot be taken up again.

@@ -133,9 +133,11 @@ std::optional<int> ConfinedProcess::ended() {
 }
 
 Finished run_confined(const ConfinedRequest& request, const std::string& folder,
-                      std::chrono::milliseconds patience, std::size_t most_bytes) {
+                      std::chrono::milliseconds patience, std::size_t most_bytes,
+                      const std::atomic<bool>* given_up) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + patience;
+  const auto is_over = [&] { return Clock::now() >= end || (given_up != nullptr && given_up->load()); };
   ConfinedProcess process(request, folder);
   Finished done;
   std::array<std::pair<Descriptor*, std::string*>, 3> pipes{
@@ -152,7 +154,7 @@ Finished run_confined(const ConfinedRequest& request, const std::string& folder,
       if (got == 0) pipe->reset();
       open = open || pipe->get() >= 0;
     }
-    if (Clock::now() >= end) {
+    if (is_over()) {
       done.late = true;
       process.send(SIGKILL);
       break;
@@ -160,7 +162,7 @@ Finished run_confined(const ConfinedRequest& request, const std::string& folder,
   }
   std::optional<int> status;
   while (!(status = process.ended())) {
-    if (!done.late && Clock::now() >= end) {
+    if (!done.late && is_over()) {
       done.late = true;
       process.send(SIGKILL);
     }

@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -55,8 +56,10 @@ struct Finished {
   bool late = false;                  // it was killed because it took too long
   std::string output, error, events;  // each cut after the bytes that were allowed
 };
-// Runs one to its end. Throws as above.
+// Runs one to its end; it is killed, and counts as late, as soon as `given_up` is true, which may be null. Throws as
+// above.
 Finished run_confined(const ConfinedRequest& request, const std::string& folder,
-                      std::chrono::milliseconds patience, std::size_t most_bytes);
+                      std::chrono::milliseconds patience, std::size_t most_bytes,
+                      const std::atomic<bool>* given_up = nullptr);
 
 }  // namespace asperity::web
