@@ -95,6 +95,7 @@ QueueSetup queue_of(const ServeCommand& command) {
   const bool room = !command.classroom.empty();
   const int processors = thread_count();
   QueueSetup setup;
+  setup.shared = room;
   setup.at_once = command.runs > 0 ? command.runs : room ? processors : 2;
   setup.most_waiting_of_one = room ? 20 : 500;
   setup.most_bytes_of_one = (room ? std::int64_t{1} : std::int64_t{8}) << 30;
@@ -117,6 +118,8 @@ fs::path session_folder(const ServeCommand& command) {
       throw Error(ErrorCode::bad_value,
                   "`--out` names " + asperity::quoted(command.out) + ", which is not empty",
                   "give a new folder");
+    // What runs record is for whoever serves them.
+    if (::chmod(command.out.c_str(), 0700) != 0) throw_file_error("keep to yourself the folder", command.out, errno);
     return fs::canonical(command.out);
   }
   fs::create_directories("runs", problem);

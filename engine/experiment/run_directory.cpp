@@ -28,6 +28,7 @@ constexpr std::string_view script_file = "script.lua";
 constexpr std::string_view manifest_file = "manifest.json";
 constexpr std::string_view journal_file = "journal.jsonl";
 constexpr std::string_view store_folder = "store";
+constexpr std::string_view views_folder = ".views";  // what the page draws of a run (bindings/web/views.hpp)
 constexpr std::string_view earlier_folder = "before-";
 
 void make_folders(const fs::path& folder) {
@@ -218,12 +219,14 @@ fs::path RunDirectory::path_for(std::string_view file) {
     if (!root_.empty() && place.lexically_normal() == root_ / own)
       throw Error(ErrorCode::not_permitted, "the file " + quoted(own) + " belongs to the run itself",
                   "choose another name");
-  const fs::path own = root_ / store_folder;
-  if (!root_.empty() && std::ranges::mismatch(own, place.lexically_normal()).in1 == own.end())
-    throw Error(
-        ErrorCode::not_permitted,
-        "the folder " + quoted(store_folder) + " belongs to the run itself, and the file is " + quoted(file),
-        "choose another name");
+  for (const std::string_view folder : {store_folder, views_folder}) {
+    const fs::path own = root_ / folder;
+    if (!root_.empty() && std::ranges::mismatch(own, place.lexically_normal()).in1 == own.end())
+      throw Error(
+          ErrorCode::not_permitted,
+          "the folder " + quoted(folder) + " belongs to the run itself, and the file is " + quoted(file),
+          "choose another name");
+  }
   if (kind_ == Kind::dry) return place;
   std::error_code ignored;
   if (fs::is_directory(place, ignored))

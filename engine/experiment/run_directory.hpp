@@ -83,7 +83,7 @@ class RunDirectory {
 
   // The place of a file that the script is about to write; the folders above it are made. Relative
   // names go under the directory. Throws Error{not_permitted} for a way out (an absolute path, `..`,
-  // a link) unless trusted, and always for script.lua, manifest.json, journal.jsonl and what is under store;
+  // a link) unless trusted, and always for script.lua, manifest.json, journal.jsonl and what is under store or .views;
   // Error{bad_value} for an empty name or a folder; Error{bad_file} if a folder cannot be made.
   // The file is listed among the outputs if it is there when the run ends.
   std::filesystem::path path_for(std::string_view file);

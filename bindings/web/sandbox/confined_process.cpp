@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -128,7 +129,14 @@ void ConfinedProcess::send(int signal) const {
 
 std::optional<int> ConfinedProcess::ended() {
   int status = 0;
-  if (!status_ && ::waitpid(process_, &status, WNOHANG) == process_) status_ = status;
+  rusage used{};
+  if (!status_ && ::wait4(process_, &status, WNOHANG, &used) == process_) {
+    const auto seconds = [](const timeval& time) {
+      return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    status_ = status;
+    processor_seconds_ = seconds(used.ru_utime) + seconds(used.ru_stime);
+  }
   return status_;
 }
 

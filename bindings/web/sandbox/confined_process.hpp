@@ -45,10 +45,13 @@ class ConfinedProcess {
   void send(int signal) const;
   // The status of waitpid, once it has ended.
   std::optional<int> ended();
+  // That it used, once it has ended.
+  double processor_seconds() const { return processor_seconds_; }
 
  private:
   pid_t process_ = -1;
   std::optional<int> status_;
+  double processor_seconds_ = 0;
 };
 
 struct Finished {
