@@ -170,8 +170,8 @@ void add_trust(CLI::App& command, bool& trust) {
   command.add_flag("--trust", trust, "give the script the whole of Lua, and files anywhere");
 }
 
-// A terminal shows what scripts and files hold and obeys none of it. Standard output of a script is its own, and
-// reaches a program or a file as it is; libedit, at the prompt, writes to the terminal by itself.
+// A terminal shows what scripts and files hold and obeys none of it. Standard output of a script is its own,
+// and reaches a program or a file as it is; libedit, at the prompt, writes to the terminal by itself.
 void make_streams_plain(int argc, char** argv) {
   const std::string_view command = argc > 1 ? argv[1] : "";
   const bool prints_of_script = command == "run" || command == "lesson" || command == "accuracy";
@@ -181,26 +181,30 @@ void make_streams_plain(int argc, char** argv) {
 }
 
 void add_confinement(CLI::App& command, cli::RunCommand& run, std::string& limit_disk) {
-  command.add_flag("--confined", run.confined,
-                   "for a script of somebody else's: it reads its own folder, writes the run directory and reaches no "
-                   "other file, process or network, by barriers of the operating system; 10 min, half the machine's "
-                   "memory and 1 GiB on the disk unless told otherwise");
+  command.add_flag(
+      "--confined", run.confined,
+      "for a script of somebody else's: it reads its own folder, writes the run directory and reaches no "
+      "other file, process or network, by barriers of the operating system; 10 min, half the machine's "
+      "memory and 1 GiB on the disk unless told otherwise");
   command
-      .add_option("--read", run.read, "a folder that a confined script may read besides its own; may be given again")
+      .add_option("--read", run.read,
+                  "a folder that a confined script may read besides its own; may be given again")
       ->type_name("DIR")
       ->allow_extra_args(false);
-  command.add_option("--without-barriers", run.without_barriers,
-                     "which barriers need not stand where the system cannot give them: files, processes, network, "
-                     "programs, with commas between");
-  command.add_option("--limit-disk", limit_disk, "most bytes in the directory of a confined run, e.g. 4G (default 1G)");
+  command.add_option(
+      "--without-barriers", run.without_barriers,
+      "which barriers need not stand where the system cannot give them: files, processes, network, "
+      "programs, with commas between");
+  command.add_option("--limit-disk", limit_disk,
+                     "most bytes in the directory of a confined run, e.g. 4G (default 1G)");
 }
 
 // What is of a confined run alone.
 void check_confinement(const cli::RunCommand& run, bool confined) {
   if (confined) return;
-  for (const auto& [option, given] :
-       {std::pair("`--read`", !run.read.empty()), std::pair("`--without-barriers`", !run.without_barriers.empty()),
-        std::pair("`--limit-disk`", run.limit_disk.has_value())})
+  for (const auto& [option, given] : {std::pair("`--read`", !run.read.empty()),
+                                      std::pair("`--without-barriers`", !run.without_barriers.empty()),
+                                      std::pair("`--limit-disk`", run.limit_disk.has_value())})
     if (given)
       throw Error(ErrorCode::bad_value, std::string(option) + " is of a confined run, and this one is not",
                   "add --confined, or leave it out");

@@ -85,7 +85,8 @@ std::string shown_part(std::string& text, Keeps keeps) {
 ssize_t write_plain(void* cookie, const char* bytes, std::size_t count) {
   auto& stream = *static_cast<PlainStream*>(cookie);
   stream.tail.append(bytes, count);
-  if (write_bytes(stream.descriptor, shown_part(stream.tail, stream.keeps))) return static_cast<ssize_t>(count);
+  if (write_bytes(stream.descriptor, shown_part(stream.tail, stream.keeps)))
+    return static_cast<ssize_t>(count);
   stream.tail.clear();
   return 0;
 }
@@ -94,7 +95,8 @@ ssize_t write_plain(void* cookie, const char* bytes, std::size_t count) {
 FILE* plain_stream(int descriptor, Keeps keeps) {
   // Lives as long as the program.
   auto* const stream = new PlainStream{descriptor, keeps};
-  return ::fopencookie(stream, "w", {.read = nullptr, .write = write_plain, .seek = nullptr, .close = nullptr});
+  return ::fopencookie(stream, "w",
+                       {.read = nullptr, .write = write_plain, .seek = nullptr, .close = nullptr});
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Standard streams whose text is shown and never obeyed. Messages repeat what others wrote: names of files, titles,
-// errors raised by scripts. A terminal would take their control characters for orders: to retitle its window, to
-// write over lines, to answer as if somebody had typed. On a plain stream each becomes a question mark, as do bytes
-// that are not UTF-8 (plain_text in engine/core/text.hpp). Every writer of stdout and stderr is covered, the
-// script's own included, for it is the streams of the C library that are exchanged.
+// Standard streams whose text is shown and never obeyed. Messages repeat what others wrote: names of files,
+// titles, errors raised by scripts. A terminal would take their control characters for orders: to retitle its
+// window, to write over lines, to answer as if somebody had typed. On a plain stream each becomes a question
+// mark, as do bytes that are not UTF-8 (plain_text in engine/core/text.hpp). Every writer of stdout and
+// stderr is covered, the script's own included, for it is the streams of the C library that are exchanged.
 #pragma once
 
 #include <string_view>
@@ -19,7 +19,8 @@ enum class Keeps {
 void make_errors_plain();
 void make_output_plain(Keeps keeps);
 
-// The one sequence that the program itself writes to standard error: back to the begin of the line, and erase it.
+// The one sequence that the program itself writes to standard error: back to the begin of the line, and erase
+// it.
 inline constexpr std::string_view erase_line = "\r\033[K";
 void erase_shown_line();
 

@@ -53,8 +53,8 @@ struct RunCommand {
   std::vector<std::string> read;           // folders that it reads besides the script's own
   std::string without_barriers;            // which need not stand: "files,network"
   std::optional<std::int64_t> limit_disk;  // bytes of all files of the run directory
-  // Of the process that carries it out behind them: what stands and what it may read, for the manifest; and whether
-  // its standard error, a pipe, ends at a terminal.
+  // Of the process that carries it out behind them: what stands and what it may read, for the manifest; and
+  // whether its standard error, a pipe, ends at a terminal.
   Json barriers{};
   bool terminal = false;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The server's answers: the page's files to anybody who names it rightly, and under /api, to whoever has a
 // token: about, complete, check, runs with their events, files and views, and lessons. A problem is
-// {error: {message, hint?}}. A person finds their own runs only; another's are not there. The first person of a room,
-// its teacher, finds all: /api/room lists them.
+// {error: {message, hint?}}. A person finds their own runs only; another's are not there. The first person of
+// a room, its teacher, finds all: /api/room lists them.
 #pragma once
 
 #include <memory>
@@ -52,7 +52,7 @@ class Api final : public HttpHandler {
   RunQueue& runs_;
   const PageFiles page_;
   Shares checks_{1, 4, 2};  // two for people whose scripts are checked quickly
-  Shares streams_;  // answers that last
+  Shares streams_;          // answers that last
 };
 
 }  // namespace asperity::web

@@ -24,7 +24,7 @@ namespace asperity::web {
 namespace {
 
 constexpr auto polite_patience = std::chrono::milliseconds(3000);  // after a request to end
-constexpr double watch_grace = 4;                                  // seconds for the run's own watch of the clock
+constexpr double watch_grace = 4;  // seconds for the run's own watch of the clock
 
 Descriptor ending_signals() {
   sigset_t set;
@@ -59,9 +59,8 @@ CommandFollower::~CommandFollower() {
 int CommandFollower::follow() {
   std::optional<int> status;
   while (!status) {
-    std::array<pollfd, 3> watched{{{process_.output.get(), POLLIN, 0},
-                                   {process_.error.get(), POLLIN, 0},
-                                   {signals_.get(), POLLIN, 0}}};
+    std::array<pollfd, 3> watched{
+        {{process_.output.get(), POLLIN, 0}, {process_.error.get(), POLLIN, 0}, {signals_.get(), POLLIN, 0}}};
     ::poll(watched.data(), watched.size(), 50);
     for (signalfd_siginfo met{}; ::read(signals_.get(), &met, sizeof met) == sizeof met;)
       process_.send(static_cast<int>(met.ssi_signo));
@@ -71,7 +70,8 @@ int CommandFollower::follow() {
     pass_on(process_.error, true);
     if (!status) watch_limits(Clock::now());
   }
-  if (const std::string removed = keep_within(directory_, bounds_.directory_bytes, bounds_.files); !removed.empty())
+  if (const std::string removed = keep_within(directory_, bounds_.directory_bytes, bounds_.files);
+      !removed.empty())
     std::fprintf(stderr, "asperity: %s\n", removed.c_str());
   if (!ended_for_.empty()) {
     std::fprintf(stderr, "asperity: the run was ended: %s\n", ended_for_.c_str());
@@ -80,8 +80,9 @@ int CommandFollower::follow() {
   if (WIFEXITED(*status)) return WEXITSTATUS(*status);
   const int signal = WTERMSIG(*status);
   if (signal == SIGXCPU || signal == SIGKILL)
-    std::fprintf(stderr,
-                 "asperity: the system ended the run: it used more processor time or memory than there is for it\n");
+    std::fprintf(
+        stderr,
+        "asperity: the system ended the run: it used more processor time or memory than there is for it\n");
   else
     std::fprintf(stderr, "asperity: the run died of signal %d (%s)\n", signal, ::strsignal(signal));
   return 128 + signal;

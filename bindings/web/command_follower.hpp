@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Follows the process of `asperity run --confined`: what it prints goes on to the terminal, signals go on to it, its
-// pictures are drawn, and time and disk are watched, as RunFollower does it for the page.
+// Follows the process of `asperity run --confined`: what it prints goes on to the terminal, signals go on to
+// it, its pictures are drawn, and time and disk are watched, as RunFollower does it for the page.
 #pragma once
 
 #include <signal.h>
@@ -19,16 +19,17 @@
 namespace asperity::web {
 
 struct CommandBounds {
-  double seconds = 600;             // on the clock
+  double seconds = 600;              // on the clock
   std::int64_t directory_bytes = 0;  // of all files of the run directory together
   std::size_t files = 0;             // and folders
 };
 
 class CommandFollower {
  public:
-  // Takes the signals that end a program from this thread and those it starts. Throws Error{bad_state} where the
-  // process cannot be started.
-  CommandFollower(const ConfinedRequest& request, std::filesystem::path directory, const CommandBounds& bounds);
+  // Takes the signals that end a program from this thread and those it starts. Throws Error{bad_state} where
+  // the process cannot be started.
+  CommandFollower(const ConfinedRequest& request, std::filesystem::path directory,
+                  const CommandBounds& bounds);
   ~CommandFollower();
   CommandFollower(const CommandFollower&) = delete;
   CommandFollower& operator=(const CommandFollower&) = delete;

@@ -34,7 +34,9 @@ const Json& command_member(const Json& json, const char* name) {
   return *found;
 }
 
-std::string text_in(const Json& json, const char* name) { return bytes_of(command_member(json, name).string()); }
+std::string text_in(const Json& json, const char* name) {
+  return bytes_of(command_member(json, name).string());
+}
 
 std::optional<std::string> optional_text_in(const Json& json, const char* name) {
   if (command_member(json, name).is_null()) return {};
@@ -52,7 +54,9 @@ std::optional<std::int64_t> optional_whole_in(const Json& json, const char* name
   return std::strtoll(command_member(json, name).string().c_str(), nullptr, 10);
 }
 
-int small_in(const Json& json, const char* name) { return static_cast<int>(command_member(json, name).number()); }
+int small_in(const Json& json, const char* name) {
+  return static_cast<int>(command_member(json, name).number());
+}
 
 }  // namespace
 
@@ -121,7 +125,8 @@ CarriedCommand command_of(const Json& json) {
   run.seed = std::strtoull(command_member(json, "seed").string().c_str(), nullptr, 10);
   run.seed_given = command_member(json, "seed_given").boolean();
   run.limit_memory = optional_whole_in(json, "limit_memory");
-  if (const Json& limit = command_member(json, "limit_time"); !limit.is_null()) run.limit_time = limit.number();
+  if (const Json& limit = command_member(json, "limit_time"); !limit.is_null())
+    run.limit_time = limit.number();
   run.arguments = texts_in(json, "arguments");
   run.text = optional_text_in(json, "text");
   run.resume = optional_text_in(json, "resume");

@@ -41,7 +41,8 @@ std::int64_t whole(const Json& json, const char* name) {
 }
 
 Json to_json(const Place& place) {
-  return Json::object({{"folder", characters_of(place.folder)}, {"seen", characters_of(place.seen)}, {"write", place.write}});
+  return Json::object(
+      {{"folder", characters_of(place.folder)}, {"seen", characters_of(place.seen)}, {"write", place.write}});
 }
 
 std::string standard_input() {

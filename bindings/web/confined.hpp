@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity --confined`: the program as the child of `asperity serve` or `asperity run --confined`. It reads from standard input what it
-// is to do, goes behind the barriers (sandbox/confinement.hpp), and only then begins: a script is run or
-// checked, a command line is carried out, a chart is drawn by gnuplot, or the barriers are tried.
+// `asperity --confined`: the program as the child of `asperity serve` or `asperity run --confined`. It reads
+// from standard input what it is to do, goes behind the barriers (sandbox/confinement.hpp), and only then
+// begins: a script is run or checked, a command line is carried out, a chart is drawn by gnuplot, or the
+// barriers are tried.
 #pragma once
 
 #include <optional>

@@ -88,8 +88,8 @@ std::vector<fs::path> home_folders() {
 
 bool holds_the_home(const fs::path& folder) {
   return folder == "/" || std::ranges::any_of(home_folders(), [&](const fs::path& home) {
-    return is_at_or_above(folder, home);
-  });
+           return is_at_or_above(folder, home);
+         });
 }
 
 // The folders that a script reaches, under their own names and under those by which the command names them.
@@ -105,9 +105,8 @@ class Places {
     std::vector<Place> all = places_;
     // A link that lies in one of them is there by itself.
     for (const Place& link : links_)
-      if (std::ranges::none_of(places_, [&](const Place& place) {
-            return is_at_or_above(place.seen, link.seen);
-          }))
+      if (std::ranges::none_of(places_,
+                               [&](const Place& place) { return is_at_or_above(place.seen, link.seen); }))
         all.push_back(link);
     return all;
   }
@@ -152,8 +151,7 @@ class TrialFolder {
 
 // What may stay open of what stays open. Throws Error{not_permitted} naming the rest, and Error{bad_value}.
 std::vector<std::string> open_ways(const BarrierReport& report, const std::string& without) {
-  const std::vector<std::string> allowed = split_at_commas(without),
-                                 known(ways_out.begin(), ways_out.end());
+  const std::vector<std::string> allowed = split_at_commas(without), known(ways_out.begin(), ways_out.end());
   for (const std::string& name : allowed)
     if (std::ranges::find(known, name) == known.end())
       throw Error(ErrorCode::bad_value,
@@ -173,20 +171,22 @@ std::vector<std::string> open_ways(const BarrierReport& report, const std::strin
                       ")");
   }
   if (!refused.empty())
-    throw Error(ErrorCode::not_permitted,
-                "this system does not give every barrier that `--confined` promises; missing: " +
-                    joined(reasons, " and ") +
-                    (report.missing.empty() ? "" : ", for it is without " + joined(report.missing, " and ")),
-                "a kernel with Landlock (Linux 5.13) or user namespaces and the part asperity-sandbox.so give them; "
-                "`--without-barriers " +
-                    joined(open, ",") + "` does without");
+    throw Error(
+        ErrorCode::not_permitted,
+        "this system does not give every barrier that `--confined` promises; missing: " +
+            joined(reasons, " and ") +
+            (report.missing.empty() ? "" : ", for it is without " + joined(report.missing, " and ")),
+        "a kernel with Landlock (Linux 5.13) or user namespaces and the part asperity-sandbox.so give them; "
+        "`--without-barriers " +
+            joined(open, ",") + "` does without");
   return open;
 }
 
 // One confined command from its options to its exit status.
 class Undertaking {
  public:
-  Undertaking(cli::RunCommand run, const cli::ReplayCommand* replay) : run_(std::move(run)), replay_(replay) {}
+  Undertaking(cli::RunCommand run, const cli::ReplayCommand* replay)
+      : run_(std::move(run)), replay_(replay) {}
 
   int carry_through() {
     check_options();
@@ -209,7 +209,8 @@ class Undertaking {
       report = try_out_barriers(trial.path.string());
     }
     const std::vector<std::string> open = open_ways(report, run_.without_barriers);
-    if (!open.empty()) std::fprintf(stderr, "asperity: without barriers for %s\n", joined(open, " and ").c_str());
+    if (!open.empty())
+      std::fprintf(stderr, "asperity: without barriers for %s\n", joined(open, " and ").c_str());
     run_.barriers = Json::object({{"read", Json::strings(read_)},
                                   {"by", Json::strings(report.made)},
                                   {"missing", Json::strings(report.missing)},
@@ -225,9 +226,10 @@ class Undertaking {
  private:
   void check_options() const {
     if (run_.trust)
-      throw Error(ErrorCode::bad_value,
-                  "`--trust` gives a script the whole of Lua and files anywhere, and `--confined` keeps it in",
-                  "leave one of them out");
+      throw Error(
+          ErrorCode::bad_value,
+          "`--trust` gives a script the whole of Lua and files anywhere, and `--confined` keeps it in",
+          "leave one of them out");
     if (cli::launched_rank())
       throw Error(ErrorCode::bad_value, "a confined run was started as one of the ranks of mpirun",
                   "start it alone, or share the cases of ensembles by `--shard` and `--store`");
@@ -252,13 +254,15 @@ class Undertaking {
   void read_folder_of_record(const std::string& record, const std::string& script) {
     const fs::path own = fs::path(script).parent_path();
     const auto text = read_plain_file(record, "script.lua", longest_script);
-    const auto there = read_plain_file(own.empty() ? "." : own, fs::path(script).filename().string(), longest_script);
+    const auto there =
+        read_plain_file(own.empty() ? "." : own, fs::path(script).filename().string(), longest_script);
     std::error_code problem;
     const fs::path real = fs::canonical(own.empty() ? "." : own, problem);
     if (!text || !there || *text != *there || problem || holds_the_home(real))
-      return std::fprintf(stderr,
-                          "asperity: its own folder %s is not read: %s is not there as it ran; --read names folders\n",
-                          own.empty() ? "." : own.c_str(), script.c_str()),
+      return std::fprintf(
+                 stderr,
+                 "asperity: its own folder %s is not read: %s is not there as it ran; --read names folders\n",
+                 own.empty() ? "." : own.c_str(), script.c_str()),
              void();
     places_.add(own.string(), real, false);
   }
@@ -299,7 +303,8 @@ class Undertaking {
       RunSetup setup;
       setup.script_name = run_.script.empty() ? "replay" : run_.script;
       if (replay_ != nullptr)
-        if (const Json manifest = manifest_in(replay_->recorded); const Json* script = found_in(manifest, "script"))
+        if (const Json manifest = manifest_in(replay_->recorded);
+            const Json* script = found_in(manifest, "script"))
           if (const Json* name = found_in(*script, "name")) setup.script_name = name->string();
       if (run_.out) setup.out = *run_.out;
       run_.out = RunDirectory::made_for(setup).string();
@@ -324,7 +329,8 @@ class Undertaking {
     run_.limit_memory = run_.limit_memory.value_or(std::max(machine_memory() / 2, std::int64_t{256} << 20));
     // Results kept in the run directory are of its files.
     if (!run_.store)
-      run_.store_limit = std::min(run_.store_limit.value_or(bounds.directory_bytes), bounds.directory_bytes / 2);
+      run_.store_limit =
+          std::min(run_.store_limit.value_or(bounds.directory_bytes), bounds.directory_bytes / 2);
     const int threads = run_.threads > 0 ? run_.threads : thread_count();
     run_.threads = threads;
     run_.terminal = ::isatty(STDERR_FILENO) != 0;
@@ -373,7 +379,9 @@ bool to_be_confined(const cli::ReplayCommand& command) {
 
 int run_behind_barriers(const cli::RunCommand& command) { return carried_through(command, nullptr); }
 
-int replay_behind_barriers(const cli::ReplayCommand& command) { return carried_through(command.run, &command); }
+int replay_behind_barriers(const cli::ReplayCommand& command) {
+  return carried_through(command.run, &command);
+}
 
 int carry_out(const Json& command) {
   cli::make_errors_plain();

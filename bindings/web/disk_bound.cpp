@@ -61,7 +61,8 @@ DiskUse disk_use(const fs::path& folder, std::size_t most_files) {
 
 std::chrono::steady_clock::time_point next_look(std::chrono::steady_clock::time_point begun) {
   const auto now = std::chrono::steady_clock::now();
-  return now + std::max<std::chrono::steady_clock::duration>(std::chrono::milliseconds(40), 9 * (now - begun));
+  return now +
+         std::max<std::chrono::steady_clock::duration>(std::chrono::milliseconds(40), 9 * (now - begun));
 }
 
 std::string keep_within(const fs::path& folder, std::int64_t most_bytes, std::size_t most_files) {
@@ -70,16 +71,18 @@ std::string keep_within(const fs::path& folder, std::int64_t most_bytes, std::si
   std::vector<Written> all;
   DiskUse left;
   each_entry(folder, [&](const fs::path& path, const struct stat& facts) {
-    all.push_back({path, S_ISDIR(facts.st_mode), is_record(folder, path), taken_bytes(facts), changed_at(facts)});
+    all.push_back(
+        {path, S_ISDIR(facts.st_mode), is_record(folder, path), taken_bytes(facts), changed_at(facts)});
     left.bytes += all.back().bytes;
     ++left.files;
     return true;
   });
-  // Folders after what is in them, which a longer path is; they are removed only where they have become empty.
+  // Folders after what is in them, which a longer path is; they are removed only where they have become
+  // empty.
   std::ranges::sort(all, [](const Written& one, const Written& other) {
     const auto order = [](const Written& of) {
-      return std::tuple(of.record, of.folder, of.folder ? -static_cast<std::int64_t>(of.path.native().size())
-                                                        : -of.changed);
+      return std::tuple(of.record, of.folder,
+                        of.folder ? -static_cast<std::int64_t>(of.path.native().size()) : -of.changed);
     };
     return order(one) < order(other);
   });
@@ -93,8 +96,9 @@ std::string keep_within(const fs::path& folder, std::int64_t most_bytes, std::si
     --left.files;
   }
   return removed == 0 ? ""
-                      : std::to_string(removed) + " of its files, the last that were written, were removed, because "
-                                                  "there may be " +
+                      : std::to_string(removed) +
+                            " of its files, the last that were written, were removed, because "
+                            "there may be " +
                             format_bytes(most_bytes) + " in " + std::to_string(most_files) + " files";
 }
 

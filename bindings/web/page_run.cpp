@@ -75,7 +75,8 @@ void PageRun::go(const RunLimits& limits, const std::vector<std::string>& barrie
     const std::string removed = keep_within(directory, limits.directory_bytes, limits.files);
     tell_files(true);
     finish(follower.state, follower.exit,
-           removed.empty() ? follower.reason : follower.reason + (follower.reason.empty() ? "" : "; ") + removed);
+           removed.empty() ? follower.reason
+                           : follower.reason + (follower.reason.empty() ? "" : "; ") + removed);
   } catch (const std::exception& error) {
     events.add("error", Json::object({{"message", error.what()}}));
     finish(RunState::failed, 1, error.what());

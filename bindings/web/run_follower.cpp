@@ -118,9 +118,10 @@ void RunFollower::take_output(Descriptor& from, std::string& unfinished, const c
     if (!text.empty()) run_.events.add("output", Json::object({{"stream", stream}, {"text", text}}));
     if (printed_ >= limits_.output_bytes && !cut_) {
       cut_ = true;
-      run_.events.add("output", Json::object({{"stream", "err"},
-                                              {"text", "\nit printed more than " + mebibytes(limits_.output_bytes) +
-                                                           ": the rest is not shown\n"}}));
+      run_.events.add("output",
+                      Json::object({{"stream", "err"},
+                                    {"text", "\nit printed more than " + mebibytes(limits_.output_bytes) +
+                                                 ": the rest is not shown\n"}}));
     }
     if (static_cast<std::size_t>(got) < sizeof piece) return;
   }

@@ -12,12 +12,11 @@ namespace asperity::web {
 namespace {
 
 constexpr std::int64_t least_bytes = std::int64_t{1} << 20;  // with less a run is not begun
-constexpr std::size_t told_places = 3;                        // runs of one person that are told how many are before
+constexpr std::size_t told_places = 3;  // runs of one person that are told how many are before
 
 }  // namespace
 
-RunQueue::RunQueue(QueueSetup setup)
-    : setup_(std::move(setup)), turns_(setup_.at_once, setup_.shared) {
+RunQueue::RunQueue(QueueSetup setup) : setup_(std::move(setup)), turns_(setup_.at_once, setup_.shared) {
   for (int k = 0; k < setup_.at_once; ++k) workers_.emplace_back([this] { work(); });
 }
 
@@ -141,7 +140,8 @@ void RunQueue::work() {
     RunLimits limits = setup_.limits;
     const std::int64_t left = setup_.most_bytes_of_one - kept_by(run->owner) - limits.event_bytes;
     if (left < least_bytes) {
-      run->give_up(RunState::limit, "the runs of this session take as much of the disk as they may: it was not begun");
+      run->give_up(RunState::limit,
+                   "the runs of this session take as much of the disk as they may: it was not begun");
       continue;
     }
     limits.directory_bytes = std::min(limits.directory_bytes, left);

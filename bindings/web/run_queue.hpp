@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The runs of a session: those that go on, a few at once; those that wait, whose turn comes as turns.hpp says; and
-// those that are over, whose events and files can still be read.
+// The runs of a session: those that go on, a few at once; those that wait, whose turn comes as turns.hpp
+// says; and those that are over, whose events and files can still be read.
 #pragma once
 
 #include <condition_variable>

@@ -65,16 +65,17 @@ std::unique_ptr<HttpServer> listen(const ServeCommand& command, HttpHandler& han
   return server;
 }
 
-// By a page that leads to the address: what stands in the arguments of a program every user of the machine can read,
-// and the address is a key.
+// By a page that leads to the address: what stands in the arguments of a program every user of the machine
+// can read, and the address is a key.
 void open_in_browser(const std::string& url, const std::filesystem::path& folder) {
   const std::filesystem::path page = folder / open_page;
   const int file = ::open(page.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   const bool written =
-      file >= 0 && write_whole(file, "<!DOCTYPE html><meta charset=\"utf-8\"><title>Asperity</title><meta "
-                                     "name=\"referrer\" content=\"no-referrer\"><meta http-equiv=\"refresh\" "
-                                     "content=\"0; url=" +
-                                         url + "\"><p><a href=\"" + url + "\">Asperity</a></p>\n");
+      file >= 0 && write_whole(file,
+                               "<!DOCTYPE html><meta charset=\"utf-8\"><title>Asperity</title><meta "
+                               "name=\"referrer\" content=\"no-referrer\"><meta http-equiv=\"refresh\" "
+                               "content=\"0; url=" +
+                                   url + "\"><p><a href=\"" + url + "\">Asperity</a></p>\n");
   if (file >= 0) ::close(file);
   if (!written) {
     std::fprintf(stderr, "asperity: %s cannot be written; open the address above\n", page.c_str());
@@ -170,9 +171,9 @@ int serve_until_stopped(const ServeCommand& command) {
         stderr,
         "asperity: run no script of others on this machine; your own are held by the language's limits\n");
   if (command.open)
-    open_in_browser("http://" + shown_address(command) + ":" + std::to_string(server->port()) + "/#" +
-                        people[0].token,
-                    folder);
+    open_in_browser(
+        "http://" + shown_address(command) + ":" + std::to_string(server->port()) + "/#" + people[0].token,
+        folder);
 
   wait_for_end(signals);
   std::fprintf(stderr, "\nstopping\n");

@@ -119,7 +119,8 @@ fs::path session_folder(const ServeCommand& command) {
                   "`--out` names " + asperity::quoted(command.out) + ", which is not empty",
                   "give a new folder");
     // What runs record is for whoever serves them.
-    if (::chmod(command.out.c_str(), 0700) != 0) throw_file_error("keep to yourself the folder", command.out, errno);
+    if (::chmod(command.out.c_str(), 0700) != 0)
+      throw_file_error("keep to yourself the folder", command.out, errno);
     return fs::canonical(command.out);
   }
   fs::create_directories("runs", problem);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one person may hold of something that all share, so that nobody takes it all. Those who wait are served in the
-// order in which they came; some shares may be kept for people who give theirs back soon.
+// What one person may hold of something that all share, so that nobody takes it all. Those who wait are
+// served in the order in which they came; some shares may be kept for people who give theirs back soon.
 #pragma once
 
 #include <chrono>
@@ -16,9 +16,10 @@ namespace asperity::web {
 // Thread-safe.
 class Shares {
  public:
-  // At most `each` for one person and `all` together; and of these `for_quick` only for whoever held their last one no
-  // longer than `quick`.
-  Shares(int each, int all, int for_quick = 0, std::chrono::milliseconds quick = std::chrono::milliseconds(1000))
+  // At most `each` for one person and `all` together; and of these `for_quick` only for whoever held their
+  // last one no longer than `quick`.
+  Shares(int each, int all, int for_quick = 0,
+         std::chrono::milliseconds quick = std::chrono::milliseconds(1000))
       : state_(std::make_shared<State>()) {
     state_->each = each;
     state_->all = all;

@@ -57,9 +57,11 @@ void Turns::begin(std::size_t person, Clock::time_point now) {
   known.last_turn = ++turns_;
 }
 
-void Turns::end(std::size_t person, Clock::time_point begun, double processor_seconds, Clock::time_point now) {
+void Turns::end(std::size_t person, Clock::time_point begun, double processor_seconds,
+                Clock::time_point now) {
   Person& known = people_[person];
-  if (const auto at = std::ranges::find(known.running, begun); at != known.running.end()) known.running.erase(at);
+  if (const auto at = std::ranges::find(known.running, begun); at != known.running.end())
+    known.running.erase(at);
   known.used = known.used * std::exp(-seconds_between(known.at, now) / memory_seconds) + processor_seconds;
   known.at = now;
 }

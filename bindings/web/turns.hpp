@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whose run is next, of people who share a few places to run. Nobody holds all places, and only one while somebody
-// else waits; of those who may begin, it is the one who used least processor time lately. So a short run is never
-// kept waiting by one person's long ones, as long as there is more than one place.
+// Whose run is next, of people who share a few places to run. Nobody holds all places, and only one while
+// somebody else waits; of those who may begin, it is the one who used least processor time lately. So a short
+// run is never kept waiting by one person's long ones, as long as there is more than one place.
 #pragma once
 
 #include <chrono>
@@ -26,8 +26,8 @@ class Turns {
   void begin(std::size_t person, Clock::time_point now);
   void end(std::size_t person, Clock::time_point begun, double processor_seconds, Clock::time_point now);
 
-  // Seconds of processor time of late: those of some minutes ago count e times less. A run that goes on counts as if
-  // it used one processor.
+  // Seconds of processor time of late: those of some minutes ago count e times less. A run that goes on
+  // counts as if it used one processor.
   double used(std::size_t person, Clock::time_point now) const;
 
  private:

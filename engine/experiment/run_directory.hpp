@@ -67,8 +67,8 @@ class RunDirectory {
 
   // Of a run that is taken up again: whether it is still where it had been before.
   bool repeating() const { return journal_->repeating(); }
-  // Makes the directory of a new run, as the constructor would, for one that another process will be: that one is
-  // given it as `out`. Throws as the constructor does.
+  // Makes the directory of a new run, as the constructor would, for one that another process will be: that
+  // one is given it as `out`. Throws as the constructor does.
   static std::filesystem::path made_for(const RunSetup& setup);
 
   // Where results of heavy calls are kept.
@@ -83,8 +83,8 @@ class RunDirectory {
 
   // The place of a file that the script is about to write; the folders above it are made. Relative
   // names go under the directory. Throws Error{not_permitted} for a way out (an absolute path, `..`,
-  // a link) unless trusted, and always for script.lua, manifest.json, journal.jsonl and what is under store or .views;
-  // Error{bad_value} for an empty name or a folder; Error{bad_file} if a folder cannot be made.
+  // a link) unless trusted, and always for script.lua, manifest.json, journal.jsonl and what is under store
+  // or .views; Error{bad_value} for an empty name or a folder; Error{bad_file} if a folder cannot be made.
   // The file is listed among the outputs if it is there when the run ends.
   std::filesystem::path path_for(std::string_view file);
 

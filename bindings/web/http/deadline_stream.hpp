@@ -46,8 +46,8 @@ class DeadlineStream final : public httplib::Stream {
   int socket_;
   const HttpSetup& setup_;
   Clock::time_point arrived_by_{};
-  std::size_t may_read_ = 0;          // bytes of this request still
-  std::size_t from_ = 0;              // where what is left in the buffer begins
+  std::size_t may_read_ = 0;  // bytes of this request still
+  std::size_t from_ = 0;      // where what is left in the buffer begins
   std::string buffer_;
   Clock::duration blocked_{};  // in sending, for this request
   std::size_t sent_ = 0;

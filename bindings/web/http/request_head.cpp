@@ -70,8 +70,7 @@ std::string_view head_problem(std::string_view head) {
     if (name != "content-length") continue;
     if (has_length) return "the body has two lengths";
     has_length = true;
-    if (value.empty() || value.size() > 18 ||
-        value.find_first_not_of("0123456789") != std::string_view::npos)
+    if (value.empty() || value.size() > 18 || value.find_first_not_of("0123456789") != std::string_view::npos)
       return "the length of the body is no number";
   }
   return "the head does not end";

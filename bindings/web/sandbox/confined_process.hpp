@@ -59,8 +59,8 @@ struct Finished {
   bool late = false;                  // it was killed because it took too long
   std::string output, error, events;  // each cut after the bytes that were allowed
 };
-// Runs one to its end; it is killed, and counts as late, as soon as `given_up` is true, which may be null. Throws as
-// above.
+// Runs one to its end; it is killed, and counts as late, as soon as `given_up` is true, which may be null.
+// Throws as above.
 Finished run_confined(const ConfinedRequest& request, const std::string& folder,
                       std::chrono::milliseconds patience, std::size_t most_bytes,
                       const std::atomic<bool>* given_up = nullptr);

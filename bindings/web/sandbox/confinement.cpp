@@ -64,8 +64,8 @@ std::string go_to_own_root(const Confinement& confinement, const Namespaces& own
     problem = elsewhere ? enter_own_root(confinement.places, confinement.work)
                         : enter_own_root({{".", "/run", true}}, "/run");
   if (!problem.empty() && elsewhere && ::chdir(confinement.work.c_str()) != 0)
-    throw Error(ErrorCode::bad_state,
-                "the folder " + asperity::quoted(confinement.work) + " cannot be entered: " + std::strerror(errno));
+    throw Error(ErrorCode::bad_state, "the folder " + asperity::quoted(confinement.work) +
+                                          " cannot be entered: " + std::strerror(errno));
   return problem;
 }
 
@@ -94,8 +94,7 @@ std::vector<std::string> confine(const Confinement& confinement, std::vector<std
   const Namespaces own = enter_namespaces();
   note("a network of its own", own.network);
   if (own.user.empty()) limit(RLIMIT_NPROC, 256, "threads");
-  if (confinement.as == Confined::script)
-    note("a root of its own", go_to_own_root(confinement, own));
+  if (confinement.as == Confined::script) note("a root of its own", go_to_own_root(confinement, own));
   note("no rights of the superuser", drop_capabilities() ? "" : std::strerror(errno));
   ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
   // It does not outlive the server, even one that was killed. Other rights would have made it forget this.

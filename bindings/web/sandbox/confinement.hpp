@@ -27,7 +27,7 @@ struct Place {
 struct Confinement {
   Confined as = Confined::script;
   std::vector<Place> places{};  // of a script; none: the working directory alone, which it finds as /run
-  std::string work{};           // the folder that it works in then, which it may not list unless it is a place
+  std::string work{};  // the folder that it works in then, which it may not list unless it is a place
   std::int64_t memory_bytes = std::int64_t{1} << 30;  // of data; half a GiB more for what libraries hold
   std::int64_t file_bytes = std::int64_t{64} << 20;   // of one file
   std::int64_t processor_seconds = 60;                // of all its threads together

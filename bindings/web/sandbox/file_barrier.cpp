@@ -67,8 +67,8 @@ std::string confine_files(const Confinement& confinement, int& version) {
   bool good = confinement.places.empty() ? allow(ruleset, ".", look | keep | cut) : true;
   for (const Place& place : confinement.places)
     good = good && allow(ruleset, place.folder.c_str(), place.write ? look | keep | cut | move : look);
-  good = good &&
-         allow(ruleset, "/dev/null", LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE | cut);
+  good =
+      good && allow(ruleset, "/dev/null", LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE | cut);
   if (confinement.as == Confined::drawing) {
     for (const char* place : {"/usr/share", "/etc/fonts", "/etc/ld.so.cache", "/var/cache/fontconfig"})
       good = good && allow(ruleset, place, place[5] == 'l' ? LANDLOCK_ACCESS_FS_READ_FILE : look);
