@@ -83,7 +83,7 @@ constexpr unsigned recursive = 0x8000;    // AT_RECURSIVE
 // Without programs, devices and rights of others; and without writing, unless the place allows it.
 bool bind(const Bound& one, const std::string& at) {
   const std::string source = "/proc/self/fd/" + std::to_string(one.descriptor);
-  const bool knows_trees = ::syscall(mount_setattr_call, -1, "", 0, nullptr, 0) < 0 && errno != ENOSYS;
+  const bool knows_trees = ::syscall(mount_setattr_call, -1, "", 0, nullptr, 0) < 0 && errno == EINVAL;
   if (knows_trees) {
     // Whatever is mounted below comes along.
     if (::mount(source.c_str(), at.c_str(), nullptr, MS_BIND | MS_REC, nullptr) != 0) return false;
