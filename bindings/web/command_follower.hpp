@@ -3,16 +3,14 @@
 // it, its pictures are drawn, and time and disk are watched, as RunFollower does it for the page.
 #pragma once
 
-#include <signal.h>
-
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
-#include <vector>
 
 #include "bindings/web/sandbox/confined_process.hpp"
 

@@ -258,12 +258,13 @@ class Undertaking {
         read_plain_file(own.empty() ? "." : own, fs::path(script).filename().string(), longest_script);
     std::error_code problem;
     const fs::path real = fs::canonical(own.empty() ? "." : own, problem);
-    if (!text || !there || *text != *there || problem || holds_the_home(real))
-      return std::fprintf(
-                 stderr,
-                 "asperity: its own folder %s is not read: %s is not there as it ran; --read names folders\n",
-                 own.empty() ? "." : own.c_str(), script.c_str()),
-             void();
+    if (!text || !there || *text != *there || problem || holds_the_home(real)) {
+      std::fprintf(
+          stderr,
+          "asperity: its own folder %s is not read: %s is not there as it ran; --read names folders\n",
+          own.empty() ? "." : own.c_str(), script.c_str());
+      return;
+    }
     places_.add(own.string(), real, false);
   }
 
@@ -282,12 +283,13 @@ class Undertaking {
   }
 
   void check_recorded_folders() const {
-    std::vector<std::string> missing;
+    std::string missing;
     for (const std::string& folder : recorded_)
-      if (std::ranges::find(read_, folder) == read_.end()) missing.push_back("--read " + folder);
+      if (std::ranges::find(read_, folder) == read_.end())
+        missing += (missing.empty() ? "" : " ") + ("--read " + folder);
     if (missing.empty()) return;
     throw Error(ErrorCode::bad_value,
-                "the run was recorded with `" + joined(missing, " ") + "`, which lets its script read there",
+                "the run was recorded with `" + missing + "`, which lets its script read there",
                 std::string("add it to ") + purpose_ + " the run so");
   }
 

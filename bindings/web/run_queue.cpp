@@ -132,10 +132,7 @@ void RunQueue::work() {
   for (;;) {
     std::shared_ptr<PageRun> run;
     changed_.wait(lock, [&] { return over_ || (run = next()) != nullptr; });
-    if (over_) {
-      if (run != nullptr) run->give_up(RunState::stopped, "the server was stopped before it began");
-      return;
-    }
+    if (over_) return;
     // Others may have filled the disk since it was added.
     RunLimits limits = setup_.limits;
     const std::int64_t left = setup_.most_bytes_of_one - kept_by(run->owner) - limits.event_bytes;
