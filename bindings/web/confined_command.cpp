@@ -33,10 +33,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 4> ways_out{"files", "processes", "network", "programs"};
+constexpr std::array<const char*, 4> confined_ways_out{"files", "processes", "network", "programs"};
 constexpr double usual_seconds = 600;
 constexpr std::int64_t usual_disk = std::int64_t{1} << 30;
-constexpr std::size_t most_files = 20000, longest_script = std::size_t{64} << 20;
+constexpr std::size_t most_files = 20000, most_script_bytes = std::size_t{64} << 20;
 
 // The manifest of a run that is there; null where there is none, of which others will speak.
 Json manifest_in(const std::string& folder) {
@@ -151,7 +151,8 @@ class TrialFolder {
 
 // What may stay open of what stays open. Throws Error{not_permitted} naming the rest, and Error{bad_value}.
 std::vector<std::string> open_ways(const BarrierReport& report, const std::string& without) {
-  const std::vector<std::string> allowed = split_at_commas(without), known(ways_out.begin(), ways_out.end());
+  const std::vector<std::string> allowed = split_at_commas(without),
+                                 known(confined_ways_out.begin(), confined_ways_out.end());
   for (const std::string& name : allowed)
     if (std::ranges::find(known, name) == known.end())
       throw Error(ErrorCode::bad_value,
@@ -253,9 +254,9 @@ class Undertaking {
   // Where its script still lies as it was, that script's own folder.
   void read_folder_of_record(const std::string& record, const std::string& script) {
     const fs::path own = fs::path(script).parent_path();
-    const auto text = read_plain_file(record, "script.lua", longest_script);
+    const auto text = read_plain_file(record, "script.lua", most_script_bytes);
     const auto there =
-        read_plain_file(own.empty() ? "." : own, fs::path(script).filename().string(), longest_script);
+        read_plain_file(own.empty() ? "." : own, fs::path(script).filename().string(), most_script_bytes);
     std::error_code problem;
     const fs::path real = fs::canonical(own.empty() ? "." : own, problem);
     if (!text || !there || *text != *there || problem || holds_the_home(real)) {

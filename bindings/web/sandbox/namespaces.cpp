@@ -81,7 +81,7 @@ constexpr long mount_setattr_call = 442;  // on every processor
 constexpr unsigned recursive = 0x8000;    // AT_RECURSIVE
 
 // Without programs, devices and rights of others; and without writing, unless the place allows it.
-bool bind(const Bound& one, const std::string& at) {
+bool bind_mount(const Bound& one, const std::string& at) {
   const std::string source = "/proc/self/fd/" + std::to_string(one.descriptor);
   const bool knows_trees = ::syscall(mount_setattr_call, -1, "", 0, nullptr, 0) < 0 && errno == EINVAL;
   if (knows_trees) {
@@ -153,7 +153,7 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
   ::close(null);
   if (::mount("/dev/null", device.c_str(), nullptr, MS_BIND, nullptr) != 0) return undo("/dev/null");
   for (const Bound& one : bound)
-    if (!make_folders(here, one.place->seen) || !bind(one, here + one.place->seen))
+    if (!make_folders(here, one.place->seen) || !bind_mount(one, here + one.place->seen))
       return undo("the folder " + one.place->seen);
   ::mount(nullptr, here.c_str(), nullptr, MS_REMOUNT | MS_BIND | MS_RDONLY | MS_NOSUID | MS_NOEXEC, nullptr);
   if (::chdir(here.c_str()) != 0) return undo("the root");
