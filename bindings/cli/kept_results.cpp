@@ -61,7 +61,8 @@ std::vector<std::string> damages_of(const RecordedRun& recorded) {
 // What the command asks for and the run was not made with.
 std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun& recorded) {
   std::vector<std::string> changed;
-  if (!command.script.empty() && read_script(command.script) != recorded.script_text)
+  if (!command.script.empty() &&
+      (command.text ? *command.text : read_script(command.script)) != recorded.script_text)
     changed.emplace_back("the script");
   if (!command.arguments.empty() && command.arguments != recorded.arguments)
     changed.emplace_back("its arguments");

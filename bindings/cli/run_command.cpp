@@ -173,6 +173,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     // What another rank than the first one writes is taken away at its end.
     setup.scratch = command.ranks != nullptr && !command.ranks->leads();
     setup.trusted = command.trust;
+    setup.barriers = command.barriers;
     setup.arguments = command.arguments;
     setup.seed = static_cast<std::int64_t>(command.seed);
     setup.threads = thread_count();
@@ -194,6 +195,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
 
   TerminalMonitor monitor;
   monitor.keep_warnings_in(run.get());
+  if (command.terminal) monitor.show_as_on_terminal();
   ResultFiles results(std::move(kept));
   UntilLine until(results, run->journal(), command.afresh_from.value_or(0));
   ResultStore* store = command.afresh_from ? static_cast<ResultStore*>(&until) : &results;

@@ -30,6 +30,7 @@ constexpr std::string_view script_file = "script.lua";
 constexpr std::string_view manifest_file = "manifest.json";
 constexpr std::string_view journal_file = "journal.jsonl";
 constexpr std::string_view store_folder = "store";
+constexpr std::string_view views_folder = ".views";  // what the page draws of a run (bindings/web/views.hpp)
 constexpr std::string_view earlier_folder = "before-";
 
 constexpr std::string_view mending = "recorded_outputs";  // of the manifest, until a run is mended
@@ -212,6 +213,13 @@ RunDirectory::RunDirectory(RunSetup setup, std::function<std::string()> text)
       later_(std::move(setup)),
       text_(std::move(text)) {}
 
+fs::path RunDirectory::made_for(const RunSetup& setup) {
+  std::vector<fs::path> holding;
+  std::shared_ptr<RunLock> none;
+  return setup.out ? given_directory(*setup.out, none, false, holding)
+                   : numbered_directory(setup.runs, setup.script_name, holding);
+}
+
 void RunDirectory::make(const RunSetup& setup) {
   lock_ = setup.lock;
   scratch_ = setup.scratch;
@@ -260,6 +268,10 @@ void RunDirectory::begin(const RunSetup& setup) {
       .set("arguments", Json::strings(setup.arguments))
       .set("seed", setup.seed)
       .set("trusted", setup.trusted);
+  if (!setup.barriers.is_null()) {
+    manifest_.set("confined", true);
+    unhashed_.set("barriers", setup.barriers);
+  }
   unhashed_.set("started", utc_now())
       .set("directory", root_.string())
       .set("script_path", setup.script_name)
@@ -379,12 +391,14 @@ fs::path RunDirectory::path_for(std::string_view file) {
     if (!root_.empty() && place.lexically_normal() == root_ / own)
       throw Error(ErrorCode::not_permitted, "the file " + quoted(own) + " belongs to the run itself",
                   "choose another name");
-  const fs::path own = root_ / store_folder;
-  if (!root_.empty() && std::ranges::mismatch(own, place.lexically_normal()).in1 == own.end())
-    throw Error(
-        ErrorCode::not_permitted,
-        "the folder " + quoted(store_folder) + " belongs to the run itself, and the file is " + quoted(file),
-        "choose another name");
+  for (const std::string_view folder : {store_folder, views_folder}) {
+    const fs::path own = root_ / folder;
+    if (!root_.empty() && std::ranges::mismatch(own, place.lexically_normal()).in1 == own.end())
+      throw Error(
+          ErrorCode::not_permitted,
+          "the folder " + quoted(folder) + " belongs to the run itself, and the file is " + quoted(file),
+          "choose another name");
+  }
   if (kind_ == Kind::dry) return place;
   std::error_code ignored;
   if (fs::is_directory(place, ignored))

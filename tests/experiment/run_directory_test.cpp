@@ -157,7 +157,9 @@ TEST_F(RunDirectoryTest, KeepsItsOwnFilesToItself) {
   RunSetup s = setup();
   s.trusted = true;
   RunDirectory run(s);
-  for (const std::string file : {"manifest.json", "./journal.jsonl", "a/../script.lua", ".lock"})
+  // S10: also what the page draws of it.
+  for (const std::string file :
+       {"manifest.json", "./journal.jsonl", "a/../script.lua", ".lock", ".views/x", "./.views/a/b"})
     EXPECT_EQ(error_of([&] { run.path_for(file); }).substr(0, 14), "not_permitted:") << file;
   EXPECT_EQ(error_of([&] { run.path_for((run.path() / "manifest.json").string()); }).substr(0, 14),
             "not_permitted:");

@@ -69,14 +69,16 @@ def test_memory_bombs_are_ended():
         assert finished(server.run("print(1)"))["status"] == "done"
 
 
-def test_a_flood_of_output_is_ended():
-    with Server(runner.program) as server:
-        events = server.run("while true do print(string.rep('x', 1000)) end")
-        end = finished(events)
-        assert end["status"] == "limit" and "printed" in end["reason"], end
-        assert len(printed(events)) < 2 << 20
-        events = server.run("while true do io.stderr:write('\\255\\128') end")
-        assert finished(events)["status"] == "limit"
+# T9
+def test_a_flood_of_output_is_cut_and_the_run_goes_on():
+    with Server(runner.program, "--limit-time", "3s") as server:
+        script = "for k = 1, 3000 do print(string.rep('x', 1000)) end require('asperity').notebook 'n':write{ k=1 }"
+        events = server.run(script)
+        assert finished(events)["status"] == "done" and of_type(events, "row"), finished(events)
+        assert 1 << 20 <= len(printed(events)) < 2 << 20 and "printed more than 1 MiB" in printed(events, "err")
+        for endless in ("while true do print(string.rep('x', 1000)) end", "while true do io.stderr:write('\\255\\128') end"):
+            end = finished(server.run(endless))
+            assert end["status"] == "limit" and "time" in end["reason"] and end["seconds"] < 20, end
 
 
 def test_a_flood_of_rows_is_ended():
@@ -85,6 +87,49 @@ def test_a_flood_of_rows_is_ended():
     with Server(runner.program) as server:
         end = finished(server.run(script))
         assert end["status"] == "limit" and end["seconds"] < 60, end
+
+
+# S2
+def test_no_script_leaves_more_than_its_limit():
+    script = """local s = ("x"):rep(2^20) for k = 1, 1000 do
+    local f = assert(io.open("f" .. k, "w")) for i = 1, 60 do f:write(s) end f:close() end"""
+    many = "for k = 1, 1e9 do local f = assert(io.open('f' .. k, 'w')) f:write('x') f:close() end"
+    with Server(runner.program, "--classroom", "127.0.0.1", "--students", "1") as server:
+        for k, text in enumerate((script, many), 1):
+            assert finished(server.run(text))["status"] in ("limit", "failed")
+            run = f"{server.folder}/runs/{k}/run"
+            taken = [os.lstat(os.path.join(at, name)) for at, folders, files in os.walk(run) for name in [*folders, *files]]
+            assert len(taken) <= 2000, len(taken)
+            assert sum(max(one.st_size, 512 * one.st_blocks) for one in taken) <= (64 << 20) + 4096
+
+
+# S8
+def test_a_stopped_run_does_not_wait_for_its_drawing():
+    script = """local book = require("asperity").notebook "n"
+    for k = 1, 60000 do book:write{ k=k, v=math.random(), w=math.random() } end
+    print "draws" io.stdout:flush()
+    for k = 1, 1000 do book:chart{ x="v", y="w", path="c" .. k .. ".png" } end"""
+    with Server(runner.program, "--runs", "1") as server:
+        run = server.begin(script)
+        for _ in range(600):
+            if any("gnuplot" in command_of(child) for child in children_of(server.process.pid)):
+                break
+            time.sleep(0.05)
+        else:
+            raise AssertionError("nothing is drawn")
+        begun = time.monotonic()
+        server.ask("DELETE", f"/api/runs/{run}")
+        assert finished(server.events(run))["status"] == "stopped"
+        assert finished(server.run("print(1)"))["status"] == "done"
+        assert time.monotonic() - begun < 10, time.monotonic() - begun
+
+
+def command_of(process):
+    try:
+        with open(f"/proc/{process}/cmdline") as line:
+            return line.read()
+    except OSError:
+        return ""
 
 
 def test_a_flood_of_files_is_ended():

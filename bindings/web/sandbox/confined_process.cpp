@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -128,14 +129,23 @@ void ConfinedProcess::send(int signal) const {
 
 std::optional<int> ConfinedProcess::ended() {
   int status = 0;
-  if (!status_ && ::waitpid(process_, &status, WNOHANG) == process_) status_ = status;
+  rusage used{};
+  if (!status_ && ::wait4(process_, &status, WNOHANG, &used) == process_) {
+    const auto seconds = [](const timeval& time) {
+      return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    status_ = status;
+    processor_seconds_ = seconds(used.ru_utime) + seconds(used.ru_stime);
+  }
   return status_;
 }
 
 Finished run_confined(const ConfinedRequest& request, const std::string& folder,
-                      std::chrono::milliseconds patience, std::size_t most_bytes) {
+                      std::chrono::milliseconds patience, std::size_t most_bytes,
+                      const std::atomic<bool>* given_up) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + patience;
+  const auto is_over = [&] { return Clock::now() >= end || (given_up != nullptr && given_up->load()); };
   ConfinedProcess process(request, folder);
   Finished done;
   std::array<std::pair<Descriptor*, std::string*>, 3> pipes{
@@ -152,7 +162,7 @@ Finished run_confined(const ConfinedRequest& request, const std::string& folder,
       if (got == 0) pipe->reset();
       open = open || pipe->get() >= 0;
     }
-    if (Clock::now() >= end) {
+    if (is_over()) {
       done.late = true;
       process.send(SIGKILL);
       break;
@@ -160,7 +170,7 @@ Finished run_confined(const ConfinedRequest& request, const std::string& folder,
   }
   std::optional<int> status;
   while (!(status = process.ended())) {
-    if (!done.late && Clock::now() >= end) {
+    if (!done.late && is_over()) {
       done.late = true;
       process.send(SIGKILL);
     }
