@@ -143,14 +143,50 @@ def test_a_flood_of_files_is_ended():
         assert size < 400, size
 
 
+bare_request = {"work": "probe", "drawing": False, "memory_bytes": 1 << 30, "file_bytes": 1 << 20, "processor_seconds": 10,
+                "script": "", "name": "", "seed": 1, "seconds": 5, "threads": 1, "views": False, "barriers": []}
+
+
 def probe(*prefix, before=None):
-    request = {"work": "probe", "drawing": False, "memory_bytes": 1 << 30, "file_bytes": 1 << 20, "processor_seconds": 10,
-               "script": "", "name": "", "seed": 1, "seconds": 5, "threads": 1, "views": False, "barriers": []}
+    request = bare_request
     with tempfile.TemporaryDirectory() as folder:
         os.chmod(folder, 0o777)
         done = subprocess.run([*prefix, runner.program, "--confined"], input=json.dumps(request), cwd=folder,
                               capture_output=True, text=True, timeout=30, preexec_fn=before)
         return json.loads(done.stdout.splitlines()[-1]) if done.stdout else {"error": done.stderr}
+
+
+drawings = {
+    "drawn": ("set print 'picture'\nstats 'data' using 1 nooutput\nprint 'sum ', STATS_sum\nset print", True),
+    "a file": ("set print 'picture'\nstats 'SECRET' using 1 nooutput\nprint 'sum ', STATS_sum\nset print", False),
+    "a script": ("load 'SECRET'\nset print 'picture'\nprint 'sum '\nset print", False),
+    "a program": ("set print 'picture'\nprint system('echo sum 1')\nset print", False),
+    "a pipe": ("set print 'picture'\nstats '< echo 1' using 1 nooutput\nprint 'sum ', STATS_sum\nset print", False),
+    "a shell": ("!echo sum > picture\n", False),
+    "elsewhere": ("set print 'PLACE/written'\nprint 'sum '\nset print", False),
+}
+
+
+def test_gnuplot_of_a_confined_run_gets_out_nowhere():
+    numbers = {"x86_64": (0xC000003E, 272), "aarch64": (0xC00000B7, 97)}
+    architecture, unshare = numbers.get(os.uname().machine, (0, 0))
+    lacking = [None] if architecture == 0 else [None, unshare, 444]
+    with tempfile.TemporaryDirectory() as place:
+        with open(place + "/secret", "w") as file:
+            file.write("1\n2\n")
+        for without in lacking:
+            for what, (script, drawn) in drawings.items():
+                with tempfile.TemporaryDirectory() as folder:
+                    for name, text in (("script", script.replace("SECRET", place + "/secret").replace("PLACE", place)), ("data", "1\n2\n")):
+                        with open(f"{folder}/{name}", "w") as file:
+                            file.write(text)
+                    request = {**bare_request, "work": "draw", "drawing": True}
+                    done = subprocess.run([runner.program, "--confined"], input=json.dumps(request), cwd=folder, capture_output=True, text=True,
+                                          timeout=30, preexec_fn=None if without is None else lambda: refuse_calls(architecture, [without]))
+                    assert done.returncode != 127, done
+                    picture = open(folder + "/picture").read() if os.path.exists(folder + "/picture") else ""
+                    assert ("sum" in picture) == drawn, (what, without, picture, done)
+        assert os.listdir(place) == ["secret"], os.listdir(place)
 
 
 def test_completion_bears_any_text():

@@ -5,6 +5,7 @@
 #include <linux/securebits.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <string_view>
 
 #include "bindings/web/sandbox/file_barrier.hpp"
 #include "bindings/web/sandbox/namespaces.hpp"
@@ -56,13 +58,27 @@ void set_limits(const Confinement& confinement) {
     limit(RLIMIT_CPU, confinement.processor_seconds, "processor time");
 }
 
+// What gnuplot reads and runs, besides the working directory: its libraries, its own files and fonts.
+std::vector<Place> places_of_drawing() {
+  std::vector<Place> places{{".", "/run", true}};
+  for (const char* folder : {"/usr/bin", "/usr/lib", "/usr/lib64", "/lib", "/lib64", "/usr/share",
+                             "/etc/alternatives", "/etc/fonts", "/var/cache/fontconfig"}) {
+    struct stat facts {};
+    if (::stat(folder, &facts) != 0 || !S_ISDIR(facts.st_mode)) continue;
+    const std::string_view name = folder;
+    places.push_back({folder, folder, false, name.ends_with("bin") || name.find("lib") != name.npos});
+  }
+  return places;
+}
+
 // Shuts off every file but those of the places, and goes to the folder to work in. Returns why it could not.
 std::string go_to_own_root(const Confinement& confinement, const Namespaces& own) {
   const bool elsewhere = !confinement.places.empty();
   std::string problem = own.mount;
   if (problem.empty())
-    problem = elsewhere ? enter_own_root(confinement.places, confinement.work)
-                        : enter_own_root({{".", "/run", true}}, "/run");
+    problem = confinement.as == Confined::drawing ? enter_own_root(places_of_drawing(), "/run")
+              : elsewhere                         ? enter_own_root(confinement.places, confinement.work)
+                                                  : enter_own_root({{".", "/run", true}}, "/run");
   if (!problem.empty() && elsewhere && ::chdir(confinement.work.c_str()) != 0)
     throw Error(ErrorCode::bad_state, "the folder " + asperity::quoted(confinement.work) +
                                           " cannot be entered: " + std::strerror(errno));
@@ -94,7 +110,7 @@ std::vector<std::string> confine(const Confinement& confinement, std::vector<std
   const Namespaces own = enter_namespaces();
   note("a network of its own", own.network);
   if (own.user.empty()) limit(RLIMIT_NPROC, 256, "threads");
-  if (confinement.as == Confined::script) note("a root of its own", go_to_own_root(confinement, own));
+  note(own_root_barrier, go_to_own_root(confinement, own));
   note("no rights of the superuser", drop_capabilities() ? "" : std::strerror(errno));
   ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
   // It does not outlive the server, even one that was killed. Other rights would have made it forget this.

@@ -17,11 +17,15 @@ enum class Confined {
   drawing,  // besides, one program, /usr/bin/gnuplot, and what it reads of /usr and of the fonts
 };
 
+// How confine() names the tree of files of the process's own.
+inline constexpr const char* own_root_barrier = "a root of its own";
+
 // A folder that a script may reach, with all below it.
 struct Place {
-  std::string folder;  // where it is: absolute and without links, or "." for the working directory
-  std::string seen;    // where the script finds it in a root of its own; absolute
-  bool write = false;  // files in it may also be made, changed and removed
+  std::string folder;     // where it is: absolute and without links, or "." for the working directory
+  std::string seen;       // where the script finds it in a root of its own; absolute
+  bool write = false;     // files in it may also be made, changed and removed
+  bool programs = false;  // in it may be run, and loaded
 };
 
 struct Confinement {

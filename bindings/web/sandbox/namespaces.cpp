@@ -48,58 +48,86 @@ bool make_folders(const std::string& root, const std::string& path) {
   }
 }
 
-// A place that is open. Closed with it.
-struct Bound {
-  explicit Bound(const Place& of)
-      : place(&of), descriptor(::open(of.folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC)) {
-    if (descriptor >= 0 && ::fstatvfs(descriptor, &flags) != 0) ::close(std::exchange(descriptor, -1));
-  }
-  ~Bound() {
-    if (descriptor >= 0) ::close(descriptor);
-  }
-  Bound(Bound&& other) noexcept
-      : place(other.place), descriptor(std::exchange(other.descriptor, -1)), flags(other.flags) {}
-  Bound& operator=(Bound&& other) noexcept {
-    std::swap(place, other.place);
-    std::swap(descriptor, other.descriptor);
-    std::swap(flags, other.flags);
-    return *this;
-  }
-
-  const Place* place;
-  int descriptor;
-  struct statvfs flags {};
-};
-
 // Linux 5.12: what is asked of a tree of mounts at once. The C library may be older.
 struct MountAttributes {
   std::uint64_t set = 0, clear = 0, propagation = 0, user_namespace = 0;
 };
 constexpr std::uint64_t attribute_read_only = 1, attribute_no_setuid = 2, attribute_no_devices = 4,
                         attribute_no_programs = 8;
-constexpr long mount_setattr_call = 442;  // on every processor
-constexpr unsigned recursive = 0x8000;    // AT_RECURSIVE
+constexpr long open_tree_call = 428, move_mount_call = 429, mount_setattr_call = 442;  // on every processor
+constexpr unsigned of_descriptor = 0x1000, recursive = 0x8000;  // AT_EMPTY_PATH, AT_RECURSIVE
+constexpr unsigned copied = 1, from_descriptor = 4;             // OPEN_TREE_CLONE, MOVE_MOUNT_F_EMPTY_PATH
 
-// Without programs, devices and rights of others; and without writing, unless the place allows it.
-bool bind_mount(const Bound& one, const std::string& at) {
-  const std::string source = "/proc/self/fd/" + std::to_string(one.descriptor);
-  const bool knows_trees = ::syscall(mount_setattr_call, -1, "", 0, nullptr, 0) < 0 && errno == EINVAL;
-  if (knows_trees) {
-    // Whatever is mounted below comes along.
-    if (::mount(source.c_str(), at.c_str(), nullptr, MS_BIND | MS_REC, nullptr) != 0) return false;
-    const MountAttributes wanted{attribute_no_setuid | attribute_no_devices | attribute_no_programs |
-                                 (one.place->write ? 0 : attribute_read_only)};
-    return ::syscall(mount_setattr_call, AT_FDCWD, at.c_str(), recursive, &wanted, sizeof wanted) == 0;
-  }
-  if (::mount(source.c_str(), at.c_str(), nullptr, MS_BIND, nullptr) != 0) return false;
-  // What the file system forbids already stays forbidden.
-  unsigned long kept = MS_NOSUID | MS_NODEV | MS_NOEXEC;
-  if (one.flags.f_flag & ST_NOATIME) kept |= MS_NOATIME;
-  if (one.flags.f_flag & ST_NODIRATIME) kept |= MS_NODIRATIME;
-  if (one.flags.f_flag & ST_RELATIME) kept |= MS_RELATIME;
-  if (!one.place->write || (one.flags.f_flag & ST_RDONLY)) kept |= MS_RDONLY;
-  return ::mount(nullptr, at.c_str(), nullptr, MS_REMOUNT | MS_BIND | kept, nullptr) == 0;
+bool knows_trees() {
+  static const bool known = ::syscall(mount_setattr_call, -1, "", 0, nullptr, 0) < 0 && errno == EINVAL;
+  return known;
 }
+
+// A place that is open, with the mounts below it where the kernel copies trees of them. It is opened before
+// the root is put up, which lies over the working directory and would be copied along. Closed with it.
+class Bound {
+ public:
+  explicit Bound(const Place& of)
+      : place(&of), folder_(::open(of.folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC)) {
+    if (folder_ >= 0 && ::fstatvfs(folder_, &flags_) != 0) shut(folder_);
+    if (folder_ >= 0 && knows_trees())
+      tree_ = static_cast<int>(
+          ::syscall(open_tree_call, folder_, "", copied | O_CLOEXEC | of_descriptor | recursive));
+  }
+  ~Bound() {
+    shut(tree_);
+    shut(folder_);
+  }
+  Bound(Bound&& other) noexcept
+      : place(other.place),
+        folder_(std::exchange(other.folder_, -1)),
+        tree_(std::exchange(other.tree_, -1)),
+        flags_(other.flags_) {}
+  Bound& operator=(Bound&& other) noexcept {
+    std::swap(place, other.place);
+    std::swap(folder_, other.folder_);
+    std::swap(tree_, other.tree_);
+    std::swap(flags_, other.flags_);
+    return *this;
+  }
+
+  bool open() const { return folder_ >= 0 && (tree_ >= 0 || !knows_trees()); }
+  // Without devices and rights of others; without programs, and without writing, unless the place allows
+  // them.
+  bool mount_at(const std::string& at) const {
+    if (tree_ >= 0) {
+      const MountAttributes wanted{attribute_no_setuid | attribute_no_devices |
+                                   (place->programs ? 0 : attribute_no_programs) |
+                                   (place->write ? 0 : attribute_read_only)};
+      return ::syscall(mount_setattr_call, tree_, "", of_descriptor | recursive, &wanted, sizeof wanted) ==
+                 0 &&
+             ::syscall(move_mount_call, tree_, "", AT_FDCWD, at.c_str(), from_descriptor) == 0;
+    }
+    const std::string source = "/proc/self/fd/" + std::to_string(folder_);
+    if (::mount(source.c_str(), at.c_str(), nullptr, MS_BIND, nullptr) != 0) return false;
+    // What the file system forbids already stays forbidden.
+    unsigned long kept = MS_NOSUID | MS_NODEV;
+    if (!place->programs || (flags_.f_flag & ST_NOEXEC)) kept |= MS_NOEXEC;
+    if (flags_.f_flag & ST_NOATIME) kept |= MS_NOATIME;
+    if (flags_.f_flag & ST_NODIRATIME) kept |= MS_NODIRATIME;
+    if (flags_.f_flag & ST_RELATIME) kept |= MS_RELATIME;
+    if (!place->write || (flags_.f_flag & ST_RDONLY)) kept |= MS_RDONLY;
+    return ::mount(nullptr, at.c_str(), nullptr, MS_REMOUNT | MS_BIND | kept, nullptr) == 0;
+  }
+
+  const Place* place;
+
+ private:
+  static void shut(int& descriptor) {
+    const int number = std::exchange(descriptor, -1);
+    const int reason = errno;
+    if (number >= 0) ::close(number);
+    errno = reason;
+  }
+
+  int folder_ = -1, tree_ = -1;
+  struct statvfs flags_ {};
+};
 
 }  // namespace
 
@@ -128,7 +156,7 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
   std::vector<Bound> bound;
   for (const Place& place : places) {
     Bound& one = bound.emplace_back(place);
-    if (one.descriptor < 0) return root_problem("the folder " + place.folder);
+    if (!one.open()) return root_problem("the folder " + place.folder);
   }
   // A folder before those below it.
   std::ranges::sort(bound, {}, [](const Bound& one) { return one.place->seen.size(); });
@@ -153,7 +181,7 @@ std::string enter_own_root(const std::vector<Place>& places, const std::string& 
   ::close(null);
   if (::mount("/dev/null", device.c_str(), nullptr, MS_BIND, nullptr) != 0) return undo("/dev/null");
   for (const Bound& one : bound)
-    if (!make_folders(here, one.place->seen) || !bind_mount(one, here + one.place->seen))
+    if (!make_folders(here, one.place->seen) || !one.mount_at(here + one.place->seen))
       return undo("the folder " + one.place->seen);
   ::mount(nullptr, here.c_str(), nullptr, MS_REMOUNT | MS_BIND | MS_RDONLY | MS_NOSUID | MS_NOEXEC, nullptr);
   if (::chdir(here.c_str()) != 0) return undo("the root");
