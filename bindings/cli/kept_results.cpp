@@ -97,6 +97,7 @@ ResultFilesSetup result_files(const RunCommand& command) {
   if (command.store) {
     setup.folder = *command.store;
     setup.most_bytes = unlimited;
+    if (command.limit_disk) setup.most_added = *command.limit_disk;
   }
   if (command.store_limit) setup.most_bytes = *command.store_limit;
   setup.build = build_identity();
@@ -109,7 +110,7 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
   if (is_not_begun(root)) return begun_there(std::move(command));
   if (holds_earlier_run(root)) {
     if (!leads) return begun_there(std::move(command));
-    command.lock = RunLock::take(root);
+    if (command.lock == nullptr) command.lock = RunLock::take(root);
     finish_moving_aside(root);
     if (is_not_begun(root)) return begun_there(std::move(command));
   }

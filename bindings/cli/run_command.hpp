@@ -54,9 +54,10 @@ struct RunCommand {
 
   // Behind the barriers of the page's runs (bindings/web/confined_command.hpp).
   bool confined = false;
-  std::vector<std::string> read;           // folders that it reads besides the script's own
-  std::string without_barriers;            // which need not stand: "files,network"
-  std::optional<std::int64_t> limit_disk;  // bytes of all files of the run directory
+  std::vector<std::string> read;  // folders that it reads besides the script's own
+  std::string without_barriers;   // which need not stand: "files,network"
+  // Bytes of all files of the run directory, and of what it adds to a store that it shares.
+  std::optional<std::int64_t> limit_disk;
   // Of the process that carries it out behind them: what stands and what it may read, for the manifest; and
   // whether its standard error, a pipe, ends at a terminal.
   Json barriers{};

@@ -15,6 +15,7 @@
 
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/plain_streams.hpp"
+#include "bindings/cli/watchdog.hpp"
 #include "bindings/web/disk_bound.hpp"
 #include "bindings/web/drawing.hpp"
 #include "engine/core/quantity.hpp"
@@ -27,10 +28,11 @@ namespace {
 constexpr auto polite_patience = std::chrono::milliseconds(3000);  // after a request to end
 constexpr double watch_grace = 4;  // seconds for the run's own watch of the clock
 
-Descriptor ending_signals() {
-  sigset_t set;
-  sigemptyset(&set);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
+// Those that end a program, and Ctrl-Z.
+Descriptor signals_to_pass_on() {
+  sigset_t set = cli::stop_signals();
+  struct sigaction suspend {};
+  if (::sigaction(SIGTSTP, nullptr, &suspend) == 0 && suspend.sa_handler != SIG_IGN) sigaddset(&set, SIGTSTP);
   ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
   return Descriptor(::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
 }
@@ -41,7 +43,7 @@ CommandFollower::CommandFollower(const ConfinedRequest& request, std::filesystem
                                  const CommandBounds& bounds)
     : directory_(std::move(directory)),
       bounds_(bounds),
-      signals_(ending_signals()),
+      signals_(signals_to_pass_on()),
       process_(request, directory_.string()) {
   process_.events.reset();
   drawer_ = std::thread([this, barriers = request.barriers] {
@@ -58,19 +60,21 @@ CommandFollower::~CommandFollower() {
 }
 
 int CommandFollower::follow() {
+  std::signal(SIGPIPE, SIG_IGN);  // where nobody reads any more the run goes on all the same
   std::optional<int> status;
   while (!status) {
     std::array<pollfd, 3> watched{
         {{process_.output.get(), POLLIN, 0}, {process_.error.get(), POLLIN, 0}, {signals_.get(), POLLIN, 0}}};
     ::poll(watched.data(), watched.size(), 50);
     for (signalfd_siginfo met{}; ::read(signals_.get(), &met, sizeof met) == sizeof met;)
-      process_.send(static_cast<int>(met.ssi_signo));
+      pass_on(static_cast<int>(met.ssi_signo));
     status = process_.ended();
     // When it has ended: what it left in the pipes.
     pass_on(process_.output, false);
     pass_on(process_.error, true);
     if (!status) watch_limits(Clock::now());
   }
+  std::fwrite(error_tail_.data(), 1, error_tail_.size(), stderr);
   if (const std::string removed = keep_within(directory_, bounds_.directory_bytes, bounds_.files);
       !removed.empty())
     std::fprintf(stderr, "asperity: %s\n", removed.c_str());
@@ -89,6 +93,14 @@ int CommandFollower::follow() {
   return 128 + signal;
 }
 
+void CommandFollower::pass_on(int signal) {
+  if (signal != SIGTSTP) return process_.send(signal);
+  // Both rest until this process is told to go on.
+  process_.send(SIGSTOP);
+  ::raise(SIGSTOP);
+  process_.send(SIGCONT);
+}
+
 void CommandFollower::pass_on(Descriptor& from, bool error) {
   char piece[65536];
   // A run that never stops printing does not keep its limits from being watched.
@@ -100,7 +112,6 @@ void CommandFollower::pass_on(Descriptor& from, bool error) {
     if (error) {
       pass_on_errors(text);
     } else {
-      // Where nobody reads any more the run goes on all the same.
       std::fwrite(text.data(), 1, text.size(), stdout);
       std::fflush(stdout);
     }
@@ -109,6 +120,10 @@ void CommandFollower::pass_on(Descriptor& from, bool error) {
 
 // Progress is drawn over itself; all else is shown and not obeyed (plain_streams.hpp).
 void CommandFollower::pass_on_errors(std::string_view text) {
+  if (::isatty(STDERR_FILENO) == 0) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    return;
+  }
   const std::string_view erase = cli::erase_line;
   std::string all = std::exchange(error_tail_, "") + std::string(text);
   std::size_t begin = 0;

@@ -38,6 +38,7 @@ class CommandFollower {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void pass_on(int signal);
   void pass_on(Descriptor& from, bool error);
   void pass_on_errors(std::string_view text);
   void watch_limits(Clock::time_point now);

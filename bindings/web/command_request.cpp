@@ -105,6 +105,7 @@ Json command_json(const cli::RunCommand& run, const cli::ReplayCommand* replay) 
                             {"reuse", texts_json(run.reuse)},
                             {"store", optional_text(run.store)},
                             {"store_limit", optional_digits(run.store_limit)},
+                            {"limit_disk", optional_digits(run.limit_disk)},
                             {"shard", run.shard ? run.shard->index : 0},
                             {"shards", run.shard ? run.shard->count : 0},
                             {"barriers", run.barriers},
@@ -133,6 +134,7 @@ CarriedCommand command_of(const Json& json) {
   run.reuse = texts_in(json, "reuse");
   run.store = optional_text_in(json, "store");
   run.store_limit = optional_whole_in(json, "store_limit");
+  run.limit_disk = optional_whole_in(json, "limit_disk");
   if (const int count = small_in(json, "shards"); count > 0)
     run.shard = lua::Shard{small_in(json, "shard"), count};
   run.barriers = command_member(json, "barriers");

@@ -21,7 +21,9 @@
 #include "bindings/web/sandbox/system_calls.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/loaded_part.hpp"
+#include "engine/core/part_file.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/run_facts.hpp"
 
 namespace asperity::web {
 
@@ -56,8 +58,11 @@ std::string standard_input() {
   return text;
 }
 
-// What a run may load later lies behind the barrier; a part that is not there is met when it is needed.
-void load_parts() {
+// What a run may load or look at later lies behind the barrier; a part that is not there is met when it is
+// needed.
+void prepare_run() {
+  machine_facts();
+  find_own_place();
   try {
     part_symbol({"hdf5", "HDF5 files are written", "libhdf5-103-1"}, "asperity_hdf5_write_1");
   } catch (const Error&) {
@@ -100,6 +105,7 @@ int run_or_check(const ConfinedRequest& request) {
   command.seed = static_cast<std::uint64_t>(request.seed);
   command.limit_memory = request.confinement.memory_bytes;
   command.limit_time = request.seconds;
+  command.limit_disk = request.confinement.file_bytes;
   command.store_limit = 0;
   command.observer = &events;
   std::setvbuf(stdout, nullptr, _IOLBF, std::size_t{1} << 14);
@@ -128,7 +134,8 @@ Json to_json(const ConfinedRequest& request) {
                        {"barriers", Json::strings(request.barriers)},
                        {"places", std::move(places)},
                        {"work_folder", characters_of(c.work)},
-                       {"command", request.command}});
+                       {"command", request.command},
+                       {"locked", request.lock >= 0}});
 }
 
 ConfinedRequest confined_request(const Json& json) {
@@ -158,6 +165,8 @@ ConfinedRequest confined_request(const Json& json) {
                                             request_member(place, "write").boolean()});
   if (const Json* folder = json.find("work_folder")) request.confinement.work = bytes_of(folder->string());
   if (const Json* command = json.find("command")) request.command = *command;
+  if (const Json* locked = json.find("locked"); locked != nullptr && locked->boolean())
+    request.lock = lock_descriptor;
   return request;
 }
 
@@ -170,7 +179,7 @@ int confined_main() {
       ::close(nothing);
     }
     load_system_call_filter();
-    if (request.work == Work::run || request.work == Work::command) load_parts();
+    if (request.work == Work::run || request.work == Work::command) prepare_run();
     std::vector<std::string> missing;
     const std::vector<std::string> made = confine(request.confinement, missing);
     for (const std::string& barrier : request.barriers)
@@ -188,7 +197,7 @@ int confined_main() {
         return run_or_check(request);
       case Work::command:
         draw_by_server(drawing_descriptor);
-        return carry_out(request.command);
+        return carry_out(request.command, request.lock);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());

@@ -15,7 +15,7 @@
 namespace asperity::web {
 
 // Open in the child beside the standard streams.
-inline constexpr int events_descriptor = 3, drawing_descriptor = 4;
+inline constexpr int events_descriptor = 3, drawing_descriptor = 4, lock_descriptor = 5;
 
 enum class Work { run, check, draw, probe, command };
 
@@ -30,6 +30,7 @@ struct ConfinedRequest {
   bool views = false;
   std::vector<std::string> barriers{};  // what must stand before a script is begun, as confine() names it
   Json command{};                       // of `asperity run --confined` (confined_command.hpp); else null
+  int lock = -1;  // open file of the lock of its run directory, which the child inherits; -1: none
 };
 
 Json to_json(const ConfinedRequest& request);

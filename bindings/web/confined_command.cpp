@@ -40,6 +40,9 @@ constexpr std::size_t most_files = 20000, most_script_bytes = std::size_t{64} <<
 
 // The manifest of a run that is there; null where there is none, of which others will speak.
 Json manifest_in(const std::string& folder) {
+  std::error_code problem;
+  // A pipe would be waited for.
+  if (!fs::is_regular_file(fs::path(folder) / "manifest.json", problem)) return {};
   try {
     return read_manifest(folder);
   } catch (const Error&) {
@@ -56,6 +59,15 @@ bool was_confined(const Json& manifest) {
   return said != nullptr && *said == Json(true);
 }
 
+// A folder that came from elsewhere may hold links instead of folders.
+void say_where_a_link_leads(const std::string& folder, const fs::path& real) {
+  std::string named = folder;
+  while (named.size() > 1 && named.back() == '/') named.pop_back();
+  std::error_code problem;
+  if (fs::is_symlink(fs::symlink_status(named, problem)))
+    std::fprintf(stderr, "asperity: %s is a link to %s\n", named.c_str(), real.c_str());
+}
+
 fs::path canonical(const std::string& folder, const char* option) {
   std::error_code problem;
   const fs::path real = fs::canonical(folder.empty() ? "." : folder, problem);
@@ -66,6 +78,7 @@ fs::path canonical(const std::string& folder, const char* option) {
   if (real == "/")
     throw Error(ErrorCode::bad_value, asperity::quoted(option) + " names the whole tree of files",
                 "give a folder in it");
+  say_where_a_link_leads(folder, real);
   return real;
 }
 
@@ -193,10 +206,7 @@ class Undertaking {
     check_options();
     if (replay_ != nullptr) take_record(replay_->recorded, "replay");
     if (run_.resume) take_record(*run_.resume, "go on with");
-    if (!run_.script.empty()) {
-      run_.text = cli::read_script(run_.script);
-      read_own_folder(fs::path(run_.script).parent_path().string());
-    }
+    if (!run_.script.empty()) read_script();
     for (const std::string& folder : run_.read) {
       read_.push_back(canonical(folder, "--read").string());
       places_.add(folder, read_.back(), false);
@@ -217,12 +227,18 @@ class Undertaking {
                                   {"missing", Json::strings(report.missing)},
                                   {"open", Json::strings(open)}});
     make_folders();
-    const int status = follow(report.made);
-    std::error_code ignored;
-    // Where nothing was begun nothing is left.
-    if (made_) fs::remove(directory_, ignored);
-    return status;
+    return follow(report.made);
   }
+
+  ~Undertaking() {
+    try {
+      prepared_.leave();
+    } catch (const std::exception&) {
+      // What was begun stays as it is.
+    }
+  }
+  Undertaking(const Undertaking&) = delete;
+  Undertaking& operator=(const Undertaking&) = delete;
 
  private:
   void check_options() const {
@@ -269,7 +285,19 @@ class Undertaking {
     places_.add(own.string(), real, false);
   }
 
-  void read_own_folder(const std::string& folder) {
+  // The run keeps a copy of it, which is then published with the results.
+  void read_script() {
+    run_.text = cli::read_script(run_.script);
+    const fs::path folder = read_own_folder(fs::path(run_.script).parent_path().string());
+    const fs::path real = fs::canonical(run_.script);
+    if (!is_at_or_above(folder, real))
+      throw Error(ErrorCode::not_permitted,
+                  "a confined script lies in its own folder, and " + asperity::quoted(run_.script) +
+                      " is a link to " + real.string(),
+                  "name the file itself");
+  }
+
+  fs::path read_own_folder(const std::string& folder) {
     const fs::path real = canonical(folder, "script");
     if (holds_the_home(real) && std::ranges::none_of(run_.read, [&](const std::string& named) {
           std::error_code problem;
@@ -281,6 +309,7 @@ class Undertaking {
                   "put the script into a folder of its own, or add `--read " + real.string() +
                       "` if it may read all of that");
     places_.add(folder, real, false);
+    return real;
   }
 
   void check_recorded_folders() const {
@@ -294,33 +323,40 @@ class Undertaking {
                 std::string("add it to ") + purpose_ + " the run so");
   }
 
+  // The run directory is made and locked here, for this process outlives the one that works there, and what
+  // that one left beyond its limits is removed from here.
   void make_folders() {
-    if (run_.resume) {
-      std::error_code problem;
-      made_ = !fs::exists(*run_.resume, problem);
-      fs::create_directories(*run_.resume, problem);
-      if (problem) throw_file_error("make the folder", *run_.resume, problem.value());
-      directory_ = canonical(*run_.resume, "--resume");
-      places_.add(*run_.resume, directory_, true);
-    } else {
-      RunSetup setup;
-      setup.script_name = run_.script.empty() ? "replay" : run_.script;
-      if (replay_ != nullptr)
-        if (const Json manifest = manifest_in(replay_->recorded);
-            const Json* script = found_in(manifest, "script"))
-          if (const Json* name = found_in(*script, "name")) setup.script_name = name->string();
-      if (run_.out) setup.out = *run_.out;
-      run_.out = RunDirectory::made_for(setup).string();
-      directory_ = canonical(*run_.out, "--out");
-      made_ = true;
-      places_.add(*run_.out, directory_, true);
-    }
+    RunSetup setup;
+    setup.script_name = run_.script.empty() ? "replay" : run_.script;
+    if (replay_ != nullptr)
+      if (const Json manifest = manifest_in(replay_->recorded);
+          const Json* script = found_in(manifest, "script"))
+        if (const Json* name = found_in(*script, "name")) setup.script_name = name->string();
+    if (run_.out) setup.out = *run_.out;
+    if (run_.resume) setup.resume = *run_.resume;
+    prepared_ = RunDirectory::prepared_for(setup);
+    if (!run_.resume) run_.out = prepared_.path.string();
+    directory_ = canonical(prepared_.path.string(), run_.resume ? "--resume" : "--out");
+    places_.add(prepared_.path.string(), directory_, true);
+    keep_out_of_home(directory_, run_.resume ? "--resume" : "--out");
+    if (prepared_.lock && !prepared_.lock->notice().empty())
+      std::fprintf(stderr, "asperity: %s\n", prepared_.lock->notice().c_str());
     if (run_.store) {
       std::error_code problem;
       fs::create_directories(*run_.store, problem);
       if (problem) throw_file_error("make the folder", *run_.store, problem.value());
-      places_.add(*run_.store, canonical(*run_.store, "--store"), true);
+      const fs::path store = canonical(*run_.store, "--store");
+      keep_out_of_home(store, "--store");
+      places_.add(*run_.store, store, true);
     }
+  }
+
+  static void keep_out_of_home(const fs::path& folder, const char* option) {
+    if (holds_the_home(folder))
+      throw Error(ErrorCode::not_permitted,
+                  "a confined script writes into the folder of " + asperity::quoted(option) +
+                      ", and this one holds your home folder: " + folder.string(),
+                  "give a folder of its own");
   }
 
   int follow(const std::vector<std::string>& barriers) {
@@ -329,6 +365,7 @@ class Undertaking {
     bounds.directory_bytes = run_.limit_disk.value_or(usual_disk);
     bounds.files = most_files;
     run_.limit_time = bounds.seconds;
+    run_.limit_disk = bounds.directory_bytes;
     run_.limit_memory = run_.limit_memory.value_or(std::max(machine_memory() / 2, std::int64_t{256} << 20));
     // Results kept in the run directory are of its files.
     if (!run_.store)
@@ -348,6 +385,7 @@ class Undertaking {
     held.processor_seconds = static_cast<std::int64_t>(bounds.seconds + 5) * threads + 1;
     request.barriers = barriers;
     request.command = command_json(run_, replay_);
+    if (prepared_.lock) request.lock = prepared_.lock->descriptor();
     CommandFollower follower(request, directory_, bounds);
     return follower.follow();
   }
@@ -357,8 +395,8 @@ class Undertaking {
   Places places_;
   std::vector<std::string> read_, recorded_;  // given by --read now, and of the record; without links
   std::string purpose_;
-  fs::path directory_;
-  bool made_ = false;
+  RunDirectory::Prepared prepared_;
+  fs::path directory_;  // without links
 };
 
 int carried_through(const cli::RunCommand& run, const cli::ReplayCommand* replay) {
@@ -386,11 +424,13 @@ int replay_behind_barriers(const cli::ReplayCommand& command) {
   return carried_through(command.run, &command);
 }
 
-int carry_out(const Json& command) {
+int carry_out(const Json& command, int lock) {
   cli::make_errors_plain();
   std::setvbuf(stdout, nullptr, _IOLBF, std::size_t{1} << 14);
-  const CarriedCommand carried = command_of(command);
-  return carried.replay ? cli::replay(*carried.replay) : cli::run(carried.run);
+  CarriedCommand carried = command_of(command);
+  cli::RunCommand& run = carried.replay ? carried.replay->run : carried.run;
+  if (lock >= 0) run.lock = RunLock::inherited(run.resume ? *run.resume : run.out.value_or("."), lock);
+  return carried.replay ? cli::replay(*carried.replay) : cli::run(run);
 }
 
 }  // namespace asperity::web

@@ -22,7 +22,8 @@ bool to_be_confined(const cli::ReplayCommand& command);
 int run_behind_barriers(const cli::RunCommand& command);
 int replay_behind_barriers(const cli::ReplayCommand& command);
 
-// In the confined process: carries out what the two above made of the command. The exit status.
-int carry_out(const Json& command);
+// In the confined process: carries out what the two above made of the command. `lock`: the open file of the
+// lock of its run directory, or -1. The exit status.
+int carry_out(const Json& command, int lock);
 
 }  // namespace asperity::web

@@ -213,11 +213,38 @@ RunDirectory::RunDirectory(RunSetup setup, std::function<std::string()> text)
       later_(std::move(setup)),
       text_(std::move(text)) {}
 
-fs::path RunDirectory::made_for(const RunSetup& setup) {
+RunDirectory::Prepared RunDirectory::prepared_for(const RunSetup& setup) {
+  Prepared prepared;
+  std::error_code reason;
   std::vector<fs::path> holding;
-  std::shared_ptr<RunLock> none;
-  return setup.out ? given_directory(*setup.out, none, false, holding)
-                   : numbered_directory(setup.runs, setup.script_name, holding);
+  if (setup.resume) {
+    prepared.path = *setup.resume;
+    prepared.made = !fs::exists(prepared.path, reason);
+    holding = make_folders(prepared.path);
+    const bool is_run = is_not_begun(prepared.path) || fs::exists(prepared.path / manifest_file, reason);
+    if (is_run && ::access(prepared.path.c_str(), W_OK) == 0) prepared.lock = RunLock::take(prepared.path);
+  } else if (setup.out) {
+    prepared.made = !fs::exists(*setup.out, reason);
+    prepared.path = given_directory(*setup.out, prepared.lock, true, holding);
+  } else {
+    prepared.made = true;
+    prepared.path = numbered_directory(setup.runs, setup.script_name, holding);
+    prepared.lock = RunLock::take(prepared.path);
+  }
+  // The other process may be shut off from the folders above.
+  for (const fs::path& folder : holding) wait_for_names_in(folder);
+  return prepared;
+}
+
+void RunDirectory::Prepared::leave() {
+  std::error_code ignored;
+  const auto is_lock = [](const fs::path& file) { return file.filename() == RunLock::file_name; };
+  if (made && is_not_begun(path) && std::ranges::all_of(entries_of(path), is_lock)) {
+    fs::remove(path / RunLock::file_name, ignored);
+    fs::remove(path, ignored);
+  }
+  if (lock) lock->release();
+  lock = nullptr;
 }
 
 void RunDirectory::make(const RunSetup& setup) {

@@ -25,7 +25,9 @@ std::string utc_now() {
   return {text.data(), length};
 }
 
-Json machine_facts() {
+namespace {
+
+Json facts_of_this_machine() {
   Json facts = Json::object();
   std::ifstream processors("/proc/cpuinfo");
   for (std::string line; std::getline(processors, line);) {
@@ -41,6 +43,13 @@ Json machine_facts() {
   utsname system{};
   if (::uname(&system) == 0)
     facts.set("system", std::string(system.sysname) + " " + system.release + " " + system.machine);
+  return facts;
+}
+
+}  // namespace
+
+Json machine_facts() {
+  static const Json facts = facts_of_this_machine();
   return facts;
 }
 

@@ -13,7 +13,8 @@ namespace asperity {
 // "2025-01-31T12:00:00Z".
 std::string utc_now();
 
-// Processor, number of processors, memory in bytes, operating system. What cannot be found is left out.
+// Processor, number of processors, memory in bytes, operating system. What cannot be found is left out. Found
+// out once: a process that will be shut off from /proc asks before.
 Json machine_facts();
 
 // Digest of a file's content, read in pieces of 1 MiB. Throws Error{bad_file}.

@@ -328,6 +328,55 @@ TEST_F(RunDirectoryTest, F1IsLockedToItsEnd) {
   EXPECT_EQ(error_of([&] { RunDirectory taken_up(again); }), "");
 }
 
+// F1: who makes and locks a directory for another process holds it, and leaves nothing where nothing was
+// begun.
+TEST_F(RunDirectoryTest, F1OnePreparedForAnotherProcessIsLockedThroughout) {
+  RunSetup s = setup();
+  s.out = folder / "above" / "r";
+  RunDirectory::Prepared prepared = RunDirectory::prepared_for(s);
+  EXPECT_EQ(prepared.path, *s.out);
+  EXPECT_NE(error_of([&] { RunDirectory::prepared_for(s); }).find("is being written by process"),
+            std::string::npos);
+  RunSetup inner = s;
+  inner.lock = RunLock::inherited(prepared.path, ::dup(prepared.lock->descriptor()));
+  {
+    RunDirectory run(inner);
+    EXPECT_TRUE(run.finish(RunStatus::interrupted));
+  }
+  inner.lock = nullptr;
+  RunSetup again = setup();
+  again.resume = s.out;
+  EXPECT_NE(error_of([&] { RunDirectory other(again); }).find("is being written by process"),
+            std::string::npos);
+  prepared.leave();
+  EXPECT_TRUE(fs::exists(*s.out / "manifest.json"));
+  prepared = RunDirectory::prepared_for(again);
+  EXPECT_FALSE(prepared.made);
+  EXPECT_NE(error_of([&] { RunDirectory other(again); }), "");
+  prepared.leave();
+  EXPECT_EQ(error_of([&] { RunDirectory other(again); }), "");
+}
+
+TEST_F(RunDirectoryTest, NothingIsLeftOfOnePreparedInVain) {
+  for (const char* kind : {"out", "resume", "numbered"}) {
+    RunSetup s = setup();
+    if (kind == std::string("out")) s.out = folder / "r";
+    if (kind == std::string("resume")) s.resume = folder / "r";
+    RunDirectory::Prepared prepared = RunDirectory::prepared_for(s);
+    EXPECT_TRUE(prepared.made && prepared.lock != nullptr) << kind;
+    prepared.leave();
+    EXPECT_FALSE(fs::exists(prepared.path)) << kind;
+  }
+  // A folder that is no run is not touched.
+  fs::create_directory(folder / "mine");
+  std::ofstream(folder / "mine" / "data.csv") << "1";
+  RunSetup s = setup();
+  s.resume = folder / "mine";
+  RunDirectory::Prepared prepared = RunDirectory::prepared_for(s);
+  prepared.leave();
+  EXPECT_EQ(files_in(folder / "mine"), 1U);
+}
+
 // F4: a run that died before its first manifest was "not empty" for ever.
 TEST_F(RunDirectoryTest, F4WhatHasNotBegunMayBegin) {
   RunSetup s = setup();

@@ -19,6 +19,7 @@ TEST(CommandRequest, ArrivesAsItWas) {
   run.arguments = {"", every, "x=1"};
   run.store = "s";
   run.store_limit = (std::int64_t{1} << 62) - 1;
+  run.limit_disk = 12345;
   run.limit_time = 0.1;
   run.shard = lua::Shard{2, 3};
   run.reuse = {"one", "two"};
@@ -34,6 +35,7 @@ TEST(CommandRequest, ArrivesAsItWas) {
   EXPECT_EQ(there.run.arguments, run.arguments);
   EXPECT_EQ(there.run.store, run.store);
   EXPECT_EQ(there.run.store_limit, run.store_limit);
+  EXPECT_EQ(there.run.limit_disk, 12345);
   EXPECT_EQ(there.run.limit_time, run.limit_time);
   EXPECT_EQ(there.run.out, std::nullopt);
   ASSERT_TRUE(there.run.shard.has_value());

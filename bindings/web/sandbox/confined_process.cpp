@@ -16,6 +16,7 @@
 #include <csignal>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "bindings/web/frames.hpp"
 #include "engine/core/error.hpp"
@@ -33,12 +34,16 @@ struct Ends {
 }
 
 // Numbers of what goes to the child are kept clear of those they are to have there.
-Descriptor moved_up(int descriptor) {
-  const Descriptor low(descriptor);
-  if (descriptor < 0) throw_not_started(errno);
+Descriptor copied_up(int descriptor) {
   const int high = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 16);
   if (high < 0) throw_not_started(errno);
   return Descriptor(high);
+}
+
+Descriptor moved_up(int descriptor) {
+  if (descriptor < 0) throw_not_started(errno);
+  const Descriptor low(descriptor);
+  return copied_up(descriptor);
 }
 
 Ends pipe_from_child() {
@@ -65,7 +70,8 @@ Descriptor content(const std::string& text) {
   return file;
 }
 
-pid_t start(const std::array<int, 5>& descriptors, const std::string& folder) {
+// The child has them as 0, 1, 2, ...
+pid_t start(const std::vector<int>& descriptors, const std::string& folder) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
@@ -107,8 +113,10 @@ void Descriptor::reset() {
 ConfinedProcess::ConfinedProcess(const ConfinedRequest& request, const std::string& folder) {
   const Descriptor input = content(to_json(request).text());
   Ends out = pipe_from_child(), err = pipe_from_child(), told = pipe_from_child(), drawn = socket_to_child();
-  process_ =
-      start({input.get(), out.there.get(), err.there.get(), told.there.get(), drawn.there.get()}, folder);
+  std::vector<int> given{input.get(), out.there.get(), err.there.get(), told.there.get(), drawn.there.get()};
+  const Descriptor lock = request.lock < 0 ? Descriptor() : copied_up(request.lock);
+  if (request.lock >= 0) given.push_back(lock.get());
+  process_ = start(given, folder);
   output = std::move(out.here);
   error = std::move(err.here);
   events = std::move(told.here);
