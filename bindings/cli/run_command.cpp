@@ -16,6 +16,7 @@
 #include "bindings/cli/mpi_ranks.hpp"
 #include "bindings/cli/run_observer.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
+#include "bindings/cli/unlinked_files.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/argument.hpp"
 #include "bindings/lua/state.hpp"
@@ -247,6 +248,9 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     else
       std::fprintf(stderr, "asperity: %s; what was finished is in %s\n", why.c_str(), run->path().c_str());
   });
+
+  std::optional<UnlinkedFilesBound> unlinked;
+  if (command.limit_disk) unlinked.emplace(*command.limit_disk);
 
   if (command.limit_memory) limit_memory(*command.limit_memory);
 

@@ -44,7 +44,7 @@ void each_entry(const fs::path& folder, const Action& action) {
 }
 
 bool is_record(const fs::path& folder, const fs::path& path) {
-  constexpr std::array<std::string_view, 3> own{"manifest.json", "script.lua", "journal.jsonl"};
+  constexpr std::array<std::string_view, 4> own{"manifest.json", "script.lua", "journal.jsonl", ".lock"};
   return path.parent_path() == folder && std::ranges::find(own, path.filename().string()) != own.end();
 }
 

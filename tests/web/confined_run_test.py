@@ -76,6 +76,8 @@ def test_it_does_what_any_run_does():
         assert facts["confined"] is True and facts["status"] == "done", facts
         assert facts["unhashed"]["barriers"]["read"] == [] and facts["unhashed"]["barriers"]["by"], facts
         assert facts["unhashed"]["directory"] == top + "/home/work/R", facts["unhashed"]
+        # What the process that works can no longer look at was found out before.
+        assert facts["unhashed"]["machine"] == manifest(top, "home/work/F")["unhashed"]["machine"], facts["unhashed"]
         assert "confined" not in manifest(top, "home/work/F")
         # From elsewhere, by other names of the place, and into the usual directory.
         os.symlink(top + "/home/work", top + "/other/link")
@@ -136,6 +138,47 @@ def test_it_reads_its_own_folder_and_those_named():
         assert asperity(top, "run", "--confined", "--read", "/", "s.lua").returncode == 2
 
 
+def test_links_in_the_folder_of_a_script_lead_nowhere():
+    # A folder from elsewhere may hold a link instead of the script, or of the data it asks to be given.
+    with workshop() as top:
+        os.symlink("../.secret", top + "/home/work/s.lua")
+        refused = asperity(top, "run", "--confined", "s.lua", "--out", "R")
+        assert refused.returncode == 2 and "is a link to " + top + "/home/.secret" in refused.stderr, refused
+        assert not os.path.exists(top + "/home/work/R"), "a run was begun"
+        os.remove(top + "/home/work/s.lua")
+        put(top, "print(io.open 'inner.lua', ...)", "inner.lua")
+        os.symlink("inner.lua", top + "/home/work/s.lua")
+        assert "file (" in asperity(top, "run", "--confined", "s.lua").stdout
+        os.symlink("../../other", top + "/home/work/data")
+        named = asperity(top, "run", "--confined", "--read", "data/", "s.lua")
+        assert named.returncode == 0 and "data is a link to " + top + "/other" in named.stderr, named
+
+
+# F1
+def test_one_process_works_in_a_run_directory():
+    with workshop() as top:
+        put(top, """local book = require("asperity").notebook "n" book:write{ k=1 } print "begun" io.stdout:flush()
+        repeat local go = io.open "go" until go book:write{ k=2 }""")
+        run = subprocess.Popen([runner.program, "run", "--confined", "s.lua", "--out", "R"], cwd=top + "/home/work", text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env={**os.environ, "HOME": top + "/home"})
+        assert run.stdout.readline() == "begun\n"
+        there = {name: os.stat(f"{top}/home/work/R/{name}").st_mtime_ns for name in os.listdir(top + "/home/work/R")}
+        for arguments in (["run", "--confined", "s.lua", "--out", "R"], ["run", "s.lua", "--out", "R"], ["run", "--resume", "R"],
+                          ["run", "--confined", "s.lua", "--resume", "R", "--reuse", "R"], ["replay", "R", "--out", "R"]):
+            second = asperity(top, *arguments)
+            named = f"is being written by process {run.pid} on {os.uname().nodename}"
+            assert second.returncode == 2 and named in second.stderr, (arguments, second)
+        assert {name: os.stat(f"{top}/home/work/R/{name}").st_mtime_ns for name in os.listdir(top + "/home/work/R")} == there
+        # It is killed: one process takes it up, at once.
+        run.kill()
+        run.communicate()
+        open(top + "/home/work/go", "w").close()
+        again = asperity(top, "run", "--resume", "R")
+        assert again.returncode == 0 and manifest(top)["status"] == "done" and manifest(top)["confined"] is True, again
+        with open(top + "/home/work/R/n.csv") as table:
+            assert len(table.readlines()) == 3, "rows twice"
+
+
 def test_links_in_the_run_directory_lead_nowhere():
     script = """local f = io.open("table.csv", "w") print(f) if f then f:write "x" f:close() end
     local g = io.open("folder/secret", "w") print(g) if g then g:write "x" g:close() end while true do end"""
@@ -147,6 +190,19 @@ def test_links_in_the_run_directory_lead_nowhere():
         os.symlink(top + "/other/secret", top + "/home/work/R/table.csv")
         os.symlink(top + "/other", top + "/home/work/R/folder")
         asperity(top, "run", "--resume", "R")
+        # S3: nor in the place of its own files.
+        for own in (".lock", "journal.jsonl", "manifest.json", "store"):
+            shutil.rmtree(top + "/home/work/R2", ignore_errors=True)
+            shutil.copytree(top + "/home/work/R", top + "/home/work/R2", symlinks=True)
+            victim = top + ("/other" if own == "store" else "/other/victim")
+            if own != "store":
+                shutil.copy(top + "/home/work/R/" + own, victim)
+                os.remove(top + "/home/work/R2/" + own)
+            before = open(top + "/other/victim", "rb").read()
+            os.symlink(victim, top + "/home/work/R2/" + own)
+            refused = asperity(top, "run", "--confined", "--resume", "R2")
+            assert refused.returncode == 2 and "is a link" in refused.stderr, (own, refused)
+            assert open(top + "/other/victim", "rb").read() == before and sorted(os.listdir(top + "/other")) == ["secret", "victim"]
         with open(top + "/other/secret") as file:
             assert file.read() == "SECRET"
 
@@ -163,6 +219,11 @@ def test_the_home_folder_is_not_read():
         put(top, "print(io.open(os.getenv('HOME') or '../.secret'), os.getenv 'TOKEN')")
         below = asperity(top, "run", "--confined", "s.lua", environment={"TOKEN": "a key"})
         assert below.returncode == 0 and "a key" not in below.stdout and "file (" not in below.stdout, below
+        # Nor is it written.
+        for option in ("--store", "--resume"):
+            written = asperity(top, "run", "--confined", option, "..", "s.lua")
+            assert written.returncode == 2 and option in written.stderr and "home folder" in written.stderr, written
+        assert sorted(os.listdir(top + "/home")) == [".secret", "data", "runs", "s.lua", "work"], os.listdir(top + "/home")
 
 
 def test_no_process_no_socket_no_program():
@@ -177,9 +238,9 @@ def test_no_process_no_socket_no_program():
                               capture_output=True, text=True, timeout=30)
         found = json.loads(done.stdout.splitlines()[-1])
         assert [barrier["name"] for barrier in found["barriers"] if barrier["holds"]] == ["files", "processes", "network", "programs"], found
-        put(top, "print(pcall(os.execute, 'id'), pcall(io.popen, 'id'))")
+        put(top, "print(pcall(os.execute, 'id'), pcall(io.popen, 'id'), package.loadlib, io.read())")
         tried = asperity(top, "run", "--confined", "s.lua")
-        assert "uid=" not in tried.stdout, tried
+        assert "uid=" not in tried.stdout and tried.stdout.endswith("nil\tnil\n"), tried
         # The process itself, from outside: no rights, a filter, nothing inherited but its pipes.
         put(top, "while true do end")
         run = subprocess.Popen([runner.program, "run", "--confined", "s.lua", "--out", "R"], cwd=top + "/home/work",
@@ -216,6 +277,19 @@ def child_of(parent, top):
     raise AssertionError("there is no confined process")
 
 
+def state_of(process):
+    with open(f"/proc/{process}/stat") as facts:
+        return facts.read().rsplit(")", 1)[1].split()[0]
+
+
+def wait_until(true):
+    for _ in range(400):
+        if true():
+            return
+        time.sleep(0.02)
+    raise AssertionError("it never came true")
+
+
 def test_bombs_meet_their_limits():
     with workshop() as top:
         def bounded(script, *options):
@@ -236,6 +310,21 @@ def test_bombs_meet_their_limits():
                    for at, folders, files in os.walk(top + "/home/work/R") for name in [*folders, *files])
         assert size <= 30 << 20, size
         assert os.path.exists(top + "/home/work/R/manifest.json")
+
+
+# S2
+def test_removed_files_are_no_hiding_place():
+    with workshop() as top:
+        put(top, """local s, open = ("x"):rep(2^20), {}
+        for k = 1, 3 do open[k] = assert(io.open("f" .. k, "w+")) os.remove("f" .. k) end
+        for i = 1, 10 do for k = 1, 3 do open[k]:write(s) open[k]:flush() end end
+        local function first(file) file:seek "set" return file:read(1) end
+        local begun = os.clock()
+        repeat until first(open[1]) ~= "x" or os.clock() > begun + (arg[1] or 5)
+        for k = 1, 3 do print(first(open[k]) == "x") end""")
+        assert asperity(top, "run", "s.lua", "--", "0.1").stdout.split() == ["true"] * 3
+        hidden = asperity(top, "run", "--confined", "--limit-disk", "20M", "s.lua")
+        assert hidden.returncode == 0 and hidden.stdout.split() == ["false"] * 3, hidden
 
 
 cut_off = """local lab = require "asperity"
@@ -259,6 +348,12 @@ def test_resume_and_replay_are_confined():
         assert ended.returncode == 0 and ended.stdout.startswith("nil") and "file (" in ended.stdout, ended
         facts = manifest(top)
         assert facts["confined"] is True and facts["status"] == "done", facts
+        over = asperity(top, "run", "--resume", "R", "--read", "../data")
+        assert over.returncode == 0 and "nothing to resume" in over.stderr, over
+        with open(top + "/home/work/R/n.csv", "w"):
+            pass
+        mended = asperity(top, "run", "--resume", "R", "--read", "../data")
+        assert mended.returncode == 0 and "every file is again as it was recorded" in mended.stderr, mended
         bare = asperity(top, "replay", "R")
         assert bare.returncode == 2 and "--read" in bare.stderr, bare
         again = asperity(top, "replay", "R", "--read", "../data", "--out", "R2")
@@ -294,20 +389,42 @@ def test_stores_and_shards():
             assert done.returncode == 0, done
         whole = asperity(top, "run", "--confined", "--store", "../data/store", "s.lua", "--out", "R")
         assert whole.returncode == 0 and os.listdir(top + "/home/data/store"), whole
-        reused = asperity(top, "run", "--confined", "--reuse", "../data/store", "s.lua")
+        reused = asperity(top, "run", "--confined", "--reuse", "../data/store", "s.lua", "--out", "U")
         assert reused.returncode == 0, reused
+        # What is taken is brought over, and there when the run is taken up again.
+        assert sorted(os.listdir(top + "/home/work/U/store")) == sorted(os.listdir(top + "/home/data/store")), reused
+        # S2: it adds no more to a folder of others than it may take on the disk.
+        small = asperity(top, "run", "--confined", "--store", "../data/small", "--limit-disk", "100K", "s.lua", "--out", "V")
+        assert small.returncode == 0 and "100 KiB" not in small.stderr, small
+        little = asperity(top, "run", "--confined", "--store", "../data/little", "--limit-disk", "10K", "s.lua", "--out", "W")
+        assert "10 KiB that it may add to its store" in little.stderr, little
+        assert 0 < len(os.listdir(top + "/home/data/little")) < len(os.listdir(top + "/home/data/store")), little
 
 
 def test_signals_and_progress_pass_through():
     with workshop() as top:
         put(top, "print 'begun' io.stdout:flush() while true do end")
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             run = subprocess.Popen([runner.program, "run", "--confined", "s.lua"], cwd=top + "/home/work", text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, "HOME": top + "/home"})
             assert run.stdout.readline() == "begun\n"
             run.send_signal(number)
             _, said = run.communicate(timeout=30)
-            assert run.returncode in (130, 128 + number) and "interrupted" in said, (run.returncode, said)
+            assert run.returncode == 128 + number and "interrupted" in said, (run.returncode, said)
+        # Ctrl-Z rests both; who was started by nohup goes on when its terminal is closed.
+        run = subprocess.Popen([runner.program, "run", "--confined", "s.lua", "--out", "R"], cwd=top + "/home/work", text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, "HOME": top + "/home"},
+                               preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        assert run.stdout.readline() == "begun\n"
+        child = child_of(run.pid, top)
+        run.send_signal(signal.SIGHUP)
+        run.send_signal(signal.SIGTSTP)
+        wait_until(lambda: state_of(run.pid) == state_of(child) == "T")
+        run.send_signal(signal.SIGCONT)
+        wait_until(lambda: state_of(child) == "R")
+        run.send_signal(signal.SIGTERM)
+        run.communicate(timeout=30)
+        assert run.returncode == 143, run.returncode
         # On a terminal progress is drawn over itself, and what a script prints cannot write to it.
         put(top, """print "\\27]0;title\\7\\27[31mred\\27[0m" io.stderr:write "\\27[2J\\n"
         require("asperity").surface.flat{ cells=8, size=1 }""")
@@ -351,6 +468,10 @@ def test_a_missing_barrier_is_refused_by_name():
         # One of the two that shut files is enough.
         half = asperity(top, "run", "--confined", "s.lua", "--", "/etc/passwd", before=lambda: refuse_calls(architecture, [unshare]))
         assert half.returncode == 0 and "root:" not in half.stdout, half
+        put(top, work)
+        for one in (unshare, 444):
+            drawn = asperity(top, "run", "--confined", "s.lua", "--out", f"D{one}", before=lambda: refuse_calls(architecture, [one]))
+            assert drawn.returncode == 0 and os.path.getsize(f"{top}/home/work/D{one}/n-square-k.svg") > 1000, drawn
 
 
 if __name__ == "__main__":
