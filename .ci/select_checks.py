@@ -51,7 +51,7 @@ GROUPS = {
     "ranks": ("command line: (ranks|spread)", (), ("tests/scripts/runner/ranks.sh", "tests/scripts/runner/spread.sh")),
     "examples": ("examples: ", PROGRAM, ("examples",)),
     "lessons": ("lessons: ", PROGRAM, ("scripts/lessons",)),
-    "serve": ("serve: ", ("bindings/lua", "bindings/cli", "bindings/web", "scripts"), ("tests/web",)),
+    "serve": ("(serve|confined run|plain streams): ", ("bindings/lua", "bindings/cli", "bindings/web", "scripts"), ("tests/web",)),
     "page": ("page:", ("bindings/web", "scripts/lessons"), ("tests/page",)),
     "package": ("package: ", STUDY, ("tests/package", "examples/library")),
     "checks": ("checks:", PROGRAM, ("tests/checks", "docs", "examples", "bench", "tests")),
