@@ -108,8 +108,8 @@ reading = """for _, name in ipairs(arg) do
   print(name, file and file:read "a" or "refused")
 end
 for _, name in ipairs{ "../written", "../../other/written", "/tmp/asperity-written", "beside.lua" } do
-  local file = io.open(name, "w")
-  if file then file:write "x" file:close() end
+  local good, file = pcall(io.open, name, "w")
+  if good and file then file:write "x" file:close() end
 end
 """
 
@@ -320,9 +320,9 @@ def test_removed_files_are_no_hiding_place():
         for i = 1, 10 do for k = 1, 3 do open[k]:write(s) open[k]:flush() end end
         local function first(file) file:seek "set" return file:read(1) end
         local begun = os.clock()
-        repeat until first(open[1]) ~= "x" or os.clock() > begun + (arg[1] or 5)
+        repeat until os.clock() > begun + 0.2
         for k = 1, 3 do print(first(open[k]) == "x") end""")
-        assert asperity(top, "run", "s.lua", "--", "0.1").stdout.split() == ["true"] * 3
+        assert asperity(top, "run", "s.lua").stdout.split() == ["true"] * 3
         hidden = asperity(top, "run", "--confined", "--limit-disk", "20M", "s.lua")
         assert hidden.returncode == 0 and hidden.stdout.split() == ["false"] * 3, hidden
 
@@ -371,7 +371,7 @@ def test_a_record_decides_nothing_of_what_is_read():
         assert asperity(top, "run", "--confined", "s.lua", "--out", "R").returncode == 1
         facts = manifest(top)
         # As if the script had lain there.
-        facts["unhashed"]["script_path"] = top + "/home/data/in.txt"
+        facts["unhashed"]["script_path"] = top + "/home/data/s.lua"
         with open(top + "/home/work/R/manifest.json", "w") as file:
             json.dump(facts, file)
         resumed = asperity(top, "run", "--resume", "R")
@@ -394,11 +394,10 @@ def test_stores_and_shards():
         # What is taken is brought over, and there when the run is taken up again.
         assert sorted(os.listdir(top + "/home/work/U/store")) == sorted(os.listdir(top + "/home/data/store")), reused
         # S2: it adds no more to a folder of others than it may take on the disk.
-        small = asperity(top, "run", "--confined", "--store", "../data/small", "--limit-disk", "100K", "s.lua", "--out", "V")
-        assert small.returncode == 0 and "100 KiB" not in small.stderr, small
-        little = asperity(top, "run", "--confined", "--store", "../data/little", "--limit-disk", "10K", "s.lua", "--out", "W")
-        assert "10 KiB that it may add to its store" in little.stderr, little
-        assert 0 < len(os.listdir(top + "/home/data/little")) < len(os.listdir(top + "/home/data/store")), little
+        put(top, script.replace("4 }", ", ".join(map(str, range(4, 25))) + " }"))
+        little = asperity(top, "run", "--confined", "--store", "../data/little", "--shard", "1/1", "--limit-disk", "60K", "s.lua")
+        assert little.returncode == 1 and "60 KiB that it may add to its store" in little.stderr, little
+        assert 0 < len(os.listdir(top + "/home/data/little")) < 24, os.listdir(top + "/home/data/little")
 
 
 def test_signals_and_progress_pass_through():
