@@ -227,7 +227,10 @@ class Undertaking {
                                   {"missing", Json::strings(report.missing)},
                                   {"open", Json::strings(open)}});
     make_folders();
-    return follow(report.made);
+    const auto before = manifest_text();
+    const int status = follow(report.made);
+    keep_on_record(before);
+    return status;
   }
 
   ~Undertaking() {
@@ -388,6 +391,26 @@ class Undertaking {
     if (prepared_.lock) request.lock = prepared_.lock->descriptor();
     CommandFollower follower(request, directory_, bounds);
     return follower.follow();
+  }
+
+  std::optional<std::string> manifest_text() const {
+    return read_plain_file(directory_, "manifest.json", most_script_bytes);
+  }
+
+  // A script that got out of the language reaches its own manifest, and by it could be taken up or replayed
+  // without barriers.
+  void keep_on_record(const std::optional<std::string>& before) const {
+    std::error_code problem;
+    const fs::path file = directory_ / "manifest.json";
+    if (!fs::exists(fs::symlink_status(file, problem))) return;
+    const auto now = manifest_text();
+    if (now && (now == before || was_confined(manifest_in(directory_)))) return;
+    fs::remove(file, problem);
+    std::fprintf(
+        stderr,
+        "asperity: the manifest of %s no longer said that the run was confined, and was removed: this "
+        "is no record that can be trusted\n",
+        directory_.c_str());
   }
 
   cli::RunCommand run_;

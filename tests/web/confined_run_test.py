@@ -290,21 +290,31 @@ def wait_until(true):
     raise AssertionError("it never came true")
 
 
-def test_bombs_meet_their_limits():
+def bounded(top, script, *options):
+    """What is said of a script that must meet a limit."""
+    put(top, script)
+    shutil.rmtree(top + "/home/work/R", ignore_errors=True)
+    begun = time.monotonic()
+    done = asperity(top, "run", "--confined", *options, "s.lua", "--out", "R")
+    assert done.returncode == 1 and time.monotonic() - begun < 30, (script, done)
+    return done.stderr
+
+
+def test_time_and_memory_meet_their_limits():
     with workshop() as top:
-        def bounded(script, *options):
-            put(top, script)
-            shutil.rmtree(top + "/home/work/R", ignore_errors=True)
-            begun = time.monotonic()
-            done = asperity(top, "run", "--confined", *options, "s.lua", "--out", "R")
-            assert done.returncode not in (0, 2) and time.monotonic() - begun < 30, (script, done)
-            return done.stderr
-        assert "time limit" in bounded("while true do end", "--limit-time", "1s")
-        assert "memory" in bounded("local t = {} for k = 1, 1e12 do t[k] = { k } end", "--limit-memory", "200M")
-        assert "time limit" in bounded("string.find(string.rep('a', 100000), string.rep('a-', 60) .. 'b')", "--limit-time", "1s")
+        assert "time limit of 300 ms" in bounded(top, "while true do end", "--limit-time", "0.3s")
+        assert "memory limit of 60 MiB" in bounded(top, "local t = {} for k = 1, 1e12 do t[k] = { k } end", "--limit-memory", "60M")
+        # A function of C that never comes back is given two seconds.
+        pattern = "string.find(string.rep('a', 100000), string.rep('a-', 60) .. 'b')"
+        assert "time limit of 300 ms" in bounded(top, pattern, "--limit-time", "0.3s")
+
+
+# S2
+def test_no_run_leaves_more_on_the_disk_than_it_may():
+    with workshop() as top:
         flood = """local s = ("x"):rep(2^20) for k = 1, 1000 do
         local f = assert(io.open("f" .. k, "w")) for i = 1, 6 do f:write(s) end f:close() end"""
-        said = bounded(flood, "--limit-disk", "30M")
+        said = bounded(top, flood, "--limit-disk", "30M")
         assert "30 MiB" in said and "removed" in said, said
         size = sum(max(os.lstat(os.path.join(at, name)).st_size, 512 * os.lstat(os.path.join(at, name)).st_blocks)
                    for at, folders, files in os.walk(top + "/home/work/R") for name in [*folders, *files])
@@ -315,7 +325,7 @@ def test_bombs_meet_their_limits():
 # S2
 def test_removed_files_are_no_hiding_place():
     with workshop() as top:
-        put(top, """local s, open = ("x"):rep(2^20), {}
+        put(top, """local s, open = ("x"):rep(2^18), {}
         for k = 1, 3 do open[k] = assert(io.open("f" .. k, "w+")) os.remove("f" .. k) end
         for i = 1, 10 do for k = 1, 3 do open[k]:write(s) open[k]:flush() end end
         local function first(file) file:seek "set" return file:read(1) end
@@ -323,7 +333,7 @@ def test_removed_files_are_no_hiding_place():
         repeat until os.clock() > begun + 0.2
         for k = 1, 3 do print(first(open[k]) == "x") end""")
         assert asperity(top, "run", "s.lua").stdout.split() == ["true"] * 3
-        hidden = asperity(top, "run", "--confined", "--limit-disk", "20M", "s.lua")
+        hidden = asperity(top, "run", "--confined", "--limit-disk", "5M", "s.lua")
         assert hidden.returncode == 0 and hidden.stdout.split() == ["false"] * 3, hidden
 
 
@@ -363,6 +373,28 @@ def test_resume_and_replay_are_confined():
         assert asperity(top, "run", "s.lua", "--out", "F").returncode == 0
         assert asperity(top, "replay", "F", "--confined", "--read", "../data", "--out", "F2").returncode == 0
         assert manifest(top, "home/work/F2")["confined"] is True
+
+
+def test_a_manifest_that_denies_its_barriers_is_removed():
+    # As a script could that got out of the language.
+    with workshop() as top:
+        put(top, "while true do end")
+        run = subprocess.Popen([runner.program, "run", "--confined", "s.lua", "--out", "R"], cwd=top + "/home/work", text=True,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env={**os.environ, "HOME": top + "/home"})
+        child = child_of(run.pid, top)
+        facts = manifest(top)
+        del facts["confined"]
+        with open(top + "/home/work/R/manifest.json", "w") as file:
+            json.dump(facts, file)
+        os.kill(child, signal.SIGKILL)
+        _, said = run.communicate(timeout=30)
+        assert run.returncode == 137 and "no longer said that the run was confined" in said, (run.returncode, said)
+        assert not os.path.exists(top + "/home/work/R/manifest.json")
+        # One of a free run that is only looked at stays.
+        put(top, "print(1)")
+        assert asperity(top, "run", "s.lua", "--out", "F").returncode == 0
+        assert "nothing to resume" in asperity(top, "run", "--confined", "--resume", "F").stderr
+        assert manifest(top, "home/work/F")["status"] == "done"
 
 
 def test_a_record_decides_nothing_of_what_is_read():

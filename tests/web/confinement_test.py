@@ -285,9 +285,9 @@ def test_barriers_that_one_kernel_lacks_are_met_by_the_others():
     assert all(held["namespaces"].values()) and all(held["Landlock"].values()), held
     # Nothing shuts files then; the rest holds, and a room is not served.
     assert not held["both"]["files"] and held["both"]["processes"] and held["both"]["network"], held
-    done = subprocess.run([runner.program, "serve", "--classroom", "127.0.0.1", "--students", "1"], capture_output=True, text=True,
-                          cwd=tempfile.gettempdir(), timeout=30,
-                          preexec_fn=lambda: refuse_calls(architecture, [unshare, landlock]))
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run([runner.program, "serve", "--classroom", "127.0.0.1", "--students", "1"], capture_output=True, text=True,
+                              cwd=folder, timeout=30, preexec_fn=lambda: refuse_calls(architecture, [unshare, landlock]))
     assert done.returncode == 2 and "a room is not served" in done.stderr and "NOT SHUT" in done.stderr, done
 
 
