@@ -114,6 +114,11 @@ class Places {
     while (seen.size() > 1 && seen.back() == '/') seen.pop_back();
     if (seen != real.string()) links_.push_back({real.string(), seen, write});
   }
+  std::vector<std::string> folders() const {
+    std::vector<std::string> named;
+    for (const Place& place : places_) named.push_back(place.seen);
+    return named;
+  }
   std::vector<Place> all() const {
     std::vector<Place> all = places_;
     // A link that lies in one of them is there by itself.
@@ -230,6 +235,10 @@ class Undertaking {
     const auto before = manifest_text();
     const int status = follow(report.made);
     keep_on_record(before);
+    // To a script other files are not there, which its own messages cannot explain.
+    if (status == cli::failed)
+      std::fprintf(stderr, "asperity: a confined script finds no files but those in %s; --read names more\n",
+                   joined(places_.folders(), " and ").c_str());
     return status;
   }
 

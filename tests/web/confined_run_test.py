@@ -91,6 +91,7 @@ def test_status_of_what_fails_passes_through():
         put(top, "error 'on purpose'")
         failed = asperity(top, "run", "--confined", "s.lua", "--out", "R")
         assert failed.returncode == 1 and "s.lua:1: on purpose" in failed.stderr, failed
+        assert f"no files but those in {top}/home/work and {top}/home/work/R; --read names more" in failed.stderr, failed
         put(top, "os.exit(7)")
         assert asperity(top, "run", "--confined", "s.lua").returncode == 7
         assert asperity(top, "run", "--confined", "nothing.lua").returncode == 2
@@ -500,7 +501,7 @@ def test_a_missing_barrier_is_refused_by_name():
         half = asperity(top, "run", "--confined", "s.lua", "--", "/etc/passwd", before=lambda: refuse_calls(architecture, [unshare]))
         assert half.returncode == 0 and "root:" not in half.stdout, half
         put(top, work)
-        for one in (unshare, 444):
+        for one in (unshare, 444, 442):  # namespaces, Landlock, attributes of mounts
             drawn = asperity(top, "run", "--confined", "s.lua", "--out", f"D{one}", before=lambda: refuse_calls(architecture, [one]))
             assert drawn.returncode == 0 and os.path.getsize(f"{top}/home/work/D{one}/n-square-k.svg") > 1000, drawn
 
