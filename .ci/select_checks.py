@@ -53,7 +53,7 @@ GROUPS = {
                       ("tests/reproductions", "tests/known_to_fail")),
     "examples": ("examples: ", PROGRAM, ("examples",)),
     "lessons": ("lessons: ", PROGRAM, ("scripts/lessons",)),
-    "serve": ("serve: ", ("bindings/lua", "bindings/cli", "bindings/web", "scripts"), ("tests/web",)),
+    "serve": ("(serve|confined run|plain streams): ", ("bindings/lua", "bindings/cli", "bindings/web", "scripts"), ("tests/web",)),
     "page": ("page:", ("bindings/web", "scripts/lessons"), ("tests/page",)),
     "package": ("package: ", STUDY, ("tests/package", "examples/library")),
     "checks": ("checks:", PROGRAM, ("tests/checks", "docs", "examples", "bench", "tests")),

@@ -62,7 +62,8 @@ std::vector<std::string> damages_of(const RecordedRun& recorded) {
 // What the command asks for and the run was not made with.
 std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun& recorded) {
   std::vector<std::string> changed;
-  if (!command.script.empty() && read_script(command.script) != recorded.script_text)
+  if (!command.script.empty() &&
+      (command.text ? *command.text : read_script(command.script)) != recorded.script_text)
     changed.emplace_back("the script");
   if (!command.arguments.empty() && command.arguments != recorded.arguments)
     changed.emplace_back("its arguments");
@@ -115,6 +116,7 @@ ResultFilesSetup result_files(const RunCommand& command) {
   if (command.store) {
     setup.folder = *command.store;
     setup.most_bytes = unlimited;
+    if (command.limit_disk) setup.most_added = *command.limit_disk;
   }
   if (command.store_limit) setup.most_bytes = *command.store_limit;
   setup.build = build_identity();
@@ -127,7 +129,7 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
   if (is_not_begun(root)) return begun_there(std::move(command));
   if (holds_earlier_run(root)) {
     if (!leads) return begun_there(std::move(command));
-    command.lock = RunLock::take(root);
+    if (command.lock == nullptr) command.lock = RunLock::take(root);
     finish_moving_aside(root);
     if (is_not_begun(root)) return begun_there(std::move(command));
   }

@@ -17,10 +17,10 @@ namespace asperity::cli {
 // nothing there yet but what a run writes before its first manifest, when it is begun there. None where that
 // run is done and its journal and every output have the digests of its manifest; where they do not, the
 // command names the damages and makes the run again. `leads`: takes the lock of the directory, as one process
-// of a run does. Throws Error for a script, arguments or a seed that are not its own, unless `reuse` is
-// given, for a run by another version that is not done and whole, unless `reuse` is given, for a run that was
-// trusted otherwise, for one whose own files are links, for a directory that is no run, and where another
-// process has the lock.
+// of a run does, unless the command has it already. Throws Error for a script, arguments or a seed that are
+// not its own, unless `reuse` is given, for a run by another version that is not done and whole, unless
+// `reuse` is given, for a run that was trusted otherwise, for one whose own files are links, for a directory
+// that is no run, and where another process has the lock.
 std::optional<RunCommand> taken_up(RunCommand command, bool leads = true);
 
 // Throws Error{bad_value} for a session of the prompt, and unless the command trusts its script as the

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // asperity: the command line. Each command is a few lines here and a file of its own where it has
 // more to do.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bindings/cli/accuracy_command.hpp"
@@ -14,6 +18,7 @@
 #include "bindings/cli/command_pages.hpp"
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/lesson_command.hpp"
+#include "bindings/cli/plain_streams.hpp"
 #include "bindings/cli/repl_command.hpp"
 #include "bindings/cli/replay_command.hpp"
 #include "bindings/cli/run_command.hpp"
@@ -22,6 +27,7 @@
 #include "bindings/lua/lessons.hpp"
 #include "bindings/lua/version.hpp"
 #include "bindings/web/confined.hpp"
+#include "bindings/web/confined_command.hpp"
 #include "bindings/web/serve_command.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -167,11 +173,62 @@ void add_trust(CLI::App& command, bool& trust) {
   command.add_flag("--trust", trust, "give the script the whole of Lua, and files anywhere");
 }
 
+// A terminal shows what scripts and files hold and obeys none of it. Standard output of a script is its own,
+// and reaches a program or a file as it is; libedit, at the prompt, writes to the terminal by itself.
+void make_streams_plain(int argc, char** argv) {
+  const std::string_view command = argc > 1 ? argv[1] : "";
+  const bool prints_of_script = command == "run" || command == "lesson" || command == "accuracy";
+  cli::make_errors_plain();
+  if (command == "repl" || (prints_of_script && ::isatty(STDOUT_FILENO) == 0)) return;
+  cli::make_output_plain(prints_of_script ? cli::Keeps::colours : cli::Keeps::text);
+}
+
+void add_confinement(CLI::App& command, cli::RunCommand& run, std::string& limit_disk) {
+  command.add_flag(
+      "--confined", run.confined,
+      "for a script of somebody else's: it reads its own folder, writes the run directory and reaches no "
+      "other file, process or network, by barriers of the operating system; 10 min, half the machine's "
+      "memory and 1 GiB on the disk unless told otherwise");
+  command
+      .add_option("--read", run.read,
+                  "a folder that a confined script may read besides its own; may be given again")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command.add_option(
+      "--without-barriers", run.without_barriers,
+      "which barriers need not stand where the system cannot give them: files, processes, network, "
+      "programs, with commas between");
+  command.add_option("--limit-disk", limit_disk,
+                     "most bytes in the directory of a confined run, e.g. 4G (default 1G)");
+}
+
+// What is of a confined run alone.
+void check_confinement(const cli::RunCommand& run, bool confined) {
+  if (confined) return;
+  for (const auto& [option, given] : {std::pair("`--read`", !run.read.empty()),
+                                      std::pair("`--without-barriers`", !run.without_barriers.empty()),
+                                      std::pair("`--limit-disk`", run.limit_disk.has_value())})
+    if (given)
+      throw Error(ErrorCode::bad_value, std::string(option) + " is of a confined run, and this one is not",
+                  "add --confined, or leave it out");
+}
+
+// What the parser has to say of a command line, in streams that are plain.
+int parser_exit(const CLI::App& app, const CLI::Error& error) {
+  std::ostringstream out, err;
+  const int status = app.exit(error, out, err);
+  std::fputs(out.str().c_str(), stdout);
+  std::fputs(err.str().c_str(), stderr);
+  return status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   // The child of `asperity serve`: nothing of the command line is for it.
   if (argc == 2 && std::string_view(argv[1]) == "--confined") return web::confined_main();
+
+  make_streams_plain(argc, argv);
 
   CLI::App app{"Asperity: a laboratory for rough surfaces, scripted in Lua."};
   app.name("asperity");
@@ -183,7 +240,7 @@ int main(int argc, char** argv) {
   cli::AccuracyCommand accuracy;
   cli::ReplayCommand replay;
   web::ServeCommand serve;
-  std::string serve_time, serve_memory;
+  std::string serve_time, serve_memory, run_disk, replay_disk;
   cli::LessonCommand lesson;
   std::string replay_time, replay_memory;
   cli::ReplCommand repl;
@@ -197,6 +254,7 @@ int main(int argc, char** argv) {
   add_run_options(run_command, run, memory);
   add_trust(run_command, run.trust);
   add_store_options(run_command, run, store_limit, shard);
+  add_confinement(run_command, run, run_disk);
 
   CLI::App& replay_command = *app.add_subcommand(
       "replay",
@@ -213,6 +271,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   add_run_options(replay_command, replay.run, replay_memory);
   add_trust(replay_command, replay.run.trust);
+  add_confinement(replay_command, replay.run, replay_disk);
   replay_command.add_option("--limit-time", replay_time, "end it after this long, e.g. 60s or \"2 min\"");
   replay_command.footer(
       "Every call, row, expectation and file is compared by its digest; times and dates are not. "
@@ -339,22 +398,29 @@ int main(int argc, char** argv) {
     if (run_command.parsed() && run.script.empty() && !run.resume)
       throw Error(ErrorCode::bad_value, "no script was named",
                   "give one, as in asperity run examples/quick_start.lua, or --resume RUN");
+    if (!run_disk.empty()) run.limit_disk = cli::parse_bytes(run_disk);
+    if (!replay_disk.empty()) replay.run.limit_disk = cli::parse_bytes(replay_disk);
+    run.confined = run_command.parsed() && web::to_be_confined(run);
+    replay.run.confined = replay_command.parsed() && web::to_be_confined(replay);
+    check_confinement(run, run.confined);
+    check_confinement(replay.run, replay.run.confined);
     if (!repl_memory.empty()) repl.limit_memory = cli::parse_bytes(repl_memory);
     if (!lesson_memory.empty()) lesson.options.limit_memory = cli::parse_bytes(lesson_memory);
     if (!replay_memory.empty()) replay.run.limit_memory = cli::parse_bytes(replay_memory);
     if (!accuracy_memory.empty()) accuracy.run.limit_memory = cli::parse_bytes(accuracy_memory);
   } catch (const CLI::Success& success) {
-    return app.exit(success);
+    return parser_exit(app, success);
   } catch (const CLI::ParseError& error) {
-    app.exit(error);
+    parser_exit(app, error);
     return bad_usage;
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;
   }
 
-  if (run_command.parsed()) return cli::run(run);
-  if (replay_command.parsed()) return cli::replay(replay);
+  if (run_command.parsed()) return run.confined ? web::run_behind_barriers(run) : cli::run(run);
+  if (replay_command.parsed())
+    return replay.run.confined ? web::replay_behind_barriers(replay) : cli::replay(replay);
   if (serve_command.parsed()) return web::serve(serve);
   if (check_command.parsed()) return cli::check(check);
   if (explain_command.parsed()) return cli::explain(explain, explain_json);

@@ -16,6 +16,7 @@
 #include "bindings/cli/mpi_ranks.hpp"
 #include "bindings/cli/run_observer.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
+#include "bindings/cli/unlinked_files.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/argument.hpp"
 #include "bindings/lua/state.hpp"
@@ -173,6 +174,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     // What another rank than the first one writes is taken away at its end.
     setup.scratch = command.ranks != nullptr && !command.ranks->leads();
     setup.trusted = command.trust;
+    setup.barriers = command.barriers;
     setup.arguments = command.arguments;
     setup.seed = static_cast<std::int64_t>(command.seed);
     setup.threads = thread_count();
@@ -194,6 +196,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
 
   TerminalMonitor monitor;
   monitor.keep_warnings_in(run.get());
+  if (command.terminal) monitor.show_as_on_terminal();
   ResultFiles results(std::move(kept));
   UntilLine until(results, run->journal(), command.afresh_from.value_or(0));
   ResultStore* store = command.afresh_from ? static_cast<ResultStore*>(&until) : &results;
@@ -245,6 +248,9 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     else
       std::fprintf(stderr, "asperity: %s; what was finished is in %s\n", why.c_str(), run->path().c_str());
   });
+
+  std::optional<UnlinkedFilesBound> unlinked;
+  if (command.limit_disk) unlinked.emplace(*command.limit_disk);
 
   if (command.limit_memory) limit_memory(*command.limit_memory);
 

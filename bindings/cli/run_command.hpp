@@ -12,9 +12,9 @@
 
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/state.hpp"
+#include "engine/experiment/json.hpp"
 
 namespace asperity {
-class Json;
 class RunDirectory;
 class RunLock;
 }  // namespace asperity
@@ -51,6 +51,17 @@ struct RunCommand {
   std::shared_ptr<lua::Variation> variation;  // of a replay; may be null
   RunObserver* observer = nullptr;            // hears what is otherwise said on standard error; may be null
   MpiRanks* ranks = nullptr;                  // the processes of the run; null where it is the only one
+
+  // Behind the barriers of the page's runs (bindings/web/confined_command.hpp).
+  bool confined = false;
+  std::vector<std::string> read;  // folders that it reads besides the script's own
+  std::string without_barriers;   // which need not stand: "files,network"
+  // Bytes of all files of the run directory, and of what it adds to a store that it shares.
+  std::optional<std::int64_t> limit_disk;
+  // Of the process that carries it out behind them: what stands and what it may read, for the manifest; and
+  // whether its standard error, a pipe, ends at a terminal.
+  Json barriers{};
+  bool terminal = false;
 };
 
 // Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage or another process runs there, 130

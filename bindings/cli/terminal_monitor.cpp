@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bindings/cli/plain_streams.hpp"
 #include "bindings/cli/run_observer.hpp"
 #include "engine/experiment/run_directory.hpp"
 
@@ -66,7 +67,8 @@ void TerminalMonitor::show(const std::string& title, double done, double seconds
   std::snprintf(percent, sizeof percent, "%.0f %%", 100 * done);
   const std::string line = title + ": " + percent + left;
   if (terminal_) {
-    std::fprintf(stderr, "\r\033[K%s", line.c_str());
+    erase_shown_line();
+    std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
     line_shown_ = true;
   } else {
@@ -95,8 +97,7 @@ void TerminalMonitor::clear() {
 
 void TerminalMonitor::clear_line() {
   if (!line_shown_) return;
-  std::fputs("\r\033[K", stderr);
-  std::fflush(stderr);
+  erase_shown_line();
   line_shown_ = false;
 }
 

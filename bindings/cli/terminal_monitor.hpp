@@ -25,6 +25,8 @@ class TerminalMonitor final : public Monitor {
   ~TerminalMonitor() override;
   // Warnings also go to this run's journal.
   void keep_warnings_in(RunDirectory* run) { run_ = run; }
+  // Standard error is a pipe to somebody who shows it on a terminal.
+  void show_as_on_terminal() { terminal_ = true; }
   // Progress goes there instead.
   void report_to(RunObserver* observer) { observer_ = observer; }
   // Heavy calls take their results from here and keep them here.

@@ -2,6 +2,7 @@
 #include "bindings/web/api.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <utility>
 
@@ -29,6 +30,15 @@ std::pair<std::string, std::string> split(const std::string& path) {
   return {path.substr(0, slash), path.substr(slash + 1)};
 }
 
+// "application/json", with or without "; charset=utf-8".
+bool is_json(std::string type) {
+  type.resize(std::min(type.find(';'), type.size()));
+  while (!type.empty() && (type.back() == ' ' || type.back() == '\t')) type.pop_back();
+  std::ranges::transform(type, type.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return type == "application/json";
+}
+
 }  // namespace
 
 Api::Api(ApiSetup setup, const Access& access, RunQueue& runs, PageFiles page)
@@ -45,8 +55,9 @@ std::optional<HttpResponse> Api::refuse(const HttpRequest& head) {
   };
   if (const std::string why = access_.misdirected(head); !why.empty())
     return refused(problem_answer(403, why));
-  if (head.path.size() > 2000 || head.path.find('\0') != std::string::npos)
-    return refused(problem_answer(414, "the address is too long"));
+  if (head.path.find('\0') != std::string::npos)
+    return refused(problem_answer(400, "the address holds a character that no address has"));
+  if (head.path.size() > 2000) return refused(problem_answer(414, "the address is too long"));
   const bool api = head.path.starts_with("/api/");
   if (api && !access_.person(head))
     return refused(problem_answer(401, "the request carries no token that this server knows",
@@ -54,9 +65,10 @@ std::optional<HttpResponse> Api::refuse(const HttpRequest& head) {
   const bool reads = head.method == "GET" || (head.method == "HEAD" && !api);
   if (!reads && !(api && (head.method == "POST" || head.method == "DELETE")))
     return refused(problem_answer(405, "the method is not one of this address"));
+  const auto lengths = head.headers.equal_range("content-length");
   const bool has_body =
       head.headers.contains("transfer-encoding") ||
-      (head.headers.contains("content-length") && head.headers.find("content-length")->second != "0");
+      std::any_of(lengths.first, lengths.second, [](const auto& header) { return header.second != "0"; });
   if (head.method != "POST")
     return has_body ? std::optional(refused(problem_answer(400, "a request of this method has no body")))
                     : std::nullopt;
@@ -72,7 +84,7 @@ std::optional<HttpResponse> Api::refuse(const HttpRequest& head) {
     return refused(problem_answer(413, "the body has " + std::to_string(bytes) + " bytes",
                                   "a request may have " + std::to_string(HttpSetup{}.most_body_bytes)));
   const std::string* type = head.header("content-type");
-  if (type == nullptr || !type->starts_with("application/json"))
+  if (type == nullptr || !is_json(*type))
     return refused(
         problem_answer(415, "the body must be JSON, and said to be (Content-Type: application/json)"));
   return {};
@@ -97,29 +109,31 @@ HttpResponse Api::route(const HttpRequest& request) {
   if (!person) return problem_answer(401, "the request carries no token that this server knows");
   const std::string path = request.path.substr(5);
   const bool get = request.method == "GET", post = request.method == "POST";
-  if (path == "about" && get) return about();
+  if (path == "about" && get) return about(*person);
   if (path == "complete" && post) return complete(request);
   if (path == "check" && post) return check(*person, request);
   if (path == "lessons" && get) return lessons();
   if (path.starts_with("lessons/") && get) return lesson(path.substr(8));
   if (path == "runs" && get) return runs_of(*person);
+  if (path == "room" && get && is_teacher(*person)) return room();
   if (path == "runs" && post) return begin_run(*person, request);
   if (path.starts_with("runs/")) {
     const auto [id, rest] = split(path.substr(5));
-    const auto run = runs_.find(*person, id);
-    if (run != nullptr) return of_run(request, run, rest);
+    const auto run = is_teacher(*person) ? runs_.find(id) : runs_.find(*person, id);
+    if (run != nullptr) return of_run(*person, request, run, rest);
   }
   return not_there();
 }
 
-HttpResponse Api::about() const {
+HttpResponse Api::about(std::size_t person) const {
   const RunLimits& limits = setup_.limits;
   return json_answer(Json::object({{"version", lua::version_text()},
                                    {"limits", Json::object({{"memory_bytes", limits.memory_bytes},
                                                             {"seconds", limits.seconds},
                                                             {"output_bytes", limits.output_bytes},
                                                             {"runs", setup_.at_once}})},
-                                   {"classroom", setup_.classroom}}));
+                                   {"classroom", setup_.classroom},
+                                   {"teacher", is_teacher(person)}}));
 }
 
 HttpResponse Api::complete(const HttpRequest& request) const {
@@ -160,7 +174,17 @@ HttpResponse Api::runs_of(std::size_t person) const {
   return json_answer(list);
 }
 
-HttpResponse Api::of_run(const HttpRequest& request, const std::shared_ptr<PageRun>& run,
+HttpResponse Api::room() const {
+  Json::List list;
+  for (const auto& run : runs_.all())
+    list.push_back(Json::object({{"id", run->id},
+                                 {"name", run->request.name},
+                                 {"state", name(run->state())},
+                                 {"owner", access_.people()[run->owner].name}}));
+  return json_answer(list);
+}
+
+HttpResponse Api::of_run(std::size_t person, const HttpRequest& request, const std::shared_ptr<PageRun>& run,
                          const std::string& rest) {
   if (rest.empty()) {
     if (request.method == "DELETE") runs_.stop(*run);
@@ -168,7 +192,7 @@ HttpResponse Api::of_run(const HttpRequest& request, const std::shared_ptr<PageR
         Json::object({{"id", run->id}, {"name", run->request.name}, {"state", name(run->state())}}));
   }
   if (request.method != "GET") return problem_answer(405, "this can only be read");
-  const auto share = streams_.take(run->owner, std::chrono::milliseconds(0));
+  const auto share = streams_.take(person, std::chrono::milliseconds(0));
   if (share == nullptr)
     return problem_answer(429, "as many answers are under way to this person as may be", "close other pages");
   HttpResponse response = rest == "events"             ? events_answer(run, request)

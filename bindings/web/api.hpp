@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The server's answers: the page's files to anybody who names it rightly, and under /api, to whoever has a
 // token: about, complete, check, runs with their events, files and views, and lessons. A problem is
-// {error: {message, hint?}}. A person finds their own runs only; another's are not there.
+// {error: {message, hint?}}. A person finds their own runs only; another's are not there. The first person of
+// a room, its teacher, finds all: /api/room lists them.
 #pragma once
 
 #include <memory>
@@ -33,12 +34,15 @@ class Api final : public HttpHandler {
 
  private:
   HttpResponse route(const HttpRequest& request);
-  HttpResponse about() const;
+  // Whose room it is.
+  bool is_teacher(std::size_t person) const { return setup_.classroom && person == 0; }
+  HttpResponse about(std::size_t person) const;
   HttpResponse complete(const HttpRequest& request) const;
   HttpResponse check(std::size_t person, const HttpRequest& request);
   HttpResponse begin_run(std::size_t person, const HttpRequest& request);
   HttpResponse runs_of(std::size_t person) const;
-  HttpResponse of_run(const HttpRequest& request, const std::shared_ptr<PageRun>& run,
+  HttpResponse room() const;
+  HttpResponse of_run(std::size_t person, const HttpRequest& request, const std::shared_ptr<PageRun>& run,
                       const std::string& rest);
   HttpResponse lessons() const;
   HttpResponse lesson(const std::string& name) const;
@@ -47,8 +51,8 @@ class Api final : public HttpHandler {
   const Access& access_;
   RunQueue& runs_;
   const PageFiles page_;
-  Shares checks_{1, 4};
-  Shares streams_;  // answers that last
+  Shares checks_{1, 4, 2};  // two for people whose scripts are checked quickly
+  Shares streams_;          // answers that last
 };
 
 }  // namespace asperity::web

@@ -10,22 +10,27 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "bindings/cli/check_command.hpp"
 #include "bindings/cli/run_command.hpp"
+#include "bindings/web/command_request.hpp"
+#include "bindings/web/confined_command.hpp"
 #include "bindings/web/drawing.hpp"
 #include "bindings/web/event_channel.hpp"
 #include "bindings/web/sandbox/system_calls.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/loaded_part.hpp"
+#include "engine/core/part_file.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/run_facts.hpp"
 
 namespace asperity::web {
 
 namespace {
 
 constexpr int failed = 1, bad_usage = 2;
-constexpr std::array<const char*, 4> works{"run", "check", "draw", "probe"};
+constexpr std::array<const char*, 5> works{"run", "check", "draw", "probe", "command"};
 
 const Json& request_member(const Json& json, const char* name) {
   const Json* found = json.find(name);
@@ -35,6 +40,11 @@ const Json& request_member(const Json& json, const char* name) {
 
 std::int64_t whole(const Json& json, const char* name) {
   return static_cast<std::int64_t>(request_member(json, name).number());
+}
+
+Json to_json(const Place& place) {
+  return Json::object(
+      {{"folder", characters_of(place.folder)}, {"seen", characters_of(place.seen)}, {"write", place.write}});
 }
 
 std::string standard_input() {
@@ -48,8 +58,11 @@ std::string standard_input() {
   return text;
 }
 
-// What a run may load later lies behind the barrier; a part that is not there is met when it is needed.
-void load_parts() {
+// What a run may load or look at later lies behind the barrier; a part that is not there is met when it is
+// needed.
+void prepare_run() {
+  machine_facts();
+  find_own_place();
   try {
     part_symbol({"hdf5", "HDF5 files are written", "libhdf5-103-1"}, "asperity_hdf5_write_1");
   } catch (const Error&) {
@@ -92,6 +105,7 @@ int run_or_check(const ConfinedRequest& request) {
   command.seed = static_cast<std::uint64_t>(request.seed);
   command.limit_memory = request.confinement.memory_bytes;
   command.limit_time = request.seconds;
+  command.limit_disk = request.confinement.file_bytes;
   command.store_limit = 0;
   command.observer = &events;
   std::setvbuf(stdout, nullptr, _IOLBF, std::size_t{1} << 14);
@@ -104,6 +118,8 @@ int run_or_check(const ConfinedRequest& request) {
 
 Json to_json(const ConfinedRequest& request) {
   const Confinement& c = request.confinement;
+  Json::List places;
+  for (const Place& place : c.places) places.push_back(to_json(place));
   return Json::object({{"work", works.at(static_cast<std::size_t>(request.work))},
                        {"drawing", c.as == Confined::drawing},
                        {"memory_bytes", c.memory_bytes},
@@ -115,7 +131,11 @@ Json to_json(const ConfinedRequest& request) {
                        {"seconds", request.seconds},
                        {"threads", request.threads},
                        {"views", request.views},
-                       {"barriers", Json::strings(request.barriers)}});
+                       {"barriers", Json::strings(request.barriers)},
+                       {"places", std::move(places)},
+                       {"work_folder", characters_of(c.work)},
+                       {"command", request.command},
+                       {"locked", request.lock >= 0}});
 }
 
 ConfinedRequest confined_request(const Json& json) {
@@ -137,6 +157,16 @@ ConfinedRequest confined_request(const Json& json) {
   request.views = request_member(json, "views").boolean();
   for (const Json& barrier : request_member(json, "barriers").list())
     request.barriers.push_back(barrier.string());
+  // Of a command alone.
+  if (const Json* places = json.find("places"))
+    for (const Json& place : places->list())
+      request.confinement.places.push_back({bytes_of(request_member(place, "folder").string()),
+                                            bytes_of(request_member(place, "seen").string()),
+                                            request_member(place, "write").boolean()});
+  if (const Json* folder = json.find("work_folder")) request.confinement.work = bytes_of(folder->string());
+  if (const Json* command = json.find("command")) request.command = *command;
+  if (const Json* locked = json.find("locked"); locked != nullptr && locked->boolean())
+    request.lock = lock_descriptor;
   return request;
 }
 
@@ -149,7 +179,7 @@ int confined_main() {
       ::close(nothing);
     }
     load_system_call_filter();
-    if (request.work == Work::run) load_parts();
+    if (request.work == Work::run || request.work == Work::command) prepare_run();
     std::vector<std::string> missing;
     const std::vector<std::string> made = confine(request.confinement, missing);
     for (const std::string& barrier : request.barriers)
@@ -165,6 +195,9 @@ int confined_main() {
       case Work::run:
       case Work::check:
         return run_or_check(request);
+      case Work::command:
+        draw_by_server(drawing_descriptor);
+        return carry_out(request.command, request.lock);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());

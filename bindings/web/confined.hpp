@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `asperity --confined`: the program as the child of `asperity serve`. It reads from standard input what it
-// is to do, goes behind the barriers (sandbox/confinement.hpp), and only then begins: a script is run or
-// checked, a chart is drawn by gnuplot, or the barriers are tried.
+// `asperity --confined`: the program as the child of `asperity serve` or `asperity run --confined`. It reads
+// from standard input what it is to do, goes behind the barriers (sandbox/confinement.hpp), and only then
+// begins: a script is run or checked, a command line is carried out, a chart is drawn by gnuplot, or the
+// barriers are tried.
 #pragma once
 
 #include <optional>
@@ -14,9 +15,9 @@
 namespace asperity::web {
 
 // Open in the child beside the standard streams.
-inline constexpr int events_descriptor = 3, drawing_descriptor = 4;
+inline constexpr int events_descriptor = 3, drawing_descriptor = 4, lock_descriptor = 5;
 
-enum class Work { run, check, draw, probe };
+enum class Work { run, check, draw, probe, command };
 
 struct ConfinedRequest {
   Work work = Work::run;
@@ -28,6 +29,8 @@ struct ConfinedRequest {
   int threads = 1;
   bool views = false;
   std::vector<std::string> barriers{};  // what must stand before a script is begun, as confine() names it
+  Json command{};                       // of `asperity run --confined` (confined_command.hpp); else null
+  int lock = -1;  // open file of the lock of its run directory, which the child inherits; -1: none
 };
 
 Json to_json(const ConfinedRequest& request);

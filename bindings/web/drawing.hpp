@@ -4,6 +4,7 @@
 // the picture back. What arrives at the server is taken for hostile, though the run's own code made it.
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ void draw_by_server(int socket);
 
 // In the server: reads one request from the socket, draws, answers. Waits for as long as a picture may take;
 // false where the other end is gone or sent what is no request. `barriers` must stand in the drawing process.
-bool answer_drawing(int socket, const std::vector<std::string>& barriers);
+// What is being drawn is given up as soon as `given_up` is true.
+bool answer_drawing(int socket, const std::vector<std::string>& barriers, const std::atomic<bool>& given_up);
 
 }  // namespace asperity::web

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "bindings/web/disk_bound.hpp"
 #include "bindings/web/plain_files.hpp"
 #include "bindings/web/run_follower.hpp"
 #include "engine/core/error.hpp"
@@ -70,12 +71,22 @@ void PageRun::go(const RunLimits& limits, const std::vector<std::string>& barrie
   try {
     RunFollower follower(*this, limits, barriers);
     follower.follow();
+    processor_seconds_ = follower.processor_seconds();
+    const std::string removed = keep_within(directory, limits.directory_bytes, limits.files);
     tell_files(true);
-    finish(follower.state, follower.exit, follower.reason);
+    finish(follower.state, follower.exit,
+           removed.empty() ? follower.reason
+                           : follower.reason + (follower.reason.empty() ? "" : "; ") + removed);
   } catch (const std::exception& error) {
     events.add("error", Json::object({{"message", error.what()}}));
     finish(RunState::failed, 1, error.what());
   }
+}
+
+void PageRun::tell_place(std::size_t before) {
+  if (state_.load() != RunState::waiting || told_place_ == before) return;
+  told_place_ = before;
+  events.add("waiting", Json::object({{"before", before}}));
 }
 
 void PageRun::give_up(RunState state, const std::string& reason) { finish(state, 1, reason); }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +52,10 @@ class PageRun {
 
   RunState state() const { return state_.load(); }
   std::int64_t bytes() const { return directory_bytes_.load() + events.bytes(); }
+  // Of its process and what it became, once that has ended.
+  double processor_seconds() const { return processor_seconds_; }
+  // Says in its events how many runs begin before it, where it waits and that is news. One call at a time.
+  void tell_place(std::size_t before);
   // Ends it, soon; one that waits is over at once.
   void stop();
   bool stop_asked() const { return stop_.load(); }
@@ -67,6 +72,8 @@ class PageRun {
   std::atomic<RunState> state_{RunState::waiting};
   std::atomic<bool> stop_{false};
   std::atomic<std::int64_t> directory_bytes_{0};
+  double processor_seconds_ = 0;
+  std::optional<std::size_t> told_place_;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   // What is known of each file: size and time when last seen, and whether that was told.
   struct Known {

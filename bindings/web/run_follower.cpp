@@ -11,8 +11,8 @@
 #include <csignal>
 #include <cstring>
 
+#include "bindings/web/disk_bound.hpp"
 #include "bindings/web/drawing.hpp"
-#include "bindings/web/plain_files.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -21,7 +21,7 @@ namespace asperity::web {
 
 namespace {
 
-constexpr auto look_every = std::chrono::milliseconds(300);
+constexpr auto tell_every = std::chrono::milliseconds(300);
 constexpr auto follower_patience = std::chrono::milliseconds(3000);  // after a polite request to end
 constexpr double grace_seconds = 4;                                  // for the run's own watch of the clock
 constexpr std::size_t longest_event = std::size_t{1} << 20;
@@ -66,23 +66,26 @@ RunFollower::RunFollower(PageRun& run, const RunLimits& limits, const std::vecto
       barriers_(barriers),
       process_(request_of(run, limits, barriers), run.directory.string()) {
   drawer_ = std::thread([this] {
-    while (answer_drawing(process_.drawing.get(), barriers_)) {
+    while (answer_drawing(process_.drawing.get(), barriers_, over_)) {
     }
   });
 }
 
 RunFollower::~RunFollower() {
   process_.send(SIGKILL);
+  // What gnuplot is drawing is not waited for.
+  over_.store(true);
   ::shutdown(process_.drawing.get(), SHUT_RDWR);
   drawer_.join();
 }
 
 void RunFollower::follow() {
   for (;;) {
-    std::array<pollfd, 3> watched{{{process_.output.get(), POLLIN, 0},
-                                   {process_.error.get(), POLLIN, 0},
+    // What is dropped is fetched now and then, so that a flood of it costs little here.
+    std::array<pollfd, 3> watched{{{cut_ ? -1 : process_.output.get(), POLLIN, 0},
+                                   {cut_ ? -1 : process_.error.get(), POLLIN, 0},
                                    {process_.events.get(), POLLIN, 0}}};
-    ::poll(watched.data(), watched.size(), 50);
+    ::poll(watched.data(), watched.size(), cut_ ? 5 : 50);
     take_output(process_.output, out_tail_, "out");
     take_output(process_.error, error_tail_, "err");
     take_events();
@@ -100,7 +103,8 @@ void RunFollower::follow() {
 
 void RunFollower::take_output(Descriptor& from, std::string& unfinished, const char* stream) {
   char piece[65536];
-  while (from.get() >= 0) {
+  // A run that never stops printing does not keep its limits from being watched.
+  for (int most = 16; from.get() >= 0 && most > 0; --most) {
     const ssize_t got = ::read(from.get(), piece, sizeof piece);
     if (got == 0) from.reset();
     if (got <= 0) return;
@@ -112,8 +116,13 @@ void RunFollower::take_output(Descriptor& from, std::string& unfinished, const c
     unfinished = text.substr(whole);
     text.resize(whole);
     if (!text.empty()) run_.events.add("output", Json::object({{"stream", stream}, {"text", text}}));
-    if (printed_ >= limits_.output_bytes)
-      end(RunState::limit, "it printed more than " + mebibytes(limits_.output_bytes));
+    if (printed_ >= limits_.output_bytes && !cut_) {
+      cut_ = true;
+      run_.events.add("output",
+                      Json::object({{"stream", "err"},
+                                    {"text", "\nit printed more than " + mebibytes(limits_.output_bytes) +
+                                                 ": the rest is not shown\n"}}));
+    }
     if (static_cast<std::size_t>(got) < sizeof piece) return;
   }
 }
@@ -164,16 +173,20 @@ void RunFollower::watch_limits(Clock::time_point now) {
     end(RunState::limit,
         "the time limit of " + format_quantity(limits_.seconds, dimension::time) + " was reached");
   if (kill_at_ && now >= *kill_at_) process_.send(SIGKILL);
-  if (now - looked_ < look_every) return;
-  looked_ = now;
-  run_.tell_files(false);
-  const std::int64_t bytes = run_.directory_bytes_;
-  if (run_.files_.size() > limits_.files || bytes == too_many)
+  if (now - told_ >= tell_every) {
+    told_ = now;
+    run_.tell_files(false);
+  }
+  if (now < look_at_) return;
+  const DiskUse use = disk_use(run_.directory, limits_.files);
+  look_at_ = next_look(now);
+  if (use.files > limits_.files)
     end(RunState::limit, "it wrote more than " + std::to_string(limits_.files) + " files");
-  if (bytes > limits_.directory_bytes)
+  if (use.bytes > limits_.directory_bytes)
     end(RunState::limit, "its files take more than " + mebibytes(limits_.directory_bytes));
   // One that goes on writing is not waited for.
-  if (bytes > limits_.directory_bytes + limits_.directory_bytes / 2) process_.send(SIGKILL);
+  if (use.bytes > limits_.directory_bytes + limits_.directory_bytes / 4 || use.files > 2 * limits_.files)
+    process_.send(SIGKILL);
 }
 
 void RunFollower::end(RunState as, const std::string& why) {

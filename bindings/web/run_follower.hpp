@@ -3,6 +3,7 @@
 // and ends it, politely first.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ class RunFollower {
   RunState state = RunState::failed;
   int exit = 1;
   std::string reason;
+  // Of the process, once it has ended.
+  double processor_seconds() const { return process_.processor_seconds(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -42,10 +45,12 @@ class RunFollower {
   const RunLimits& limits_;
   std::vector<std::string> barriers_;
   ConfinedProcess process_;
+  std::atomic<bool> over_{false};
   std::thread drawer_;
   std::string out_tail_, error_tail_, line_;
   std::int64_t printed_ = 0;
-  Clock::time_point begun_ = Clock::now(), looked_{};
+  bool cut_ = false;  // more was printed than is kept
+  Clock::time_point begun_ = Clock::now(), told_{}, look_at_{};
   std::optional<Clock::time_point> kill_at_;
   std::optional<RunState> ending_;  // why the server ended it
   std::string stopped_, why_;       // what the process said of its own end

@@ -9,7 +9,14 @@
 
 namespace asperity::web {
 
-RunQueue::RunQueue(QueueSetup setup) : setup_(std::move(setup)) {
+namespace {
+
+constexpr std::int64_t least_bytes = std::int64_t{1} << 20;  // with less a run is not begun
+constexpr std::size_t told_places = 3;  // runs of one person that are told how many are before
+
+}  // namespace
+
+RunQueue::RunQueue(QueueSetup setup) : setup_(std::move(setup)), turns_(setup_.at_once, setup_.shared) {
   for (int k = 0; k < setup_.at_once; ++k) workers_.emplace_back([this] { work(); });
 }
 
@@ -26,9 +33,7 @@ std::shared_ptr<PageRun> RunQueue::add(std::size_t owner, RunRequest request) {
     refuse("as many runs wait as may: " +
                std::to_string(own.size() >= setup_.most_waiting_of_one ? own.size() : waiting_in_all_),
            "wait until one has ended, or stop one");
-  std::int64_t kept = 0;
-  for (const auto& [id, run] : runs_)
-    if (run->owner == owner) kept += run->bytes();
+  const std::int64_t kept = kept_by(owner);
   if (kept > setup_.most_bytes_of_one || runs_.size() >= setup_.most_kept)
     refuse("the runs of this session take " + format_short(static_cast<double>(kept) / 0x1p20) + " MiB in " +
                std::to_string(runs_.size()) + " folders, and there may be no more",
@@ -39,6 +44,7 @@ std::shared_ptr<PageRun> RunQueue::add(std::size_t owner, RunRequest request) {
   own.push_back(run);
   ++waiting_in_all_;
   changed_.notify_one();
+  tell_places();
   return run;
 }
 
@@ -48,13 +54,24 @@ std::shared_ptr<PageRun> RunQueue::find(std::size_t owner, const std::string& id
   return found == runs_.end() || found->second->owner != owner ? nullptr : found->second;
 }
 
-std::vector<std::shared_ptr<PageRun>> RunQueue::of(std::size_t owner) const {
+std::shared_ptr<PageRun> RunQueue::find(const std::string& id) const {
   const std::lock_guard lock(mutex_);
-  std::vector<std::shared_ptr<PageRun>> own;
-  for (const auto& [id, run] : runs_)
-    if (run->owner == owner) own.push_back(run);
-  std::ranges::sort(own, {}, [](const auto& run) { return std::stoll(run->id); });
+  const auto found = runs_.find(id);
+  return found == runs_.end() ? nullptr : found->second;
+}
+
+std::vector<std::shared_ptr<PageRun>> RunQueue::of(std::size_t owner) const {
+  std::vector<std::shared_ptr<PageRun>> own = all();
+  std::erase_if(own, [&](const auto& run) { return run->owner != owner; });
   return own;
+}
+
+std::vector<std::shared_ptr<PageRun>> RunQueue::all() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::shared_ptr<PageRun>> all;
+  for (const auto& [id, run] : runs_) all.push_back(run);
+  std::ranges::sort(all, {}, [](const auto& run) { return std::stoll(run->id); });
+  return all;
 }
 
 void RunQueue::stop(PageRun& run) {
@@ -66,32 +83,76 @@ void RunQueue::stop(PageRun& run) {
   (*waits)->give_up(RunState::stopped, "it was stopped before it began");
   own.erase(waits);
   --waiting_in_all_;
+  tell_places();
 }
 
-// The next of whoever comes after the one who was served last.
+std::vector<std::size_t> RunQueue::people_waiting() const {
+  std::vector<std::size_t> people;
+  for (const auto& [owner, own] : waiting_)
+    if (!own.empty()) people.push_back(owner);
+  return people;
+}
+
 std::shared_ptr<PageRun> RunQueue::next() {
-  auto at = waiting_.upper_bound(last_served_);
-  for (std::size_t k = 0; k <= waiting_.size(); ++k, ++at) {
-    if (at == waiting_.end()) at = waiting_.begin();
-    if (at->second.empty()) continue;
-    auto run = at->second.front();
-    at->second.pop_front();
-    --waiting_in_all_;
-    last_served_ = at->first;
-    return run;
+  const auto owner = turns_.next(people_waiting(), std::chrono::steady_clock::now());
+  if (!owner) return nullptr;
+  auto& own = waiting_[*owner];
+  auto run = own.front();
+  own.pop_front();
+  --waiting_in_all_;
+  return run;
+}
+
+std::int64_t RunQueue::kept_by(std::size_t owner) const {
+  std::int64_t kept = 0;
+  for (const auto& [id, run] : runs_) {
+    if (run->owner != owner) continue;
+    const auto granted = granted_.find(id);
+    kept += granted == granted_.end() ? run->bytes() : granted->second;
   }
-  return nullptr;
+  return kept;
+}
+
+// About how many begin before each that waits, if people take turns.
+void RunQueue::tell_places() {
+  // One begins at once: then it is told to the others.
+  const bool place_free = granted_.size() < static_cast<std::size_t>(setup_.at_once);
+  if (place_free && turns_.next(people_waiting(), std::chrono::steady_clock::now())) return;
+  for (auto& [owner, own] : waiting_)
+    for (std::size_t k = 0; k < std::min(own.size(), told_places); ++k) {
+      std::size_t before = k;
+      for (const auto& [other, others] : waiting_)
+        if (other != owner) before += std::min(others.size(), k + (other < owner ? 1 : 0));
+      own[k]->tell_place(before);
+    }
 }
 
 void RunQueue::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [&] { return over_ || waiting_in_all_ > 0; });
+    std::shared_ptr<PageRun> run;
+    changed_.wait(lock, [&] { return over_ || (run = next()) != nullptr; });
     if (over_) return;
-    const auto run = next();
+    // Others may have filled the disk since it was added.
+    RunLimits limits = setup_.limits;
+    const std::int64_t left = setup_.most_bytes_of_one - kept_by(run->owner) - limits.event_bytes;
+    if (left < least_bytes) {
+      run->give_up(RunState::limit,
+                   "the runs of this session take as much of the disk as they may: it was not begun");
+      continue;
+    }
+    limits.directory_bytes = std::min(limits.directory_bytes, left);
+    granted_[run->id] = limits.directory_bytes + limits.event_bytes;
+    const auto begun = std::chrono::steady_clock::now();
+    turns_.begin(run->owner, begun);
+    tell_places();
     lock.unlock();
-    if (run != nullptr) run->go(setup_.limits, setup_.barriers);
+    run->go(limits, setup_.barriers);
     lock.lock();
+    turns_.end(run->owner, begun, run->processor_seconds(), std::chrono::steady_clock::now());
+    granted_.erase(run->id);
+    // A place is free, and for whom may be another question than before.
+    changed_.notify_all();
   }
 }
 

@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/web/serve_command.hpp"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/web/api.hpp"
 #include "bindings/web/barrier_report.hpp"
+#include "bindings/web/frames.hpp"
 #include "bindings/web/places.hpp"
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
+#include "engine/experiment/aside_file.hpp"
 
 extern char** environ;
 
@@ -26,6 +32,7 @@ namespace asperity::web {
 
 namespace {
 
+constexpr const char* open_page = "open.html";
 constexpr int usual_port = 8137;  // the same each time: a browser keeps what was written by address and port
 
 // Asked before there is a port, answered after: what Host may say depends on it.
@@ -58,9 +65,24 @@ std::unique_ptr<HttpServer> listen(const ServeCommand& command, HttpHandler& han
   return server;
 }
 
-void open_in_browser(const std::string& url) {
+// By a page that leads to the address: what stands in the arguments of a program every user of the machine
+// can read, and the address is a key.
+void open_in_browser(const std::string& url, const std::filesystem::path& folder) {
+  const std::filesystem::path page = folder / open_page;
+  const int file = ::open(page.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+  const bool written =
+      file >= 0 && write_whole(file,
+                               "<!DOCTYPE html><meta charset=\"utf-8\"><title>Asperity</title><meta "
+                               "name=\"referrer\" content=\"no-referrer\"><meta http-equiv=\"refresh\" "
+                               "content=\"0; url=" +
+                                   url + "\"><p><a href=\"" + url + "\">Asperity</a></p>\n");
+  if (file >= 0) ::close(file);
+  if (!written) {
+    std::fprintf(stderr, "asperity: %s cannot be written; open the address above\n", page.c_str());
+    return;
+  }
   char program[] = "xdg-open";
-  std::string address = url;
+  std::string address = page.string();
   char* const arguments[] = {program, address.data(), nullptr};
   pid_t child = 0;
   if (::posix_spawnp(&child, program, nullptr, nullptr, arguments, environ) != 0)
@@ -118,7 +140,7 @@ int serve_until_stopped(const ServeCommand& command) {
   const std::unique_ptr<HttpServer> server = listen(command, handler);
   queue.folder = session_folder(command);
   const std::filesystem::path scratch = queue.folder / "scratch", folder = queue.folder;
-  std::filesystem::create_directory(scratch);
+  if (::mkdir(scratch.c_str(), 0700) != 0) throw_file_error("make the folder", scratch, errno);
 
   const BarrierReport barriers = try_out_barriers(scratch.string());
   if (!command.classroom.empty() && !barriers.all_hold()) {
@@ -149,8 +171,9 @@ int serve_until_stopped(const ServeCommand& command) {
         stderr,
         "asperity: run no script of others on this machine; your own are held by the language's limits\n");
   if (command.open)
-    open_in_browser("http://" + shown_address(command) + ":" + std::to_string(server->port()) + "/#" +
-                    people[0].token);
+    open_in_browser(
+        "http://" + shown_address(command) + ":" + std::to_string(server->port()) + "/#" + people[0].token,
+        folder);
 
   wait_for_end(signals);
   std::fprintf(stderr, "\nstopping\n");
@@ -159,6 +182,7 @@ int serve_until_stopped(const ServeCommand& command) {
   answering.join();
   std::error_code ignored;
   std::filesystem::remove_all(scratch, ignored);
+  std::filesystem::remove(folder / open_page, ignored);
   if (std::filesystem::is_empty(folder, ignored))
     std::filesystem::remove(folder, ignored);
   else

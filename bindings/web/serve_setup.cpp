@@ -23,11 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr int most_students = 400;
 
-std::int64_t machine_memory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
-  return pages > 0 && page > 0 ? static_cast<std::int64_t>(pages) * page : std::int64_t{4} << 30;
-}
-
 bool is_v6(const std::string& address) {
   in6_addr parsed{};
   return ::inet_pton(AF_INET6, address.c_str(), &parsed) == 1;
@@ -66,6 +61,11 @@ std::vector<std::string> names_in(const std::string& path) {
 
 }  // namespace
 
+std::int64_t machine_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? static_cast<std::int64_t>(pages) * page : std::int64_t{4} << 30;
+}
+
 std::vector<Person> people_of(const ServeCommand& command) {
   std::vector<std::string> names;
   if (command.classroom.empty()) {
@@ -95,6 +95,7 @@ QueueSetup queue_of(const ServeCommand& command) {
   const bool room = !command.classroom.empty();
   const int processors = thread_count();
   QueueSetup setup;
+  setup.shared = room;
   setup.at_once = command.runs > 0 ? command.runs : room ? processors : 2;
   setup.most_waiting_of_one = room ? 20 : 500;
   setup.most_bytes_of_one = (room ? std::int64_t{1} : std::int64_t{8}) << 30;
@@ -117,6 +118,9 @@ fs::path session_folder(const ServeCommand& command) {
       throw Error(ErrorCode::bad_value,
                   "`--out` names " + asperity::quoted(command.out) + ", which is not empty",
                   "give a new folder");
+    // What runs record is for whoever serves them.
+    if (::chmod(command.out.c_str(), 0700) != 0)
+      throw_file_error("keep to yourself the folder", command.out, errno);
     return fs::canonical(command.out);
   }
   fs::create_directories("runs", problem);

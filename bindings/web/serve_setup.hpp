@@ -2,6 +2,7 @@
 // What `asperity serve` makes of its options and of the machine: people, limits, and where runs are kept.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 
 namespace asperity::web {
 
+// Bytes of memory that the machine has.
+std::int64_t machine_memory();
 // The one who started it, and the students of a room. Throws Error{bad_value} or Error{bad_file}.
 std::vector<Person> people_of(const ServeCommand& command);
 // The queue's bounds; folder and barriers are left empty.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one person may hold of something that all share, so that nobody takes it all.
+// What one person may hold of something that all share, so that nobody takes it all. Those who wait are
+// served in the order in which they came; some shares may be kept for people who give theirs back soon.
 #pragma once
 
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,33 +16,64 @@ namespace asperity::web {
 // Thread-safe.
 class Shares {
  public:
-  // At most `each` for one person and `all` together.
-  Shares(int each, int all) : state_(std::make_shared<State>()), each_(each), all_(all) {}
+  // At most `each` for one person and `all` together; and of these `for_quick` only for whoever held their
+  // last one no longer than `quick`.
+  Shares(int each, int all, int for_quick = 0,
+         std::chrono::milliseconds quick = std::chrono::milliseconds(1000))
+      : state_(std::make_shared<State>()) {
+    state_->each = each;
+    state_->all = all;
+    state_->for_quick = for_quick;
+    state_->quick = quick;
+  }
 
   // Held until the last copy of it is gone; waits so long for one, and is null where there was none.
   std::shared_ptr<void> take(std::size_t person, std::chrono::milliseconds patience) {
     std::unique_lock lock(state_->mutex);
-    const auto free = [&] { return state_->held < all_ && state_->of[person] < each_; };
-    if (!state_->changed.wait_for(lock, patience, free)) return nullptr;
+    const auto place = state_->waiting.insert(state_->waiting.end(), person);
+    const bool served = state_->changed.wait_for(lock, patience, [&] { return state_->is_next(place); });
+    state_->waiting.erase(place);
+    // Who came next may be served too, or now at last.
+    state_->changed.notify_all();
+    if (!served) return nullptr;
+    const bool slow = state_->of[person].slow;
     ++state_->held;
-    ++state_->of[person];
-    return {state_.get(), [state = state_, person](void*) {
+    if (slow) ++state_->held_by_slow;
+    ++state_->of[person].held;
+    return {state_.get(), [state = state_, person, slow, begun = Clock::now()](void*) {
               const std::lock_guard giving_back(state->mutex);
               --state->held;
-              --state->of[person];
+              if (slow) --state->held_by_slow;
+              --state->of[person].held;
+              state->of[person].slow = Clock::now() - begun > state->quick;
               state->changed.notify_all();
             }};
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  struct Person {
+    int held = 0;
+    bool slow = false;
+  };
   struct State {
+    bool can_take(std::size_t person) {
+      return held < all && of[person].held < each && (!of[person].slow || held_by_slow < all - for_quick);
+    }
+    bool is_next(std::list<std::size_t>::iterator place) {
+      for (auto at = waiting.begin(); at != waiting.end(); ++at)
+        if (can_take(*at)) return at == place;
+      return false;
+    }
     std::mutex mutex;
     std::condition_variable changed;
-    int held = 0;
-    std::map<std::size_t, int> of;
+    int each = 1, all = 1, for_quick = 0;
+    std::chrono::milliseconds quick{};
+    int held = 0, held_by_slow = 0;
+    std::map<std::size_t, Person> of;
+    std::list<std::size_t> waiting;
   };
   std::shared_ptr<State> state_;
-  int each_, all_;
 };
 
 }  // namespace asperity::web

@@ -30,7 +30,7 @@ constexpr std::size_t place_digits = 8, random_digits = 16;
 constexpr auto longest_silence = std::chrono::hours(24);
 
 // Host and name space of processes, for a number of a process means nothing elsewhere.
-std::string own_place() {
+std::string place_of_this_process() {
   utsname system{};
   const std::string host = ::uname(&system) == 0 ? system.nodename : "";
   std::array<char, 64> processes{};
@@ -39,6 +39,11 @@ std::string own_place() {
   digester.add(host).add(
       std::string_view(processes.data(), static_cast<std::size_t>(length > 0 ? length : 0)));
   return digester.hex().substr(0, place_digits);
+}
+
+const std::string& own_place() {
+  static const std::string place = place_of_this_process();
+  return place;
 }
 
 std::uint64_t random_bits() {
@@ -96,15 +101,16 @@ std::optional<Writer> writer_of_part(std::string_view name) {
 
 fs::path part_beside(const fs::path& target) {
   constexpr std::size_t longest_stem = 120, longest_extension = 24;
-  static const std::string place = own_place();
   std::array<char, random_digits + 1> random{};
   std::snprintf(random.data(), random.size(), "%016llx", static_cast<unsigned long long>(random_bits()));
   std::string extension = target.extension().string();
   if (extension.size() > longest_extension) extension.clear();
   return target.parent_path() /
-         ("." + target.stem().string().substr(0, longest_stem) + "." + place + "-" +
+         ("." + target.stem().string().substr(0, longest_stem) + "." + own_place() + "-" +
           std::to_string(::getpid()) + "-" + random.data() + std::string(part_ending) + extension);
 }
+
+void find_own_place() { own_place(); }
 
 bool is_part(const fs::path& file) { return writer_of_part(file.filename().native()).has_value(); }
 

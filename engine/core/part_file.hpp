@@ -15,6 +15,9 @@ namespace asperity {
 // some writers choose their format by it.
 std::filesystem::path part_beside(const std::filesystem::path& target);
 
+// The name tells where its writer runs. A process that will be shut off from /proc finds that out before.
+void find_own_place();
+
 // Whether a file is a part by its name, of this version or of one before it.
 bool is_part(const std::filesystem::path& file);
 

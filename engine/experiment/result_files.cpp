@@ -167,8 +167,12 @@ void ResultFiles::keep(const std::string& key, std::string_view call, const Resu
       throw Error(ErrorCode::bad_file,
                   "cannot make the folder " + quoted(setup_.folder.string()) + ": " + problem.message());
     if (!make_room(bytes)) {
-      note("room", "results of this run no longer fit the " + format_bytes(setup_.most_bytes) +
-                       " of its store: some would be computed again if it were resumed (--store-limit)");
+      const bool shared = setup_.most_added - added_ < bytes;
+      note("room", "results of this run no longer fit the " +
+                       format_bytes(shared ? setup_.most_added : setup_.most_bytes) +
+                       (shared ? " that it may add to its store" : " of its store") +
+                       ": some would be computed again if it were resumed (" +
+                       (shared ? "--limit-disk" : "--store-limit") + ")");
       return;
     }
     if (!needed_on_disk_)
@@ -185,8 +189,11 @@ void ResultFiles::keep(const std::string& key, std::string_view call, const Resu
 }
 
 bool ResultFiles::make_room(std::int64_t bytes) {
-  if (bytes > setup_.most_bytes) return false;
-  if (setup_.most_bytes == unlimited) return true;
+  if (bytes > setup_.most_bytes || bytes > setup_.most_added - added_) return false;
+  if (setup_.most_bytes == unlimited) {
+    added_ += bytes;
+    return true;
+  }
   struct Old {
     fs::file_time_type used;
     fs::path file;
@@ -210,7 +217,9 @@ bool ResultFiles::make_room(std::int64_t bytes) {
     if (held + bytes <= setup_.most_bytes) break;
     if (fs::remove(file.file, problem)) held -= file.bytes;
   }
-  return held + bytes <= setup_.most_bytes;
+  if (held + bytes > setup_.most_bytes) return false;
+  added_ += bytes;
+  return true;
 }
 
 void ResultFiles::note(std::string_view about, std::string sentence) {

@@ -24,8 +24,10 @@ struct ResultFilesSetup {
   std::filesystem::path folder;                     // made when the first result is kept
   std::vector<std::filesystem::path> also;          // looked in as well; what is found there is brought over
   std::int64_t most_bytes = std::int64_t{8} << 30;  // of the folder; what was used longest ago goes first
-  double least_seconds = 0.01;                      // results that cost less are not worth a file
-  std::string build;                                // identity of the program
+  // Of what this one adds: for a folder that others share, by a script of somebody else's.
+  std::int64_t most_added = std::numeric_limits<std::int64_t>::max();
+  double least_seconds = 0.01;                // results that cost less are not worth a file
+  std::string build;                          // identity of the program
   std::vector<std::filesystem::path> needed;  // without which results are of no use: on the disk before them
 };
 
@@ -53,7 +55,7 @@ class ResultFiles final : public ResultStore {
   std::string name_of(const std::string& key) const;
   std::optional<FoundResult> read(const std::filesystem::path& file, const std::string& key);
   void bring_over(const std::filesystem::path& from, const std::string& name);
-  // Removes files until `bytes` more fit; false where they never would.
+  // Removes files until `bytes` more fit, and counts them as added; false where they never would.
   bool make_room(std::int64_t bytes);
   void note(std::string_view about, std::string sentence);
 
@@ -61,6 +63,7 @@ class ResultFiles final : public ResultStore {
   bool needed_on_disk_ = false;
   mutable std::mutex mutex_;    // of what follows, and of the folder as far as this process goes
   std::set<std::string> used_;  // by this run: never removed to make room
+  std::int64_t added_ = 0;
   std::vector<std::pair<std::string, std::string>> notices_;
   Counts counts_;
 };

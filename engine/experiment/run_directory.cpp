@@ -30,6 +30,7 @@ constexpr std::string_view script_file = "script.lua";
 constexpr std::string_view manifest_file = "manifest.json";
 constexpr std::string_view journal_file = "journal.jsonl";
 constexpr std::string_view store_folder = "store";
+constexpr std::string_view views_folder = ".views";  // what the page draws of a run (bindings/web/views.hpp)
 constexpr std::string_view earlier_folder = "before-";
 
 constexpr std::string_view mending = "recorded_outputs";  // of the manifest, until a run is mended
@@ -212,6 +213,40 @@ RunDirectory::RunDirectory(RunSetup setup, std::function<std::string()> text)
       later_(std::move(setup)),
       text_(std::move(text)) {}
 
+RunDirectory::Prepared RunDirectory::prepared_for(const RunSetup& setup) {
+  Prepared prepared;
+  std::error_code reason;
+  std::vector<fs::path> holding;
+  if (setup.resume) {
+    prepared.path = *setup.resume;
+    prepared.made = !fs::exists(prepared.path, reason);
+    holding = make_folders(prepared.path);
+    const bool is_run = is_not_begun(prepared.path) || fs::exists(prepared.path / manifest_file, reason);
+    if (is_run && ::access(prepared.path.c_str(), W_OK) == 0) prepared.lock = RunLock::take(prepared.path);
+  } else if (setup.out) {
+    prepared.made = !fs::exists(*setup.out, reason);
+    prepared.path = given_directory(*setup.out, prepared.lock, true, holding);
+  } else {
+    prepared.made = true;
+    prepared.path = numbered_directory(setup.runs, setup.script_name, holding);
+    prepared.lock = RunLock::take(prepared.path);
+  }
+  // The other process may be shut off from the folders above.
+  for (const fs::path& folder : holding) wait_for_names_in(folder);
+  return prepared;
+}
+
+void RunDirectory::Prepared::leave() {
+  std::error_code ignored;
+  const auto is_lock = [](const fs::path& file) { return file.filename() == RunLock::file_name; };
+  if (made && is_not_begun(path) && std::ranges::all_of(entries_of(path), is_lock)) {
+    fs::remove(path / RunLock::file_name, ignored);
+    fs::remove(path, ignored);
+  }
+  if (lock) lock->release();
+  lock = nullptr;
+}
+
 void RunDirectory::make(const RunSetup& setup) {
   lock_ = setup.lock;
   scratch_ = setup.scratch;
@@ -260,6 +295,10 @@ void RunDirectory::begin(const RunSetup& setup) {
       .set("arguments", Json::strings(setup.arguments))
       .set("seed", setup.seed)
       .set("trusted", setup.trusted);
+  if (!setup.barriers.is_null()) {
+    manifest_.set("confined", true);
+    unhashed_.set("barriers", setup.barriers);
+  }
   unhashed_.set("started", utc_now())
       .set("directory", root_.string())
       .set("script_path", setup.script_name)
@@ -379,12 +418,14 @@ fs::path RunDirectory::path_for(std::string_view file) {
     if (!root_.empty() && place.lexically_normal() == root_ / own)
       throw Error(ErrorCode::not_permitted, "the file " + quoted(own) + " belongs to the run itself",
                   "choose another name");
-  const fs::path own = root_ / store_folder;
-  if (!root_.empty() && std::ranges::mismatch(own, place.lexically_normal()).in1 == own.end())
-    throw Error(
-        ErrorCode::not_permitted,
-        "the folder " + quoted(store_folder) + " belongs to the run itself, and the file is " + quoted(file),
-        "choose another name");
+  for (const std::string_view folder : {store_folder, views_folder}) {
+    const fs::path own = root_ / folder;
+    if (!root_.empty() && std::ranges::mismatch(own, place.lexically_normal()).in1 == own.end())
+      throw Error(
+          ErrorCode::not_permitted,
+          "the folder " + quoted(folder) + " belongs to the run itself, and the file is " + quoted(file),
+          "choose another name");
+  }
   if (kind_ == Kind::dry) return place;
   std::error_code ignored;
   if (fs::is_directory(place, ignored))

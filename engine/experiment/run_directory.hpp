@@ -54,6 +54,7 @@ struct RunSetup {
   std::int64_t seed = 1;
   int threads = 1;
   Json versions = Json::object();  // program, libraries, compiler
+  Json barriers{};  // what held a confined run and what it could read; null for one that was not confined
 };
 
 // Whether a directory, which may be missing, holds nothing of a run but what one writes before its first
@@ -85,6 +86,19 @@ class RunDirectory {
 
   // Of a run that is taken up again: whether it is still where it had been before.
   bool repeating() const { return journal_->repeating(); }
+  // The directory of a run that another process will be, made and locked as the constructor would: that one
+  // is given it as `out` or `resume`, and inherits the lock. `resume` may name a folder that is not there
+  // yet; one that holds something else than a run, or cannot be written, is left as it is, without a lock.
+  // Throws as the constructor does.
+  struct Prepared {
+    std::filesystem::path path;
+    std::shared_ptr<RunLock> lock;  // may be null
+    bool made = false;
+    // Takes away what was made here, if nothing was begun in it since, and gives the lock back.
+    void leave();
+  };
+  static Prepared prepared_for(const RunSetup& setup);
+
   // Where results of heavy calls are kept.
   std::filesystem::path store() const { return root_ / "store"; }
   // A sentence where the file system of the directory gives no locks; "" otherwise.
@@ -102,8 +116,8 @@ class RunDirectory {
   // The place of a file that the script is about to write; the folders above it are made. Relative
   // names go under the directory. Throws Error{not_permitted} for a way out (an absolute path, `..`,
   // a link) unless trusted, and always for script.lua, manifest.json, journal.jsonl, .lock and what is under
-  // store; Error{bad_value} for an empty name or a folder; Error{bad_file} if a folder cannot be made. The
-  // file is listed among the outputs if it is there when the run ends.
+  // store or .views; Error{bad_value} for an empty name or a folder; Error{bad_file} if a folder cannot be
+  // made. The file is listed among the outputs if it is there when the run ends.
   std::filesystem::path path_for(std::string_view file);
 
   // Where a file that the script is about to read lies: the one that the run itself wrote under that name,

@@ -40,9 +40,7 @@ std::string vector_instructions(const std::string& flags) {
   return joined(found, " ");
 }
 
-}  // namespace
-
-Json machine_facts() {
+Json facts_of_this_machine() {
   Json facts = Json::object();
   std::ifstream processors("/proc/cpuinfo");
   for (std::string line; std::getline(processors, line) && !line.empty();) {
@@ -62,6 +60,13 @@ Json machine_facts() {
   if (const std::string library = c_library_version(); !library.empty()) facts.set("c_library", library);
   facts.set("c_library_functions", c_library_functions());
   if (const std::string build = build_identity(); !build.empty()) facts.set("build", build);
+  return facts;
+}
+
+}  // namespace
+
+Json machine_facts() {
+  static const Json facts = facts_of_this_machine();
   return facts;
 }
 

@@ -103,8 +103,10 @@ std::optional<LockHolder> holder_in(const fs::path& file) {
 bool has_ended(const LockHolder& holder) {
   const LockHolder own = this_process();
   if (holder.host != own.host) return false;
-  if (holder.machine_start != own.machine_start) return true;
-  if (holder.process_space != own.process_space) return false;
+  // Behind barriers nothing of this can be read, and a signal to another process is not permitted.
+  const bool knows_start = !own.machine_start.empty() && !holder.machine_start.empty();
+  if (knows_start && holder.machine_start != own.machine_start) return true;
+  if (own.process_space.empty() || holder.process_space != own.process_space) return false;
   if (::kill(static_cast<pid_t>(holder.process), 0) != 0 && errno == ESRCH) return true;
   const std::string start = start_of(holder.process);
   return !start.empty() && !holder.process_start.empty() && start != holder.process_start;
@@ -147,6 +149,12 @@ std::shared_ptr<RunLock> RunLock::take_if_known(const fs::path& folder) {
   return open(folder, 0, ask_system);
 }
 
+std::shared_ptr<RunLock> RunLock::inherited(const fs::path& folder, int descriptor) {
+  const std::shared_ptr<RunLock> lock(new RunLock(folder, descriptor));
+  lock->inherited_ = true;
+  return lock;
+}
+
 std::shared_ptr<RunLock> RunLock::open(const fs::path& folder, int flags, const Ask& ask) {
   const fs::path file = folder / file_name;
   const int descriptor = ::open(file.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | flags, 0666);
@@ -162,15 +170,19 @@ std::shared_ptr<RunLock> RunLock::open(const fs::path& folder, int flags, const 
     return lock;
   }
   if (reason == EAGAIN || reason == EACCES) {
-    ::close(std::exchange(lock->descriptor_, -1));  // its name is another's: release() would take it away
-    // Whoever has the lock writes the name next; until then the file may name one that has ended.
+    // Whoever has the lock writes the name next: until then the file may name one that has ended. And a child
+    // that inherited it from a holder that was killed dies a moment after that one.
     std::optional<LockHolder> holder;
     for (int tries = 0; tries < 50; ++tries) {
       holder = holder_in(file);
       if (holder && !has_ended(*holder)) break;
       holder.reset();
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      if (ask(descriptor) != 0) continue;
+      lock->write_name();
+      return lock;
     }
+    ::close(std::exchange(lock->descriptor_, -1));  // its name is another's: release() would take it away
     throw_held(folder, holder, true);
   }
   lock->hold_by_name();
@@ -206,7 +218,7 @@ void RunLock::release() {
   if (descriptor_ < 0) return;
   const int descriptor = std::exchange(descriptor_, -1);
   // The name goes first: where there are no locks it is what holds.
-  if (::ftruncate(descriptor, 0) != 0) errno = 0;
+  if (!inherited_ && ::ftruncate(descriptor, 0) != 0) errno = 0;
   ::close(descriptor);
 }
 

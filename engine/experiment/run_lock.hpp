@@ -26,6 +26,9 @@ class RunLock {
   static std::shared_ptr<RunLock> take(const std::filesystem::path& folder, const Ask& ask = ask_system);
   // As take() where the folder has been locked before; null where it has no `.lock`, which is not made.
   static std::shared_ptr<RunLock> take_if_known(const std::filesystem::path& folder);
+  // The lock of a parent that gave this process its open file: the folder is held until both have ended or
+  // released it, under the parent's name, which release() leaves there.
+  static std::shared_ptr<RunLock> inherited(const std::filesystem::path& folder, int descriptor);
 
   ~RunLock();
   RunLock(const RunLock&) = delete;
@@ -33,6 +36,9 @@ class RunLock {
 
   // Gives the folder free before the end of the process.
   void release();
+
+  // The open file, for a child that is to inherit the lock; -1 once released.
+  int descriptor() const { return descriptor_; }
 
   // A sentence where the file system gives no locks; "" otherwise.
   const std::string& notice() const { return notice_; }
@@ -46,6 +52,7 @@ class RunLock {
   std::filesystem::path folder_;
   std::string notice_;
   int descriptor_ = -1;
+  bool inherited_ = false;
 };
 
 }  // namespace asperity

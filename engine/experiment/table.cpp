@@ -2,7 +2,9 @@
 #include "engine/experiment/table.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 #include "engine/core/error.hpp"
@@ -49,8 +51,23 @@ TableColumn column_of(const Entry& entry) {
   return column;
 }
 
-std::string csv_text(std::string_view text) {
-  if (!text.empty() && text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+// Whether a spreadsheet would take the text for a formula, and compute it or ask another program for it. A
+// number it takes for that number.
+bool is_formula(std::string_view text) {
+  if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos) return false;
+  const std::string_view digits = text.front() == '+' ? text.substr(1) : text;
+  double number = 0;
+  const auto [end, wrong] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return wrong != std::errc() || end != digits.data() + digits.size();
+}
+
+// A formula is quoted and has an apostrophe before it, by which spreadsheets know a text.
+std::string csv_text(std::string_view given) {
+  const bool formula = is_formula(given);
+  const std::string guarded = "'" + std::string(given);
+  const std::string_view text = formula ? std::string_view(guarded) : given;
+  if (!formula && !text.empty() && text.find_first_of(",\"\r\n") == std::string_view::npos)
+    return std::string(text);
   std::string quoted_text = "\"";
   for (const char c : text) {
     if (c == '"') quoted_text += '"';

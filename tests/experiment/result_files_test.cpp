@@ -166,6 +166,26 @@ TEST_F(ResultFilesTest, WhatWasUsedLongestAgoMakesRoom) {
   EXPECT_EQ(count(tiny.folder), 0U);
 }
 
+// S2: a script of somebody else's does not fill a folder that others share.
+TEST_F(ResultFilesTest, S2OneAddsNoMoreThanItMay) {
+  const Field field = ramp(64, 64);
+  ResultFilesSetup shared = setup();
+  shared.most_bytes = unlimited;
+  {
+    ResultFiles files(shared);
+    keep(files, "of others", field);
+  }
+  shared.most_added = 150 << 10;
+  ResultFiles files(shared);
+  EXPECT_TRUE(files.find("of others"));
+  for (const char* key : {"first", "second", "third"}) keep(files, key, field);
+  EXPECT_EQ(files.counts().kept, 2);
+  EXPECT_EQ(count(shared.folder), 3U);
+  ASSERT_EQ(files.notices().size(), 1U);
+  EXPECT_NE(files.notices().front().find("150 KiB that it may add to its store"), std::string::npos)
+      << files.notices().front();
+}
+
 TEST_F(ResultFilesTest, F10PartsOfKilledWritersGoAndOthersCount) {
   const Field field = ramp(64, 64);
   ResultFilesSetup limited = setup();

@@ -157,7 +157,9 @@ TEST_F(RunDirectoryTest, KeepsItsOwnFilesToItself) {
   RunSetup s = setup();
   s.trusted = true;
   RunDirectory run(s);
-  for (const std::string file : {"manifest.json", "./journal.jsonl", "a/../script.lua", ".lock"})
+  // S10: also what the page draws of it.
+  for (const std::string file :
+       {"manifest.json", "./journal.jsonl", "a/../script.lua", ".lock", ".views/x", "./.views/a/b"})
     EXPECT_EQ(error_of([&] { run.path_for(file); }).substr(0, 14), "not_permitted:") << file;
   EXPECT_EQ(error_of([&] { run.path_for((run.path() / "manifest.json").string()); }).substr(0, 14),
             "not_permitted:");
@@ -324,6 +326,55 @@ TEST_F(RunDirectoryTest, F1IsLockedToItsEnd) {
   EXPECT_EQ(content_of(run.path() / "journal.jsonl"), before);
   EXPECT_TRUE(run.finish(RunStatus::interrupted));
   EXPECT_EQ(error_of([&] { RunDirectory taken_up(again); }), "");
+}
+
+// F1: who makes and locks a directory for another process holds it, and leaves nothing where nothing was
+// begun.
+TEST_F(RunDirectoryTest, F1OnePreparedForAnotherProcessIsLockedThroughout) {
+  RunSetup s = setup();
+  s.out = folder / "above" / "r";
+  RunDirectory::Prepared prepared = RunDirectory::prepared_for(s);
+  EXPECT_EQ(prepared.path, *s.out);
+  EXPECT_NE(error_of([&] { RunDirectory::prepared_for(s); }).find("is being written by process"),
+            std::string::npos);
+  RunSetup inner = s;
+  inner.lock = RunLock::inherited(prepared.path, ::dup(prepared.lock->descriptor()));
+  {
+    RunDirectory run(inner);
+    EXPECT_TRUE(run.finish(RunStatus::interrupted));
+  }
+  inner.lock = nullptr;
+  RunSetup again = setup();
+  again.resume = s.out;
+  EXPECT_NE(error_of([&] { RunDirectory other(again); }).find("is being written by process"),
+            std::string::npos);
+  prepared.leave();
+  EXPECT_TRUE(fs::exists(*s.out / "manifest.json"));
+  prepared = RunDirectory::prepared_for(again);
+  EXPECT_FALSE(prepared.made);
+  EXPECT_NE(error_of([&] { RunDirectory other(again); }), "");
+  prepared.leave();
+  EXPECT_EQ(error_of([&] { RunDirectory other(again); }), "");
+}
+
+TEST_F(RunDirectoryTest, NothingIsLeftOfOnePreparedInVain) {
+  for (const char* kind : {"out", "resume", "numbered"}) {
+    RunSetup s = setup();
+    if (kind == std::string("out")) s.out = folder / "r";
+    if (kind == std::string("resume")) s.resume = folder / "r";
+    RunDirectory::Prepared prepared = RunDirectory::prepared_for(s);
+    EXPECT_TRUE(prepared.made && prepared.lock != nullptr) << kind;
+    prepared.leave();
+    EXPECT_FALSE(fs::exists(prepared.path)) << kind;
+  }
+  // A folder that is no run is not touched.
+  fs::create_directory(folder / "mine");
+  std::ofstream(folder / "mine" / "data.csv") << "1";
+  RunSetup s = setup();
+  s.resume = folder / "mine";
+  RunDirectory::Prepared prepared = RunDirectory::prepared_for(s);
+  prepared.leave();
+  EXPECT_EQ(files_in(folder / "mine"), 1U);
 }
 
 // F4: a run that died before its first manifest was "not empty" for ever.

@@ -146,6 +146,55 @@ TEST_F(RunLockTest, F1WithoutLocksProcessAndHostDecide) {
                 (folder / ".lock").string() + "`; this file system gives no locks, which would tell");
 }
 
+// What cannot be known of a holder is no sign of its end: behind barriers neither the start of the machine
+// nor the name space of processes can be read, and a signal to another process is not permitted.
+TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
+  utsname system{};
+  ::uname(&system);
+  std::ofstream(folder / ".lock")
+      << "{\"process\":999999999,\"host\":\"" << system.nodename
+      << "\",\"machine_start\":\"\",\"process_space\":\"\",\"process_start\":\"\"}\n";
+  EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }).find("bad_state: " + held_by(999999999)), 0U);
+}
+
+// F1: a child that works for this process holds the folder as long as either of them.
+TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
+  const std::string held = "bad_state: " + held_by(::getpid());
+  std::shared_ptr<RunLock> parent = RunLock::take(folder);
+  std::shared_ptr<RunLock> child = RunLock::inherited(folder, ::dup(parent->descriptor()));
+  child->release();
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }).find(held), 0U);
+  child = RunLock::inherited(folder, ::dup(parent->descriptor()));
+  parent->release();
+  EXPECT_NE(error_of([&] { RunLock::take(folder); }).find("is being written by another process"),
+            std::string::npos);
+  child.reset();
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
+}
+
+// F1: the child of a holder that was killed dies with it, a moment later.
+TEST_F(RunLockTest, F1IsFreeAtOnceThoughAChildIsStillDying) {
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t process = ::fork();
+  if (process == 0) {
+    const std::shared_ptr<RunLock> lock = RunLock::take(folder);
+    if (::fork() == 0) {
+      ::usleep(150'000);
+      ::_exit(0);
+    }
+    if (::write(ready[1], "y", 1) == 1)
+      for (;;) ::pause();
+    ::_exit(1);
+  }
+  ::close(ready[1]);
+  char byte = 0;
+  EXPECT_EQ(::read(ready[0], &byte, 1), 1);
+  ::close(ready[0]);
+  kill(process);
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
+}
+
 // Text that is no name stands for nobody.
 TEST_F(RunLockTest, ATornNameHoldsNothing) {
   for (const char* text : {"", "{\"process\":1", "[]\n", "{}\n", "\n"}) {

@@ -107,9 +107,14 @@ const chart =
   '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 200"><style>path{stroke:#0b4f7d}</style><rect width="400" height="200" fill="white"/><path d="M20 180L380 20" fill="none"/><text x="30" y="40">Ra against N</text></svg>';
 
 /** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`,
-    `mock.file NAME`. */
+    `mock.file NAME`, `mock.waits N`. */
 function* eventsOf(script) {
   const lines = script.split('\n');
+  const waits = Number(/mock\.waits (\d+)/.exec(script)?.[1] ?? 0);
+  if (waits) {
+    yield { type: 'waiting', before: waits };
+    yield 800;
+  }
   yield { type: 'started' };
   yield { type: 'view', name: 'surface-1', title: 'Surface 1: weierstrass_mandelbrot' };
   for (const [k, line] of lines.entries()) {

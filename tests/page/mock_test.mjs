@@ -523,6 +523,106 @@ for (const scheme of ['light', 'dark']) {
     }));
 }
 
+// T11
+for (const [width, height] of [
+  [1280, 577],
+  [1024, 600],
+  [800, 600],
+])
+  test(`Picture, CaptionAndColoursStandApartAt${width}x${height}`, async () => {
+    const page = await on.openPage(browser, mock.url, { width, height });
+    try {
+      await ready(page);
+      await on.run(page, 'for N = 1, 8 do end\n');
+      await on.finished(page);
+      await tab(page, 'picture');
+      await on.until(page, () => document.querySelector('.key svg'), 'the colours should be shown');
+      await on.pause(500);
+      for (const field of ['pressure', 'contact', 'gap']) {
+        await page.evaluate((name) => {
+          const choice = [...document.querySelectorAll('#picture select')].find((s) =>
+            [...s.options].some((o) => o.value === name),
+          );
+          if (!choice) return;
+          choice.value = name;
+          choice.dispatchEvent(new Event('change', { bubbles: true }));
+        }, field);
+        await on.pause(300);
+        const { key, caption } = await page.evaluate(() => {
+          const box = (e) => {
+            const { left, top, right, bottom } = e.getBoundingClientRect();
+            return { left, top, right, bottom };
+          };
+          return {
+            key: box(document.querySelector('.key svg')),
+            caption: box(document.querySelector('#picture-caption')),
+          };
+        });
+        assert.ok(key.bottom - key.top >= 120, `the colours have ${key.bottom - key.top} px`);
+        assert.ok(
+          key.bottom <= caption.top || key.top >= caption.bottom || key.right <= caption.left || key.left >= caption.right,
+          `${field}: ${JSON.stringify({ key, caption })}`,
+        );
+      }
+      await on.assertQuiet(page);
+    } finally {
+      await page.done();
+    }
+  });
+
+// T9
+test('Script, OfTwoTabsBothAreKept', () =>
+  visit({}, async (page) => {
+    await on.write(page, 'print "one"\n');
+    const other = await page.browserContext().newPage();
+    await other.goto(mock.url);
+    await ready(other);
+    assert.equal((await on.editorText(other)).trim(), 'print "one"');
+    await on.write(other, 'print "two"\n');
+    await on.until(
+      page,
+      () => /another tab/.test(document.querySelector('#banner').textContent),
+      'the first tab should be warned',
+    );
+    await page.reload();
+    await ready(page);
+    assert.equal((await on.editorText(page)).trim(), 'print "one"');
+    await other.reload();
+    await ready(other);
+    assert.equal((await on.editorText(other)).trim(), 'print "two"');
+    await other.close();
+  }));
+
+test('Run, AskedForWhileAnotherGoesOnSaysSo', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'while true do end\n');
+    await on.until(page, () => /Running/.test(document.querySelector('#status').textContent), 'it should run');
+    assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
+    await on.chord(page, 'Control', 'Enter');
+    await on.until(
+      page,
+      () =>
+        !document.querySelector('#banner').hidden &&
+        /still running/.test(document.querySelector('#banner').textContent),
+      'the page should say that a script is running',
+    );
+    await page.click('#stop');
+    await on.finished(page, 'Stopped');
+    assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
+  }));
+
+// S1
+test('Run, SaysHowManyAreBeforeIt', () =>
+  visit({}, async (page) => {
+    await on.run(page, '-- mock.waits 3\nfor N = 1, 8 do end\n');
+    await on.until(
+      page,
+      () => /Waiting for its turn, 3 before you/.test(document.querySelector('#status').textContent),
+      'the number before it should be told',
+    );
+    await on.finished(page);
+  }));
+
 test('Save, OneFileThatOpensAnywhere', async () => {
   const downloads = mkdtempSync(join(tmpdir(), 'asperity-page-'));
   try {

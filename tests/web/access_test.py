@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Who may ask, and what paths lead to.
+import json
 import os
+import tempfile
+import time
 
 import runner
 from client import Server, chart, finished
@@ -76,6 +79,91 @@ def test_every_answer_is_guarded_by_its_headers():
             assert b"<script>" not in page.body and page.headers["Content-Type"] == "text/html; charset=utf-8"
             again = server.ask("GET", "/", headers={"If-None-Match": page.headers["ETag"]})
             assert again.status == 304 and again.body == b""
+
+
+# S4
+def test_a_refused_request_is_never_read_as_another():
+    with Server(runner.program) as server:
+        head = f"Host: {server.host}\r\nAuthorization: Bearer {server.token}\r\n"
+        hidden = f"GET /api/about HTTP/1.1\r\n{head}\r\n"
+        length = f"Content-Length: {len(hidden)}\r\n"
+        outer = {
+            "a body of GET": f"GET /api/about HTTP/1.1\r\n{head}{length}\r\n",
+            "two lengths": f"GET /api/about HTTP/1.1\r\n{head}Content-Length: 0\r\n{length}\r\n",
+            "two lengths of POST": f"POST /api/check HTTP/1.1\r\n{head}Content-Type: application/json\r\nContent-Length: 0\r\n{length}\r\n",
+            "pieces": f"GET /api/about HTTP/1.1\r\n{head}Transfer-Encoding: chunked\r\n\r\n",
+            "pieces and a length": f"POST /api/check HTTP/1.1\r\n{head}{length}Transfer-Encoding: chunked\r\n\r\n",
+            "a blank before the colon": f"GET /api/about HTTP/1.1\r\n{head}Content-Length : {len(hidden)}\r\n\r\n",
+            "a folded line": f"GET /api/about HTTP/1.1\r\n{head}X: y\r\n {length}\r\n",
+            "line ends of one byte": f"GET /api/about HTTP/1.1\n{head}{length}\r\n\r\n",
+            "a length with a sign": f"POST /api/check HTTP/1.1\r\n{head}Content-Length: +0\r\n\r\n",
+            "a type that is none": f"POST /api/check HTTP/1.1\r\n{head}Content-Type: text/plain\r\n{length}\r\n",
+            "no token": f"POST /api/check HTTP/1.1\r\nHost: {server.host}\r\n{length}\r\n",
+            "another method": f"PUT /api/about HTTP/1.1\r\n{head}{length}\r\n",
+            "a control character": f"GET /api/about HTTP/1.1\r\n{head}X: a\x01b\r\n{length}\r\n",
+        }
+        for what, text in outer.items():
+            client = server.connect(timeout=15)
+            client.sendall((text + hidden + hidden).encode())
+            answers = b""
+            try:
+                while piece := client.recv(65536):
+                    answers += piece
+            except ConnectionError:
+                pass
+            client.close()
+            assert answers.count(b"HTTP/1.1 ") == 1 and b" 200 " not in answers.split(b"\r\n")[0], (what, answers[:300])
+        # Two that are whole come one after the other on one connection.
+        client = server.connect(timeout=15)
+        client.sendall((hidden + hidden.replace("Host", "Connection: close\r\nHost")).encode())
+        answers = b""
+        while piece := client.recv(65536):
+            answers += piece
+        client.close()
+        assert answers.count(b"HTTP/1.1 200 ") == 2, answers
+
+
+# S10
+def test_addresses_and_types_are_what_they_are_called():
+    with Server(runner.program) as server:
+        assert server.ask("GET", "/api/about%00x").status == 400
+        assert server.ask("GET", "/api/" + "a" * 3000).status == 414
+        def check(kind):
+            return server.ask("POST", "/api/check", {"script": "print(1)"}, headers={"Content-Type": kind}).status
+        assert check("application/jsonx") == 415 and check("application/json-seq") == 415
+        assert check("application/json; charset=utf-8") == 200 and check("Application/JSON") == 200
+        events = server.run("print(io.open('.views/x', 'w'))")
+        assert "belongs to the run" in json.dumps(events), events
+
+
+# S5
+def test_no_argument_of_a_program_holds_a_key():
+    with tempfile.TemporaryDirectory() as folder:
+        with open(folder + "/xdg-open", "w") as opener:
+            opener.write(f"#!/bin/sh\necho \"$1\" > {folder}/opened\nsleep 5\n")
+        os.chmod(folder + "/xdg-open", 0o755)
+        path, mask = os.environ["PATH"], os.umask(0)
+        os.environ["PATH"] = folder + ":" + path
+        try:
+            with Server(runner.program, "--open") as server:
+                for _ in range(200):
+                    if os.path.exists(folder + "/opened") and os.path.getsize(folder + "/opened"):
+                        break
+                    time.sleep(0.05)
+                opened = open(folder + "/opened").read().strip()
+                assert server.token in open(opened).read() and f"http://{server.host}/#" in open(opened).read()
+                assert os.stat(opened).st_mode & 0o777 == 0o600, oct(os.stat(opened).st_mode)
+                for place in ("", "/scratch"):
+                    assert os.stat(server.folder + "/runs" + place).st_mode & 0o777 == 0o700, place
+                for process in filter(str.isdigit, os.listdir("/proc")):
+                    try:
+                        with open(f"/proc/{process}/cmdline", "rb") as line:
+                            assert server.token.encode() not in line.read(), process
+                    except OSError:
+                        pass
+        finally:
+            os.environ["PATH"] = path
+            os.umask(mask)
 
 
 def test_paths_lead_nowhere_else():

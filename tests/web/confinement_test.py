@@ -4,6 +4,7 @@
 import ctypes
 import json
 import os
+import re
 import struct
 import subprocess
 import tempfile
@@ -69,14 +70,16 @@ def test_memory_bombs_are_ended():
         assert finished(server.run("print(1)"))["status"] == "done"
 
 
-def test_a_flood_of_output_is_ended():
-    with Server(runner.program) as server:
-        events = server.run("while true do print(string.rep('x', 1000)) end")
-        end = finished(events)
-        assert end["status"] == "limit" and "printed" in end["reason"], end
-        assert len(printed(events)) < 2 << 20
-        events = server.run("while true do io.stderr:write('\\255\\128') end")
-        assert finished(events)["status"] == "limit"
+# T9
+def test_a_flood_of_output_is_cut_and_the_run_goes_on():
+    with Server(runner.program, "--limit-time", "3s") as server:
+        script = "for k = 1, 3000 do print(string.rep('x', 1000)) end require('asperity').notebook 'n':write{ k=1 }"
+        events = server.run(script)
+        assert finished(events)["status"] == "done" and of_type(events, "row"), finished(events)
+        assert 1 << 20 <= len(printed(events)) < 2 << 20 and "printed more than 1 MiB" in printed(events, "err")
+        for endless in ("while true do print(string.rep('x', 1000)) end", "while true do io.stderr:write('\\255\\128') end"):
+            end = finished(server.run(endless))
+            assert end["status"] == "limit" and "time" in end["reason"] and end["seconds"] < 20, end
 
 
 def test_a_flood_of_rows_is_ended():
@@ -85,6 +88,49 @@ def test_a_flood_of_rows_is_ended():
     with Server(runner.program) as server:
         end = finished(server.run(script))
         assert end["status"] == "limit" and end["seconds"] < 60, end
+
+
+# S2
+def test_no_script_leaves_more_than_its_limit():
+    script = """local s = ("x"):rep(2^20) for k = 1, 1000 do
+    local f = assert(io.open("f" .. k, "w")) for i = 1, 60 do f:write(s) end f:close() end"""
+    many = "for k = 1, 1e9 do local f = assert(io.open('f' .. k, 'w')) f:write('x') f:close() end"
+    with Server(runner.program, "--classroom", "127.0.0.1", "--students", "1") as server:
+        for k, text in enumerate((script, many), 1):
+            assert finished(server.run(text))["status"] in ("limit", "failed")
+            run = f"{server.folder}/runs/{k}/run"
+            taken = [os.lstat(os.path.join(at, name)) for at, folders, files in os.walk(run) for name in [*folders, *files]]
+            assert len(taken) <= 2000, len(taken)
+            assert sum(max(one.st_size, 512 * one.st_blocks) for one in taken) <= (64 << 20) + 4096
+
+
+# S8
+def test_a_stopped_run_does_not_wait_for_its_drawing():
+    script = """local book = require("asperity").notebook "n"
+    for k = 1, 60000 do book:write{ k=k, v=math.random(), w=math.random() } end
+    print "draws" io.stdout:flush()
+    for k = 1, 1000 do book:chart{ x="v", y="w", file="c" .. k .. ".png" } end"""
+    with Server(runner.program, "--runs", "1") as server:
+        run = server.begin(script)
+        for _ in range(600):
+            if any("gnuplot" in command_of(child) for child in children_of(server.process.pid)):
+                break
+            time.sleep(0.05)
+        else:
+            raise AssertionError("nothing is drawn")
+        begun = time.monotonic()
+        server.ask("DELETE", f"/api/runs/{run}")
+        assert finished(server.events(run))["status"] == "stopped"
+        assert finished(server.run("print(1)"))["status"] == "done"
+        assert time.monotonic() - begun < 10, time.monotonic() - begun
+
+
+def command_of(process):
+    try:
+        with open(f"/proc/{process}/cmdline") as line:
+            return line.read()
+    except OSError:
+        return ""
 
 
 def test_a_flood_of_files_is_ended():
@@ -98,14 +144,51 @@ def test_a_flood_of_files_is_ended():
         assert size < 400, size
 
 
+bare_request = {"work": "probe", "drawing": False, "memory_bytes": 1 << 30, "file_bytes": 1 << 20, "processor_seconds": 10,
+                "script": "", "name": "", "seed": 1, "seconds": 5, "threads": 1, "views": False, "barriers": []}
+
+
 def probe(*prefix, before=None):
-    request = {"work": "probe", "drawing": False, "memory_bytes": 1 << 30, "file_bytes": 1 << 20, "processor_seconds": 10,
-               "script": "", "name": "", "seed": 1, "seconds": 5, "threads": 1, "views": False, "barriers": []}
+    request = bare_request
     with tempfile.TemporaryDirectory() as folder:
         os.chmod(folder, 0o777)
         done = subprocess.run([*prefix, runner.program, "--confined"], input=json.dumps(request), cwd=folder,
                               capture_output=True, text=True, timeout=30, preexec_fn=before)
         return json.loads(done.stdout.splitlines()[-1]) if done.stdout else {"error": done.stderr}
+
+
+drawings = {
+    "drawn": ("set print 'picture'\nstats 'data' using 1 nooutput\nprint 'sum ', STATS_sum\nset print", True),
+    "a file": ("set print 'picture'\nstats 'SECRET' using 1 nooutput\nprint 'sum ', STATS_sum\nset print", False),
+    "a script": ("load 'PLACE/script'", False),
+    "a program": ("set print 'picture'\nprint system('echo sum 3')\nset print", False),
+    "a pipe": ("set print 'picture'\nstats '< echo 3' using 1 nooutput\nprint 'sum ', STATS_sum\nset print", False),
+    "a shell": ("!echo sum 3 > picture\n", False),
+    "elsewhere": ("set print 'PLACE/written'\nprint 'sum 3'\nset print", False),
+}
+
+
+def test_gnuplot_of_a_confined_run_gets_out_nowhere():
+    numbers = {"x86_64": (0xC000003E, 272), "aarch64": (0xC00000B7, 97)}
+    architecture, unshare = numbers.get(os.uname().machine, (0, 0))
+    lacking = [None] if architecture == 0 else [None, unshare, 444, 442]  # namespaces, Landlock, attributes of mounts
+    with tempfile.TemporaryDirectory() as place:
+        with open(place + "/secret", "w") as file, open(place + "/script", "w") as script:
+            file.write("1\n2\n")
+            script.write("set print 'picture'\nprint 'sum 3'\nset print\n")
+        for without in lacking:
+            for what, (script, drawn) in drawings.items():
+                with tempfile.TemporaryDirectory() as folder:
+                    for name, text in (("script", script.replace("SECRET", place + "/secret").replace("PLACE", place)), ("data", "1\n2\n")):
+                        with open(f"{folder}/{name}", "w") as file:
+                            file.write(text)
+                    request = {**bare_request, "work": "draw", "drawing": True}
+                    done = subprocess.run([runner.program, "--confined"], input=json.dumps(request), cwd=folder, capture_output=True, text=True,
+                                          timeout=30, preexec_fn=None if without is None else lambda: refuse_calls(architecture, [without]))
+                    assert done.returncode != 127, done
+                    picture = open(folder + "/picture").read() if os.path.exists(folder + "/picture") else ""
+                    assert (re.search("sum +3", picture) is not None) == drawn, (what, without, picture, done)
+        assert sorted(os.listdir(place)) == ["script", "secret"], os.listdir(place)
 
 
 def test_completion_bears_any_text():
@@ -202,9 +285,9 @@ def test_barriers_that_one_kernel_lacks_are_met_by_the_others():
     assert all(held["namespaces"].values()) and all(held["Landlock"].values()), held
     # Nothing shuts files then; the rest holds, and a room is not served.
     assert not held["both"]["files"] and held["both"]["processes"] and held["both"]["network"], held
-    done = subprocess.run([runner.program, "serve", "--classroom", "127.0.0.1", "--students", "1"], capture_output=True, text=True,
-                          cwd=tempfile.gettempdir(), timeout=30,
-                          preexec_fn=lambda: refuse_calls(architecture, [unshare, landlock]))
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run([runner.program, "serve", "--classroom", "127.0.0.1", "--students", "1"], capture_output=True, text=True,
+                              cwd=folder, timeout=30, preexec_fn=lambda: refuse_calls(architecture, [unshare, landlock]))
     assert done.returncode == 2 and "a room is not served" in done.stderr and "NOT SHUT" in done.stderr, done
 
 

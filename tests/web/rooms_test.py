@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import tempfile
+import threading
 import time
 
 import runner
@@ -29,6 +30,69 @@ def test_students_find_their_own_runs_only():
             assert server.ask("GET", "/api/runs", token=emilie).json() == []
             assert server.ask("GET", f"/api/runs/{run}/files/line.csv", token=ada).status == 200
             assert server.ask("GET", "/api/about", token=ada).json()["classroom"] is True
+
+
+# S1
+def test_one_student_cannot_take_every_place():
+    loop = "while true do end"
+    with Server(runner.program, "--classroom", "127.0.0.1", "--students", "3", "--runs", "2", "--limit-time", "30s") as server:
+        one, two, three = (server.tokens[f"student {k}"] for k in (1, 2, 3))
+        first = server.begin(loop, token=one)
+        while server.ask("POST", "/api/runs", {"script": loop}, token=one).status == 201:
+            pass
+        for token in (two, three, two, server.tokens["teacher"]):
+            begun = time.monotonic()
+            assert finished(server.events(server.begin("print(1)", token=token), token=token))["status"] == "done"
+            assert time.monotonic() - begun < 10, "a short script waited for a long one"
+        # Two at the same time, while the first goes on.
+        both = [(server.begin("print(1)", token=token), token) for token in (two, three)]
+        for run, token in both:
+            assert finished(server.events(run, token=token))["status"] == "done"
+        states = [run["state"] for run in server.ask("GET", "/api/runs", token=one).json()]
+        assert states.count("running") == 1 and states.count("waiting") == 20, states
+        # Who waits is told how many are before.
+        told = first_event(server, "3", one)
+        assert told["type"] == "waiting" and told["before"] >= 1, told
+        # The teacher sees and stops any run, and no student does.
+        assert server.ask("GET", "/api/room", token=two).status == 404
+        assert server.ask("DELETE", f"/api/runs/{first}", token=two).status == 404
+        room = server.ask("GET", "/api/room").json()
+        assert {"id": first, "name": "", "state": "running", "owner": "student 1"} in room, room
+        assert server.ask("GET", "/api/about").json()["teacher"] and not server.ask("GET", "/api/about", token=one).json()["teacher"]
+        assert server.ask("DELETE", f"/api/runs/{first}").status == 200
+        assert finished(server.events(first, token=one))["status"] == "stopped"
+
+
+def first_event(server, run, token):
+    connection = server.connect(timeout=20)
+    connection.sendall(f"GET /api/runs/{run}/events HTTP/1.1\r\nHost: {server.host}\r\nAuthorization: Bearer {token}\r\n\r\n".encode())
+    seen = b""
+    while seen.count(b"\n{") < 1 or not seen.split(b"\n{", 1)[1].count(b"\n"):
+        piece = connection.recv(4096)
+        assert piece, seen
+        seen += piece
+    connection.close()
+    return json.loads(b"{" + seen.split(b"\n{", 1)[1].split(b"\n", 1)[0])
+
+
+# S7
+def test_scripts_that_are_checked_for_long_keep_nobody_from_theirs():
+    with Server(runner.program, "--classroom", "127.0.0.1", "--students", "6") as server:
+        over = threading.Event()
+        def loop(token):
+            while not over.is_set():
+                server.ask("POST", "/api/check", {"script": "while true do end"}, token=token)
+        loops = [threading.Thread(target=loop, args=(server.tokens[f"student {k}"],)) for k in range(1, 6)]
+        for thread in loops:
+            thread.start()
+        time.sleep(9)  # until each is known to take long
+        begun = time.monotonic()
+        answer = server.ask("POST", "/api/check", {"script": "print(1)"}, token=server.tokens["student 6"])
+        waited = time.monotonic() - begun
+        over.set()
+        for thread in loops:
+            thread.join()
+        assert answer.status == 200 and waited < 6, (answer.status, waited)
 
 
 def test_one_student_cannot_take_every_answer():

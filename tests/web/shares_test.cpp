@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <mutex>
 #include <thread>
+#include <vector>
 
 namespace asperity::web::shares_test {
 namespace {
@@ -21,6 +23,43 @@ TEST(Shares, LeaveSomethingForOthers) {
   EXPECT_EQ(shares.take(3, milliseconds(0)), nullptr);
   one.reset();
   EXPECT_NE(shares.take(3, milliseconds(0)), nullptr);
+}
+
+TEST(Shares, S7WhoHoldsLongLeavesSomeForOthers) {
+  Shares shares(1, 3, 2, milliseconds(5));
+  for (const std::size_t slow : {1, 2, 3}) {
+    const auto held = shares.take(slow, milliseconds(0));
+    ASSERT_NE(held, nullptr);
+    std::this_thread::sleep_for(milliseconds(8));
+  }
+  auto again = shares.take(1, milliseconds(0));
+  EXPECT_NE(again, nullptr);
+  EXPECT_EQ(shares.take(2, milliseconds(0)), nullptr);
+  auto quick = shares.take(4, milliseconds(0));
+  EXPECT_NE(quick, nullptr);
+  quick.reset();
+  again.reset();
+  EXPECT_NE(shares.take(2, milliseconds(0)), nullptr);
+}
+
+TEST(Shares, S7AreGivenInTheOrderOfComing) {
+  Shares shares(9, 1);
+  auto held = shares.take(0, milliseconds(0));
+  std::vector<int> order;
+  std::mutex mutex;
+  std::vector<std::thread> waiting;
+  for (int k = 1; k <= 4; ++k) {
+    waiting.emplace_back([&, k] {
+      const auto share = shares.take(static_cast<std::size_t>(k), milliseconds(20000));
+      EXPECT_NE(share, nullptr);
+      const std::lock_guard lock(mutex);
+      order.push_back(k);
+    });
+    std::this_thread::sleep_for(milliseconds(30));
+  }
+  held.reset();
+  for (std::thread& thread : waiting) thread.join();
+  EXPECT_EQ(order, (std::vector<int>{1, 2, 3, 4}));
 }
 
 TEST(Shares, AreWaitedFor) {

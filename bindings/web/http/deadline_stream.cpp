@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "bindings/web/http/request_head.hpp"
+
 namespace asperity::web {
 
 namespace {
@@ -45,7 +47,7 @@ void address_of(const sockaddr_storage& storage, std::string& address, int& port
 }  // namespace
 
 bool DeadlineStream::wait_for_request() {
-  if (from_ < until_) return true;
+  if (from_ < buffer_.size()) return true;
   return (wait_until(socket_, POLLIN, Clock::now() + setup_.to_rest) & POLLIN) != 0;
 }
 
@@ -56,10 +58,35 @@ void DeadlineStream::begin_request() {
   sent_ = 0;
 }
 
+ssize_t DeadlineStream::receive() {
+  if ((wait_until(socket_, POLLIN, arrived_by_) & POLLIN) == 0) return -1;
+  char piece[4096];
+  ssize_t got = 0;
+  do got = ::recv(socket_, piece, sizeof piece, MSG_DONTWAIT);
+  while (got < 0 && errno == EINTR);
+  if (got <= 0) return got;
+  buffer_.erase(0, from_);
+  from_ = 0;
+  buffer_.append(piece, static_cast<std::size_t>(got));
+  return got;
+}
+
+DeadlineStream::Head DeadlineStream::wait_for_head(std::string_view& head) {
+  for (;;) {
+    const std::string_view arrived = std::string_view(buffer_).substr(from_);
+    if (const std::size_t bytes = head_bytes(arrived); bytes > 0) {
+      head = arrived.substr(0, bytes);
+      return bytes > setup_.most_head_bytes ? Head::too_long : Head::whole;
+    }
+    if (arrived.size() > setup_.most_head_bytes) return Head::too_long;
+    if (receive() <= 0) return Head::not_there;
+  }
+}
+
 void DeadlineStream::head_is_read() { may_read_ = setup_.most_body_bytes + 4096; }
 
 bool DeadlineStream::is_readable() const {
-  return from_ < until_ || (wait_until(socket_, POLLIN, arrived_by_) & POLLIN) != 0;
+  return from_ < buffer_.size() || (wait_until(socket_, POLLIN, arrived_by_) & POLLIN) != 0;
 }
 
 bool DeadlineStream::is_writable() const {
@@ -70,17 +97,10 @@ bool DeadlineStream::is_writable() const {
 ssize_t DeadlineStream::read(char* to, std::size_t size) {
   if (may_read_ == 0) return -1;
   size = std::min(size, may_read_);
-  if (from_ == until_) {
-    if ((wait_until(socket_, POLLIN, arrived_by_) & POLLIN) == 0) return -1;
-    ssize_t got = 0;
-    do got = ::recv(socket_, buffer_, sizeof buffer_, MSG_DONTWAIT);
-    while (got < 0 && errno == EINTR);
-    if (got <= 0) return got;
-    from_ = 0;
-    until_ = static_cast<std::size_t>(got);
-  }
-  const std::size_t taken = std::min(size, until_ - from_);
-  std::memcpy(to, buffer_ + from_, taken);
+  if (from_ == buffer_.size())
+    if (const ssize_t got = receive(); got <= 0) return got;
+  const std::size_t taken = std::min(size, buffer_.size() - from_);
+  std::memcpy(to, buffer_.data() + from_, taken);
   from_ += taken;
   may_read_ -= taken;
   return static_cast<ssize_t>(taken);

@@ -8,6 +8,8 @@
 
 #include <chrono>
 #include <cstddef>
+#include <string>
+#include <string_view>
 
 #include "bindings/web/http.hpp"
 
@@ -20,6 +22,9 @@ class DeadlineStream final : public httplib::Stream {
   // Whether a request begins within the time to rest.
   bool wait_for_request();
   void begin_request();
+  enum class Head { whole, too_long, not_there };
+  // Waits for the whole head, which read() then gives; `head` sees it until then.
+  Head wait_for_head(std::string_view& head);
   // The head has been read: from here on its body counts.
   void head_is_read();
 
@@ -34,14 +39,16 @@ class DeadlineStream final : public httplib::Stream {
   using httplib::Stream::write;
 
  private:
+  // More bytes into the buffer: as recv, without waiting beyond the time that there is.
+  ssize_t receive();
   using Clock = std::chrono::steady_clock;
 
   int socket_;
   const HttpSetup& setup_;
   Clock::time_point arrived_by_{};
-  std::size_t may_read_ = 0;          // bytes of this request still
-  std::size_t from_ = 0, until_ = 0;  // what is left in the buffer
-  char buffer_[4096];
+  std::size_t may_read_ = 0;  // bytes of this request still
+  std::size_t from_ = 0;      // where what is left in the buffer begins
+  std::string buffer_;
   Clock::duration blocked_{};  // in sending, for this request
   std::size_t sent_ = 0;
 };

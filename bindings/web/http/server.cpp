@@ -11,10 +11,13 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "bindings/web/http.hpp"
 #include "bindings/web/http/connections.hpp"
 #include "bindings/web/http/deadline_stream.hpp"
+#include "bindings/web/http/request_head.hpp"
 
 namespace asperity::web {
 
@@ -96,7 +99,7 @@ bool Server::begin(std::string& problem) {
   set_pre_routing_handler([this](const httplib::Request& from, httplib::Response& to) {
     const HttpRequest head = head_of(from);
     if (auto refused = handler_.refuse(head)) {
-      here.close = from.method != "GET";  // a body may follow that nobody reads
+      here.close = true;  // a body may follow that nobody reads
       put(*std::move(refused), to);
       return HandlerResponse::Handled;
     }
@@ -137,6 +140,15 @@ void Server::answer_with_body(const httplib::Request& from, httplib::Response& t
   put(handler_.answer(request), to);
 }
 
+// Before anything of the request is believed.
+void refuse_head(DeadlineStream& stream, const char* status, std::string_view problem) {
+  const std::string body = "{\"error\":{\"message\":\"" + std::string(problem) + "\"}}\n";
+  const std::string answer = std::string("HTTP/1.1 ") + status +
+                             "\r\nConnection: close\r\nContent-Type: application/json\r\nContent-Length: " +
+                             std::to_string(body.size()) + "\r\n\r\n" + body;
+  stream.write(answer.data(), answer.size());
+}
+
 bool Server::process_and_close_socket(int socket) {
   DeadlineStream stream(socket, setup_);
   constexpr int most_requests = 1000;
@@ -144,6 +156,17 @@ bool Server::process_and_close_socket(int socket) {
     Connections::Waiting waiting(connections_, socket);
     if (!stream.wait_for_request()) break;
     stream.begin_request();
+    std::string_view head;
+    const DeadlineStream::Head arrived = stream.wait_for_head(head);
+    if (arrived == DeadlineStream::Head::not_there) break;
+    if (arrived == DeadlineStream::Head::too_long) {
+      refuse_head(stream, "431 Request Header Fields Too Large", "the head of the request is too long");
+      break;
+    }
+    if (const std::string_view problem = head_problem(head); !problem.empty()) {
+      refuse_head(stream, "400 Bad Request", problem);
+      break;
+    }
     here = {&waiting, false};
     bool closed = false;
     const bool good = process_request(stream, k + 1 == most_requests, closed, [&](httplib::Request& request) {

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@
 #include <csignal>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "bindings/web/frames.hpp"
 #include "engine/core/error.hpp"
@@ -32,12 +34,16 @@ struct Ends {
 }
 
 // Numbers of what goes to the child are kept clear of those they are to have there.
-Descriptor moved_up(int descriptor) {
-  const Descriptor low(descriptor);
-  if (descriptor < 0) throw_not_started(errno);
+Descriptor copied_up(int descriptor) {
   const int high = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 16);
   if (high < 0) throw_not_started(errno);
   return Descriptor(high);
+}
+
+Descriptor moved_up(int descriptor) {
+  if (descriptor < 0) throw_not_started(errno);
+  const Descriptor low(descriptor);
+  return copied_up(descriptor);
 }
 
 Ends pipe_from_child() {
@@ -64,7 +70,8 @@ Descriptor content(const std::string& text) {
   return file;
 }
 
-pid_t start(const std::array<int, 5>& descriptors, const std::string& folder) {
+// The child has them as 0, 1, 2, ...
+pid_t start(const std::vector<int>& descriptors, const std::string& folder) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
@@ -106,8 +113,10 @@ void Descriptor::reset() {
 ConfinedProcess::ConfinedProcess(const ConfinedRequest& request, const std::string& folder) {
   const Descriptor input = content(to_json(request).text());
   Ends out = pipe_from_child(), err = pipe_from_child(), told = pipe_from_child(), drawn = socket_to_child();
-  process_ =
-      start({input.get(), out.there.get(), err.there.get(), told.there.get(), drawn.there.get()}, folder);
+  std::vector<int> given{input.get(), out.there.get(), err.there.get(), told.there.get(), drawn.there.get()};
+  const Descriptor lock = request.lock < 0 ? Descriptor() : copied_up(request.lock);
+  if (request.lock >= 0) given.push_back(lock.get());
+  process_ = start(given, folder);
   output = std::move(out.here);
   error = std::move(err.here);
   events = std::move(told.here);
@@ -128,14 +137,23 @@ void ConfinedProcess::send(int signal) const {
 
 std::optional<int> ConfinedProcess::ended() {
   int status = 0;
-  if (!status_ && ::waitpid(process_, &status, WNOHANG) == process_) status_ = status;
+  rusage used{};
+  if (!status_ && ::wait4(process_, &status, WNOHANG, &used) == process_) {
+    const auto seconds = [](const timeval& time) {
+      return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    status_ = status;
+    processor_seconds_ = seconds(used.ru_utime) + seconds(used.ru_stime);
+  }
   return status_;
 }
 
 Finished run_confined(const ConfinedRequest& request, const std::string& folder,
-                      std::chrono::milliseconds patience, std::size_t most_bytes) {
+                      std::chrono::milliseconds patience, std::size_t most_bytes,
+                      const std::atomic<bool>* given_up) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + patience;
+  const auto is_over = [&] { return Clock::now() >= end || (given_up != nullptr && given_up->load()); };
   ConfinedProcess process(request, folder);
   Finished done;
   std::array<std::pair<Descriptor*, std::string*>, 3> pipes{
@@ -152,7 +170,7 @@ Finished run_confined(const ConfinedRequest& request, const std::string& folder,
       if (got == 0) pipe->reset();
       open = open || pipe->get() >= 0;
     }
-    if (Clock::now() >= end) {
+    if (is_over()) {
       done.late = true;
       process.send(SIGKILL);
       break;
@@ -160,7 +178,7 @@ Finished run_confined(const ConfinedRequest& request, const std::string& folder,
   }
   std::optional<int> status;
   while (!(status = process.ended())) {
-    if (!done.late && Clock::now() >= end) {
+    if (!done.late && is_over()) {
       done.late = true;
       process.send(SIGKILL);
     }

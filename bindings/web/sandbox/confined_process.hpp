@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -44,10 +45,13 @@ class ConfinedProcess {
   void send(int signal) const;
   // The status of waitpid, once it has ended.
   std::optional<int> ended();
+  // That it used, once it has ended.
+  double processor_seconds() const { return processor_seconds_; }
 
  private:
   pid_t process_ = -1;
   std::optional<int> status_;
+  double processor_seconds_ = 0;
 };
 
 struct Finished {
@@ -55,8 +59,10 @@ struct Finished {
   bool late = false;                  // it was killed because it took too long
   std::string output, error, events;  // each cut after the bytes that were allowed
 };
-// Runs one to its end. Throws as above.
+// Runs one to its end; it is killed, and counts as late, as soon as `given_up` is true, which may be null.
+// Throws as above.
 Finished run_confined(const ConfinedRequest& request, const std::string& folder,
-                      std::chrono::milliseconds patience, std::size_t most_bytes);
+                      std::chrono::milliseconds patience, std::size_t most_bytes,
+                      const std::atomic<bool>* given_up = nullptr);
 
 }  // namespace asperity::web

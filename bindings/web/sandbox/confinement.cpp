@@ -5,6 +5,7 @@
 #include <linux/securebits.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -12,12 +13,14 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <string_view>
 
 #include "bindings/web/sandbox/file_barrier.hpp"
 #include "bindings/web/sandbox/namespaces.hpp"
 #include "bindings/web/sandbox/system_calls.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/sanitizers.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity::web {
 
@@ -55,6 +58,33 @@ void set_limits(const Confinement& confinement) {
     limit(RLIMIT_CPU, confinement.processor_seconds, "processor time");
 }
 
+// What gnuplot reads and runs, besides the working directory: its libraries, its own files and fonts.
+std::vector<Place> places_of_drawing() {
+  std::vector<Place> places{{".", "/run", true}};
+  for (const char* folder : {"/usr/bin", "/usr/lib", "/usr/lib64", "/lib", "/lib64", "/usr/share",
+                             "/etc/alternatives", "/etc/fonts", "/var/cache/fontconfig"}) {
+    struct stat facts {};
+    if (::stat(folder, &facts) != 0 || !S_ISDIR(facts.st_mode)) continue;
+    const std::string_view name = folder;
+    places.push_back({folder, folder, false, name.ends_with("bin") || name.find("lib") != name.npos});
+  }
+  return places;
+}
+
+// Shuts off every file but those of the places, and goes to the folder to work in. Returns why it could not.
+std::string go_to_own_root(const Confinement& confinement, const Namespaces& own) {
+  const bool elsewhere = !confinement.places.empty();
+  std::string problem = own.mount;
+  if (problem.empty())
+    problem = confinement.as == Confined::drawing ? enter_own_root(places_of_drawing(), "/run")
+              : elsewhere                         ? enter_own_root(confinement.places, confinement.work)
+                                                  : enter_own_root({{".", "/run", true}}, "/run");
+  if (!problem.empty() && elsewhere && ::chdir(confinement.work.c_str()) != 0)
+    throw Error(ErrorCode::bad_state, "the folder " + asperity::quoted(confinement.work) +
+                                          " cannot be entered: " + std::strerror(errno));
+  return problem;
+}
+
 // No right of the superuser is left, whoever started the program, nor comes back by running another.
 bool drop_capabilities() {
   ::prctl(PR_CAP_AMBIENT, PR_CAP_AMBIENT_CLEAR_ALL, 0, 0, 0);
@@ -80,8 +110,7 @@ std::vector<std::string> confine(const Confinement& confinement, std::vector<std
   const Namespaces own = enter_namespaces();
   note("a network of its own", own.network);
   if (own.user.empty()) limit(RLIMIT_NPROC, 256, "threads");
-  if (confinement.as == Confined::script)
-    note("a root of its own", own.mount.empty() ? enter_own_root() : own.mount);
+  note(own_root_barrier, go_to_own_root(confinement, own));
   note("no rights of the superuser", drop_capabilities() ? "" : std::strerror(errno));
   ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
   // It does not outlive the server, even one that was killed. Other rights would have made it forget this.
@@ -89,7 +118,7 @@ std::vector<std::string> confine(const Confinement& confinement, std::vector<std
   if (::getppid() != parent) ::_exit(1);
   note("no new rights", ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 ? "" : std::strerror(errno));
   int version = 0;
-  const std::string landlock = confine_files(confinement.as, version);
+  const std::string landlock = confine_files(confinement, version);
   note(landlock.empty() ? "Landlock " + std::to_string(version) : "Landlock", landlock);
   note("a filter of system calls", confine_system_calls(confinement.as));
   return made;

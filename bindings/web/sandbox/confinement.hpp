@@ -12,12 +12,26 @@
 namespace asperity::web {
 
 enum class Confined {
-  script,   // its working directory, no other file; no other program, process or network
+  script,   // its working directory, or the folders that were named, and no other file; no other program,
+            // process or network
   drawing,  // besides, one program, /usr/bin/gnuplot, and what it reads of /usr and of the fonts
+};
+
+// How confine() names the tree of files of the process's own.
+inline constexpr const char* own_root_barrier = "a root of its own";
+
+// A folder that a script may reach, with all below it.
+struct Place {
+  std::string folder;     // where it is: absolute and without links, or "." for the working directory
+  std::string seen;       // where the script finds it in a root of its own; absolute
+  bool write = false;     // files in it may also be made, changed and removed
+  bool programs = false;  // in it may be run, and loaded
 };
 
 struct Confinement {
   Confined as = Confined::script;
+  std::vector<Place> places{};  // of a script; none: the working directory alone, which it finds as /run
+  std::string work{};  // the folder that it works in then, which it may not list unless it is a place
   std::int64_t memory_bytes = std::int64_t{1} << 30;  // of data; half a GiB more for what libraries hold
   std::int64_t file_bytes = std::int64_t{64} << 20;   // of one file
   std::int64_t processor_seconds = 60;                // of all its threads together

@@ -49,7 +49,7 @@ bool allow(int ruleset, const char* place, std::uint64_t rights) {
 
 }  // namespace
 
-std::string confine_files(Confined as, int& version) {
+std::string confine_files(const Confinement& confinement, int& version) {
   version =
       static_cast<int>(::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION));
   if (version < 1)
@@ -62,9 +62,14 @@ std::string confine_files(Confined as, int& version) {
   const std::size_t size = version >= 6 ? 24 : version >= 4 ? 16 : 8;
   const int ruleset = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &wanted, size, 0));
   if (ruleset < 0) return std::strerror(errno);
-  bool good = allow(ruleset, ".", look | keep | cut) &&
-              allow(ruleset, "/dev/null", LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE | cut);
-  if (as == Confined::drawing) {
+  // Between the folders it may write files may be moved, from which they gain nothing.
+  const std::uint64_t move = version >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0;
+  bool good = confinement.places.empty() ? allow(ruleset, ".", look | keep | cut) : true;
+  for (const Place& place : confinement.places)
+    good = good && allow(ruleset, place.folder.c_str(), place.write ? look | keep | cut | move : look);
+  good =
+      good && allow(ruleset, "/dev/null", LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE | cut);
+  if (confinement.as == Confined::drawing) {
     for (const char* place : {"/usr/share", "/etc/fonts", "/etc/ld.so.cache", "/var/cache/fontconfig"})
       good = good && allow(ruleset, place, place[5] == 'l' ? LANDLOCK_ACCESS_FS_READ_FILE : look);
     for (const char* place : {"/usr/bin", "/usr/lib", "/usr/lib64", "/lib", "/lib64"})

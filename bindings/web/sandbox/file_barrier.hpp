@@ -9,8 +9,9 @@
 
 namespace asperity::web {
 
-// Shuts every file but those of the working directory and what `as` needs besides. Returns why it could not,
+// Shuts every file but those of the places, or of the working directory where there are none, and what a
+// drawing needs besides. Returns why it could not,
 // or "" and the version of the kernel's interface. No new rights must have been given up before.
-std::string confine_files(Confined as, int& version);
+std::string confine_files(const Confinement& confinement, int& version);
 
 }  // namespace asperity::web

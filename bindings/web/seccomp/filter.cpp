@@ -7,6 +7,7 @@
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -110,6 +111,8 @@ extern "C" __attribute__((visibility("default"))) const char* asperity_confine_s
   } else {
     filter.allow("mmap", without(2, PROT_EXEC));
     filter.allow("mprotect", without(2, PROT_EXEC));
+    // A file is copied with its rights; none runs as somebody else.
+    filter.allow("fchmod", without(1, S_ISUID | S_ISGID));
   }
   return filter.load();
 }

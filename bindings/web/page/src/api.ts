@@ -38,6 +38,15 @@ export interface About {
   version: string;
   limits?: { memory_bytes?: number; seconds?: number; output_bytes?: number; runs?: number };
   classroom?: boolean;
+  teacher?: boolean;
+}
+
+/** A run of anybody in the room, as its teacher sees it. */
+export interface RoomRun {
+  id: string;
+  name: string;
+  owner: string;
+  state: string;
 }
 
 export interface ViewField {
@@ -62,6 +71,7 @@ export interface View {
 export type Cell = number | string | boolean | null;
 
 export type RunEvent = { n: number } & (
+  | { type: 'waiting'; before: number }
   | { type: 'started' }
   | { type: 'output'; stream: 'out' | 'err'; text: string }
   | { type: 'progress'; task: string; fraction?: number; eta_s?: number; text?: string }
@@ -124,6 +134,7 @@ export class Api {
     this.json('POST', '/api/complete', { text, position }, signal);
   start = (script: string, name: string): Promise<{ id: string }> =>
     this.json('POST', '/api/runs', { script, name, views: true });
+  room = (): Promise<RoomRun[]> => this.json('GET', '/api/room');
   stop = (id: string): Promise<unknown> => this.json('DELETE', `/api/runs/${encodeURIComponent(id)}`);
   view = (id: string, name: string): Promise<View> =>
     this.json('GET', `/api/runs/${encodeURIComponent(id)}/views/${encodeURIComponent(name)}`);

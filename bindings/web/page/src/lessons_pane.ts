@@ -7,7 +7,7 @@
 import type { Api, Lesson, LessonEntry } from './api';
 import { h, prose } from './dom';
 import { calledOut, markdown } from './markdown';
-import { keep, kept } from './storage';
+import { keep, kept, keptScript } from './storage';
 
 export interface Opened {
   key: string; // names the document in the browser's storage
@@ -50,7 +50,7 @@ export class LessonsPane {
             h(
               'small',
               {},
-              [e.minutes ? `${e.minutes} min` : '', kept(`script.lesson.${e.name}`) === null ? '' : 'edited here']
+              [e.minutes ? `${e.minutes} min` : '', keptScript(`lesson.${e.name}`) === null ? '' : 'edited here']
                 .filter(Boolean)
                 .join(' · '),
             ),
@@ -110,7 +110,7 @@ export class LessonsPane {
       this.element.scrollTop = 0;
       if (focus) this.element.querySelector('h2')!.focus();
       const key = `lesson.${name}`;
-      this.open({ key, title: lesson.title, script: kept(`script.${key}`) ?? lesson.script, original: lesson.script });
+      this.open({ key, title: lesson.title, script: keptScript(key) ?? lesson.script, original: lesson.script });
       return true;
     } catch (error) {
       this.failed(error);

@@ -12,9 +12,10 @@ import { LessonsPane, type Opened } from './lessons_pane';
 import { Messages } from './messages';
 import { OutputPane } from './output_pane';
 import { PicturePane } from './picture_pane';
+import { Room } from './room';
 import { Run, statusText } from './run';
 import { savedRun } from './save';
-import { keep, kept } from './storage';
+import { keep, keepScript, kept, keptScript, whenWrittenElsewhere } from './storage';
 import { TablePane } from './table_pane';
 import { bytes, duration } from './units';
 
@@ -56,7 +57,7 @@ const openBefore = kept('open') ?? '';
 let opened: Opened = {
   key: 'own',
   title: 'Your own script',
-  script: kept('script.own') ?? newcomer,
+  script: keptScript('own') ?? newcomer,
   original: newcomer,
 };
 
@@ -64,7 +65,7 @@ let opened: Opened = {
 
 const editor = new Editor(byId('editor'), api, {
   changed: (text) => {
-    if (!keep(`script.${opened.key}`, text === opened.original ? null : text))
+    if (!keepScript(opened.key, text === opened.original ? null : text))
       say('This browser does not keep the script.');
     showDocument();
   },
@@ -82,7 +83,7 @@ const lessons = new LessonsPane(
   api,
   open,
   () => {
-    open({ key: 'own', title: 'Your own script', script: kept('script.own') ?? newcomer, original: newcomer });
+    open({ key: 'own', title: 'Your own script', script: keptScript('own') ?? newcomer, original: newcomer });
     editor.focus();
   },
   failed,
@@ -99,7 +100,7 @@ function open(document: Opened): void {
 
 function showDocument(): void {
   byId('script-title').textContent = opened.title;
-  const edited = kept(`script.${opened.key}`) !== null;
+  const edited = keptScript(opened.key) !== null;
   byId('document').textContent = opened.key === 'own' ? '' : edited ? 'edited, kept in this browser' : '';
   const reset = byId<HTMLButtonElement>('reset');
   reset.hidden = opened.key === 'own' || !edited;
@@ -182,8 +183,15 @@ function announce(): void {
   say(`${Math.floor(100 * p.fraction)} per cent${p.eta && p.eta >= 1 ? `, about ${duration(p.eta)} left` : ''}`);
 }
 
+let waitsForEnd = false; // the banner says that a script is still running
+
 async function start(): Promise<void> {
-  if (!api.hasToken || run?.active) return;
+  if (!api.hasToken) return;
+  if (run?.active) {
+    waitsForEnd = true;
+    messages.tell('A script is still running.', 'Stop it with Escape, or wait until it has ended; then run this one.');
+    return;
+  }
   const script = editor.text;
   editor.showRunMarks([]);
   runButton.disabled = true;
@@ -239,6 +247,8 @@ function markError(): void {
 }
 
 function ended(done: Run): void {
+  if (waitsForEnd) messages.clear();
+  waitsForEnd = false;
   if (done.errors.length > 0 || (done.status === 'limit' && done.notebooks.size === 0)) tabs.select('output');
   const first = done.errors[0];
   say(
@@ -323,6 +333,7 @@ async function greet(): Promise<void> {
       editor.checkSoon(0);
     }
     byId('about').textContent = limits(about);
+    room.offer(about.teacher === true);
     if (!lessons.element.querySelector('.lessons, .lesson')) await firstLessons();
   } catch (error) {
     if (!messages.watching || !(error instanceof ApiError) || error.failure !== 'gone') failed(error);
@@ -349,6 +360,13 @@ function resume(): void {
   }
 }
 
+whenWrittenElsewhere((key, text) => {
+  if (key !== opened.key || text === editor.text) return;
+  messages.tell(
+    'This script is also being edited in another tab.',
+    'Each tab keeps its own text, also when it is loaded again; a new tab shows what was written last.',
+  );
+});
 runButton.addEventListener('click', () => void start());
 stopButton.addEventListener('click', () => void stop());
 saveButton.addEventListener('click', () => void save());
@@ -373,12 +391,13 @@ chooser.addEventListener('change', () => {
     );
   void file.text().then((text) => {
     open({ key: 'own', title: 'Your own script', script: text, original: newcomer });
-    keep('script.own', text);
+    keepScript('own', text);
     void lessons.list();
     editor.focus();
   });
 });
 byId('lessons-button').addEventListener('click', () => showLessons(byId('lessons').hidden));
+const room = new Room(api, failed);
 const keys = byId<HTMLDialogElement>('keys');
 byId('keys-close').addEventListener('click', () => keys.close());
 byId('keys-button').addEventListener('click', () => keys.showModal());

@@ -31,6 +31,7 @@ export const outputKept = 400_000;
 
 export class Run {
   status: Status = 'starting';
+  before: number | undefined; // runs that begin before it, while it waits
   reason = '';
   seconds: number | undefined;
   output: OutputPart[] = [];
@@ -62,6 +63,9 @@ export class Run {
 
   take(event: RunEvent): void {
     switch (event.type) {
+      case 'waiting':
+        this.before = event.before;
+        break;
       case 'started':
         this.status = 'running';
         break;
@@ -136,7 +140,7 @@ export function statusText(run: Run, seconds: (s: number) => string): string {
   const took = run.seconds === undefined ? '' : ` ${seconds(run.seconds)}`;
   switch (run.status) {
     case 'starting':
-      return 'Waiting for its turn';
+      return run.before ? `Waiting for its turn, ${run.before} before you` : 'Waiting for its turn';
     case 'running':
       return 'Running';
     case 'done':

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/cli/plain_streams.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <string>
+
+#include "engine/core/text.hpp"
+
+namespace asperity::cli {
+
+namespace {
+
+struct PlainStream {
+  int descriptor;
+  Keeps keeps;
+  std::string tail{};  // the begin of a character or a sequence whose rest is still to come
+};
+
+bool write_bytes(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+// Bytes of "ESC [ 1 ; 31 m" at the front: 0 if it is something else, npos if its end is not there yet.
+std::size_t colour_sequence(std::string_view text) {
+  constexpr std::size_t longest = 32;
+  for (std::size_t k = 0; k < std::min(text.size(), longest); ++k) {
+    const char c = text[k];
+    if (k == 0 ? c != '\033' : k == 1 && c != '[') return 0;
+    if (k > 1 && c == 'm') return k + 1;
+    if (k > 1 && c != ';' && std::isdigit(static_cast<unsigned char>(c)) == 0) return 0;
+  }
+  return text.size() < longest ? std::string_view::npos : 0;
+}
+
+// Bytes at the end that begin a character of UTF-8 and do not finish it.
+std::size_t begun_character(std::string_view text) {
+  for (std::size_t back = 1; back <= std::min<std::size_t>(3, text.size()); ++back) {
+    const auto byte = static_cast<unsigned char>(text[text.size() - back]);
+    if ((byte & 0xC0) == 0x80) continue;
+    const std::size_t length = byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : byte >= 0xC0 ? 2 : 1;
+    return length > back ? back : 0;
+  }
+  return 0;
+}
+
+// What of the text may be written now; the rest stays in it.
+std::string shown_part(std::string& text, Keeps keeps) {
+  std::string shown;
+  std::size_t begin = 0;
+  const auto put_plain = [&](std::size_t end) {
+    shown += plain_text(text.substr(begin, end - begin));
+    begin = end;
+  };
+  if (keeps == Keeps::colours)
+    for (std::size_t at = 0; (at = text.find_first_of("\033\r", std::max(at, begin))) != std::string::npos;) {
+      const std::size_t kept = text[at] == '\r' ? 1 : colour_sequence(std::string_view(text).substr(at));
+      if (kept == 0) {
+        ++at;
+        continue;
+      }
+      put_plain(at);
+      if (kept == std::string_view::npos) {
+        text.erase(0, begin);
+        return shown;
+      }
+      shown.append(text, begin, kept);
+      begin += kept;
+    }
+  put_plain(text.size() - std::min(begun_character(text), text.size() - begin));
+  text.erase(0, begin);
+  return shown;
+}
+
+ssize_t write_plain(void* cookie, const char* bytes, std::size_t count) {
+  auto& stream = *static_cast<PlainStream*>(cookie);
+  stream.tail.append(bytes, count);
+  if (write_bytes(stream.descriptor, shown_part(stream.tail, stream.keeps)))
+    return static_cast<ssize_t>(count);
+  stream.tail.clear();
+  return 0;
+}
+
+// A stream of the C library that writes there; null where there is no memory for one.
+FILE* plain_stream(int descriptor, Keeps keeps) {
+  // Lives as long as the program.
+  auto* const stream = new PlainStream{descriptor, keeps};
+  return ::fopencookie(stream, "w",
+                       {.read = nullptr, .write = write_plain, .seek = nullptr, .close = nullptr});
+}
+
+}  // namespace
+
+void make_errors_plain() {
+  FILE* const made = plain_stream(STDERR_FILENO, Keeps::text);
+  if (made == nullptr) return;
+  std::setvbuf(made, nullptr, _IONBF, 0);
+  stderr = made;
+}
+
+void make_output_plain(Keeps keeps) {
+  FILE* const made = plain_stream(STDOUT_FILENO, keeps);
+  if (made == nullptr) return;
+  std::fflush(stdout);
+  if (::isatty(STDOUT_FILENO) != 0) std::setvbuf(made, nullptr, _IOLBF, BUFSIZ);
+  stdout = made;
+}
+
+void erase_shown_line() {
+  std::fflush(stderr);
+  write_bytes(STDERR_FILENO, erase_line);
+}
+
+}  // namespace asperity::cli

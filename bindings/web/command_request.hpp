@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A command for a confined process as JSON. Texts are bytes, of scripts, arguments and names of files in any
+// encoding, and arrive as they are: each byte travels as the character of its number.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bindings/cli/replay_command.hpp"
+#include "bindings/cli/run_command.hpp"
+#include "engine/experiment/json.hpp"
+
+namespace asperity::web {
+
+std::string characters_of(std::string_view bytes);
+// Throws Error{bad_file} for a character beyond U+00FF.
+std::string bytes_of(std::string_view characters);
+
+struct CarriedCommand {
+  cli::RunCommand run;
+  std::optional<cli::ReplayCommand> replay;
+};
+
+// `replay` may be null; its own `run` is not looked at.
+Json command_json(const cli::RunCommand& run, const cli::ReplayCommand* replay);
+// Throws Error{bad_file}.
+CarriedCommand command_of(const Json& json);
+
+}  // namespace asperity::web

@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/confined_command.hpp"
+
+#include <pwd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+
+#include "bindings/cli/exit_status.hpp"
+#include "bindings/cli/mpi_ranks.hpp"
+#include "bindings/cli/plain_streams.hpp"
+#include "bindings/web/barrier_report.hpp"
+#include "bindings/web/command_follower.hpp"
+#include "bindings/web/command_request.hpp"
+#include "bindings/web/plain_files.hpp"
+#include "bindings/web/serve_setup.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/text.hpp"
+#include "engine/experiment/aside_file.hpp"
+#include "engine/experiment/recorded_run.hpp"
+#include "engine/experiment/run_directory.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 4> confined_ways_out{"files", "processes", "network", "programs"};
+constexpr double usual_seconds = 600;
+constexpr std::int64_t usual_disk = std::int64_t{1} << 30;
+constexpr std::size_t most_files = 20000, most_script_bytes = std::size_t{64} << 20;
+
+// The manifest of a run that is there; null where there is none, of which others will speak.
+Json manifest_in(const std::string& folder) {
+  std::error_code problem;
+  // A pipe would be waited for.
+  if (!fs::is_regular_file(fs::path(folder) / "manifest.json", problem)) return {};
+  try {
+    return read_manifest(folder);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+const Json* found_in(const Json& record, const char* name) {
+  return record.is_object() ? record.find(name) : nullptr;
+}
+
+bool was_confined(const Json& manifest) {
+  const Json* const said = found_in(manifest, "confined");
+  return said != nullptr && *said == Json(true);
+}
+
+// A folder that came from elsewhere may hold links instead of folders.
+void say_where_a_link_leads(const std::string& folder, const fs::path& real) {
+  std::string named = folder;
+  while (named.size() > 1 && named.back() == '/') named.pop_back();
+  std::error_code problem;
+  if (fs::is_symlink(fs::symlink_status(named, problem)))
+    std::fprintf(stderr, "asperity: %s is a link to %s\n", named.c_str(), real.c_str());
+}
+
+fs::path canonical(const std::string& folder, const char* option) {
+  std::error_code problem;
+  const fs::path real = fs::canonical(folder.empty() ? "." : folder, problem);
+  if (problem || !fs::is_directory(real, problem))
+    throw Error(ErrorCode::bad_value,
+                asperity::quoted(option) + " names " + asperity::quoted(folder) + ", which is no folder",
+                "give a folder that is there");
+  if (real == "/")
+    throw Error(ErrorCode::bad_value, asperity::quoted(option) + " names the whole tree of files",
+                "give a folder in it");
+  say_where_a_link_leads(folder, real);
+  return real;
+}
+
+bool is_at_or_above(const fs::path& folder, const fs::path& other) {
+  return std::ranges::mismatch(folder, other).in1 == folder.end();
+}
+
+std::vector<fs::path> home_folders() {
+  std::vector<fs::path> homes;
+  const passwd* const user = ::getpwuid(::getuid());
+  for (const char* named : {static_cast<const char*>(std::getenv("HOME")),
+                            user != nullptr ? static_cast<const char*>(user->pw_dir) : nullptr}) {
+    std::error_code problem;
+    if (named == nullptr || named[0] != '/') continue;
+    const fs::path home = fs::canonical(named, problem);
+    if (!problem && home != "/") homes.push_back(home);
+  }
+  return homes;
+}
+
+bool holds_the_home(const fs::path& folder) {
+  return folder == "/" || std::ranges::any_of(home_folders(), [&](const fs::path& home) {
+           return is_at_or_above(folder, home);
+         });
+}
+
+// The folders that a script reaches, under their own names and under those by which the command names them.
+class Places {
+ public:
+  void add(const std::string& named, const fs::path& real, bool write) {
+    put({real.string(), real.string(), write});
+    std::string seen = fs::absolute(named.empty() ? "." : named).lexically_normal().string();
+    while (seen.size() > 1 && seen.back() == '/') seen.pop_back();
+    if (seen != real.string()) links_.push_back({real.string(), seen, write});
+  }
+  std::vector<std::string> folders() const {
+    std::vector<std::string> named;
+    for (const Place& place : places_) named.push_back(place.seen);
+    return named;
+  }
+  std::vector<Place> all() const {
+    std::vector<Place> all = places_;
+    // A link that lies in one of them is there by itself.
+    for (const Place& link : links_)
+      if (std::ranges::none_of(places_,
+                               [&](const Place& place) { return is_at_or_above(place.seen, link.seen); }))
+        all.push_back(link);
+    return all;
+  }
+
+ private:
+  void put(const Place& place) {
+    const auto known = std::ranges::find(places_, place.seen, &Place::seen);
+    if (known == places_.end())
+      places_.push_back(place);
+    else
+      known->write = known->write || place.write;
+  }
+  std::vector<Place> places_, links_;
+};
+
+std::vector<std::string> split_at_commas(const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end > begin) parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+// Gone with all in it.
+class TrialFolder {
+ public:
+  TrialFolder() {
+    std::string pattern = (fs::temp_directory_path() / "asperity-barriers-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) throw_file_error("make a temporary folder in", pattern, errno);
+    path = pattern;
+  }
+  ~TrialFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  TrialFolder(const TrialFolder&) = delete;
+  TrialFolder& operator=(const TrialFolder&) = delete;
+  fs::path path;
+};
+
+// What may stay open of what stays open. Throws Error{not_permitted} naming the rest, and Error{bad_value}.
+std::vector<std::string> open_ways(const BarrierReport& report, const std::string& without) {
+  const std::vector<std::string> allowed = split_at_commas(without),
+                                 known(confined_ways_out.begin(), confined_ways_out.end());
+  for (const std::string& name : allowed)
+    if (std::ranges::find(known, name) == known.end())
+      throw Error(ErrorCode::bad_value,
+                  "`--without-barriers` names " + asperity::quoted(name) + did_you_mean(name, known),
+                  "the barriers are " + joined(known, " and "));
+  std::vector<std::string> open, refused, reasons;
+  for (const std::string& name : known) {
+    const auto tried = std::ranges::find(report.tried, name, &Barrier::name);
+    if (tried != report.tried.end() && tried->holds) continue;
+    open.push_back(name);
+    if (std::ranges::find(allowed, name) != allowed.end()) continue;
+    refused.push_back(name);
+    reasons.push_back(name + " (" +
+                      (tried != report.tried.end() ? tried->by
+                       : report.problem.empty()    ? "another program could be run"
+                                                   : report.problem) +
+                      ")");
+  }
+  if (!refused.empty())
+    throw Error(
+        ErrorCode::not_permitted,
+        "this system does not give every barrier that `--confined` promises; missing: " +
+            joined(reasons, " and ") +
+            (report.missing.empty() ? "" : ", for it is without " + joined(report.missing, " and ")),
+        "a kernel with Landlock (Linux 5.13) or user namespaces and the part asperity-sandbox.so give them; "
+        "`--without-barriers " +
+            joined(open, ",") + "` does without");
+  return open;
+}
+
+// One confined command from its options to its exit status.
+class Undertaking {
+ public:
+  Undertaking(cli::RunCommand run, const cli::ReplayCommand* replay)
+      : run_(std::move(run)), replay_(replay) {}
+
+  int carry_through() {
+    check_options();
+    if (replay_ != nullptr) take_record(replay_->recorded, "replay");
+    if (run_.resume) take_record(*run_.resume, "go on with");
+    if (!run_.script.empty()) read_script();
+    for (const std::string& folder : run_.read) {
+      read_.push_back(canonical(folder, "--read").string());
+      places_.add(folder, read_.back(), false);
+    }
+    check_recorded_folders();
+    for (const std::string& folder : run_.reuse) places_.add(folder, canonical(folder, "--reuse"), false);
+
+    BarrierReport report;
+    {
+      const TrialFolder trial;
+      report = try_out_barriers(trial.path.string());
+    }
+    const std::vector<std::string> open = open_ways(report, run_.without_barriers);
+    if (!open.empty())
+      std::fprintf(stderr, "asperity: without barriers for %s\n", joined(open, " and ").c_str());
+    run_.barriers = Json::object({{"read", Json::strings(read_)},
+                                  {"by", Json::strings(report.made)},
+                                  {"missing", Json::strings(report.missing)},
+                                  {"open", Json::strings(open)}});
+    make_folders();
+    const auto before = manifest_text();
+    const int status = follow(report.made);
+    keep_on_record(before);
+    // To a script other files are not there, which its own messages cannot explain.
+    if (status == cli::failed)
+      std::fprintf(stderr, "asperity: a confined script finds no files but those in %s; --read names more\n",
+                   joined(places_.folders(), " and ").c_str());
+    return status;
+  }
+
+  ~Undertaking() {
+    try {
+      prepared_.leave();
+    } catch (const std::exception&) {
+      // What was begun stays as it is.
+    }
+  }
+  Undertaking(const Undertaking&) = delete;
+  Undertaking& operator=(const Undertaking&) = delete;
+
+ private:
+  void check_options() const {
+    if (run_.trust)
+      throw Error(
+          ErrorCode::bad_value,
+          "`--trust` gives a script the whole of Lua and files anywhere, and `--confined` keeps it in",
+          "leave one of them out");
+    if (cli::launched_rank())
+      throw Error(ErrorCode::bad_value, "a confined run was started as one of the ranks of mpirun",
+                  "start it alone, or share the cases of ensembles by `--shard` and `--store`");
+  }
+
+  // A record may have come from elsewhere: it is confined, and decides nothing of what can be read.
+  void take_record(const std::string& folder, const char* purpose) {
+    const Json manifest = manifest_in(folder);
+    if (manifest.is_null()) return;
+    purpose_ = purpose;
+    const Json* const rest = found_in(manifest, "unhashed");
+    const Json* const path = rest == nullptr ? nullptr : found_in(*rest, "script_path");
+    const Json* const barriers = rest == nullptr ? nullptr : found_in(*rest, "barriers");
+    const Json* const read = barriers == nullptr ? nullptr : found_in(*barriers, "read");
+    if (read != nullptr)
+      for (const Json& place : read->list()) recorded_.push_back(place.string());
+    if (replay_ != nullptr) places_.add(folder, canonical(folder, "replay"), false);
+    if (run_.script.empty() && path != nullptr) read_folder_of_record(folder, path->string());
+  }
+
+  // Where its script still lies as it was, that script's own folder.
+  void read_folder_of_record(const std::string& record, const std::string& script) {
+    const fs::path own = fs::path(script).parent_path();
+    const auto text = read_plain_file(record, "script.lua", most_script_bytes);
+    const auto there =
+        read_plain_file(own.empty() ? "." : own, fs::path(script).filename().string(), most_script_bytes);
+    std::error_code problem;
+    const fs::path real = fs::canonical(own.empty() ? "." : own, problem);
+    if (!text || !there || *text != *there || problem || holds_the_home(real)) {
+      std::fprintf(
+          stderr,
+          "asperity: its own folder %s is not read: %s is not there as it ran; --read names folders\n",
+          own.empty() ? "." : own.c_str(), script.c_str());
+      return;
+    }
+    places_.add(own.string(), real, false);
+  }
+
+  // The run keeps a copy of it, which is then published with the results.
+  void read_script() {
+    run_.text = cli::read_script(run_.script);
+    const fs::path folder = read_own_folder(fs::path(run_.script).parent_path().string());
+    const fs::path real = fs::canonical(run_.script);
+    if (!is_at_or_above(folder, real))
+      throw Error(ErrorCode::not_permitted,
+                  "a confined script lies in its own folder, and " + asperity::quoted(run_.script) +
+                      " is a link to " + real.string(),
+                  "name the file itself");
+  }
+
+  fs::path read_own_folder(const std::string& folder) {
+    const fs::path real = canonical(folder, "script");
+    if (holds_the_home(real) && std::ranges::none_of(run_.read, [&](const std::string& named) {
+          std::error_code problem;
+          return fs::canonical(named, problem) == real;
+        }))
+      throw Error(ErrorCode::not_permitted,
+                  "a confined script reads its own folder, and that of " + asperity::quoted(run_.script) +
+                      " holds your home folder: " + real.string(),
+                  "put the script into a folder of its own, or add `--read " + real.string() +
+                      "` if it may read all of that");
+    places_.add(folder, real, false);
+    return real;
+  }
+
+  void check_recorded_folders() const {
+    std::string missing;
+    for (const std::string& folder : recorded_)
+      if (std::ranges::find(read_, folder) == read_.end())
+        missing += (missing.empty() ? "" : " ") + ("--read " + folder);
+    if (missing.empty()) return;
+    throw Error(ErrorCode::bad_value,
+                "the run was recorded with `" + missing + "`, which lets its script read there",
+                std::string("add it to ") + purpose_ + " the run so");
+  }
+
+  // The run directory is made and locked here, for this process outlives the one that works there, and what
+  // that one left beyond its limits is removed from here.
+  void make_folders() {
+    RunSetup setup;
+    setup.script_name = run_.script.empty() ? "replay" : run_.script;
+    if (replay_ != nullptr)
+      if (const Json manifest = manifest_in(replay_->recorded);
+          const Json* script = found_in(manifest, "script"))
+        if (const Json* name = found_in(*script, "name")) setup.script_name = name->string();
+    if (run_.out) setup.out = *run_.out;
+    if (run_.resume) setup.resume = *run_.resume;
+    prepared_ = RunDirectory::prepared_for(setup);
+    if (!run_.resume) run_.out = prepared_.path.string();
+    directory_ = canonical(prepared_.path.string(), run_.resume ? "--resume" : "--out");
+    places_.add(prepared_.path.string(), directory_, true);
+    keep_out_of_home(directory_, run_.resume ? "--resume" : "--out");
+    if (prepared_.lock && !prepared_.lock->notice().empty())
+      std::fprintf(stderr, "asperity: %s\n", prepared_.lock->notice().c_str());
+    if (run_.store) {
+      std::error_code problem;
+      fs::create_directories(*run_.store, problem);
+      if (problem) throw_file_error("make the folder", *run_.store, problem.value());
+      const fs::path store = canonical(*run_.store, "--store");
+      keep_out_of_home(store, "--store");
+      places_.add(*run_.store, store, true);
+    }
+  }
+
+  static void keep_out_of_home(const fs::path& folder, const char* option) {
+    if (holds_the_home(folder))
+      throw Error(ErrorCode::not_permitted,
+                  "a confined script writes into the folder of " + asperity::quoted(option) +
+                      ", and this one holds your home folder: " + folder.string(),
+                  "give a folder of its own");
+  }
+
+  int follow(const std::vector<std::string>& barriers) {
+    CommandBounds bounds;
+    bounds.seconds = run_.limit_time.value_or(usual_seconds);
+    bounds.directory_bytes = run_.limit_disk.value_or(usual_disk);
+    bounds.files = most_files;
+    run_.limit_time = bounds.seconds;
+    run_.limit_disk = bounds.directory_bytes;
+    run_.limit_memory = run_.limit_memory.value_or(std::max(machine_memory() / 2, std::int64_t{256} << 20));
+    // Results kept in the run directory are of its files.
+    if (!run_.store)
+      run_.store_limit =
+          std::min(run_.store_limit.value_or(bounds.directory_bytes), bounds.directory_bytes / 2);
+    const int threads = run_.threads > 0 ? run_.threads : thread_count();
+    run_.threads = threads;
+    run_.terminal = ::isatty(STDERR_FILENO) != 0;
+
+    ConfinedRequest request{.work = Work::command, .confinement = {}};
+    Confinement& held = request.confinement;
+    held.places = places_.all();
+    held.work = fs::current_path().string();
+    held.memory_bytes = *run_.limit_memory;
+    held.file_bytes = bounds.directory_bytes;
+    held.threads = request.threads = threads;
+    held.processor_seconds = static_cast<std::int64_t>(bounds.seconds + 5) * threads + 1;
+    request.barriers = barriers;
+    request.command = command_json(run_, replay_);
+    if (prepared_.lock) request.lock = prepared_.lock->descriptor();
+    CommandFollower follower(request, directory_, bounds);
+    return follower.follow();
+  }
+
+  std::optional<std::string> manifest_text() const {
+    return read_plain_file(directory_, "manifest.json", most_script_bytes);
+  }
+
+  // A script that got out of the language reaches its own manifest, and by it could be taken up or replayed
+  // without barriers.
+  void keep_on_record(const std::optional<std::string>& before) const {
+    std::error_code problem;
+    const fs::path file = directory_ / "manifest.json";
+    if (!fs::exists(fs::symlink_status(file, problem))) return;
+    const auto now = manifest_text();
+    if (now && (now == before || was_confined(manifest_in(directory_)))) return;
+    fs::remove(file, problem);
+    std::fprintf(
+        stderr,
+        "asperity: the manifest of %s no longer said that the run was confined, and was removed: this "
+        "is no record that can be trusted\n",
+        directory_.c_str());
+  }
+
+  cli::RunCommand run_;
+  const cli::ReplayCommand* replay_;  // null for a run
+  Places places_;
+  std::vector<std::string> read_, recorded_;  // given by --read now, and of the record; without links
+  std::string purpose_;
+  RunDirectory::Prepared prepared_;
+  fs::path directory_;  // without links
+};
+
+int carried_through(const cli::RunCommand& run, const cli::ReplayCommand* replay) {
+  try {
+    return Undertaking(run, replay).carry_through();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return cli::bad_usage;
+  }
+}
+
+}  // namespace
+
+bool to_be_confined(const cli::RunCommand& command) {
+  return command.confined || (command.resume && was_confined(manifest_in(*command.resume)));
+}
+
+bool to_be_confined(const cli::ReplayCommand& command) {
+  return command.run.confined || was_confined(manifest_in(command.recorded));
+}
+
+int run_behind_barriers(const cli::RunCommand& command) { return carried_through(command, nullptr); }
+
+int replay_behind_barriers(const cli::ReplayCommand& command) {
+  return carried_through(command.run, &command);
+}
+
+int carry_out(const Json& command, int lock) {
+  cli::make_errors_plain();
+  std::setvbuf(stdout, nullptr, _IOLBF, std::size_t{1} << 14);
+  CarriedCommand carried = command_of(command);
+  cli::RunCommand& run = carried.replay ? carried.replay->run : carried.run;
+  if (lock >= 0) run.lock = RunLock::inherited(run.resume ? *run.resume : run.out.value_or("."), lock);
+  return carried.replay ? cli::replay(*carried.replay) : cli::run(run);
+}
+
+}  // namespace asperity::web

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// S2: what a run leaves beyond its limit is removed, its record last, and no link is followed.
+#include "bindings/web/disk_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+namespace asperity::web::disk_bound_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DiskBound : public testing::Test {
+ protected:
+  DiskBound() : folder_(fs::path(testing::TempDir()) / "asperity-disk-bound") {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "run");
+  }
+  ~DiskBound() override { fs::remove_all(folder_); }
+
+  // `age` seconds old.
+  void put(const char* name, std::size_t bytes, int age) {
+    const fs::path path = folder_ / "run" / name;
+    fs::create_directories(path.parent_path());
+    std::ofstream(path) << std::string(bytes, 'x');
+    fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::seconds(age));
+  }
+  bool there(const char* name) const { return fs::exists(fs::symlink_status(folder_ / "run" / name)); }
+
+  fs::path folder_;
+};
+
+TEST_F(DiskBound, S2TheLastWrittenGoFirstAndTheRecordLast) {
+  put("manifest.json", 5000, 0);
+  put("old.csv", 100000, 100);
+  put("newer.csv", 100000, 50);
+  put("below/newest.csv", 100000, 1);
+  const auto whole = disk_use(folder_ / "run", 100);
+  EXPECT_EQ(whole.files, 5U);
+  EXPECT_EQ(keep_within(folder_ / "run", whole.bytes, 100), "");
+  EXPECT_NE(keep_within(folder_ / "run", whole.bytes - 150000, 100), "");
+  EXPECT_TRUE(there("manifest.json") && there("old.csv"));
+  EXPECT_FALSE(there("newer.csv") || there("below/newest.csv"));
+  EXPECT_LE(disk_use(folder_ / "run", 100).bytes, whole.bytes - 150000);
+}
+
+TEST_F(DiskBound, S2NoMoreFilesAreLeftThanMayBe) {
+  for (int k = 0; k < 40; ++k) put(("d" + std::to_string(k % 5) + "/f" + std::to_string(k)).c_str(), 1, k);
+  put(".lock", 1, 0);
+  EXPECT_NE(keep_within(folder_ / "run", 1 << 30, 10), "");
+  EXPECT_LE(disk_use(folder_ / "run", 100).files, 10U);
+  EXPECT_TRUE(there(".lock"));  // F1: it is held by who removes the others
+}
+
+TEST_F(DiskBound, LinksAreRemovedAndNotFollowed) {
+  std::ofstream(folder_ / "elsewhere") << "kept";
+  put("a.csv", 10, 5);
+  fs::create_symlink(folder_ / "elsewhere", folder_ / "run" / "link");
+  fs::create_directory_symlink(folder_, folder_ / "run" / "folder");
+  EXPECT_NE(keep_within(folder_ / "run", 0, 0), "");
+  EXPECT_FALSE(there("a.csv") || there("link") || there("folder"));
+  EXPECT_TRUE(fs::exists(folder_ / "elsewhere"));
+}
+
+}  // namespace
+}  // namespace asperity::web::disk_bound_test
