@@ -122,7 +122,7 @@ void plan_plasticity(const PlasticityOptions& options, const ContactGeometry& ge
     plan.buffers.push_back({"hardness of each body's nodes, and where they meet", 3 * bytes});
     // Measured on half-spaces: 45 transforms on 256 cells a side, 60 on 512 and 100 on 1024. Boxes have none.
     const double more =
-        std::max(1.0, std::pow(static_cast<double>(geometry.grid().nodes()) / (256.0 * 256.0), 0.25));
+        std::max(1.0, std::sqrt(std::sqrt(static_cast<double>(geometry.grid().nodes())) / 256.0));
     plan.transforms *= more;
     if (std::holds_alternative<HalfSpaceOperator>(plan.elasticity)) plan.seconds *= more;
   }
