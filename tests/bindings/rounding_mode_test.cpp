@@ -11,7 +11,7 @@ namespace {
 constexpr const char* digests =
     "local s = lab.surface.self_affine{ cells=32, size='1 mm', hurst=0.75, ra='1 um', short_wave='80 um', "
     "seed=1,"
-    " material=lab.material{ young='70.3 GPa', poisson=0.33 } } "
+    " material=lab.material{ young='70.3 GPa', poisson=0.25 } } "
     "local c = lab.contact{ lower=s, upper=lab.rigid, boundary='periodic', effects={ elasticity='half_space' "
     "} } "
     "local st = c:press{ pressure='12.3 MPa' } "
