@@ -5,6 +5,7 @@
 // interface.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -20,6 +21,8 @@ struct CellProblem {
   double origin = 0, factor = 1;
   PressureLimit limit;
   double mean_pressure = 0;
+  // Given in place of the load, of which `mean_pressure` is then a guess, within twenty powers of ten.
+  std::optional<double> offset;
   double length = 1;  // what gaps are measured by
   double tolerance = 1e-6;
 };
