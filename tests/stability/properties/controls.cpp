@@ -5,8 +5,11 @@
 // 1 to 256 cells a side, cells up to a thousand times longer than wide or wider than long.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 #include <vector>
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "tests/stability/properties/property.hpp"
 
@@ -65,7 +68,7 @@ Verdict compare(const Trial& trial, const State& by_pressure, PressBy by, double
   // The loads, within what both solves leave open: that of the approach turned into load by the stiffness.
   if (by == PressBy::flatten || full(by_pressure)) return {};
   const double stiffness = std::max(again.stiffness(), by_pressure.stiffness());
-  const double open = again.algebraic_error().pressure.value_or(INFINITY) +
+  const double open = again.algebraic_error().pressure.value_or(infinity) +
                       2 * stiffness * (by_pressure.algebraic_error().approach + 1e-15 * value);
   const double digits = 1e-13 * by_pressure.pressure();
   if (!(std::abs(again.pressure() - by_pressure.pressure()) <= open + digits) && !std::isnan(open))

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/bracketed_secant.hpp"

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
+#include <variant>
 
 #include "engine/contact/elasticity/half_space/descent_nodes.hpp"
 #include "engine/contact/elasticity/half_space/descent_rules.hpp"
@@ -58,7 +60,11 @@ class OffsetDescent {
   void settle() {
     for_nodes(nodes(), [n = view()](std::size_t k) { n.pressure[k] = n.settled(k); });
   }
-  void renew();
+  void find_gap();
+  void renew() {
+    settle();
+    find_gap();
+  }
   void mark();
   double turn(double target);
   void settle_step();
@@ -81,11 +87,10 @@ class OffsetDescent {
   double direction_rz_ = 0;
 };
 
-// The gap of the pressures there are, settled. On a periodic tile their mean moves nothing, and may be so
+// The gap of the pressures there are. On a periodic tile their mean moves nothing, and may be so
 // large that beside it they lose the digits of what differs.
 template <class Limit>
-void OffsetDescent<Limit>::renew() {
-  settle();
+void OffsetDescent<Limit>::find_gap() {
   double mean = 0;
   if (periodic_)
     mean = over_nodes<1>(nodes(), [p = f_.pressure.data()](std::size_t k, double* v) { v[0] = p[k]; })[0] /
@@ -201,7 +206,7 @@ void OffsetDescent<Limit>::settle_step() {
 // first node opens, or up until the first yields, and a little further.
 template <class Limit>
 void OffsetDescent<Limit>::shift_all() {
-  const double upper = limit_.upper(), n = static_cast<double>(nodes());
+  const double upper = limit_.upper();
   const auto found = over_nodes<1, 3>(nodes(), [n = view(), upper](std::size_t k, double* v) {
     double bound = upper;
     if constexpr (Limit::hardens) bound = n.limit.yields_at(k);
@@ -210,7 +215,8 @@ void OffsetDescent<Limit>::shift_all() {
     v[2] = bound - n.pressure[k];
     v[3] = -n.pressure[k];
   });
-  const double lack = offset_ - found[0] / n, further = level_.short_wave_stiffness * lack;
+  const double lack = offset_ - found[0] / static_cast<double>(nodes()),
+               further = level_.short_wave_stiffness * lack;
   const double by = lack > 0 ? found[2] + further : further - found[1];
   if (!std::isfinite(by)) return;
   for_nodes(nodes(), [p = f_.pressure.data(), by](std::size_t k) { p[k] += by; });
@@ -271,7 +277,7 @@ bool OffsetDescent<Limit>::descend(int steps) {
 template <class Limit>
 StageEnd OffsetDescent<Limit>::run() {
   using namespace descent_rules;
-  renew();
+  find_gap();
   StageEnd end;
   double least = end.best, before = end.best;
   int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
