@@ -6,6 +6,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -25,6 +26,8 @@ struct CellProblem {
   double lowest = -std::numeric_limits<double>::infinity();
   PressureLimit limit;
   double mean_pressure = 0;
+  // Given in place of the load, of which `mean_pressure` is then a guess, within twenty powers of ten.
+  std::optional<double> offset;
   double length = 1;  // what gaps are measured by
   double tolerance = 1e-6;
 };
