@@ -137,7 +137,9 @@ TEST(ApproachSolve, V1_WhereLoadsHardlyTellApproachesApart) {
     const HalfSpaceAnswer answer = by_approach(problem, approach);
     EXPECT_EQ(answer.approach, approach);
     EXPECT_LE(answer.iterations, 50) << n;
-    if (n < 96) EXPECT_LE(dense_violation(problem, answer), 1e-6) << n;
+    if (n < 96) {
+      EXPECT_LE(dense_violation(problem, answer), 1e-6) << n;
+    }
   }
 }
 

@@ -58,7 +58,9 @@ TEST(LineExtension, GatheringIsTheTranspose) {
         for (std::size_t k = 0; k < n; ++k) {
           left += static_cast<double>(extended[k]) * b[k];
           right += static_cast<double>(a[k]) * gathered[k];
-          if (free[k] == 0) EXPECT_EQ(gathered[k], 0);
+          if (free[k] == 0) {
+            EXPECT_EQ(gathered[k], 0);
+          }
         }
         EXPECT_NEAR(left, right, 1e-4 * (1 + std::abs(left)));
       }

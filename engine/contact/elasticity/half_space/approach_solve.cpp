@@ -195,7 +195,7 @@ HalfSpaceAnswer flatten_to(const HalfSpaceProblem& problem, double fraction, std
   BracketedSecant bracket(wanted);
   if (problem.boundary == Boundary::periodic && !problem.yield.hardens()) {
     most = problem.yield.caps() ? span : ends.max - mean(heights);
-    bracket = BracketedSecant(wanted, {}, {most, span});
+    bracket = BracketedSecant(wanted, {0, 0}, {most, span});
     if (!guess) approach = wanted * (1 - wanted / span * (1 - most / span));
     approach = std::min(approach, most * (1 - 1e-6));
   }
@@ -206,7 +206,8 @@ HalfSpaceAnswer flatten_to(const HalfSpaceProblem& problem, double fraction, std
   int applications = 0;
   for (int solve = 0; solve < most_solves; ++solve) {
     const bool warm = answer.approach > 0 && std::abs(approach / answer.approach - 1) < near;
-    const HalfSpaceAnswer start = warm ? std::move(answer) : HalfSpaceAnswer{};
+    HalfSpaceAnswer start = warm ? std::move(answer) : HalfSpaceAnswer{};
+    start.gap = {};
     answer = solve_at_offset(now, approach, 0.5 * wanted, warm ? &start : nullptr, monitor);
     applications += answer.iterations;
     const double pressed = flattened(problem, answer) * span;

@@ -12,12 +12,12 @@ namespace asperity {
 class BracketedSecant {
  public:
   struct Point {
-    double at = 0, value = 0;
+    double at, value;
   };
   static constexpr double unknown = std::numeric_limits<double>::infinity();
 
   // 0 < wanted. `low`: nothing at nothing, unless more is known; `high` may be infinite.
-  explicit BracketedSecant(double wanted, Point low = {}, Point high = {unknown, unknown})
+  explicit BracketedSecant(double wanted, Point low = {0, 0}, Point high = {unknown, unknown})
       : wanted_(wanted), low_(low), high_(high) {}
 
   void take(Point found, bool sure);

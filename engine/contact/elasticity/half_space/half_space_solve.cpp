@@ -350,9 +350,12 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   cell.tolerance = 0.49 * problem.tolerance;
   const double longest = std::max(static_cast<double>(grid.nx), grid.ny * cell.shape.aspect);
   cell.mean_pressure = std::min(*cell.offset / longest, greatest_pressure(cell.limit));
-  Start warm;
-  if (start && start->pressure.size() == grid.nodes()) warm = start_in_cells(units, *start);
-  CellAnswer found = nested_descent(cell, warm.pressure, {}, monitor);
+  UnsetArray<double> warm;
+  if (start && start->pressure.size() == grid.nodes()) {
+    warm.resize(grid.nodes());
+    for_nodes(warm.size(), [&](std::size_t k) { warm[k] = start->pressure[k] / units.pressure; });
+  }
+  CellAnswer found = nested_descent(cell, warm, {}, monitor);
   if (found.single && !found.converged) {  // as it might in double precision, too
     const int before = found.applications;
     cell.shape.single = false;

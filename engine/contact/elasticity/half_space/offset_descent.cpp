@@ -85,6 +85,7 @@ class OffsetDescent {
   double elastic_ = 0, yielding_ = 0, settling_ = 0;  // nodes
   bool changed_ = true, fresh_ = false, have_direction_ = false;
   double direction_rz_ = 0;
+  double residual_ = infinity;
 };
 
 // The gap of the pressures there are. On a periodic tile their mean moves nothing, and may be so
@@ -239,6 +240,7 @@ bool OffsetDescent<Limit>::descend(int steps) {
              static_cast<double>(nodes());
   bool any = steps > 0;
   while (steps < enough) {
+    if (careful_ && level_.report) level_.report(residual_);  // where a stop is seen
     const double rz = turn(target);
     if (!(rz > 0)) break;
     if (first == 0) first = rz;
@@ -293,7 +295,7 @@ StageEnd OffsetDescent<Limit>::run() {
   f_.old_free.assign(nodes(), 255);
   for (;;) {
     OffsetQuality at = quality();
-    end.residual = at.residual;
+    end.residual = residual_ = at.residual;
     if (level_.report) level_.report(at.residual);
     if (at.residual < tolerance_) {
       end.best = std::min(end.best, at.residual);
