@@ -23,6 +23,11 @@ namespace {
 
 std::string metres(double length) { return format_quantity(length, dimension::length); }
 
+// Where all of a periodic tile touches: nothing but the mean of the heights is left to move.
+double full_contact(const HalfSpaceProblem& problem) {
+  return known_range(problem.heights->values()).max - known_mean(problem.heights->values());
+}
+
 // Past full contact of a periodic tile only ground that hardens gives way, and pressures so large that beside
 // them no double holds those of the heights are none.
 void check_full_contact(const HalfSpaceProblem& problem, double approach) {
@@ -30,7 +35,7 @@ void check_full_contact(const HalfSpaceProblem& problem, double approach) {
   const auto heights = problem.heights->values();
   const Range span = range(heights);
   const YieldLaw& law = problem.yield;
-  const double full = span.max - mean(heights);
+  const double full = full_contact(problem);
   if (law.hardens()) {
     constexpr double hidden = 1e12;
     const double needed = law.hardening * (approach - full);
@@ -68,6 +73,76 @@ std::optional<double> most_at_the_cap(const HalfSpaceProblem& problem, const Hal
   return answer.approach - least[0];
 }
 
+// All of a periodic tile pressed flat, where nothing yields: the least load that does it. One application.
+std::optional<double> full_contact_pressure(const HalfSpaceProblem& problem) {
+  if (problem.boundary != Boundary::periodic) return {};
+  const Grid& grid = problem.grid;
+  const Field& h = *problem.heights;
+  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight);
+  Array<double> p(h.size());
+  const double middle = mean(h.values()), unit = problem.modulus * (problem.rms / grid.hx());
+  for_nodes(h.size(), [&](std::size_t k) { p[k] = (h[k] - middle) / problem.rms; });
+  compliance.apply_inverse(p, p);
+  const Range ends = range(p);
+  constexpr double a_little_more = 1 + 1e-12;
+  const double pressure = -ends.min * a_little_more * unit;
+  const YieldLaw& law = problem.yield;
+  const double most = law.yield ? range(law.yield->values()).min : law.cap;
+  if (law.limits() && !(pressure + ends.max * unit < most)) return {};
+  return pressure > 0 && std::isfinite(pressure) ? std::optional(pressure) : std::nullopt;
+}
+
+// `missed`: of what was prescribed, relative to it.
+HalfSpaceAnswer at_full_contact(const HalfSpaceProblem& problem, double mean_pressure, double missed,
+                                Monitor& monitor) {
+  HalfSpaceAnswer answer = solve_at_pressure(problem, mean_pressure, nullptr, monitor);
+  answer.certificate.load = std::max(answer.certificate.load, missed);
+  return answer;
+}
+
+// Where no descent finds the contact at a given approach, as on some cells much longer than wide: the load
+// that brings it, or what else an answer measures that never falls as the load grows. What was found so far,
+// `begun`, where no load does. `length`: about the approach.
+template <class Measure>
+HalfSpaceAnswer sought_by_load(const HalfSpaceProblem& problem, const Measure& measure, double wanted,
+                               double length, HalfSpaceAnswer begun, Monitor& monitor) {
+  constexpr int most_solves = 30, most_applications = 3000;
+  constexpr double near = 0.2;
+  const double facing = static_cast<double>(known_count(problem.heights->values()));
+  const double highest = problem.yield.caps() ? problem.yield.cap * (1 - 1e-12) *
+                                                    (facing / static_cast<double>(problem.grid.nodes()))
+                                              : infinity;
+  HalfSpaceProblem now = problem;
+  now.best_effort = true;
+  BracketedSecant root(wanted, {0, 0}, {highest, infinity});
+  const double side = std::max(problem.grid.size_x, problem.grid.size_y);
+  const bool near_there = begun.certificate.worst() < 0.1;
+  double pressure = near_there ? begun.mean_pressure : 0.1 * problem.modulus * length / side;
+  pressure = std::min(pressure, 0.5 * highest);
+  int applications = begun.iterations;
+  HalfSpaceAnswer answer;
+  for (int solve = 0; solve < most_solves && pressure > 0 && std::isfinite(pressure); ++solve) {
+    const bool warm = solve > 0 && std::abs(pressure / answer.mean_pressure - 1) < near;
+    const HalfSpaceAnswer start = warm ? std::move(answer) : HalfSpaceAnswer{};
+    answer = solve_at_pressure(now, pressure, warm ? &start : nullptr, monitor);
+    applications += answer.iterations;
+    if (applications > most_applications) break;
+    const double found = measure(answer), error = std::abs(found / wanted - 1);
+    if (error <= 0.5 * problem.tolerance && answer.converged) {
+      answer.iterations = applications;
+      answer.certificate.load = std::max(answer.certificate.load, error);
+      answer.solver += ", load sought";
+      return answer;
+    }
+    root.take({pressure, found}, answer.converged || answer.certificate.worst() < 0.1 * error);
+    const std::optional<double> next = root.next();
+    if (!next) break;
+    pressure = *next;
+  }
+  begun.iterations = applications;
+  return begun;
+}
+
 HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, const std::string& what) {
   if (const auto most = most_at_the_cap(problem, answer))
     throw Error(ErrorCode::infeasible,
@@ -94,9 +169,19 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
                 "`approach` is " + format_short(approach) +
                     " m, less than 1e-280 of the tile: no double holds the pressures it takes",
                 "give a larger approach, or none");
+  // At full contact any load from the least on has this approach.
+  const double full = full_contact(problem);
+  const double apart = std::abs(approach - full) / std::min(full, problem.rms);
+  if (problem.boundary == Boundary::periodic && apart <= 0.5 * problem.tolerance)
+    if (const auto pressure = full_contact_pressure(problem))
+      return at_full_contact(problem, *pressure, std::abs(full / approach - 1), monitor);
   check_full_contact(problem, approach);
-  return met(problem, solve_at_offset(problem, approach, infinity, nullptr, monitor),
-             "an approach of " + metres(approach));
+  HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, nullptr, true, monitor);
+  if (!answer.converged)
+    answer = sought_by_load(
+        problem, [](const HalfSpaceAnswer& found) { return found.approach; }, approach, approach,
+        std::move(answer), monitor);
+  return met(problem, std::move(answer), "an approach of " + metres(approach));
 }
 
 namespace {
@@ -179,22 +264,41 @@ std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem)
   return result;
 }
 
+// Pressures and gaps on the line through two answers, further along it by `steps` from the second to the
+// first; in place of the second. None where that is too far to mean anything.
+HalfSpaceAnswer further_along(const HalfSpaceAnswer& last, HalfSpaceAnswer before, double steps) {
+  constexpr double furthest_guess = 2;
+  if (before.pressure.size() != last.pressure.size() || !(std::abs(steps) <= furthest_guess)) {
+    before.pressure = last.pressure;
+    before.gap = last.gap;
+  } else {
+    for_nodes(last.pressure.size(), [=, apart = last.approach - before.approach, p = last.pressure.data(),
+                                     g = last.gap.data(), to_p = before.pressure.data(),
+                                     to_g = before.gap.data()](std::size_t k) {
+      to_p[k] = p[k] == to_p[k] ? p[k] : p[k] + steps * (p[k] - to_p[k]);
+      to_g[k] = g[k] + steps * ((g[k] - to_g[k]) + apart);  // of K p − h, from the approach of `last`
+    });
+  }
+  before.approach = last.approach;
+  return before;
+}
+
 // The answer that flattens by a share, to `accuracy` of it, the search begun at an approach: what is pressed
 // away never falls as the approach grows, and nothing but the displacement of the lowest point keeps the two
 // apart.
 HalfSpaceAnswer flatten_to(const HalfSpaceProblem& problem, double fraction, std::optional<double> guess,
                            double accuracy, Monitor& monitor) {
   constexpr int most_solves = 60;
-  constexpr double loosest = 1e-3, near = 0.3;
+  constexpr double loosest = 1e-2, near = 0.3, least_tolerance = 1e-13;
   const auto heights = problem.heights->values();
   const Range ends = known_range(heights);
   const double span = ends.span();
   // All of the height is pressed away from full contact on: just before it.
-  const double wanted = std::min(fraction, 1 - 0.5 * accuracy) * span;
+  const double wanted = std::min(fraction, 1 - 0.4 * accuracy) * span;
   double approach = guess.value_or(wanted), most = infinity;
   BracketedSecant bracket(wanted);
   if (problem.boundary == Boundary::periodic && !problem.yield.hardens()) {
-    most = problem.yield.caps() ? span : ends.max - mean(heights);
+    most = problem.yield.caps() ? span : full_contact(problem);
     bracket = BracketedSecant(wanted, {0, 0}, {most, span});
     if (!guess) approach = wanted * (1 - wanted / span * (1 - most / span));
     approach = std::min(approach, most * (1 - 1e-6));
@@ -202,29 +306,57 @@ HalfSpaceAnswer flatten_to(const HalfSpaceProblem& problem, double fraction, std
   BracketedSecant root = bracket;
   HalfSpaceProblem now = problem;
   now.tolerance = std::max(accuracy, loosest);
-  HalfSpaceAnswer answer;
+  HalfSpaceAnswer answer, before;
+  double pressed = 0;
+  double gain = 1;  // of what is pressed away, or of an error in it, per approach; at least 1
+  bool afresh = false;
   int applications = 0;
   for (int solve = 0; solve < most_solves; ++solve) {
-    const bool warm = answer.approach > 0 && std::abs(approach / answer.approach - 1) < near;
-    HalfSpaceAnswer start = warm ? std::move(answer) : HalfSpaceAnswer{};
-    start.gap = {};
-    answer = solve_at_offset(now, approach, 0.5 * wanted, warm ? &start : nullptr, monitor);
+    HalfSpaceAnswer start;
+    if (solve > 0 && std::abs(approach / answer.approach - 1) < near) {
+      const double steps = (approach - answer.approach) / (answer.approach - before.approach);
+      start = further_along(answer, std::move(before), steps);
+    }
+    before = std::move(answer);
+    answer = solve_at_offset(now, approach, 0.5 * wanted, start.pressure.empty() ? nullptr : &start, afresh,
+                             monitor);
     applications += answer.iterations;
-    const double pressed = flattened(problem, answer) * span;
+    const double pressed_before = std::exchange(pressed, flattened(problem, answer) * span);
+    if (solve > 0 && approach != before.approach)
+      gain = std::max(1.0, std::abs((pressed - pressed_before) / (approach - before.approach)));
     const double error = std::abs(pressed - wanted) / wanted;
-    const bool loose = now.tolerance > accuracy;
-    if (error <= 0.5 * accuracy && !loose) break;
-    const bool sure = !loose || error > 2 * now.tolerance;
-    root.take({approach, pressed}, sure);
-    now.tolerance = std::max(accuracy, std::min(now.tolerance, 0.02 * (sure ? error : now.tolerance)));
-    if (error <= 0.5 * accuracy) continue;  // the same again, by a tighter solve
+    const double tightest = std::max(least_tolerance, accuracy / gain);
+    const bool loose = now.tolerance > tightest;
+    // Tighter than asked for, rounding may be in the way.
+    if (!answer.converged && (now.tolerance > accuracy || answer.certificate.worst() > accuracy)) break;
+    const bool near_enough = error <= 0.5 * accuracy;
+    const bool too_far = near_enough && most_at_the_cap(problem, answer);
+    if (too_far && now.tolerance > least_tolerance) {  // perhaps by what the tolerance left
+      now.tolerance = std::max(least_tolerance, 0.01 * now.tolerance);
+      continue;
+    }
+    if (near_enough && !loose && !too_far) {
+      if (afresh) break;
+      afresh = true;
+      continue;
+    }
+    const bool sure = error > now.tolerance * gain;
+    root.take({approach, too_far ? infinity : pressed}, sure || too_far);
+    now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? 0.05 * error : 0.02 * error) / gain));
+    if (near_enough && !too_far) continue;  // the same again, by a tighter solve
     const std::optional<double> next = root.next();
     if (!next && !loose) break;
     if (!next) {  // a loose solve was put on the wrong side
-      now.tolerance = std::max(accuracy, 0.01 * now.tolerance);
+      now.tolerance = std::max(tightest, 0.01 * now.tolerance);
       root = bracket;
     }
     approach = next.value_or(approach);
+  }
+  if (!afresh) {
+    answer.gap = {};
+    HalfSpaceAnswer start = std::move(answer);
+    answer = solve_at_offset(now, approach, 0.5 * wanted, &start, true, monitor);
+    applications += answer.iterations;
   }
   answer.iterations = applications;
   answer.certificate.load =
@@ -239,6 +371,9 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
   if (!(fraction >= 0 && fraction <= 1))
     throw Error(ErrorCode::bad_value, "`flatten` is " + format_short(fraction), "it is a share from 0 to 1");
   if (fraction == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
+  if (fraction >= 1 - 0.4 * problem.tolerance)
+    if (const auto pressure = full_contact_pressure(problem))
+      return at_full_contact(problem, *pressure, 1 - fraction, monitor);
   std::optional<double> guess;
   std::optional<HalfSpaceProblem> coarse;
   for (auto next = coarser_problem(problem); next; next = coarser_problem(*coarse)) coarse = std::move(next);
@@ -250,8 +385,13 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
         known_range(problem.heights->values()).max - known_range(coarse->heights->values()).max;
     guess = there.approach + higher;
   }
-  return met(problem, flatten_to(problem, fraction, guess, problem.tolerance, monitor),
-             "a flattening of " + format_short(fraction));
+  HalfSpaceAnswer answer = flatten_to(problem, fraction, guess, problem.tolerance, monitor);
+  if (!answer.converged)
+    answer = sought_by_load(
+        problem, [&](const HalfSpaceAnswer& found) { return flattened(problem, found); },
+        std::min(fraction, 1 - 0.4 * problem.tolerance),
+        fraction * known_range(problem.heights->values()).span(), std::move(answer), monitor);
+  return met(problem, std::move(answer), "a flattening of " + format_short(fraction));
 }
 
 }  // namespace asperity

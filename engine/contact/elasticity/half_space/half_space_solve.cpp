@@ -319,7 +319,7 @@ Start start_in_cells(const CellUnits& units, const HalfSpaceAnswer& from) {
 }  // namespace
 
 HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
-                                const HalfSpaceAnswer* start, Monitor& monitor) {
+                                HalfSpaceAnswer* start, bool afresh, Monitor& monitor) {
   check_fields(problem);
   const Grid& grid = problem.grid;
   const Range ends = known_range(problem.heights->values());
@@ -350,12 +350,17 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   cell.tolerance = 0.49 * problem.tolerance;
   const double longest = std::max(static_cast<double>(grid.nx), grid.ny * cell.shape.aspect);
   cell.mean_pressure = std::min(*cell.offset / longest, greatest_pressure(cell.limit));
-  UnsetArray<double> warm;
+  cell.afresh = afresh;
+  std::span<double> pressures, gaps;
   if (start && start->pressure.size() == grid.nodes()) {
-    warm.resize(grid.nodes());
-    for_nodes(warm.size(), [&](std::size_t k) { warm[k] = start->pressure[k] / units.pressure; });
+    pressures = start->pressure.values();
+    gaps = start->gap.values();
+    for_nodes(pressures.size(), [=, p = pressures.data()](std::size_t k) { p[k] /= units.pressure; });
+    for_nodes(gaps.size(), [=, before = start->approach, g = gaps.data()](std::size_t k) {
+      g[k] = (g[k] + before) / units.height;
+    });
   }
-  CellAnswer found = nested_descent(cell, warm, {}, monitor);
+  CellAnswer found = nested_descent(cell, pressures, gaps, monitor);
   if (found.single && !found.converged) {  // as it might in double precision, too
     const int before = found.applications;
     cell.shape.single = false;
@@ -385,8 +390,8 @@ std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& proble
   for (int solve = 0; solve < most_solves && approach > 0; ++solve) {
     const int before = answer.iterations;
     if (before - begun.iterations > most_applications) break;
-    const HalfSpaceAnswer start = std::move(answer);
-    answer = solve_at_offset(problem, approach, infinity, &start, monitor);
+    HalfSpaceAnswer start = std::move(answer);
+    answer = solve_at_offset(problem, approach, infinity, &start, true, monitor);
     answer.iterations += before;
     if (!answer.converged) break;
     const double found = answer.mean_pressure;

@@ -164,11 +164,17 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
         prolong(from, carried, 1 / from.pitch_x, step.shape, p);
         carried = UnsetArray<double>();
       }
-      for_nodes(nodes, [upper, lowest, h = raw.data(), p = p.data()](std::size_t k) {
-        p[k] = h[k] < lowest ? 0.0 : std::clamp(p[k], 0.0, upper);
-      });
-      const ChainEnd end = run_offset_chain(level, fields, *problem.offset, tolerance,
-                                            finest ? ChainEffort::full : ChainEffort::start);
+      const bool gap_known = !start_gap.empty();
+      if (gap_known)
+        std::copy(start_gap.begin(), start_gap.end(), fields.gap.begin());
+      else
+        for_nodes(nodes, [upper, lowest, h = raw.data(), p = p.data()](std::size_t k) {
+          p[k] = h[k] < lowest ? 0.0 : std::clamp(p[k], 0.0, upper);
+        });
+      const ChainEffort effort = !finest          ? ChainEffort::start
+                                 : problem.afresh ? ChainEffort::full
+                                                  : ChainEffort::brief;
+      const ChainEnd end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, gap_known);
       if (!end.stage.converged) level.gap(p, fields.gap);
       if (finest) {
         answer.pressure = std::move(p);

@@ -21,6 +21,7 @@ namespace {
 // is dear, and of the careful stage, which finishes with one free set before it takes the next.
 constexpr int quick_steps = 3, quick_steps_if_dear = 2, careful_steps = 24;
 constexpr double careful_gain = 0.03;  // of a residual, that ends its steps
+constexpr int careful_patience = 40;   // passes; they lower the energy, which the residual need not follow
 // The opening of a single node in contact, as in contact_quality.cpp.
 constexpr double touching_weight = 0.125;
 
@@ -33,7 +34,7 @@ template <class Limit>
 class OffsetDescent {
  public:
   OffsetDescent(ContactLevel& level, const Limit& limit, DescentFields& fields, double offset,
-                double tolerance, int most, bool exact, bool careful)
+                double tolerance, int most, ChainEffort effort, bool careful)
       : level_(level),
         limit_(limit),
         f_(fields),
@@ -41,14 +42,14 @@ class OffsetDescent {
         offset_(offset),
         tolerance_(tolerance),
         most_(level.applications + most),
-        exact_(exact),
+        effort_(effort),
         careful_(careful),
         periodic_(level.shape.boundary == Boundary::periodic),
         dear_(Limit::hardens || !periodic_),
         work_(fields.pressure.size()),
         direction_(fields.pressure.size()) {}
 
-  StageEnd run();
+  StageEnd run(bool gap_known);
 
  private:
   std::size_t nodes() const { return f_.pressure.size(); }
@@ -73,6 +74,12 @@ class OffsetDescent {
   }
   void shift_all();
   bool descend(int steps);
+  bool go_downhill();
+  struct Change {
+    double slope = 0, energy = 0;  // of the energy to the first order, and in all
+    bool enough() const { return slope < 0 && energy <= 0.1 * slope; }
+  };
+  Change change_since() const;
 
   ContactLevel& level_;
   const Limit& limit_;
@@ -80,7 +87,8 @@ class OffsetDescent {
   SetPreconditioner<Limit> preconditioner_;
   double offset_, tolerance_;
   int most_;
-  const bool exact_, careful_, periodic_, dear_;
+  const ChainEffort effort_;
+  const bool careful_, periodic_, dear_;
   Array<double> work_, direction_;
   double elastic_ = 0, yielding_ = 0, settling_ = 0;  // nodes
   bool changed_ = true, fresh_ = false, have_direction_ = false;
@@ -177,7 +185,10 @@ double OffsetDescent<Limit>::turn(double target) {
   if (periodic_ && sums[1] > 0) {
     const double longest =
         std::max(static_cast<double>(level_.shape.nx), level_.shape.ny * level_.shape.aspect);
-    const double elastically = full ? 0.0 : longest / std::numbers::pi * sums[1];
+    const double others = static_cast<double>(nodes()) - sums[1];
+    // A constant on nearly all nodes is what the few others lack of it.
+    const double lacking = LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * others;
+    const double elastically = std::min(longest / std::numbers::pi * sums[1], lacking);
     const double yields = all_that_moves ? limit_.yielding_slope() * yielding_ : 0.0;
     if (elastically + yields > 0) level = sums[0] / (elastically + yields);
   }
@@ -284,10 +295,84 @@ bool OffsetDescent<Limit>::descend(int steps) {
   return any;
 }
 
+// Of the energy ½ p·Kp − (h + δ)·p, and what yields, from the old pressures and gaps to those there are.
 template <class Limit>
-StageEnd OffsetDescent<Limit>::run() {
+typename OffsetDescent<Limit>::Change OffsetDescent<Limit>::change_since() const {
+  const auto sums = over_nodes<2>(nodes(), [n = view(), offset = offset_, p0 = f_.old_pressure.data(),
+                                            g0 = f_.old_gap.data()](std::size_t k, double* v) {
+    const double step = n.pressure[k] - p0[k];
+    const double before = n.limit.opening(k, p0[k]), after = n.limit.opening(k, n.pressure[k]);
+    const double slope = step * (g0[k] - offset + before);
+    const double bend = 0.5 * step * (n.gap[k] - g0[k]);
+    double yields = 0;
+    if constexpr (Limit::hardens)
+      yields = n.limit.compliance > 0
+                   ? 0.5 * (after - before) * (after + before) / n.limit.compliance - step * before
+                   : 0.0;
+    v[0] = slope;
+    v[1] = slope + bend + yields;
+  });
+  return {sums[0], sums[1]};
+}
+
+// A pass that lowers the energy: steps on the free set, and where they leave the bounds their projection as
+// far as that lowers it, or else that of a step against the gaps.
+template <class Limit>
+bool OffsetDescent<Limit>::go_downhill() {
+  const double upper = limit_.upper();
+  f_.old_pressure = f_.pressure;
+  f_.old_gap = f_.gap;
+  have_direction_ = false;
+  const bool moved = descend(0);
+  const auto out = over_nodes<1>(nodes(), [n = view(), upper](std::size_t k, double* v) {
+    v[0] = n.pressure[k] < 0 || n.pressure[k] > upper ? 1.0 : 0.0;
+  });
+  if (moved && out[0] == 0 && change_since().energy < 0) return true;
+  // Along `direction_`, from the old pressures.
+  const auto step_to = [&](double share) {
+    for_nodes(nodes(), [n = view(), upper, share, x = direction_.data(), p0 = f_.old_pressure.data(),
+                        s = work_.data()](std::size_t k) {
+      const double next = std::clamp(p0[k] + share * x[k], 0.0, upper);
+      s[k] = next - p0[k];
+      n.pressure[k] = next;
+    });
+    level_.apply(work_, f_.image);
+    for_nodes(nodes(), [n = view(), image = f_.image.data(), g0 = f_.old_gap.data()](std::size_t k) {
+      n.gap[k] = g0[k] + image[k];
+    });
+  };
+  if (moved) {
+    for_nodes(nodes(), [n = view(), x = direction_.data(), p0 = f_.old_pressure.data()](std::size_t k) {
+      x[k] = n.pressure[k] - p0[k];
+    });
+    for (double share = 1; share > 0.05; share *= 0.25) {
+      step_to(share);
+      if (change_since().enough()) return true;
+    }
+  }
+  for_nodes(nodes(),
+            [n = view(), offset = offset_, upper, x = direction_.data(), stiff = level_.short_wave_stiffness,
+             p0 = f_.old_pressure.data(), g0 = f_.old_gap.data()](std::size_t k) {
+              const double against = -stiff * (g0[k] - offset + n.limit.opening(k, p0[k]));
+              x[k] = std::clamp(p0[k] + against, 0.0, upper) - p0[k];
+            });
+  // Any share of this step stays within the bounds.
+  double share = 1;
+  for (int tries = 0; tries < 4; ++tries) {
+    step_to(share);
+    const Change change = change_since();
+    if (change.enough()) return true;
+    if (!(change.slope < 0)) return false;
+    const double bend = change.energy - change.slope;
+    share *= bend > 0 ? std::min(0.5, -0.5 * change.slope / bend) : 0.5;
+  }
+  return change_since().energy < 0;
+}
+
+template <class Limit>
+StageEnd OffsetDescent<Limit>::run(bool gap_known) {
   using namespace descent_rules;
-  find_gap();
+  if (!gap_known) find_gap();
   StageEnd end;
   double least = end.best, before = end.best;
   int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
@@ -299,7 +384,7 @@ StageEnd OffsetDescent<Limit>::run() {
     if (level_.report) level_.report(at.residual);
     if (at.residual < tolerance_) {
       end.best = std::min(end.best, at.residual);
-      if (!exact_ || (at.within && fresh_)) {
+      if (effort_ == ChainEffort::start || (at.within && (fresh_ || effort_ == ChainEffort::brief))) {
         settle();
         end.converged = true;
         return end;
@@ -321,7 +406,7 @@ StageEnd OffsetDescent<Limit>::run() {
     least = std::min(least, at.residual);
     if (at.residual > jump * before) ++jumps;
     before = at.residual;
-    const int patience = careful_ ? 3 * passes_without_gain : passes_without_gain;
+    const int patience = careful_ ? careful_patience : passes_without_gain;
     if (without_gain > patience || level_.applications > most_ || !std::isfinite(at.residual)) {
       settle();
       return end;
@@ -342,6 +427,14 @@ StageEnd OffsetDescent<Limit>::run() {
     if (changed_) preconditioner_.set_free(f_.free);
     if (!at.within || changed_) have_direction_ = false;
     fresh_ = false;
+    if (careful_) {
+      if (!go_downhill()) {
+        settle();
+        return end;
+      }
+      std::swap(f_.free, f_.old_free);
+      continue;
+    }
     if (!at.within) settle_step();
     if (!descend(at.within ? 0 : 1)) {
       settle();
@@ -352,12 +445,12 @@ StageEnd OffsetDescent<Limit>::run() {
 }
 
 StageEnd offset_descent(ContactLevel& level, DescentFields& fields, double offset, double tolerance, int most,
-                        bool exact, bool careful) {
+                        ChainEffort effort, bool careful, bool gap_known) {
   return std::visit(
       [&](const auto& limit) {
         return OffsetDescent<std::remove_cvref_t<decltype(limit)>>(level, limit, fields, offset, tolerance,
-                                                                   most, exact, careful)
-            .run();
+                                                                   most, effort, careful)
+            .run(gap_known);
       },
       level.limit);
 }
@@ -365,15 +458,14 @@ StageEnd offset_descent(ContactLevel& level, DescentFields& fields, double offse
 }  // namespace
 
 ChainEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double offset, double tolerance,
-                          ChainEffort effort) {
-  constexpr int quick = 150, careful = 600;
+                          ChainEffort effort, bool gap_known) {
+  constexpr int quick = 150, careful = 80;
   ChainEnd end;
-  const bool exact = effort != ChainEffort::start;
   end.name = "preconditioned descent at a given approach";
-  end.stage = offset_descent(level, fields, offset, tolerance, quick, exact, false);
+  end.stage = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
   if (end.stage.converged || effort == ChainEffort::start) return end;
   end.name = "preconditioned descent at a given approach, one contact after another";
-  end.stage = offset_descent(level, fields, offset, tolerance, careful, exact, true);
+  end.stage = offset_descent(level, fields, offset, tolerance, careful, effort, true, false);
   return end;
 }
 

@@ -10,10 +10,12 @@
 
 namespace asperity {
 
-// From fields.pressure, feasible (zero will do). Ends with feasible pressures and, if converged, a gap
-// K p − h computed afresh. The residual is measured by level.length. Where all of a periodic tile would touch
-// without yielding no pressure has the gap: does not converge then.
+// From fields.pressure, and from fields.gap, K p − h of them, where `gap_known`; without it the pressures are
+// feasible (zero will do). Ends with feasible pressures and, if converged, a gap that is computed afresh
+// (full), as the steps left it (brief), or that of pressures before they were settled (start). The residual
+// is measured by level.length. Where all of a periodic tile would touch without yielding no pressure has the
+// gap: does not converge then.
 ChainEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double offset, double tolerance,
-                          ChainEffort effort);
+                          ChainEffort effort, bool gap_known);
 
 }  // namespace asperity
