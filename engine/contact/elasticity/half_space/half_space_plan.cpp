@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/contact/elastic_bodies.hpp"
+#include "engine/contact/elasticity/half_space/line_extension.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -28,6 +29,12 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   const auto grids = [&](double count) { return static_cast<std::int64_t>(count * nodes * sizeof(double)); };
   plan.buffers.push_back({"pressures and gaps of each state", grids(2)});
   plan.buffers.push_back({"work of the solver", grids(!periodic ? 11 : single ? 7.5 : 8), false});
+  // The last two answers and what the next begins from, while the approach that flattens by so much is
+  // sought.
+  plan.buffers.push_back({"answers of a search for a flattening", grids(5.5), false});
+  const Grid& grid = geometry.grid();
+  if (LineExtension::serves(grid.hy() / grid.hx()))
+    plan.buffers.push_back({"lines of cells much longer than wide", grids(2.5), false});
   if (geometry.overhangs())
     plan.buffers.push_back({"heights, those that nothing faces out of reach", grids(1), false});
   plan.transforms = periodic ? 40 : 60;
