@@ -12,6 +12,7 @@
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/level_transfer.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/unconverged.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -154,7 +155,7 @@ HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, con
               what + " was sought to a residual of " + format_short(answer.certificate.worst(), 3) +
                   " where `tolerance` asks for " + format_short(problem.tolerance, 3) + ", in " +
                   std::to_string(answer.iterations) + " applications of the half-space",
-              "ask for a larger `tolerance`, or press by `pressure`");
+              unconverged_hint(problem.grid));
 }
 
 }  // namespace
@@ -169,14 +170,14 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
                 "`approach` is " + format_short(approach) +
                     " m, less than 1e-280 of the tile: no double holds the pressures it takes",
                 "give a larger approach, or none");
-  // At full contact any load from the least on has this approach.
+  check_full_contact(problem, approach);
+  // Within rounding of full contact: any load from the least on has this approach.
   const double full = full_contact(problem);
   const double apart = std::abs(approach - full) / std::min(full, problem.rms);
   const bool rough = known_range(problem.heights->values()).span() > 0;
   if (problem.boundary == Boundary::periodic && rough && apart <= 0.5 * problem.tolerance)
     if (const auto pressure = full_contact_pressure(problem))
       return at_full_contact(problem, *pressure, std::abs(full / approach - 1), monitor);
-  check_full_contact(problem, approach);
   HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, nullptr, true, monitor);
   if (!answer.converged)
     answer = sought_by_load(
@@ -298,11 +299,14 @@ HalfSpaceAnswer flatten_to(const HalfSpaceProblem& problem, double fraction, std
   const double wanted = std::min(fraction, 1 - 0.4 * accuracy) * span;
   double approach = guess.value_or(wanted), most = infinity;
   BracketedSecant bracket(wanted);
-  if (problem.boundary == Boundary::periodic && !problem.yield.hardens()) {
-    most = problem.yield.caps() ? span : full_contact(problem);
-    bracket = BracketedSecant(wanted, {0, 0}, {most, span});
-    if (!guess) approach = wanted * (1 - wanted / span * (1 - most / span));
-    approach = std::min(approach, most * (1 - 1e-6));
+  if (problem.boundary == Boundary::periodic) {
+    const double full = full_contact(problem);
+    if (!guess) approach = wanted * (1 - wanted / span * (1 - full / span));
+    if (!problem.yield.hardens()) {
+      most = problem.yield.caps() ? span : full;
+      bracket = BracketedSecant(wanted, {0, 0}, {most, span});
+      approach = std::min(approach, most * (1 - 1e-6));
+    }
   }
   BracketedSecant root = bracket;
   HalfSpaceProblem now = problem;
@@ -319,9 +323,13 @@ HalfSpaceAnswer flatten_to(const HalfSpaceProblem& problem, double fraction, std
       start = further_along(answer, std::move(before), steps);
     }
     before = std::move(answer);
-    answer = solve_at_offset(now, approach, 0.5 * wanted, start.pressure.empty() ? nullptr : &start, afresh,
-                             monitor);
+    const bool warm = !start.pressure.empty();
+    answer = solve_at_offset(now, approach, 0.5 * wanted, warm ? &start : nullptr, afresh, monitor);
     applications += answer.iterations;
+    if (warm && !answer.converged && now.tolerance > accuracy) {  // it may have been too far off after all
+      answer = solve_at_offset(now, approach, 0.5 * wanted, nullptr, afresh, monitor);
+      applications += answer.iterations;
+    }
     const double pressed_before = std::exchange(pressed, flattened(problem, answer) * span);
     if (solve > 0 && approach != before.approach)
       gain = std::max(1.0, std::abs((pressed - pressed_before) / (approach - before.approach)));

@@ -16,7 +16,6 @@ constexpr double off_the_ends = 0.01;  // of the bracket, that a chord through i
 
 void BracketedSecant::take(Point found, bool sure) {
   if (taken_ == 0 || found.at != last_.at) {
-    earlier_ = before_;
     before_ = last_;
     ++taken_;
   }
@@ -29,29 +28,11 @@ void BracketedSecant::take(Point found, bool sure) {
     high_ = found.at < high_.at ? found : high_;
 }
 
-// Where the parabola through the last three, places as a function of values, takes the value.
-double BracketedSecant::bent_place() const {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (taken_ < 3) return none;
-  const Point three[] = {last_, before_, earlier_};
-  double place = 0;
-  for (int i = 0; i < 3; ++i) {
-    const Point &own = three[i], &next = three[(i + 1) % 3], &other = three[(i + 2) % 3];
-    place += own.at * ((wanted_ - next.value) / (own.value - next.value)) *
-             ((wanted_ - other.value) / (own.value - other.value));
-  }
-  // Where they do not rise in turn it says nothing.
-  const auto rises = [](Point a, Point b) { return (a.at < b.at) == (a.value < b.value); };
-  const bool ordered = rises(last_, before_) && rises(before_, earlier_) && rises(last_, earlier_);
-  return ordered ? place : none;
-}
-
 std::optional<double> BracketedSecant::next() {
   double place = last_.value > 0 ? last_.at * (wanted_ / last_.value) : 4 * last_.at;
   if (taken_ > 1 && last_.value != before_.value)
     place = last_.at + (wanted_ - last_.value) * (last_.at - before_.at) / (last_.value - before_.value);
   const auto inside = [&](double x) { return x > low_.at && x < high_.at; };
-  if (const double bent = bent_place(); std::isfinite(high_.at) && inside(bent)) place = bent;
   if (!std::isfinite(high_.at)) {
     // A step for each that fell short is one more of those that grow.
     if (short_of_it_ > few_short && place > last_.at)

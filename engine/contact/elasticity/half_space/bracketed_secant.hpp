@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where a function that never falls takes a given value, from values that are each dear: the secant through
-// the last two, or the parabola through the last three, kept within the bracket of those below and above,
-// which is halved where the secant gains little; while nothing is known to lie above, steps that keep falling
-// short grow. A value too rough to say on which side it lies leaves the bracket as it is.
+// the last two, kept within the bracket of those below and above, which is halved where the secant gains
+// little; while nothing is known to lie above, steps that keep falling short grow. A value too rough to say
+// on which side it lies leaves the bracket as it is.
 #pragma once
 
 #include <limits>
@@ -26,11 +26,9 @@ class BracketedSecant {
   std::optional<double> next();
 
  private:
-  double bent_place() const;
-
   double wanted_;
   Point low_, high_;
-  Point last_{}, before_{}, earlier_{};
+  Point last_{}, before_{};
   int taken_ = 0, slow_ = 0, short_of_it_ = 0;
   double width_ = unknown;
 };

@@ -110,7 +110,7 @@ ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boun
       level_(smooth_),
       rest_(smooth_),
       tiles_(nx, ny, boundary, sweeps) {
-  if (LineExtension::serves(aspect)) {
+  if (LineExtension::serves(aspect, boundary)) {
     lines_.emplace(nx, ny, boundary, aspect > 1);
     gathered_.resize(tiles_.nodes());
     no_smooth_field();
@@ -401,7 +401,7 @@ std::int64_t ContactPreconditioner::bytes(int nx, int ny, double aspect, Boundar
   constexpr std::int64_t patch = 12 * (tile_width + 64) * (FreeTiles::height + 32);
   return HalfOrderPyramid::bytes(nx, ny, aspect, boundary) + 2 * static_cast<std::int64_t>(nx) * ny +
          SmoothExtension::field_bytes(nx, ny) + patch * thread_count() +
-         (LineExtension::serves(aspect)
+         (LineExtension::serves(aspect, boundary)
               ? LineExtension::bytes(nx, ny) + 4 * static_cast<std::int64_t>(nx) * ny
               : 0);
 }

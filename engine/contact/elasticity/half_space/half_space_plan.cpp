@@ -33,7 +33,7 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   // sought.
   plan.buffers.push_back({"answers of a search for a flattening", grids(5.5), false});
   const Grid& grid = geometry.grid();
-  if (LineExtension::serves(grid.hy() / grid.hx()))
+  if (LineExtension::serves(grid.hy() / grid.hx(), geometry.boundary()))
     plan.buffers.push_back({"lines of cells much longer than wide", grids(2.5), false});
   if (geometry.overhangs())
     plan.buffers.push_back({"heights, those that nothing faces out of reach", grids(1), false});

@@ -458,7 +458,7 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   if (!answer.converged && problem.yield.hardens())
     if (auto sought = sought_by_approach(problem, mean_pressure, answer, monitor)) return std::move(*sought);
   if (!answer.converged && !problem.best_effort)
-    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations);
+    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations, grid);
   return answer;
 }
 

@@ -20,7 +20,7 @@ class LineExtension {
   LineExtension(int nx, int ny, Boundary boundary, bool along_x);
 
   // Cells so much longer than wide, or wider than long.
-  static bool serves(double aspect);
+  static bool serves(double aspect, Boundary boundary);
 
   // The nodes where free[k] != 0.
   void set_free(std::span<const std::uint8_t> free);
