@@ -124,5 +124,84 @@ TEST(FlatteningSolve, OneIsFullContactOfAPeriodicTile) {
   EXPECT_NEAR(flattened(problem, answer), 1, 1e-6);
 }
 
+// Entry V1: ground so soft once it yields that next to no load lies between one approach and another, and
+// the few heights of a wave come into contact one after the other.
+TEST(ApproachSolve, V1_WhereLoadsHardlyTellApproachesApart) {
+  for (const int n : {8, 16, 96}) {
+    HalfSpaceProblem problem = problem_from(
+        make_grid(n, n, 1e-3, 1e-3), Boundary::periodic,
+        [](double x, double) { return 1e-6 * std::cos(2 * pi * x / 1e-3); }, 1e11, 1e-6);
+    problem.yield.cap = 2e7;
+    problem.yield.hardening = 1e11;
+    const double approach = .3 * range(problem.heights->values()).span();
+    const HalfSpaceAnswer answer = by_approach(problem, approach);
+    EXPECT_EQ(answer.approach, approach);
+    EXPECT_LE(answer.iterations, 50) << n;
+    if (n < 96) {
+      EXPECT_LE(dense_violation(problem, answer), 1e-6) << n;
+    }
+  }
+}
+
+// Entry V1: by pressure, and then by what that brought.
+TEST(ApproachSolve, V1_TakesAboutWhatTheSameStateTakesByPressure) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+    for (const double over : {0.0, 1.2, 5.0})
+      for (const double hardening : {0.0, 1e-3, 1.0})
+        for (const double pressure : {1e-4, .01, .06}) {
+          if (over == 0 && hardening > 0) continue;
+          HalfSpaceProblem problem = rough_problem(64, boundary, 3, 1e-6);
+          if (over > 0) problem.yield.cap = over * pressure;
+          if (hardening > 0) problem.yield.hardening = hardening / problem.grid.hx();
+          const HalfSpaceAnswer there = solve(problem, pressure);
+          const std::string scene = std::string(name(boundary)) + ", cap " + std::to_string(over) +
+                                    ", hardening " + std::to_string(hardening) + ", pressure " +
+                                    std::to_string(pressure);
+          const HalfSpaceAnswer back = by_approach(problem, there.approach);
+          EXPECT_TRUE(back.converged) << scene;
+          EXPECT_LE(back.iterations, 2 * there.iterations + 20) << scene;
+          const HalfSpaceAnswer flat =
+              solve_at_flattening(problem, flattened(problem, there), Monitor::silent());
+          EXPECT_TRUE(flat.converged) << scene;
+          EXPECT_LE(flat.iterations, 10 * there.iterations + 30) << scene;
+          EXPECT_NEAR(flattened(problem, flat), flattened(problem, there), 1e-6 * flattened(problem, there));
+        }
+}
+
+// Entry V1: what only a pressure beyond all heights would bring.
+TEST(ApproachSolve, V1_SaysThatAStiffFlatIsFull) {
+  HalfSpaceProblem problem = problem_from(
+      make_grid(8, 8, 1e-3, 1e-3), Boundary::periodic, [](double, double) { return 0.0; }, 1e11);
+  problem.yield.cap = 2e7;
+  problem.yield.hardening = 1e300;
+  try {
+    by_approach(problem, 1e-6);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::infeasible);
+    EXPECT_NE(error.sentence().find("full contact"), std::string::npos) << error.what();
+  }
+  // One that gives way at a pressure there is carries it everywhere alike.
+  problem.yield.hardening = 1e14;
+  const HalfSpaceAnswer answer = by_approach(problem, 1e-6);
+  EXPECT_NEAR(answer.mean_pressure, 2e7 + 1e8, 1e-6 * 1.2e8);
+}
+
+// Entry V1: the one random scene that a pressure had lost.
+TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
+  const double size = 0.0006020977480034872, amplitude = 3.948845195143764e-05;
+  HalfSpaceProblem problem = problem_from(
+      make_grid(96, 96, size, size), Boundary::periodic,
+      [=](double x, double y) {
+        return amplitude * std::cos(2 * pi * x / size) * std::cos(2 * pi * y / size);
+      },
+      3498417126.8865466, 1e-6);
+  problem.yield.cap = 1135771.91093065;
+  problem.yield.hardening = 2663206453.0237713;
+  const HalfSpaceAnswer answer = solve(problem, 889262.1864497022);
+  EXPECT_TRUE(answer.converged);
+  EXPECT_LE(answer.certificate.worst(), 1e-6);
+}
+
 }  // namespace
 }  // namespace asperity::approach_solve_test

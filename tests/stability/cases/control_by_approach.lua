@@ -96,4 +96,25 @@ case:evidence(punch, "A free boundary knows no full contact: past it the tile is
   { "certificate", "%.0e" } })
 case:expect(punch, "nodes", { at_least = 48 * 48 })
 case:expect(punch, "error", { at_most = 1e-15 }) -- measured 0
+-- Ground that is soft once it yields: a wave's few heights come into contact one after the other, and between
+-- two of them next to no load lies between one approach and another.
+local soft = lab.notebook "soft"
+local metal = lab.material{ young = 1e11, poisson = 0 }
+for _, cells in ipairs{ 8, 16, 96 } do
+  local function fresh()
+    return lab.contact{ lower = lab.surface.sine{ cells = cells, size = 1e-3, amplitude = 1e-6,
+      material = metal }, upper = lab.rigid, boundary = "periodic",
+      effects = { elasticity = "half_space", plasticity = { hardness = 2e7, hardening = 1e11 } } }
+  end
+  local st = fresh():press{ indentation = 0.3 }
+  local again = fresh():press{ pressure = st.pressure }
+  soft:write{ cells = cells, transforms = st.cost.transforms, load = again.cost.transforms,
+    error = math.abs(st.indentation / 0.3 - 1), apart = math.abs(again.indentation / 0.3 - 1),
+    certificate = st.residual }
+end
+case:evidence(soft, "A wave of soft ground pressed to 0.3 of its height, and then by the pressure that took.", {
+  { "cells", "%d" }, { "transforms", "%.0f" }, { "load", "%.0f", "transforms by pressure" },
+  { "error", "%.0e" }, { "apart", "%.0e", "apart by pressure" }, { "certificate", "%.0e" } })
+case:expect(soft, "error", { at_most = 1e-15 })
+case:expect(soft, "transforms", { at_most = 150 })
 case:finish{ worst = "8e-10 of the load, there and back", verdict = "right answer, then a clear error" }

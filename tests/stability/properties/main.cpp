@@ -23,7 +23,7 @@ namespace asperity::stability {
 namespace {
 
 const Family* const families[] = {&conditions, &monotony,           &rescaling, &symmetry,
-                                  &events,     &events_of_elements, &threads};
+                                  &events,     &events_of_elements, &threads,   &controls};
 
 struct Settings {
   std::string family;
@@ -120,6 +120,11 @@ int run(const Family& family, const Settings& settings) {
                     .c_str());
     std::fflush(stdout);
   }
+  if (family.after)
+    if (const Verdict verdict = family.after()) {
+      ++count;
+      std::printf("%s: %s: %s\n", family.name, verdict->property.c_str(), verdict->how.c_str());
+    }
   std::printf("%s: %d scenes, %d broken, %.1f s\n", family.name, scenes, count, seconds() - begin);
   for (const auto& [property, times] : broken) std::printf("  %5d  %s\n", times, property.c_str());
   std::fflush(stdout);

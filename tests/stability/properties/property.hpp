@@ -30,9 +30,11 @@ struct Family {
   // `salt` is the source of what a check draws for itself: the same for a scene and its smaller ones.
   Verdict (*check)(const Trial& trial, std::uint64_t salt);
   int scenes;  // a run
+  // What must hold of all of a run's scenes together; may print what it found.
+  Verdict (*after)() = nullptr;
 };
 
-extern const Family conditions, monotony, rescaling, symmetry, events, events_of_elements, threads;
+extern const Family conditions, monotony, rescaling, symmetry, events, events_of_elements, threads, controls;
 
 // The contact of a trial, fresh, under its pressure.
 inline State pressed(const Scene& scene, double pressure) {

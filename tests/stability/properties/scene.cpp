@@ -37,7 +37,7 @@ class Draws {
   std::uint64_t next_ = 0;
 };
 
-Grid draw_grid(Draws& draw, int most) {
+Grid draw_grid(Draws& draw, int most, double longest) {
   const int least = std::min(8, most);
   int nx = draw.between(least, most), ny = draw.between(least, most);
   const int shape = draw.below(20);
@@ -50,7 +50,7 @@ Grid draw_grid(Draws& draw, int most) {
     ny = std::min(most, sides[static_cast<std::size_t>(draw.below(4))]);
   }
   const double hx = draw.decades(-9, 2);
-  const double aspect = draw.chance(0.6) ? 1 : draw.decades(-1.5, 1.5);
+  const double aspect = draw.chance(0.6) ? 1 : draw.decades(-longest, longest);
   return make_grid(nx, ny, nx * hx, ny * (hx * aspect));
 }
 
@@ -239,7 +239,7 @@ double Trial::cap() const { return hardens() ? infinity : hardness(); }
 
 Trial draw_trial(std::uint64_t seed, std::uint64_t index, const Wanted& wanted) {
   Draws draw(seed, index);
-  const Grid grid = draw_grid(draw, wanted.most_cells);
+  const Grid grid = draw_grid(draw, wanted.most_cells, wanted.longest);
   const double amplitude = grid.hx() * draw.decades(-5, 0.5);
   std::string names;
   Field lower = draw_heights(draw, grid, amplitude, names);

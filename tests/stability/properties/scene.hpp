@@ -36,6 +36,7 @@ struct Wanted {
   std::optional<double> tolerance{};
   double lightest = 1e-12, heaviest = 1e3;  // of the pressure that about flattens the roughness
   int most_cells = 48;                      // a side
+  double longest = 1.5;  // powers of ten that cells are longer than wide, or wider than long
 };
 
 // Scene `index` of a seed: the same whatever was drawn before.

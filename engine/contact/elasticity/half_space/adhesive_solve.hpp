@@ -37,8 +37,8 @@ struct AdhesiveAnswer {
 };
 
 // At this approach, of either sign: from apart, or from the attraction and pressures of `start`.
-// Takes some 20 000 applications of K at most. Throws Error{not_converged} unless best_effort,
-// Error{infeasible} where numbers overflow, and when asked to stop.
+// Takes some 80 applications of K, 1800 on the hardest of 60 contacts, and some 20 000 at most. Throws
+// Error{not_converged} unless best_effort, Error{infeasible} where numbers overflow, and when asked to stop.
 AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approach,
                                   const AdhesiveAnswer* start, Monitor& monitor);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A contact pressed by its approach or by how much it flattens, found as the load that does it: both rise
-// with the load, so the load is a bracketed root, sought on coarse grids first and on the finest from
-// where they left it, each solve starting from the one before. The certificate's load entry is then the
-// relative error of what was prescribed.
+// A contact pressed by its approach or by how much it flattens. At a given approach the problem is convex
+// without a load to keep, and is solved as such (offset_descent.hpp): no load is sought, which soft ground
+// hardly lets tell approaches apart. How much flattens never falls as the approach grows: a bracketed secant
+// in the approach, each solve starting from the one before. The certificate's load entry is the relative
+// error of what was prescribed.
 #pragma once
 
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"
@@ -10,8 +11,8 @@
 namespace asperity {
 
 // approach in m from first touch, >= 0. Besides what solve_at_pressure throws: Error{infeasible} where no
-// load gives it: past full contact of a periodic tile (max h − mean h without yield), or where every node is
-// at the cap.
+// load gives it: past full contact of a periodic tile (max h − mean h without yield; where it hardens, once
+// the pressure would hide all heights), or where every node is at the cap.
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor);
 
 // The share of the peak-to-valley of h pressed away, 0 … 1: 1 − span(h − u − w)/span(h), w what yielded.

@@ -12,11 +12,13 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/contact/elasticity/half_space/edge_rows.hpp"
 #include "engine/contact/elasticity/half_space/free_tiles.hpp"
 #include "engine/contact/elasticity/half_space/half_order_pyramid.hpp"
+#include "engine/contact/elasticity/half_space/line_extension.hpp"
 #include "engine/contact/elasticity/half_space/smooth_extension.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
@@ -69,6 +71,10 @@ class ContactPreconditioner::Parts {
   void load(Patch& patch, const FreeTile& tile, const Put& put) const;
   void extend(const FreeTile& tile, const Residual& scaled);
   void gather_back(std::size_t number, Patch& patch, std::span<const float> y, const Keep& keep);
+  // Of long cells.
+  double spread_along_lines(const Residual& scaled, const Step& step);
+  void gather_along_lines(const Keep& keep);
+  void no_smooth_field();
   double greatest(const Residual& r, const Step& step) const;
   template <class Add>
   void add_up_hats(const Add& add, Array<double>& total);
@@ -86,7 +92,9 @@ class ContactPreconditioner::Parts {
   std::span<const float> spread_;        // B Ext r/grow_; empty where r is 0
   double grow_ = 1;                      // a power of two
   FreeTiles tiles_;
-  std::vector<Hats> hats_;  // of each tile
+  std::optional<LineExtension> lines_;  // of long cells, in place of sweeps and smooth fields
+  UnsetArray<float> gathered_;          // by them
+  std::vector<Hats> hats_;              // of each tile
   ScratchPool<Patch> patches_;
 };
 
@@ -102,6 +110,12 @@ ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boun
       level_(smooth_),
       rest_(smooth_),
       tiles_(nx, ny, boundary, sweeps) {
+  if (LineExtension::serves(aspect, boundary)) {
+    lines_.emplace(nx, ny, boundary, aspect > 1);
+    gathered_.resize(tiles_.nodes());
+    no_smooth_field();
+    return;
+  }
   for (std::size_t k = 0; k < tiles_.count(); ++k) {
     const FreeTile& tile = tiles_[k];
     const SmoothExtension::Sums sums(smooth_, tile.x, tile.y, tile.width, tile.height);
@@ -127,6 +141,11 @@ void ContactPreconditioner::Parts::load(Patch& patch, const FreeTile& tile, cons
 }
 
 void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) {
+  if (lines_) {
+    tiles_.set(free, [](std::size_t) {});
+    lines_->set_free(free);
+    return;
+  }
   tiles_.set(free, [&](std::size_t number) {
     const FreeTile& tile = tiles_[number];
     SmoothExtension::Sums& hats = hats_[number].free;
@@ -233,6 +252,33 @@ void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch,
   }
 }
 
+void ContactPreconditioner::Parts::no_smooth_field() {
+  std::fill(sums_.begin(), sums_.end(), 0.0);
+  rest_.set(sums_);
+  rest_sum_ = 0;
+}
+
+double ContactPreconditioner::Parts::spread_along_lines(const Residual& r, const Step& step) {
+  parallel_for(ny_, [&](std::int64_t j) {
+    const std::size_t begin = node(0, static_cast<int>(j));
+    take(step, begin, static_cast<std::size_t>(nx_));
+    const std::uint8_t* const free = tiles_.marks(begin);
+    float* const to = pyramid_.input().data() + begin;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(nx_); ++i)
+      to[i] = free[i] != 0 ? static_cast<float>(r.offset + r.factor * r.values[begin + i]) : 0.0f;
+  });
+  lines_->extend(pyramid_.input());
+  spread_ = pyramid_.apply();
+  return pyramid_.product() * grow_ * grow_;
+}
+
+void ContactPreconditioner::Parts::gather_along_lines(const Keep& keep) {
+  std::copy(spread_.begin(), spread_.end(), gathered_.begin());
+  lines_->gather(gathered_);
+  for (int j = 0; j < ny_; ++j)
+    keep(0, node(0, j), static_cast<std::size_t>(nx_), gathered_.data() + node(0, j), grow_);
+}
+
 // Roughly: of a few rows, and of all only if that finds nothing.
 double ContactPreconditioner::Parts::greatest(const Residual& r, const Step& step) const {
   constexpr int few = 32;
@@ -268,6 +314,7 @@ double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step)
   const double shrink = std::ldexp(1.0, -exponent);
   grow_ = std::ldexp(1.0, exponent);
   const Residual near_one{r.values, r.factor * shrink, r.offset * shrink};
+  if (lines_) return spread_along_lines(near_one, step);
   const auto pass_on_residual = [&](std::size_t number, Patch& patch) {
     const FreeTile& tile = tiles_[number];
     SmoothExtension::Sums& hats = hats_[number].passed;
@@ -293,9 +340,11 @@ double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step)
 void ContactPreconditioner::Parts::gather(const Keep& keep) {
   if (spread_.empty()) {
     for (int j = 0; j < ny_; ++j) keep(0, node(0, j), static_cast<std::size_t>(nx_), nullptr, 0);
-    std::fill(sums_.begin(), sums_.end(), 0.0);
-    rest_.set(sums_);
-    rest_sum_ = 0;
+    no_smooth_field();
+    return;
+  }
+  if (lines_) {
+    gather_along_lines(keep);
     return;
   }
   // With Ext = L (1 − C) + C, L being the sweeps and C the smooth field, Extᵀ y = Lᵀ y + Cᵀ (y − Lᵀ y).
@@ -351,7 +400,10 @@ std::int64_t ContactPreconditioner::bytes(int nx, int ny, double aspect, Boundar
   // thread.
   constexpr std::int64_t patch = 12 * (tile_width + 64) * (FreeTiles::height + 32);
   return HalfOrderPyramid::bytes(nx, ny, aspect, boundary) + 2 * static_cast<std::int64_t>(nx) * ny +
-         SmoothExtension::field_bytes(nx, ny) + patch * thread_count();
+         SmoothExtension::field_bytes(nx, ny) + patch * thread_count() +
+         (LineExtension::serves(aspect, boundary)
+              ? LineExtension::bytes(nx, ny) + 4 * static_cast<std::int64_t>(nx) * ny
+              : 0);
 }
 
 }  // namespace asperity

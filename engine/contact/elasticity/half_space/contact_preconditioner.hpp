@@ -5,6 +5,7 @@
 // the grid, and what r differs from that by a few sweeps far, each making the nodes of one colour of a
 // chessboard, off the set, the mean of their four neighbours, of two on a line of nodes; on a periodic side
 // of an odd number of nodes, where two of one colour meet, sweeps do not wrap. |q|/2 is HalfOrderPyramid's.
+// On cells much longer than wide, it is LineExtension that carries r on instead.
 // Symmetric, positive semi-definite on the free set; single precision inside. No projection of the mean.
 #pragma once
 

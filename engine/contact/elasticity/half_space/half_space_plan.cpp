@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/contact/elastic_bodies.hpp"
+#include "engine/contact/elasticity/half_space/line_extension.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier_lane_filter.hpp"
 #include "engine/core/laws_met.hpp"
@@ -37,11 +38,15 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   constexpr std::int64_t always = 300'000, per_row = 512;
   plan.buffers.push_back({"rows and threads at work",
                           always + per_row * (grid.nx + grid.ny) * (periodic ? 1 : 2), false, false});
+  // The last two answers and what the next begins from, while the approach that flattens by so much is
+  // sought.
+  plan.buffers.push_back({"answers of a search for a flattening", grids(5.5), false});
+  if (LineExtension::serves(grid.hy() / grid.hx(), geometry.boundary())) {
+    laws_met().meet(Law::long_cells);
+    plan.buffers.push_back({"lines of cells much longer than wide", grids(2.5), false});
+  }
   if (geometry.overhangs())
     plan.buffers.push_back({"heights, those that nothing faces out of reach", grids(1), false});
-  constexpr double long_cells = 4;  // where the preconditioner goes along lines of nodes
-  const double aspect = geometry.grid().hy() / geometry.grid().hx();
-  if (aspect >= long_cells || aspect * long_cells <= 1) laws_met().meet(Law::long_cells);
   plan.transforms = periodic ? 40 : 60;
   // Measured on two threads: a transform of a million nodes takes some 3 ms with all that goes with it, one
   // of 67 million 430 ms.

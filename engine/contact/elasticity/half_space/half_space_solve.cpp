@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "engine/contact/elasticity/half_space/bracketed_secant.hpp"
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/nested_descent.hpp"
 #include "engine/contact/elasticity/half_space/node_loop.hpp"
@@ -29,10 +31,14 @@ double facing_share(const HalfSpaceProblem& problem) {
          static_cast<double>(problem.grid.nodes());
 }
 
-void check(const HalfSpaceProblem& problem, double mean_pressure) {
+void check_fields(const HalfSpaceProblem& problem) {
   check(problem.yield, problem.grid.nx, problem.grid.ny);
   if (!problem.heights || problem.heights->size() != problem.grid.nodes())
     throw Error(ErrorCode::internal, "the heights are not on the grid of the contact");
+}
+
+void check(const HalfSpaceProblem& problem, double mean_pressure) {
+  check_fields(problem);
   if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
     throw Error(ErrorCode::bad_value, "`pressure` is " + pascals(mean_pressure),
                 "a mean pressure is finite and not negative: nothing here pulls");
@@ -130,18 +136,21 @@ double peak_of(const HalfSpaceProblem& problem) {
   return (problem.overhangs ? known_range : range)(problem.heights->values()).max;
 }
 
-// The heights, those of ground that nothing faces out of reach.
-Field with_ground_out_of_reach(const HalfSpaceProblem& problem, double lowest, double mean_pressure) {
+// The heights, with those of ground that nothing faces at `there`, which follows from what was `asked`.
+Field with_missing_ground_at(const HalfSpaceProblem& problem, double there, const std::string& asked) {
   Field heights = *problem.heights;
-  const double there = lowest - out_of_reach(problem, mean_pressure);
   if (!std::isfinite(there))
     throw Error(ErrorCode::bad_value,
-                "`pressure` is " + pascals(mean_pressure) +
-                    ", so large that the numbers of the solution leave the range of a double",
+                asked + ", so large that the numbers of the solution leave the range of a double",
                 "check its unit");
   for (double& h : heights.values())
     if (std::isnan(h)) h = there;
   return heights;
+}
+
+Field with_ground_out_of_reach(const HalfSpaceProblem& problem, double lowest, double mean_pressure) {
+  return with_missing_ground_at(problem, lowest - out_of_reach(problem, mean_pressure),
+                                "`pressure` is " + pascals(mean_pressure));
 }
 
 double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.yield)[k] : law.cap; }
@@ -309,6 +318,99 @@ Start start_in_cells(const CellUnits& units, const HalfSpaceAnswer& from) {
 
 }  // namespace
 
+HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
+                                HalfSpaceAnswer* start, bool afresh, Monitor& monitor) {
+  check_fields(problem);
+  const Grid& grid = problem.grid;
+  const Range ends = known_range(problem.heights->values());
+  CellUnits units;
+  units.origin = ends.max;
+  // On a free tile heights that differ by next to nothing of the approach are those of a flat.
+  const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
+  units.height = std::min(approach, length);
+  if (problem.rms > least * approach) units.height = std::min(units.height, problem.rms);
+  units.pressure = problem.modulus * (units.height / grid.hx());
+
+  CellProblem cell;
+  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight, problem.single};
+  Field out_of_the_way;
+  if (problem.overhangs) {
+    // Nothing on a free tile rises under pressure: what lies deeper than the approach is never reached.
+    cell.lowest = ends.min;
+    out_of_the_way =
+        with_missing_ground_at(problem, ends.min - 2 * (approach + ends.span()),
+                               "the approach is " + format_quantity(approach, dimension::length));
+  }
+  cell.heights = (problem.overhangs ? out_of_the_way : *problem.heights).values();
+  cell.origin = units.origin;
+  cell.factor = 1 / units.height;
+  cell.limit = cell_limit(problem.yield, units);
+  cell.offset = approach / units.height;
+  // Penetration and what is open add up in the certificate.
+  cell.tolerance = 0.49 * problem.tolerance;
+  const double longest = std::max(static_cast<double>(grid.nx), grid.ny * cell.shape.aspect);
+  cell.mean_pressure = std::min(*cell.offset / longest, greatest_pressure(cell.limit));
+  cell.afresh = afresh;
+  std::span<double> pressures, gaps;
+  if (start && start->pressure.size() == grid.nodes()) {
+    pressures = start->pressure.values();
+    gaps = start->gap.values();
+    for_nodes(pressures.size(), [=, p = pressures.data()](std::size_t k) { p[k] /= units.pressure; });
+    for_nodes(gaps.size(), [=, before = start->approach, g = gaps.data()](std::size_t k) {
+      g[k] = (g[k] + before) / units.height;
+    });
+  }
+  CellAnswer found = nested_descent(cell, pressures, gaps, monitor);
+  if (found.single && !found.converged) {  // as it might in double precision, too
+    const int before = found.applications;
+    cell.shape.single = false;
+    found = nested_descent(cell, {}, {}, monitor);
+    found.applications += before;
+  }
+  const bool converged = found.converged;
+  HalfSpaceAnswer answer = in_si(problem, units, 0, std::move(found));
+  answer.approach = approach;
+  answer.mean_pressure = block_sum(answer.pressure.values()) / static_cast<double>(grid.nodes());
+  certify(problem, answer);
+  answer.converged = answer.converged && converged;
+  return answer;
+}
+
+namespace {
+
+// Where ground is so soft once it yields that no descent balances the load: the approach that brings it,
+// which never falls as the load grows. None where that does not converge either. `begun`: an answer that did
+// not.
+std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& problem, double mean_pressure,
+                                                  const HalfSpaceAnswer& begun, Monitor& monitor) {
+  constexpr int most_solves = 80, most_applications = 2000;
+  BracketedSecant root(mean_pressure);
+  HalfSpaceAnswer answer = begun;
+  double approach = begun.approach;
+  for (int solve = 0; solve < most_solves && approach > 0; ++solve) {
+    const int before = answer.iterations;
+    if (before - begun.iterations > most_applications) break;
+    HalfSpaceAnswer start = std::move(answer);
+    answer = solve_at_offset(problem, approach, infinity, &start, true, monitor);
+    answer.iterations += before;
+    if (!answer.converged) break;
+    const double found = answer.mean_pressure;
+    if (std::abs(found - mean_pressure) <= 0.5 * problem.tolerance * mean_pressure) {
+      answer.mean_pressure = mean_pressure;
+      answer.solver += ", for the load";
+      certify(problem, answer);
+      if (answer.converged) return answer;
+    }
+    root.take({approach, found}, true);
+    const std::optional<double> next = root.next();
+    if (!next) break;
+    approach = *next;
+  }
+  return {};
+}
+
+}  // namespace
+
 HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,
                                   const HalfSpaceAnswer* start, Monitor& monitor) {
   check(problem, mean_pressure);
@@ -319,7 +421,7 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   const Grid& grid = problem.grid;
 
   CellProblem cell;
-  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, 1, problem.single};
+  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight, problem.single};
   Field out_of_the_way;
   if (problem.overhangs) {
     cell.lowest = known_range(problem.heights->values()).min;
@@ -353,8 +455,10 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
     }
   }
   HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, std::move(found));
+  if (!answer.converged && problem.yield.hardens())
+    if (auto sought = sought_by_approach(problem, mean_pressure, answer, monitor)) return std::move(*sought);
   if (!answer.converged && !problem.best_effort)
-    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations);
+    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations, grid);
   return answer;
 }
 

@@ -33,6 +33,7 @@ struct HalfSpaceProblem {
   // What steps change is computed in single precision, where the grid allows, on any grid and with the memory
   // for that alone; pressures, gaps and the certificate are double all the same.
   bool single = false;
+  double weight = 1;  // of one transform in what is counted: less on a grid coarser than the one asked for
 };
 
 struct HalfSpaceAnswer {
@@ -73,6 +74,16 @@ double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure);
 
 // u = K p of both bodies, m, where something faces the ground and where nothing does. One application.
 Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure);
+
+// The same contact at a given approach > 0, whatever load that takes: the answer's mean pressure is what was
+// found. `length`: the least that gaps must be told apart by, in m; the rms and the approach count besides.
+// `start`, if not null and on the same grid: pressures to begin from, outside their bounds if need be, and
+// their gaps at its approach; what it holds is spent. `afresh`: gaps and certificate come from an application
+// of their own to the pressures handed out, not from the steps that led to them. Does not throw for lack of
+// convergence; of a periodic tile in full contact without yield, or of one whose
+// nodes are all at the cap, there is no such answer, and `converged` is false or all nodes are at the cap.
+HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
+                                HalfSpaceAnswer* start, bool afresh, Monitor& monitor);
 
 // Counts, peak pressure and certificate anew, of the pressures and gaps that `answer` holds. O(n).
 void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer);

@@ -13,6 +13,7 @@
 #include "engine/contact/elasticity/half_space/level_transfer.hpp"
 #include "engine/contact/elasticity/half_space/light_contact.hpp"
 #include "engine/contact/elasticity/half_space/load_projection.hpp"
+#include "engine/contact/elasticity/half_space/offset_descent.hpp"
 #include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
@@ -80,7 +81,6 @@ void to_level_set(double upper, double stiffness, double offset, std::span<const
 std::vector<Step> nest(const CellProblem& problem, bool alone) {
   std::vector<Step> steps(1);
   steps[0].shape = problem.shape;
-  steps[0].shape.weight = 1;
   steps[0].mean_pressure = problem.mean_pressure;
   const auto* hardening = std::get_if<LinearHardening>(&problem.limit);
   while (!alone) {
@@ -90,7 +90,7 @@ std::vector<Step> nest(const CellProblem& problem, bool alone) {
     Step step;
     step.from = next;
     step.shape = next->shape;
-    step.shape.weight = work(step.shape) / work(problem.shape);
+    step.shape.weight = problem.shape.weight * (work(step.shape) / work(problem.shape));
     step.pitch = fine.pitch * next->pitch_x;
     const double cells = static_cast<double>(step.shape.nodes()) * next->pitch_x * next->pitch_y;
     step.mean_pressure =
@@ -142,8 +142,8 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
     const std::size_t nodes = step.shape.nodes();
     const PressureLimit limit = limit_on(problem.limit, step);
     const double upper = greatest_pressure(limit);
-    ContactLevel level(step.shape, finest ? problem.heights : std::span<const double>(step.heights),
-                       problem.origin, problem.factor, limit, step.mean_pressure);
+    const std::span<const double> raw = finest ? problem.heights : std::span<const double>(step.heights);
+    ContactLevel level(step.shape, raw, problem.origin, problem.factor, limit, step.mean_pressure);
     level.length = problem.length;
     const double tolerance = finest ? problem.tolerance : std::max(coarse_tolerance, problem.tolerance);
     const double begin = work_done / all_work;
@@ -154,6 +154,46 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
 
     DescentFields fields(nodes);
     UnsetArray<double>& p = fields.pressure;
+    const double lowest = problem.lowest;
+    if (problem.offset) {
+      if (!start_pressure.empty()) {
+        std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
+      } else if (carried.empty()) {
+        std::fill(p.begin(), p.end(), 0.0);
+      } else {
+        const CoarserGrid& from = *steps[l + 1].from;
+        prolong(from, carried, 1 / from.pitch_x, step.shape, p);
+        carried = UnsetArray<double>();
+      }
+      const bool gap_known = !start_gap.empty();
+      if (gap_known)
+        std::copy(start_gap.begin(), start_gap.end(), fields.gap.begin());
+      else
+        for_nodes(nodes, [upper, lowest, h = raw.data(), p = p.data()](std::size_t k) {
+          p[k] = h[k] < lowest ? 0.0 : std::clamp(p[k], 0.0, upper);
+        });
+      const ChainEffort effort = !finest          ? ChainEffort::start
+                                 : problem.afresh ? ChainEffort::full
+                                                  : ChainEffort::brief;
+      const ChainEnd end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, gap_known);
+      if (!end.stage.converged) level.gap(p, fields.gap);
+      if (finest) {
+        answer.pressure = std::move(p);
+        answer.gap = std::move(fields.gap);
+        answer.offset = *problem.offset;
+        answer.from_peak = true;
+        answer.residual = end.stage.residual;
+        answer.converged = end.stage.converged;
+        answer.applications = level.applications;
+        answer.stage = end.name;
+        answer.single = level.compliance.single();
+      } else {
+        to_level_set(upper, level.short_wave_stiffness, *problem.offset, fields.gap, p);
+        carried = std::move(p);
+        step.heights = Array<double>();
+      }
+      continue;
+    }
     if (!start_pressure.empty()) {
       std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
       if (!start_gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, start_gap, p);
@@ -164,11 +204,10 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
       prolong(from, carried, 1 / from.pitch_x, step.shape, p);
       carried = UnsetArray<double>();
     }
-    if (std::isfinite(problem.lowest)) {
-      const std::span<const double> raw = finest ? problem.heights : std::span<const double>(step.heights);
+    if (std::isfinite(lowest)) {
       // Less than any shift to the load can make up for.
       for (std::size_t k = 0; k < nodes; ++k)
-        if (raw[k] < problem.lowest) p[k] = std::min(p[k], -2 * level.total_load());
+        if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
     }
     project_to_load(p, {}, upper, level.total_load(), p);
 
@@ -240,7 +279,8 @@ UnsetArray<double> times_power_of_two(std::span<const double> values, int power)
 
 CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
                           std::span<const double> start_gap, Monitor& monitor) {
-  const int power = power_within_range(problem);
+  // A given offset is near 1, and so are the pressures.
+  const int power = problem.offset ? 0 : power_within_range(problem);
   if (power == 0) return descend_nest(problem, start_pressure, start_gap, monitor);
   CellAnswer answer =
       descend_nest(times_power_of_two(problem, power), times_power_of_two(start_pressure, power),

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -25,7 +26,10 @@ struct CellProblem {
   double lowest = -std::numeric_limits<double>::infinity();
   PressureLimit limit;
   double mean_pressure = 0;
-  double length = 1;  // what gaps are measured by
+  // Given in place of the load, of which `mean_pressure` is then a guess, within twenty powers of ten.
+  std::optional<double> offset;
+  bool afresh = true;  // at a given offset: the gap that is handed out comes from an application of its own
+  double length = 1;   // what gaps are measured by
   double tolerance = 1e-6;
 };
 
@@ -45,7 +49,8 @@ struct CellAnswer {
 };
 
 // `start`: pressures and gaps (the offset taken off) of a nearby state in cell units, or empty for nested
-// grids. Does not throw for lack of convergence.
+// grids. At a given offset, where gaps are given, the pressures may be outside their bounds. Does not throw
+// for lack of convergence.
 CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
                           std::span<const double> start_gap, Monitor& monitor);
 

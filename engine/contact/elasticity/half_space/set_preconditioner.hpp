@@ -38,6 +38,9 @@ class SetPreconditioner {
     }
   }
 
+  // Whether yielding nodes are left to themselves.
+  bool apart() const { return apart_; }
+
   // z = M r in place, without the balance of the load.
   void apply(std::span<const std::uint8_t> free, std::span<double> z) {
     if constexpr (Limit::hardens) {

@@ -199,7 +199,8 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
   if (found.levels > 1) answer.solver += " on " + std::to_string(found.levels) + " nested grids";
   certify(team, problem, answer);
   if (!answer.converged && !problem.best_effort)
-    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations);
+    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations,
+                      problem.surface.grid);
   return answer;
 }
 
