@@ -155,7 +155,7 @@ for _, boundary in ipairs{ "periodic", "free" } do
   end
 end
 case:evidence(noise, "White noise on 96 x 96 cells, longer than wide or wider than long, to a tolerance of 1e-6."
-  .. " On a free boundary it takes more than 400 transforms from a hundred times on. Where a contact on such cells"
+  .. " On a free boundary it takes more than 400 transforms at a thousand times. Where a contact on long cells"
   .. " does not converge, the error says how long they are.",
   { { "boundary", "%s" }, { "aspect", "%.3g" }, { "solved", "%d" }, { "transforms", "%.0f" },
     { "certificate", "%.0e" } })
