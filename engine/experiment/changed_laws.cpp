@@ -33,7 +33,7 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
      "`approach`, `indentation` and `flatten` were reached by seeking the load",
      "the contact is solved at the given approach", "such presses of half-spaces, within their tolerance"},
     {Law::long_cells, "0.2.0", "long cells",
-     "the solver took cells four times longer than wide as it takes square ones",
+     "the solver took cells much longer than wide, or wider than long, as it takes square ones",
      "it is carried along their lines",
      "half-spaces on such cells, within their tolerance, and how many transforms they take"},
     {Law::flat_stiffness, "0.2.0", "secant stiffness of a flat",

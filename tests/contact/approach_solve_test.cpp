@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
+
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "tests/contact/half_space_problems.hpp"
@@ -201,6 +204,42 @@ TEST(ApproachSolve, V1_ALoadBetweenTheTerracesOfSoftGround) {
   const HalfSpaceAnswer answer = solve(problem, 889262.1864497022);
   EXPECT_TRUE(answer.converged);
   EXPECT_LE(answer.certificate.worst(), 1e-6);
+}
+
+// Entries V1 and B1: the bodies face each other on three quarters of the tile.
+TEST(ApproachSolve, V1_GroundThatNothingFacesCarriesNothing) {
+  HalfSpaceProblem problem = rough_problem(64, Boundary::free, 3, 1e-6);
+  Field heights = *problem.heights;
+  for (int j = 0; j < 16; ++j)
+    for (int i = 0; i < 64; ++i) heights(i, j) = std::nan("");
+  problem.heights = std::make_shared<const Field>(heights);
+  problem.overhangs = true;
+  const auto expect_nothing_there = [&](const HalfSpaceAnswer& answer) {
+    EXPECT_TRUE(answer.converged);
+    for (std::size_t k = 0; k < heights.size(); ++k)
+      if (std::isnan(heights[k])) {
+        EXPECT_EQ(answer.pressure[k], 0);
+        EXPECT_GT(answer.gap[k], 0);
+      }
+  };
+  for (const double share : {.01, 1.0, 5.0}) {
+    const HalfSpaceAnswer answer = by_approach(problem, share * problem.rms);
+    expect_nothing_there(answer);
+    EXPECT_NEAR(solve(problem, answer.mean_pressure).approach, answer.approach, 1e-5 * answer.approach);
+    const double pressed = flattened(problem, answer);
+    const HalfSpaceAnswer flat = solve_at_flattening(problem, pressed, Monitor::silent());
+    expect_nothing_there(flat);
+    EXPECT_NEAR(flattened(problem, flat), pressed, 1e-6 * pressed);
+  }
+  problem.yield.cap = 1e-4;
+  try {
+    by_approach(problem, 100 * problem.rms);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::infeasible);
+    EXPECT_NE(error.sentence().find("all of the overlap is at its hardness"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

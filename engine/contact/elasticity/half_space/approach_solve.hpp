@@ -2,8 +2,9 @@
 // A contact pressed by its approach or by how much it flattens. At a given approach the problem is convex
 // without a load to keep, and is solved as such (offset_descent.hpp): no load is sought, which soft ground
 // hardly lets tell approaches apart. How much flattens never falls as the approach grows: a bracketed secant
-// in the approach, each solve starting from the one before. The certificate's load entry is the relative
-// error of what was prescribed.
+// in the approach, each solve starting from the line through the two before. Where a descent does not end, as
+// on some cells much longer than wide, the load is sought after all. The certificate's load entry is the
+// relative error of what was prescribed.
 #pragma once
 
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/contact/elastic_bodies.hpp"
@@ -27,7 +28,8 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
                                           format_quantity(half_space.modulus, dimension::pressure) +
                                           (periodic ? ", Fourier multiplier 2/(E*|q|)"
                                                     : ", Love kernel on a tile padded to twice its sides")});
-  const auto nodes = static_cast<double>(geometry.grid().nodes());
+  const Grid& grid = geometry.grid();
+  const auto nodes = static_cast<double>(grid.nodes());
   const auto grids = [&](double count) { return static_cast<std::int64_t>(count * nodes * sizeof(double)); };
   plan.buffers.push_back({"pressures and gaps of each state", grids(2)});
   // Transforms of lengths that the lanes do not take need a field and a spectrum of their own.
@@ -41,13 +43,22 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   // The last two answers and what the next begins from, while the approach that flattens by so much is
   // sought.
   plan.buffers.push_back({"answers of a search for a flattening", grids(5.5), false});
+<<<<<<< HEAD
   if (LineExtension::serves(grid.hy() / grid.hx(), geometry.boundary())) {
     laws_met().meet(Law::long_cells);
+=======
+  if (LineExtension::serves(grid.hy() / grid.hx(), geometry.boundary()))
+>>>>>>> 0b63dd2a7be9831652749f2c5ca3b0c3968a5da4
     plan.buffers.push_back({"lines of cells much longer than wide", grids(2.5), false});
   }
   if (geometry.overhangs())
     plan.buffers.push_back({"heights, those that nothing faces out of reach", grids(1), false});
   plan.transforms = periodic ? 40 : 60;
+  // Measured of 300 random scenes: within a factor of two of 69 % of the presses by pressure, 60 % of those
+  // by approach; a flattening takes some two to three times as many.
+  constexpr double long_cells = 4, on_long_cells = 2.2;
+  const double aspect = grid.hy() / grid.hx();
+  if (std::max(aspect, 1 / aspect) >= long_cells) plan.transforms *= on_long_cells;
   // Measured on two threads: a transform of a million nodes takes some 3 ms with all that goes with it, one
   // of 67 million 430 ms.
   constexpr double seconds_per_node = 4e-9;

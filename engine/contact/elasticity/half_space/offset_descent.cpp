@@ -18,7 +18,7 @@ namespace asperity {
 namespace {
 
 // Of conjugate gradients: of a pass that settles, whose settling carries a step of the preconditioner where K
-// is dear, and of the careful stage, which finishes with one free set before it takes the next.
+// is dear, and of the careful stage, whose passes all lower the energy.
 constexpr int quick_steps = 3, quick_steps_if_dear = 2, careful_steps = 24;
 constexpr double careful_gain = 0.03;  // of a residual, that ends its steps
 constexpr int careful_patience = 40;   // passes; they lower the energy, which the residual need not follow
@@ -464,7 +464,7 @@ ChainEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double off
   end.name = "preconditioned descent at a given approach";
   end.stage = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
   if (end.stage.converged || effort == ChainEffort::start) return end;
-  end.name = "preconditioned descent at a given approach, one contact after another";
+  end.name = "preconditioned descent at a given approach, downhill";
   end.stage = offset_descent(level, fields, offset, tolerance, careful, effort, true, false);
   return end;
 }
