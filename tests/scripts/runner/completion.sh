@@ -20,7 +20,7 @@ offers() {
   [ "${COMPREPLY[*]}" = "$wanted" ] || fail "$*: offered '${COMPREPLY[*]}', not '$wanted'"
 }
 offers "run replay repl" asperity r
-offers "--resume --reuse" asperity run --re
+offers "--resume --reuse --read" asperity run --re
 offers "first.lua runs" asperity run ""
 offers "runs" asperity run first.lua --out ""
 offers "" asperity run --threads ""

@@ -32,23 +32,19 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   const auto nodes = static_cast<double>(grid.nodes());
   const auto grids = [&](double count) { return static_cast<std::int64_t>(count * nodes * sizeof(double)); };
   plan.buffers.push_back({"pressures and gaps of each state", grids(2)});
-  // Transforms of lengths that the lanes do not take need a field and a spectrum of their own.
-  const Grid& grid = geometry.grid();
-  const bool roomy = !periodic || !FourierLaneFilter<double>::possible(grid.nx, grid.ny);
+  // Transforms of lengths with a large prime factor need a field and a spectrum of their own, and longer rows.
+  const bool smooth = FourierLaneFilter<double>::possible(grid.nx, grid.ny), roomy = !periodic || !smooth;
   plan.buffers.push_back({"work of the solver", grids(roomy ? 11 : single ? 7.5 : 8), false});
   // Measured: what does not go with the nodes counts on small and on narrow tiles.
-  constexpr std::int64_t always = 300'000, per_row = 512;
+  constexpr std::int64_t always = 300'000;
+  const std::int64_t per_row = smooth ? 512 : 1536;
   plan.buffers.push_back({"rows and threads at work",
                           always + per_row * (grid.nx + grid.ny) * (periodic ? 1 : 2), false, false});
   // The last two answers and what the next begins from, while the approach that flattens by so much is
   // sought.
   plan.buffers.push_back({"answers of a search for a flattening", grids(5.5), false});
-<<<<<<< HEAD
   if (LineExtension::serves(grid.hy() / grid.hx(), geometry.boundary())) {
     laws_met().meet(Law::long_cells);
-=======
-  if (LineExtension::serves(grid.hy() / grid.hx(), geometry.boundary()))
->>>>>>> 0b63dd2a7be9831652749f2c5ca3b0c3968a5da4
     plan.buffers.push_back({"lines of cells much longer than wide", grids(2.5), false});
   }
   if (geometry.overhangs())
