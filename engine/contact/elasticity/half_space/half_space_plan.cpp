@@ -32,7 +32,8 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   const auto nodes = static_cast<double>(grid.nodes());
   const auto grids = [&](double count) { return static_cast<std::int64_t>(count * nodes * sizeof(double)); };
   plan.buffers.push_back({"pressures and gaps of each state", grids(2)});
-  // Transforms of lengths with a large prime factor need a field and a spectrum of their own, and longer rows.
+  // Transforms of lengths with a large prime factor need a field and a spectrum of their own, and longer
+  // rows.
   const bool smooth = FourierLaneFilter<double>::possible(grid.nx, grid.ny), roomy = !periodic || !smooth;
   plan.buffers.push_back({"work of the solver", grids(roomy ? 11 : single ? 7.5 : 8), false});
   // Measured: what does not go with the nodes counts on small and on narrow tiles.
