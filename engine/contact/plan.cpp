@@ -75,6 +75,8 @@ std::string Plan::text() const {
     line(result, "memory",
          format_bytes(buffer.bytes) + " " + buffer.name + (buffer.kept ? "" : ", for a moment"));
   line(result, "memory", format_bytes(bytes_kept()) + " kept, " + format_bytes(bytes_peak()) + " at most");
+  if (bytes_to_flatten > 0)
+    line(result, "memory", format_bytes(bytes_to_flatten) + " more for a press by `flatten`, for a moment");
   line(result, "time", "about " + format_quantity(seconds, dimension::time, 3) + " for the first press");
   for (const std::string& warning : warnings) line(result, "warning", warning);
   if (!effects_off.empty()) line(result, "off", joined(effects_off, ", ") + " (not named in the scene)");

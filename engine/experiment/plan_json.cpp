@@ -19,6 +19,7 @@ Json to_json(const Plan& plan) {
                        {"buffers", buffers},
                        {"bytes_kept", plan.bytes_kept()},
                        {"bytes_peak", plan.bytes_peak()},
+                       {"bytes_to_flatten", plan.bytes_to_flatten},
                        {"seconds", plan.seconds},
                        {"warnings", Json::strings(plan.warnings)},
                        {"effects_run", Json::strings(plan.effects_run)},

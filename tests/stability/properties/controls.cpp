@@ -91,13 +91,15 @@ Verdict compare(const Trial& trial, const State& by_pressure, PressBy by, double
 
 Verdict check(const Trial& trial, std::uint64_t) {
   const State state = pressed(trial);
-  const auto said = static_cast<double>(SpecimenPair(trial.scene).plan().bytes_peak());
+  const Plan plan = SpecimenPair(trial.scene).plan();
+  const auto said = static_cast<double>(plan.bytes_peak());
   if (Verdict verdict = compare(trial, state, PressBy::approach, state.approach(), said)) return verdict;
   if (!(state.geometry().peak_to_valley() > 0)) return {};
   if (Verdict verdict = compare(trial, state, PressBy::indentation, state.indentation(), said))
     return verdict;
   if (state.flatten() == 0) return {};
-  return compare(trial, state, PressBy::flatten, state.flatten(), said);
+  const auto more = static_cast<double>(plan.bytes_to_flatten);
+  return compare(trial, state, PressBy::flatten, state.flatten(), said + more);
 }
 
 Verdict after() {

@@ -43,7 +43,7 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
                           always + per_row * (grid.nx + grid.ny) * (periodic ? 1 : 2), false, false});
   // The last two answers and what the next begins from, while the approach that flattens by so much is
   // sought.
-  plan.buffers.push_back({"answers of a search for a flattening", grids(5.5), false});
+  plan.bytes_to_flatten = grids(5.5);
   if (LineExtension::serves(grid.hy() / grid.hx(), geometry.boundary())) {
     laws_met().meet(Law::long_cells);
     plan.buffers.push_back({"lines of cells much longer than wide", grids(2.5), false});

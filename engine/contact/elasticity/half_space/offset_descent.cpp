@@ -135,9 +135,8 @@ OffsetQuality OffsetDescent<Limit>::quality() const {
 
 template <class Limit>
 void OffsetDescent<Limit>::mark() {
-  const double upper = limit_.upper();
   const auto sums = over_nodes<4>(
-      nodes(), [n = view(), offset = offset_, upper, before = f_.old_free.data()](std::size_t k, double* v) {
+      nodes(), [n = view(), offset = offset_, before = f_.old_free.data()](std::size_t k, double* v) {
         const double p = n.pressure[k], gap = n.gap[k];
         std::uint8_t kind = fixed;
         if constexpr (Limit::hardens) {
@@ -145,6 +144,7 @@ void OffsetDescent<Limit>::mark() {
           kind = q > 0 || (gap < offset && p >= 0) ? elastic : fixed;
           if (p > n.limit.yields_at(k)) kind = q != p ? settling : yielding;
         } else {
+          const double upper = n.limit.upper();
           const bool leaves = p <= upper && gap > offset, enters = p >= 0 && gap < offset;
           kind = (p > 0 ? (p < upper || leaves) : enters) ? elastic : fixed;
         }
