@@ -81,8 +81,8 @@ struct Plan {
   std::vector<std::string> warnings;  // of a grid that is too coarse for a term
   std::vector<PlannedBuffer> buffers;
   std::int64_t bytes_to_flatten = 0;  // beyond those, while a press by `flatten` seeks its approach
-  double transforms = 0;  // expected for a press, equivalents of the finest grid
-  double seconds = 0;     // expected for the first press, a rough guess
+  double transforms = 0;              // expected for a press, equivalents of the finest grid
+  double seconds = 0;                 // expected for the first press, a rough guess
   Accuracy accuracy;
   std::string choice;      // of cells, tolerance and precision for an error that was asked for; empty: none
   std::string estimate;    // what is solved beside it for the discretisation error; empty: nothing
