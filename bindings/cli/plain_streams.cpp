@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
@@ -93,8 +94,10 @@ ssize_t write_plain(void* cookie, const char* bytes, std::size_t count) {
 
 // A stream of the C library that writes there; null where there is no memory for one.
 FILE* plain_stream(int descriptor, Keeps keeps) {
-  // Lives as long as the program.
-  auto* const stream = new PlainStream{descriptor, keeps};
+  // Streams of C are written out after everything else has ended: what they write with is never given back.
+  static std::array<PlainStream*, STDERR_FILENO + 1> kept{};
+  PlainStream*& stream = kept.at(static_cast<std::size_t>(descriptor));
+  if (stream == nullptr) stream = new PlainStream{descriptor, keeps};
   return ::fopencookie(stream, "w",
                        {.read = nullptr, .write = write_plain, .seek = nullptr, .close = nullptr});
 }

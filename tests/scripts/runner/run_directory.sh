@@ -13,6 +13,8 @@ folder=$2
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
+# What still runs when this fails would keep its standard output, and whoever waits for its end.
+trap 'kill -KILL $(jobs -p) 2> /dev/null || true' EXIT
 
 # until_true command...: waits for it, at most a minute.
 until_true() {
