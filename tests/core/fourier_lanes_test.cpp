@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/random.hpp"
 
 namespace asperity::fourier_lanes_test {

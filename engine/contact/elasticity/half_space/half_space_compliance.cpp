@@ -17,6 +17,7 @@
 #include "engine/core/fourier_batch.hpp"
 #include "engine/core/fourier_filter.hpp"
 #include "engine/core/fourier_lane_filter.hpp"
+#include "engine/core/grid.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
