@@ -13,6 +13,7 @@
 #include "bindings/lua/surface.hpp"
 #include "engine/contact/doubts.hpp"
 #include "engine/contact/geometry.hpp"
+#include "engine/contact/other_grids.hpp"
 #include "engine/contact/state_file.hpp"
 #include "engine/core/node_value.hpp"
 #include "engine/surface/io/xdmf.hpp"
@@ -132,16 +133,9 @@ Values write_state(Call& call) {
   return {path};
 }
 
-// What the solver says, and below it where the equations were asked for more than they know.
-std::string describe_state(const void* self) {
-  const auto& state = *static_cast<const Contacting*>(self);
-  std::string text = state.text();
-  if (state.closed()) return text;
-  for (const std::string& sentence : doubts(state)) text += "\n  warning: " + sentence;
-  return text;
-}
+std::string describe_state(const void* self) { return described(*static_cast<const Contacting*>(self)); }
 std::size_t state_bytes(const void* self) {
-  return static_cast<std::size_t>(static_cast<const Contacting*>(self)->bytes_held());
+  return static_cast<std::size_t>(bytes_held_with_other_grids(*static_cast<const Contacting*>(self)));
 }
 std::string digest_of_state(const void* self) { return static_cast<const Contacting*>(self)->digest(); }
 bool equal_states(const void* a, const void* b) {

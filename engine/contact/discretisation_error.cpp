@@ -11,8 +11,10 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <span>
 #include <utility>
 
+#include "engine/contact/finer_heights.hpp"
 #include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -169,6 +171,44 @@ std::span<const std::string> estimated_quantities() {
     return all;
   }();
   return names;
+}
+
+namespace {
+
+void check(const AskedError& asked, bool plastic) {
+  if (!(asked.error >= 1e-6 && asked.error < 1))
+    throw Error(ErrorCode::bad_value, "`error` is " + format_short(asked.error),
+                "it is relative: give a number from 1e-6 to below 1, such as 0.01 for 1 %");
+  if (asked.of.empty())
+    throw Error(ErrorCode::bad_value, "`of` names no quantity",
+                "give one, such as \"corrected_area_fraction\"");
+  const std::span<const std::string> known = estimated_quantities();
+  for (const std::string& quantity : asked.of) {
+    if (std::find(known.begin(), known.end(), quantity) == known.end())
+      throw Error(
+          ErrorCode::unknown_name,
+          "`of` names " + quoted(quantity) + ", whose error is not estimated" + did_you_mean(quantity, known),
+          "give one of " + joined(known, " and "));
+    if (quantity.starts_with("plastic_") && !plastic)
+      throw Error(ErrorCode::bad_value,
+                  "`of` names " + quoted(quantity) +
+                      ", which needs the effect `plasticity`; this scene does not name it",
+                  "name `plasticity`, or ask for the error of another quantity");
+  }
+}
+
+}  // namespace
+
+void check_accuracy(const Scene& scene) {
+  const Accuracy& accuracy = scene.accuracy;
+  const Grid& grid = scene.lower.grid();
+  if (accuracy.estimate == Accuracy::Estimate::finer && accuracy.asked)
+    throw Error(ErrorCode::bad_value, "`estimate` = \"finer\" and `error` are both given",
+                "cells chosen for an `error` are compared with the coarser ones tried before: leave one of "
+                "both out");
+  if (accuracy.estimate == Accuracy::Estimate::finer) finer_grid(grid);
+  if (accuracy.estimate == Accuracy::Estimate::coarser || accuracy.asked) check_estimate(grid);
+  if (accuracy.asked) check(*accuracy.asked, scene.plasticity.has_value());
 }
 
 DiscretisationEstimate discretisation_estimate(const State& state, std::string_view quantity) {

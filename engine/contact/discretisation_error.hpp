@@ -49,6 +49,9 @@ struct DiscretisationEstimate {
 
 // Names as a state has them: area_fraction, corrected_area_fraction, area, approach, …
 std::span<const std::string> estimated_quantities();
+// Throws Error{bad_value} or Error{unknown_name} where the scene asks for an estimate or an error that cannot
+// be had: two kinds at once, too few cells, no such quantity, a share outside 1e-6 … 1. O(1).
+void check_accuracy(const Scene& scene);
 // Throws Error{unknown_name}, Error{bad_state} naming accuracy={ estimate=true } where it was not asked for,
 // and what the quantity itself throws. Works the quantity out on each grid when first asked, which for
 // `stiffness` is a solve. Thread-safe.

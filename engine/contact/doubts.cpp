@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "engine/contact/chosen_accuracy.hpp"
+#include "engine/contact/discretisation_error.hpp"
 #include "engine/contact/geometry.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -83,6 +85,15 @@ std::vector<std::string> doubts(const State& state) {
                           ": it would yield, and this scene does not name `plasticity`");
   }
   return sentences;
+}
+
+std::string described(const State& state) {
+  std::string of_the_cells = state.closed() ? std::string() : discretisation_text(state);
+  if (state.chosen()) of_the_cells += (of_the_cells.empty() ? "" : "; ") + state.chosen()->text();
+  std::string text = state.text(of_the_cells);
+  if (state.closed()) return text;
+  for (const std::string& sentence : doubts(state)) text += "\n  warning: " + sentence;
+  return text;
 }
 
 }  // namespace asperity

@@ -12,6 +12,10 @@
 
 namespace asperity {
 
+// The line of a state with what is known of the error of its cells (an estimate, what was chosen for an error
+// that was asked for), and below it the doubts, a line each. Of a state that was closed its line alone.
+std::string described(const State& state);
+
 // Sentences, most often none. Throws Error{bad_state} for a state that was closed. O(n).
 std::vector<std::string> doubts(const State& state);
 

@@ -186,6 +186,14 @@ std::shared_ptr<const OtherGrids> solve_finer(const Scene& scene, const ContactG
       request, std::vector<OtherGrids::Level>{{std::move(state), 1.0 / times_finer}});
 }
 
+std::int64_t bytes_held_with_other_grids(const State& state) {
+  std::int64_t bytes = state.bytes_held();
+  if (state.other_grids())
+    for (const OtherGrids::Level& level : state.other_grids()->levels())
+      bytes += bytes_held_with_other_grids(level.state);
+  return bytes;
+}
+
 void plan_estimate(const ContactGeometry& geometry, Plan& plan) {
   if (plan.accuracy.estimate == Accuracy::Estimate::none) return;
   const Grid& fine = geometry.grid();
@@ -218,6 +226,12 @@ void plan_estimate(const ContactGeometry& geometry, Plan& plan) {
                           static_cast<std::int64_t>(3 * kept * sizeof(double))});
   plan.transforms *= 1 + work;
   plan.seconds *= 1 + work;
+}
+
+Plan plan_with_estimate(const Scene& scene, const ContactGeometry& geometry) {
+  Plan plan = make_plan(scene, geometry);
+  plan_estimate(geometry, plan);
+  return plan;
 }
 
 }  // namespace asperity

@@ -4,6 +4,7 @@
 // discretisation_error.hpp.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -57,10 +58,15 @@ std::shared_ptr<const OtherGrids> solve_finer(const Scene& scene, const ContactG
                                               const Plan& plan, const PressRequest& request,
                                               Monitor& monitor = Monitor::silent());
 
+// Memory that a state's solution keeps, and those of the same press on other grids.
+std::int64_t bytes_held_with_other_grids(const State& state);
+
 // Throws Error{bad_value} naming `estimate` where the tile has too few cells for it.
 void check_estimate(const Grid& grid);
 
 // Adds to the plan of a press what the estimate that it asks for takes.
 void plan_estimate(const ContactGeometry& geometry, Plan& plan);
+// make_plan with that added.
+Plan plan_with_estimate(const Scene& scene, const ContactGeometry& geometry);
 
 }  // namespace asperity

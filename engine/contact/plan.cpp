@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "engine/contact/discretisation_error.hpp"
 #include "engine/contact/effects/adhesion.hpp"
 #include "engine/contact/effects/ageing.hpp"
 #include "engine/contact/effects/capillarity.hpp"
@@ -106,7 +105,6 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
   if (scene.sliding.ageing) plan_ageing(*scene.sliding.ageing, plan);
   if (scene.sliding.interlocking) plan_interlocking(*scene.sliding.interlocking, geometry, plan);
   if (scene.sliding.tangential) plan_tangential(*scene.sliding.tangential, geometry, plan);
-  plan_estimate(geometry, plan);
   for (const PlannedTerm& term : plan.terms)
     if (std::find(plan.effects_run.begin(), plan.effects_run.end(), term.effect) == plan.effects_run.end())
       plan.effects_run.push_back(term.effect);

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <string>
 
-#include "engine/contact/discretisation_error.hpp"
-#include "engine/contact/finer_heights.hpp"
 #include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -96,28 +94,6 @@ void check_attraction(const Scene& scene, const std::string& effect) {
     refuse("with an estimate of the error of the grid", "leave `estimate` and `error` out, give `tolerance`");
 }
 
-void check(const AskedError& asked, bool plastic) {
-  if (!(asked.error >= 1e-6 && asked.error < 1))
-    throw Error(ErrorCode::bad_value, "`error` is " + format_short(asked.error),
-                "it is relative: give a number from 1e-6 to below 1, such as 0.01 for 1 %");
-  if (asked.of.empty())
-    throw Error(ErrorCode::bad_value, "`of` names no quantity",
-                "give one, such as \"corrected_area_fraction\"");
-  const auto known = estimated_quantities();
-  for (const std::string& quantity : asked.of) {
-    if (std::find(known.begin(), known.end(), quantity) == known.end())
-      throw Error(
-          ErrorCode::unknown_name,
-          "`of` names " + quoted(quantity) + ", whose error is not estimated" + did_you_mean(quantity, known),
-          "give one of " + joined(known, " and "));
-    if (quantity.starts_with("plastic_") && !plastic)
-      throw Error(ErrorCode::bad_value,
-                  "`of` names " + quoted(quantity) +
-                      ", which needs the effect `plasticity`; this scene does not name it",
-                  "name `plasticity`, or ask for the error of another quantity");
-  }
-}
-
 }  // namespace
 
 std::string_view name(Boundary boundary) { return boundary == Boundary::periodic ? "periodic" : "free"; }
@@ -144,14 +120,6 @@ void check(const Scene& scene) {
   if (!(tolerance >= 1e-15 && tolerance < 1))
     throw Error(ErrorCode::bad_value, "`tolerance` is " + format_short(tolerance),
                 "give a number from 1e-15 to below 1");
-  const Accuracy::Estimate estimate = scene.accuracy.estimate;
-  if (estimate == Accuracy::Estimate::finer && scene.accuracy.asked)
-    throw Error(ErrorCode::bad_value, "`estimate` = \"finer\" and `error` are both given",
-                "cells chosen for an `error` are compared with the coarser ones tried before: leave one of "
-                "both out");
-  if (estimate == Accuracy::Estimate::finer) finer_grid(grid);
-  if (estimate == Accuracy::Estimate::coarser || scene.accuracy.asked) check_estimate(grid);
-  if (scene.accuracy.asked) check(*scene.accuracy.asked, scene.plasticity.has_value());
   const bool single = scene.accuracy.precision == Accuracy::Precision::single;
   if (const auto* box = std::get_if<BoxOptions>(&scene.elasticity)) {
     if (box->stiffness && !(*box->stiffness > 0 && std::isfinite(*box->stiffness)))

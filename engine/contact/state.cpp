@@ -10,9 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/contact/chosen_accuracy.hpp"
 #include "engine/contact/closed_solution.hpp"
-#include "engine/contact/discretisation_error.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/regions.hpp"
 #include "engine/core/digest.hpp"
@@ -186,12 +184,7 @@ int State::iterations() const { return shared_->now()->iterations(); }
 std::string State::solver() const { return std::string(shared_->now()->solver()); }
 const Grid& State::grid() const { return shared_->grid(); }
 const ContactGeometry& State::geometry() const { return shared_->now()->geometry(); }
-std::int64_t State::bytes_held() const {
-  std::int64_t bytes = shared_->now()->bytes();
-  if (other_grids_)
-    for (const OtherGrids::Level& level : other_grids_->levels()) bytes += level.state.bytes_held();
-  return bytes;
-}
+std::int64_t State::bytes_held() const { return shared_->now()->bytes(); }
 PressureSplit State::split(double threshold) const { return shared_->now()->split(threshold); }
 const std::vector<std::string>& State::effects_run() const { return shared_->effects_run; }
 const std::vector<std::string>& State::effects_off() const { return shared_->effects_off; }
@@ -369,7 +362,7 @@ double State::plastic_fraction() const {
 
 std::optional<PlasticChange> State::plastic_change() const { return shared_->now()->plastic_change(); }
 
-std::string State::text() const {
+std::string State::text(const std::string& of_the_cells) const {
   {
     const std::lock_guard lock(shared_->mutex);
     if (shared_->closed)
@@ -403,8 +396,7 @@ std::string State::text() const {
   if (error.plastic_volume)
     result += ", plastic volume " + within(plastic_volume(), *error.plastic_volume, dimension::volume) +
               " with " + format_short(100 * plastic_fraction(), 3) + " % of the tile at the limit";
-  if (const std::string grid = discretisation_text(*this); !grid.empty()) result += "; " + grid;
-  if (chosen_) result += "; " + chosen_->text();
+  if (!of_the_cells.empty()) result += "; " + of_the_cells;
   const Cost& total = cost().total;
   constexpr double mebibyte = 1 << 20;
   return result + "; residual " + format_short(residual(), 2) + (converged() ? "" : " (not converged)") +

@@ -115,8 +115,9 @@ class State {
   const ContactGeometry& geometry() const;
   // Memory that this state's solution keeps, without the bodies and what was worked out since.
   std::int64_t bytes_held() const;
-  // One line for a reader: values with their algebraic errors, residual, cost and solver.
-  std::string text() const;
+  // One line for a reader: values with their algebraic errors, residual, cost and solver, and before the
+  // residual what whoever estimates the error of the cells says of it.
+  std::string text(const std::string& of_the_cells = {}) const;
 
   static std::span<const std::string> field_names();
 

@@ -181,7 +181,7 @@ Trial make_trial(Placed placed, double tolerance) {
   trial.scene.accuracy.estimate = Accuracy::Estimate::coarser;
   trial.scene.accuracy.chosen = true;
   trial.geometry = std::make_shared<const ContactGeometry>(trial.scene, placed.pose);
-  trial.plan = make_plan(trial.scene, *trial.geometry);
+  trial.plan = plan_with_estimate(trial.scene, *trial.geometry);
   // A coarse grid that misses its tolerance is not the last word.
   Plan lenient = trial.plan;
   lenient.accuracy.on_failure = Accuracy::OnFailure::best;
@@ -255,7 +255,8 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
                                const PressRequest& request, Monitor& monitor) {
   const AskedError& asked = *scene.accuracy.asked;
   const Grid& given = geometry.grid();
-  const std::vector<Grid> grids = grids_to_try(given, finest_grid(given, make_plan(scene, geometry)));
+  const std::vector<Grid> grids =
+      grids_to_try(given, finest_grid(given, plan_with_estimate(scene, geometry)));
   const double rms_given = rms_of(geometry.combined());
   const auto begun = std::chrono::steady_clock::now();
 
@@ -328,7 +329,7 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
   others.seconds -= last.seconds;
   others.transforms -= last.transforms;
 
-  trial->plan = make_plan(trial->scene, *trial->geometry);
+  trial->plan = plan_with_estimate(trial->scene, *trial->geometry);
   trial->plan.choice = choice_text(trial->scene, trial->plan);
   trial->solver = make_solver(trial->plan, trial->geometry);
   State state = trial->state->costing_also({others, {{"choice", others}}})

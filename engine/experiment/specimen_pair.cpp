@@ -21,13 +21,14 @@ namespace {
 
 Scene checked(const Scene& scene) {
   check(scene);
+  check_accuracy(scene);
   Scene result = scene;
   if (scene.accuracy.asked) result.accuracy.tolerance = first_tolerance(scene.accuracy.asked->error);
   return result;
 }
 
 Plan planned(const Scene& scene, const ContactGeometry& geometry) {
-  Plan plan = make_plan(scene, geometry);
+  Plan plan = plan_with_estimate(scene, geometry);
   plan.choice = choice_text(scene, plan);
   return plan;
 }
@@ -179,6 +180,7 @@ StateCost SpecimenPair::flatten_for_good(const State& state, Monitor& monitor) {
     auto geometry =
         std::make_shared<const ContactGeometry>(scene, *geometry_, after.hardness, change->approach);
     Plan plan = make_plan_like(plan_, scene, *geometry);
+    plan_estimate(*geometry, plan);
     plan.choice = plan_.choice;
     plan.yield->carried = plan_.yield->carried;
     if (change->carried) asperity::carry(plan.yield->carried, *change->carried);

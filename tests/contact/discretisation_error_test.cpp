@@ -29,7 +29,7 @@ Scene half_space(Surface lower, Boundary boundary) {
 }
 
 State pressed(const Scene& scene, const PressRequest& request) {
-  check(scene);
+  check_accuracy(scene);
   auto geometry = std::make_shared<const ContactGeometry>(
       scene, LatticeIsometry(scene.lower.grid().nx, scene.lower.grid().ny));
   const State state = make_solver(make_plan(scene, *geometry), geometry)->press(request);
@@ -162,7 +162,7 @@ TEST(DiscretisationEstimate, BodiesAsTheyLie) {
   // Two rough bodies, one of them turned: the coarser grids see every second node of both as they lie.
   Scene scene = half_space(rough(64, 1), Boundary::periodic);
   scene.upper = rough(64, 2).with_material(elastic(1e9));
-  check(scene);
+  check_accuracy(scene);
   const LatticeIsometry pose = LatticeIsometry(64, 64).turned(1).shifted(5, 3);
   const auto geometry = std::make_shared<const ContactGeometry>(scene, pose);
   const auto coarser =
@@ -212,17 +212,17 @@ TEST(DiscretisationEstimate, CostsLessThanTwoFifthsOfThePress) {
   solve_coarser(scene, *geometry, make_plan(scene, *geometry), request);
   EXPECT_GT(estimate.so_far().transforms, 0);
   EXPECT_LT(estimate.so_far().transforms, 0.4 * of_press);  // measured: 0.36
-  const Plan plan = make_plan(scene, *geometry);
+  const Plan plan = plan_with_estimate(scene, *geometry);
   EXPECT_NE(plan.text().find("estimate      the same press on 64 x 64 and 32 x 32 cells"), std::string::npos)
       << plan.text();
 }
 
 State pressed_beside_finer(Scene scene, const PressRequest& request) {
   scene.accuracy.estimate = Accuracy::Estimate::finer;
-  check(scene);
+  check_accuracy(scene);
   const auto geometry = std::make_shared<const ContactGeometry>(
       scene, LatticeIsometry(scene.lower.grid().nx, scene.lower.grid().ny));
-  const Plan plan = make_plan(scene, *geometry);
+  const Plan plan = plan_with_estimate(scene, *geometry);
   return make_solver(plan, geometry)->press(request).beside(solve_finer(scene, *geometry, plan, request));
 }
 
@@ -294,7 +294,7 @@ TEST(EstimateFromAFinerGrid, CostsAboutElevenTimesThePress) {
   Scene scene = half_space(rough(128), Boundary::periodic);
   scene.accuracy.estimate = Accuracy::Estimate::finer;
   const auto geometry = std::make_shared<const ContactGeometry>(scene, LatticeIsometry(128, 128));
-  const Plan plan = make_plan(scene, *geometry);
+  const Plan plan = plan_with_estimate(scene, *geometry);
   const PressRequest request{PressBy::pressure, 5e6, {}};
   const CostScope press;
   make_solver(plan, geometry)->press(request);
@@ -330,10 +330,10 @@ TEST(EstimateFromAFinerGrid, PlasticBodiesRemember) {
 TEST(EstimateFromAFinerGrid, IsNotOfACoarserOne) {
   Scene scene = half_space(paraboloid(15), Boundary::free);
   scene.accuracy.estimate = Accuracy::Estimate::finer;
-  EXPECT_EQ(error_of([&] { check(scene); }), "");
+  EXPECT_EQ(error_of([&] { check_accuracy(scene); }), "");
   scene.accuracy.asked = AskedError{0.01, {"approach"}};
   EXPECT_EQ(
-      error_of([&] { check(scene); }),
+      error_of([&] { check_accuracy(scene); }),
       "`estimate` = \"finer\" and `error` are both given; cells chosen for an `error` are compared with "
       "the coarser ones tried before: leave one of both out");
 }
@@ -350,7 +350,7 @@ TEST(DiscretisationEstimate, SaysWhatIsMissing) {
             "no discretisation error of `aproach` is estimated (did you mean `approach`?)");
   Scene small = half_space(paraboloid(15), Boundary::free);
   EXPECT_EQ(
-      error_of([&] { check(small); }),
+      error_of([&] { check_accuracy(small); }),
       "`estimate` was asked for a tile of 15 x 15 cells; an estimate compares with half the cells: give "
       "at least 16 along x or y, or leave `estimate` out");
 }
@@ -358,20 +358,22 @@ TEST(DiscretisationEstimate, SaysWhatIsMissing) {
 TEST(Scene, AskedErrorIsChecked) {
   Scene scene = half_space(paraboloid(32), Boundary::free);
   scene.accuracy.asked = AskedError{1, {"approach"}};
-  EXPECT_EQ(error_of([&] { check(scene); }),
+  EXPECT_EQ(error_of([&] { check_accuracy(scene); }),
             "`error` is 1; it is relative: give a number from 1e-6 to below 1, such as 0.01 for 1 %");
   scene.accuracy.asked = AskedError{0.01, {}};
-  EXPECT_EQ(error_of([&] { check(scene); }),
+  EXPECT_EQ(error_of([&] { check_accuracy(scene); }),
             "`of` names no quantity; give one, such as \"corrected_area_fraction\"");
   scene.accuracy.asked = AskedError{0.01, {"approach", "area_fracton"}};
-  EXPECT_NE(error_of([&] { check(scene); }).find("`of` names `area_fracton`, whose error is not estimated"),
+  EXPECT_NE(error_of([&] {
+              check_accuracy(scene);
+            }).find("`of` names `area_fracton`, whose error is not estimated"),
             std::string::npos);
   scene.accuracy.asked = AskedError{0.01, {"plastic_volume"}};
-  EXPECT_EQ(error_of([&] { check(scene); }),
+  EXPECT_EQ(error_of([&] { check_accuracy(scene); }),
             "`of` names `plastic_volume`, which needs the effect `plasticity`; this scene does not name it; "
             "name `plasticity`, or ask for the error of another quantity");
   scene.accuracy.asked = AskedError{0.01, {"approach", "energy"}};
-  EXPECT_EQ(error_of([&] { check(scene); }), "");
+  EXPECT_EQ(error_of([&] { check_accuracy(scene); }), "");
 }
 
 }  // namespace
