@@ -1,10 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list of everything a script can see, one line a module and a class.
-#include "bindings/lua/catalogue.hpp"
-
+#include "bindings/lua/contact.hpp"
+#include "bindings/lua/discretisation_error.hpp"
+#include "bindings/lua/friction.hpp"
+#include "bindings/lua/ledger.hpp"
+#include "bindings/lua/material.hpp"
+#include "bindings/lua/notebook.hpp"
+#include "bindings/lua/protocol.hpp"
 #include "bindings/lua/registry.hpp"
+#include "bindings/lua/shear.hpp"
+#include "bindings/lua/spread.hpp"
+#include "bindings/lua/state_error.hpp"
+#include "bindings/lua/study.hpp"
+#include "bindings/lua/stylus.hpp"
+#include "bindings/lua/surface.hpp"
 
 namespace asperity::lua {
+
+// Each defined in the source of its name.
+const Module& lab_module();
+const Module& units_module();
+const Module& surface_module();
+const Module& profile_module();
+const Module& protocol_module();
+const Module& exact_module();
+const Module& spread_module();
 
 const std::vector<const Module*>& modules() {
   static const std::vector<const Module*> all = {
@@ -16,12 +36,17 @@ const std::vector<const Module*>& modules() {
 
 const std::vector<const Class*>& classes() {
   static const std::vector<const Class*> all = {
-      &material_class(),       &surface_class(),      &profile_class(),         &contact_class(),
-      &state_class(),          &state_error_class(),  &algebraic_error_class(), &discretisation_error_class(),
-      &field_class(),          &plan_class(),         &ledger_class(),          &stylus_class(),
-      &protocol_class(),       &law_class(),          &shear_class(),           &stage_class(),
-      &notebook_class(),       &study_class(),        &study_choice_class(),    &spread_surface_class(),
-      &spread_contact_class(), &spread_state_class(),
+      &class_of<Material>(),        &class_of<Surface>(),
+      &class_of<Profile>(),         &class_of<SpecimenPair>(),
+      &class_of<asperity::State>(), &class_of<StateError>(),
+      &class_of<AlgebraicError>(),  &class_of<DiscretisationError>(),
+      &class_of<StateField>(),      &class_of<Plan>(),
+      &class_of<LedgerReport>(),    &class_of<Stylus>(),
+      &class_of<Protocol>(),        &class_of<JunctionLaw>(),
+      &class_of<PartialSlip>(),     &class_of<TiltStage>(),
+      &class_of<Notebook>(),        &class_of<Study>(),
+      &class_of<StudyChoice>(),     &class_of<SlabSurface>(),
+      &class_of<SpreadContact>(),   &class_of<SpreadState>(),
   };
   return all;
 }

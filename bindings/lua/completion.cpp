@@ -7,10 +7,10 @@
 #include <optional>
 #include <set>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/embedded.hpp"
 #include "bindings/lua/help.hpp"
 #include "bindings/lua/lua_names.hpp"
+#include "bindings/lua/registry.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/surface/material.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact_scene.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/guard.hpp"
@@ -269,7 +268,8 @@ Function contact_function() {
           .look = look_at_scene};
 }
 
-const Class& contact_class() {
+template <>
+const Class& class_of<SpecimenPair>() {
   static const Class type = [] {
     Class c;
     c.name = "Contact";
@@ -369,11 +369,6 @@ const Class& contact_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<SpecimenPair>() {
-  return contact_class();
 }
 
 }  // namespace asperity::lua

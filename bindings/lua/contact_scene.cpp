@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/grid_keys.hpp"
 #include "bindings/lua/known_body.hpp"

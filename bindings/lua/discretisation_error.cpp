@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/discretisation_error.hpp"
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/state_error.hpp"
 #include "engine/contact/chosen_accuracy.hpp"
 #include "engine/contact/discretisation_error.hpp"
@@ -50,7 +49,8 @@ Getter quantity_field(const char* name, const char* sentence, Dimension dimensio
 
 }  // namespace
 
-const Class& discretisation_error_class() {
+template <>
+const Class& class_of<DiscretisationError>() {
   static const Class type = [] {
     Class c;
     c.name = "DiscretisationError";
@@ -96,11 +96,6 @@ const Class& discretisation_error_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<DiscretisationError>() {
-  return discretisation_error_class();
 }
 
 Value chosen_record(const asperity::State& state) {

@@ -3,7 +3,6 @@
 // Weierstrass–Mandelbrot height a few thousand cosines.
 #include <limits>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/friction.hpp"
 #include "bindings/lua/weierstrass_mandelbrot_keys.hpp"
 #include "engine/study/exact/box_paraboloid.hpp"

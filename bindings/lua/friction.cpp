@@ -4,7 +4,6 @@
 
 #include <numbers>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/experiment/slip_growth.hpp"
@@ -245,7 +244,8 @@ Function tilt_stage_function() {
           .example = "local stage = lab.tilt_stage{ contact=c, friction=law, mass=\"4.3 g\" }"};
 }
 
-const Class& law_class() {
+template <>
+const Class& class_of<JunctionLaw>() {
   static const Class type = [] {
     Class c;
     c.name = "Law";
@@ -278,7 +278,8 @@ const Class& law_class() {
   return type;
 }
 
-const Class& stage_class() {
+template <>
+const Class& class_of<TiltStage>() {
   static const Class type = [] {
     Class c;
     c.name = "TiltStage";
@@ -314,15 +315,6 @@ const Class& stage_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<JunctionLaw>() {
-  return law_class();
-}
-template <>
-const Class& class_of<TiltStage>() {
-  return stage_class();
 }
 
 }  // namespace asperity::lua

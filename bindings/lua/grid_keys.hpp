@@ -4,14 +4,12 @@
 
 #include <optional>
 
+#include "bindings/lua/material.hpp"
 #include "bindings/lua/options.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/surface/material.hpp"
 
 namespace asperity::lua {
-
-template <>
-const Class& class_of<Material>();
 
 struct GridKeys {
   int nx = 0, ny = 0;

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/grid_keys.hpp"
 #include "bindings/lua/registry.hpp"
 #include "bindings/lua/surface.hpp"
@@ -47,7 +46,7 @@ std::optional<Grid> grid_in(const Argument& table) {
 
 std::shared_ptr<const KnownBody> known_body(const Argument& value) {
   const Object* object = value.as_any_object();
-  if (object == nullptr || object->type != &surface_class()) return nullptr;
+  if (object == nullptr || object->type != &class_of<Surface>()) return nullptr;
   if (object->pointer == nullptr) return object->known;
   const auto& surface = *static_cast<const Surface*>(object->pointer.get());
   return std::make_shared<const KnownBody>(KnownBody{surface.material(), surface.grid()});

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "bindings/lua/base_library.hpp"
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/ensemble.hpp"
 #include "bindings/lua/friction.hpp"

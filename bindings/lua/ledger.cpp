@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/ledger.hpp"
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/state_error.hpp"
 #include "engine/experiment/plan_json.hpp"
@@ -178,9 +177,6 @@ const Class& class_of<LedgerReport>() {
   }();
   return type;
 }
-
-const Class& plan_class() { return class_of<Plan>(); }
-const Class& ledger_class() { return class_of<LedgerReport>(); }
 
 void enter_effects(const Session& session, const Values& results) {
   for (const Value& result : results) {

@@ -2,7 +2,6 @@
 // lab.material: a named material, or a table of properties.
 #include "bindings/lua/material.hpp"
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/grid_keys.hpp"
 
 namespace asperity::lua {
@@ -79,7 +78,8 @@ Value materials_list() {
 
 Value rigid_value() { return object(rigid_material()); }
 
-const Class& material_class() {
+template <>
+const Class& class_of<Material>() {
   static const Class type = {
       .name = "Material",
       .article_name = "a material",
@@ -105,11 +105,6 @@ const Class& material_class() {
       .equal = equal_materials,
   };
   return type;
-}
-
-template <>
-const Class& class_of<Material>() {
-  return material_class();
 }
 
 }  // namespace asperity::lua

@@ -3,8 +3,12 @@
 #pragma once
 
 #include "bindings/lua/registry.hpp"
+#include "engine/surface/material.hpp"
 
 namespace asperity::lua {
+
+template <>
+const Class& class_of<Material>();
 
 Function material_function();
 Value materials_list();

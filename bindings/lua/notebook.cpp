@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/experiment/notebook_chart.hpp"
@@ -299,7 +298,8 @@ Function notebook_function() {
       .example = "local book = lab.notebook \"stiffness\""};
 }
 
-const Class& notebook_class() {
+template <>
+const Class& class_of<Notebook>() {
   static const Class type = [] {
     Class c;
     c.name = "Notebook";
@@ -356,11 +356,6 @@ const Class& notebook_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<Notebook>() {
-  return notebook_class();
 }
 
 }  // namespace asperity::lua

@@ -2,7 +2,6 @@
 // Profiles: lab.profile and the methods of a profile.
 #include <numbers>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/measure.hpp"
 #include "bindings/lua/session.hpp"
@@ -129,7 +128,8 @@ std::string digest_of_profile(const void* self) { return static_cast<const Profi
 
 }  // namespace
 
-const Class& profile_class() {
+template <>
+const Class& class_of<Profile>() {
   static const Class type = [] {
     Class c;
     c.name = "Profile";
@@ -235,11 +235,6 @@ const Class& profile_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<Profile>() {
-  return profile_class();
 }
 
 const Module& profile_module() {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/protocol_events.hpp"
@@ -189,7 +188,8 @@ std::size_t bytes_of_protocol(const void* self) {
 
 }  // namespace
 
-const Class& protocol_class() {
+template <>
+const Class& class_of<Protocol>() {
   static const Class type = [] {
     Class c;
     c.name = "Protocol";
@@ -284,11 +284,6 @@ const Class& protocol_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<Protocol>() {
-  return protocol_class();
 }
 
 const Module& protocol_module() {

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <unordered_map>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/explanation.hpp"
 #include "bindings/lua/friction.hpp"
@@ -14,8 +13,10 @@
 #include "bindings/lua/ledger.hpp"
 #include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
+#include "bindings/lua/protocol.hpp"
 #include "bindings/lua/result_digest.hpp"
 #include "bindings/lua/session.hpp"
+#include "bindings/lua/surface.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/protocol.hpp"
@@ -93,8 +94,9 @@ const SpecimenPair* pressed_by(const Call& call, const Function& function) {
   const auto contact_at = [&](int k) -> const SpecimenPair* {
     const Object* object = Argument(call.L, k).as_any_object();
     if (object == nullptr || object->pointer == nullptr) return nullptr;
-    if (object->type == &contact_class()) return static_cast<const SpecimenPair*>(object->pointer.get());
-    if (object->type == &stage_class())
+    if (object->type == &class_of<SpecimenPair>())
+      return static_cast<const SpecimenPair*>(object->pointer.get());
+    if (object->type == &class_of<TiltStage>())
       return static_cast<const TiltStage*>(object->pointer.get())->contact.get();
     return nullptr;
   };
@@ -106,14 +108,14 @@ const SpecimenPair* pressed_by(const Call& call, const Function& function) {
 // How often it would press: once, along the list of a sweep, at the events of a protocol, at probe pressures.
 std::int64_t presses_of(const Call& call) {
   const Object* self = Argument(call.L, 1).as_any_object();
-  if (self != nullptr && self->type == &protocol_class() && self->pointer != nullptr) {
+  if (self != nullptr && self->type == &class_of<Protocol>() && self->pointer != nullptr) {
     const auto& events = static_cast<const Protocol*>(self->pointer.get())->events();
     return std::count_if(events.begin(), events.end(), [](const Protocol::Event& event) {
       return std::holds_alternative<PressRequest>(event.step);
     });
   }
   // A stage solves at each of its probe pressures; it may raise them, which is not known here.
-  if (self != nullptr && self->type == &stage_class() && self->pointer != nullptr) {
+  if (self != nullptr && self->type == &class_of<TiltStage>() && self->pointer != nullptr) {
     const auto* stage = static_cast<const TiltStage*>(self->pointer.get());
     const bool probes = std::holds_alternative<HalfSpaceOptions>(stage->contact->scene().elasticity);
     return probes ? static_cast<std::int64_t>(stage->options.probe_pressures.size()) : 1;
@@ -149,7 +151,7 @@ Values dry_call(const Call& call, const Function& function) {
   if (function.look != nullptr) function.look(call);
   call.session().gave_placeholders = true;
   Values results = placeholders_of(function);
-  if (function.returns == surface_class().name)
+  if (function.returns == class_of<Surface>().name)
     if (auto* surface = std::get_if<Object>(&results.front().data))
       surface->known = known_result(call, function);
   return results;
@@ -173,8 +175,8 @@ Values call_function(lua_State* L, const Entry& entry) {
   }
   check_count(call, function);
   // To explain a contact its bodies are needed; to check a script they are not.
-  const bool left_out =
-      function.heavy && (call.session().explanation == nullptr || function.returns != surface_class().name);
+  const bool left_out = function.heavy && (call.session().explanation == nullptr ||
+                                           function.returns != class_of<Surface>().name);
   if (call.session().dry_run && (left_out || placeholder_self || any_argument_unknown(call)))
     return dry_call(call, function);
   LedgerScope scope = ledger_scope(call.session(), call.function_name(), function.heavy);

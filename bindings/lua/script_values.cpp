@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "bindings/lua/catalogue.hpp"
+#include "bindings/lua/registry.hpp"
 #include "bindings/lua/script_types.hpp"
 
 namespace asperity::lua {

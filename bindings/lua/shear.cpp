@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/shear.hpp"
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/friction.hpp"
 #include "bindings/lua/session.hpp"
@@ -96,7 +95,8 @@ Function shear_method() {
           .heavy = true};
 }
 
-const Class& shear_class() {
+template <>
+const Class& class_of<PartialSlip>() {
   using S = PartialSlip;
   static const Class type = [] {
     Class c;
@@ -144,11 +144,6 @@ const Class& shear_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<PartialSlip>() {
-  return shear_class();
 }
 
 }  // namespace asperity::lua

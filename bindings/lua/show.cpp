@@ -3,7 +3,6 @@
 
 #include <cstdio>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/guard.hpp"

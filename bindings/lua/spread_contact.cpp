@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/grid_keys.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/spread.hpp"
+#include "bindings/lua/surface.hpp"
 #include "engine/contact/effects/catalogue.hpp"
 #include "engine/contact/elasticity/slabs/slab_terms.hpp"
 #include "engine/contact/press_request.hpp"
@@ -105,7 +105,7 @@ const Block<spread_SceneKeys>& spread_scene_block() {
              if (const SlabSurface* surface = value.as<SlabSurface>())
                keys.lower = *surface;
              else if (const Object* other = value.as_any_object();
-                      other != nullptr && other->type == &surface_class())
+                      other != nullptr && other->type == &class_of<Surface>())
                problems.push_back(
                    "`lower` is a surface that every rank holds; make it with lab.spread, or press it with "
                    "lab.contact");
@@ -264,7 +264,8 @@ Function spread_contact_function() {
           "elasticity=\"half_space\" } }"};
 }
 
-const Class& spread_contact_class() {
+template <>
+const Class& class_of<SpreadContact>() {
   static const Class type = [] {
     Class c;
     c.name = "SpreadContact";
@@ -285,8 +286,4 @@ const Class& spread_contact_class() {
   return type;
 }
 
-template <>
-const Class& class_of<SpreadContact>() {
-  return spread_contact_class();
-}
 }  // namespace asperity::lua

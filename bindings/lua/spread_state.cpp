@@ -2,7 +2,6 @@
 // The states of contacts over the ranks of mpirun, as values of the language.
 #include <algorithm>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/spread.hpp"
@@ -86,7 +85,8 @@ std::string state_digest(const void* self) { return static_cast<const SpreadStat
 
 }  // namespace
 
-const Class& spread_state_class() {
+template <>
+const Class& class_of<SpreadState>() {
   using A = SlabContactAnswer;
   static const Class type = [] {
     Class c;
@@ -188,11 +188,6 @@ const Class& spread_state_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<SpreadState>() {
-  return spread_state_class();
 }
 
 }  // namespace asperity::lua

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // lab.spread: one contact that does not fit one process, over the ranks of mpirun. Here its surfaces.
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/ranks.hpp"
 #include "bindings/lua/session.hpp"
@@ -207,10 +206,6 @@ const Module& spread_module() {
 
 template <>
 const Class& class_of<SlabSurface>() {
-  return spread_surface_class();
-}
-
-const Class& spread_surface_class() {
   using S = SlabSurface;
   static const Class type = [] {
     Class c;

@@ -3,7 +3,6 @@
 // is worked out when the script reads it, and not before.
 #include <algorithm>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/discretisation_error.hpp"
 #include "bindings/lua/files.hpp"
@@ -175,7 +174,8 @@ std::size_t field_bytes(const void* self) {
 
 }  // namespace
 
-const Class& state_class() {
+template <>
+const Class& class_of<asperity::State>() {
   using S = Contacting;
   static const Class type = [] {
     Class c;
@@ -357,7 +357,8 @@ const Class& state_class() {
   return type;
 }
 
-const Class& field_class() {
+template <>
+const Class& class_of<StateField>() {
   using F = StateField;
   static const Class type = [] {
     Class c;
@@ -416,15 +417,6 @@ const Class& field_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<asperity::State>() {
-  return state_class();
-}
-template <>
-const Class& class_of<StateField>() {
-  return field_class();
 }
 
 }  // namespace asperity::lua

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/discretisation_error.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -186,9 +185,13 @@ Record cost_record(const Cost& cost, std::string name) {
   return record;
 }
 
-const Class& algebraic_error_class() { return make_bounds_class(); }
+template <>
+const Class& class_of<AlgebraicError>() {
+  return make_bounds_class();
+}
 
-const Class& state_error_class() {
+template <>
+const Class& class_of<StateError>() {
   static const Class type = [] {
     Class c;
     c.name = "StateError";
@@ -211,15 +214,6 @@ const Class& state_error_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<StateError>() {
-  return state_error_class();
-}
-template <>
-const Class& class_of<AlgebraicError>() {
-  return algebraic_error_class();
 }
 
 }  // namespace asperity::lua

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/options.hpp"
 #include "bindings/lua/session.hpp"
@@ -141,7 +140,8 @@ void record_result(RunDirectory* run, const std::string& name, const StudyResult
   if (!run->dry()) write_aside(file, study_table(result).csv());
 }
 
-const Class& study_class() {
+template <>
+const Class& class_of<Study>() {
   static const Class type = [] {
     Class c;
     c.name = "Study";
@@ -221,7 +221,8 @@ const Class& study_class() {
   return type;
 }
 
-const Class& study_choice_class() {
+template <>
+const Class& class_of<StudyChoice>() {
   static const Class type = [] {
     Class c;
     c.name = "StudyChoice";
@@ -272,15 +273,6 @@ const Class& study_choice_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<Study>() {
-  return study_class();
-}
-template <>
-const Class& class_of<StudyChoice>() {
-  return study_choice_class();
 }
 
 }  // namespace asperity::lua

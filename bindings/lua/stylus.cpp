@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/stylus.hpp"
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/surface.hpp"
 #include "engine/metrology/spherical_tip.hpp"
@@ -108,7 +107,8 @@ Function stylus_function() {
           .example = "local stylus = lab.stylus{ tip=\"2 um\", speed=\"50 um/s\", rate=\"200 Hz\" }"};
 }
 
-const Class& stylus_class() {
+template <>
+const Class& class_of<Stylus>() {
   static const Class type = [] {
     Class c;
     c.name = "Stylus";
@@ -174,11 +174,6 @@ const Class& stylus_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<Stylus>() {
-  return stylus_class();
 }
 
 }  // namespace asperity::lua

@@ -3,7 +3,6 @@
 // profiles are in surface_operations.cpp.
 #include <algorithm>
 
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/measure.hpp"
 #include "bindings/lua/picture.hpp"
@@ -90,7 +89,8 @@ std::string digest_of_surface(const void* self) { return static_cast<const Surfa
 
 }  // namespace
 
-const Class& surface_class() {
+template <>
+const Class& class_of<Surface>() {
   static const Class type = [] {
     Class c;
     c.name = "Surface";
@@ -212,11 +212,6 @@ const Class& surface_class() {
     return c;
   }();
   return type;
-}
-
-template <>
-const Class& class_of<Surface>() {
-  return surface_class();
 }
 
 }  // namespace asperity::lua

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // lab.surface: the generators, and surfaces from functions, tables and files.
-#include "bindings/lua/catalogue.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/grid_keys.hpp"
 #include "bindings/lua/session.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "bindings/lua/catalogue.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::completion_test {
