@@ -6,6 +6,7 @@
 #include "bindings/lua/ledger.hpp"
 #include "bindings/lua/material.hpp"
 #include "bindings/lua/notebook.hpp"
+#include "bindings/lua/plan.hpp"
 #include "bindings/lua/protocol.hpp"
 #include "bindings/lua/registry.hpp"
 #include "bindings/lua/shear.hpp"

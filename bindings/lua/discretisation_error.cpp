@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/discretisation_error.hpp"
 
+#include "bindings/lua/record.hpp"
 #include "bindings/lua/state_error.hpp"
 #include "engine/contact/chosen_accuracy.hpp"
 #include "engine/contact/discretisation_error.hpp"

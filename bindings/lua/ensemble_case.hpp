@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bindings/lua/case_input.hpp"
 #include "bindings/lua/lua_api.hpp"
 #include "bindings/lua/parcel.hpp"
 
@@ -29,16 +30,6 @@ struct CaseValue {
   std::shared_ptr<const Parcel> value;
   std::string text;  // "2.5", "\"cold\"", "a surface"
 };
-
-// A file that a case looked at; no digest where there was none. One that `require` found in the folder of the
-// script is known by its name there: another run looks in the folder of its own script.
-struct CaseInput {
-  std::string file;
-  std::int64_t bytes = 0;
-  std::string digest;
-  std::string beside_script = {};  // "helper.lua"; else empty
-};
-CaseInput input_of_case(const std::string& file);
 
 struct CaseSetup {
   std::shared_ptr<const Parcel> run;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "bindings/lua/ensemble_case.hpp"
+#include "bindings/lua/case_input.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/experiment/run_directory.hpp"
 #include "engine/experiment/run_facts.hpp"

@@ -59,25 +59,7 @@ bool names_a_line(std::string_view text) {
   return false;
 }
 
-std::string present_digest(const std::string& file) {
-  std::error_code problem;
-  if (!std::filesystem::is_regular_file(file, problem)) return {};
-  try {
-    return file_digest(file);
-  } catch (const Error&) {
-    return {};
-  }
-}
-
 }  // namespace
-
-CaseInput input_of_case(const std::string& file) {
-  std::error_code problem;
-  CaseInput input{file, 0, present_digest(file)};
-  if (!input.digest.empty())
-    input.bytes = static_cast<std::int64_t>(std::filesystem::file_size(file, problem));
-  return input;
-}
 
 std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& given) {
   ByteWriter out;

@@ -2,7 +2,6 @@
 // Native values in Lua: the metatable of a class, through which a script reads fields and calls
 // methods, and by which a native value is known.
 #include "bindings/lua/guard.hpp"
-#include "bindings/lua/ledger.hpp"
 #include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/registry.hpp"
@@ -28,7 +27,7 @@ int guarded_field(lua_State* L, const Class& type) {
       if (field.name != key.text()) continue;
       if (self->is_placeholder()) return {placeholder_of(field.type)};
       Call call(L, field.name, true);
-      const LedgerScope scope = ledger_scope(call.session(), field.name, false, type.name);
+      const LedgerScope scope = call.session().ledger_scope(field.name, false, type.name);
       return field.body(call);
     }
     throw Error(ErrorCode::unknown_name, type.article_name + " has no field " +

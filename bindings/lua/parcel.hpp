@@ -24,12 +24,12 @@ namespace asperity::lua {
 
 struct Module;
 
-class Parcel {
+class Parcel final : public StoredValue {
  public:
   // Makes the value in a state and leaves it on the stack; one made by make_state if functions came
   // along. What the script added to the globals and to Lua's own tables is made there too. Cost: linear
   // in the parcel. Raises on lack of memory: call inside protect().
-  void push(lua_State* L) const;
+  void push(lua_State* L) const override;
 
   // Of the content of data: the same for equal values, whatever the order of keys in memory.
   std::string digest() const;

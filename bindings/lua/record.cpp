@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "bindings/lua/guard.hpp"
-#include "bindings/lua/ledger.hpp"
 #include "bindings/lua/registry.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -136,12 +135,12 @@ int next_of(lua_State* L) {
     if (block == nullptr || *block == nullptr) throw Error(ErrorCode::bad_state, "the iterator is finished");
     const std::shared_ptr<Iterator> iterator = *block;
     Call call(L, iterator->name, true);
-    LedgerScope scope = ledger_scope(call.session(), iterator->name, false);
+    LedgerScope scope = call.session().ledger_scope(iterator->name, false);
     // The turn must not have advanced when it fails for lack of memory.
     std::optional<Values> results = with_collection(L, [&] { return iterator->next(call); });
     if (results) {
       scope.keep();
-      enter_effects(call.session(), *results);
+      enter_into_ledger(call.session(), *results);
       return *std::move(results);
     }
     scope.forget();  // the turn that ends it is none
@@ -201,6 +200,15 @@ void push_iterator(lua_State* L, const std::shared_ptr<Iterator>& iterator) {
   push_metatable_of(L, &iterator_key, "iterator", methods);
   lua_setmetatable(L, -2);
   *static_cast<IteratorPointer*>(block) = iterator;
+}
+
+Record cost_record(const Cost& cost, std::string name) {
+  Record record;
+  record.name = std::move(name);
+  record.add("seconds", cost.seconds, dimension::time)
+      .add("transforms", cost.transforms)
+      .add("bytes", cost.bytes);
+  return record;
 }
 
 }  // namespace asperity::lua

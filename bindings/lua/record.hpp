@@ -5,15 +5,20 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "bindings/lua/lua_api.hpp"
 #include "bindings/lua/value.hpp"
+#include "engine/core/cost.hpp"
 
 namespace asperity::lua {
 
 // Raise on lack of memory: call inside protect().
 void push_record(lua_State* L, const std::shared_ptr<Record>& record);
 void push_iterator(lua_State* L, const std::shared_ptr<Iterator>& iterator);
+
+// seconds, transforms and bytes
+Record cost_record(const Cost& cost, std::string name);
 
 // The record at an index, or null.
 std::shared_ptr<Record> record_at(lua_State* L, int index);

@@ -10,7 +10,6 @@
 #include "bindings/lua/friction.hpp"
 #include "bindings/lua/guard.hpp"
 #include "bindings/lua/known_body.hpp"
-#include "bindings/lua/ledger.hpp"
 #include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/protocol.hpp"
@@ -179,11 +178,11 @@ Values call_function(lua_State* L, const Entry& entry) {
                                            function.returns != class_of<Surface>().name);
   if (call.session().dry_run && (left_out || placeholder_self || any_argument_unknown(call)))
     return dry_call(call, function);
-  LedgerScope scope = ledger_scope(call.session(), call.function_name(), function.heavy);
+  LedgerScope scope = call.session().ledger_scope(call.function_name(), function.heavy);
   if (function.returns.starts_with("iterator")) scope.forget();  // its turns count
   Values results = function.body(call);
   if (function.heavy) {
-    enter_effects(call.session(), results);
+    enter_into_ledger(call.session(), results);
     record_call(call.session(), call.function_name(), Argument(L, 1).as_any_object(), call.inputs(), results);
   }
   return results;
@@ -224,6 +223,14 @@ void record_call(const Session& session, const std::string& function, const Obje
   if (const std::string digest = digest_of(results); !digest.empty()) line.set("result", digest);
   session.run->journal().write("call", line);
   if (session.onlooker) session.onlooker(function, results);
+}
+
+void enter_into_ledger(const Session& session, const Values& results) {
+  for (const Value& result : results) {
+    const auto* object = std::get_if<Object>(&result.data);
+    if (object != nullptr && object->pointer != nullptr && object->type->enter != nullptr)
+      object->type->enter(object->pointer.get(), *session.ledger);
+  }
 }
 
 const std::string& qualified_name(const Function& function) { return entries().at(&function).name; }

@@ -19,6 +19,10 @@
 #include "bindings/lua/options.hpp"
 #include "bindings/lua/value.hpp"
 
+namespace asperity {
+class Ledger;
+}
+
 namespace asperity::lua {
 
 class Session;
@@ -71,8 +75,11 @@ struct Class {
   std::size_t (*native_bytes)(const void* self) = nullptr;  // memory Lua cannot see
   bool (*equal)(const void* a, const void* b) = nullptr;
   std::string (*digest)(const void* self) = nullptr;  // of its content, for the journal
-  void (*closing)(void* self) = nullptr;              // before it is closed by hand or by <close>
-  std::vector<std::string> names() const;             // fields and methods
+  // What one among the results of a heavy call or of a turn has cost, effect by effect, to be added to the
+  // ledger; null: nothing.
+  void (*enter)(const void* self, Ledger& ledger) = nullptr;
+  void (*closing)(void* self) = nullptr;   // before it is closed by hand or by <close>
+  std::vector<std::string> names() const;  // fields and methods
 };
 
 // A constant table entry such as lab.units.deg or lab.rigid.
@@ -151,6 +158,9 @@ class Call {
 // came out. The registry writes that of every heavy function; an iterator writes those of its turns.
 void record_call(const Session& session, const std::string& function, const Object* self,
                  const Resolved& inputs, const Values& results);
+
+// Lets the native values among the results of a heavy call, or of an iterator's turn, enter what they cost.
+void enter_into_ledger(const Session& session, const Values& results);
 
 // Pushes a function or method of the registry; raises on lack of memory (call inside protect).
 void push_function(lua_State* L, const Function& function);

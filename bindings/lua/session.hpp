@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bindings/lua/lua_api.hpp"
@@ -28,7 +29,7 @@ namespace asperity::lua {
 class Explanation;
 class Mistakes;
 class Ranks;
-struct CaseInput;
+struct CaseNotes;
 struct Refinement;
 class Variation;
 
@@ -39,11 +40,6 @@ struct Shard {
   bool own(std::size_t k) const {
     return k % static_cast<std::size_t>(count) == static_cast<std::size_t>(index - 1);
   }
-};
-
-struct CaseNotes {
-  std::vector<CaseInput> inputs;
-  bool drew = false;
 };
 
 class Session {
@@ -99,6 +95,12 @@ class Session {
   CaseNotes* notes = nullptr;
   // Of a case: the script's globals that could not come along, and why.
   const std::map<std::string, std::string>* left_behind = nullptr;
+
+  // A call that begins here. One that is not `lasting` gets a line in the ledger only if it takes long enough
+  // to matter.
+  LedgerScope ledger_scope(std::string_view call, bool lasting, std::string_view owner = {}) const {
+    return LedgerScope(*ledger, owner, call, is_case, lasting);
+  }
 
   // Tells Lua's collector about memory it cannot see; collects when enough has piled up.
   void nudge_collector(lua_State* L, std::size_t bytes);

@@ -3,6 +3,7 @@
 
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/friction.hpp"
+#include "bindings/lua/record.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/state_error.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bindings/lua/files.hpp"
+#include "bindings/lua/record.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/spread.hpp"
 #include "bindings/lua/state_error.hpp"

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "bindings/lua/case_input.hpp"
 #include "bindings/lua/embedded.hpp"
-#include "bindings/lua/ensemble_case.hpp"
 #include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/registry.hpp"

@@ -7,6 +7,7 @@
 #include "bindings/lua/discretisation_error.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/picture.hpp"
+#include "bindings/lua/record.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/state_error.hpp"
 #include "bindings/lua/surface.hpp"
@@ -50,12 +51,6 @@ Values certificate_of(Call& call) {
       .add("cap", c.cap)
       .add("attraction", c.attraction);
   return {std::move(record)};
-}
-
-List text_list(const std::vector<std::string>& items) {
-  List list;
-  for (const std::string& item : items) list.items.emplace_back(item);
-  return list;
 }
 
 Value state_numbers(const std::vector<double>& values) {
@@ -186,6 +181,9 @@ const Class& class_of<asperity::State>() {
     c.describe = describe_state;
     c.native_bytes = state_bytes;
     c.digest = digest_of_state;
+    c.enter = [](const void* self, Ledger& ledger) {
+      ledger.add_effects(static_cast<const Contacting*>(self)->cost().by_effect);
+    };
     c.equal = equal_states;
     c.fields = {
         {"load", "number", "force on the whole tile", dimension::force, read_state_number<&S::load>},

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bindings/lua/discretisation_error.hpp"
+#include "bindings/lua/record.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -175,15 +176,6 @@ const Class& make_bounds_class() {
 }
 
 }  // namespace
-
-Record cost_record(const Cost& cost, std::string name) {
-  Record record;
-  record.name = std::move(name);
-  record.add("seconds", cost.seconds, dimension::time)
-      .add("transforms", cost.transforms)
-      .add("bytes", cost.bytes);
-  return record;
-}
 
 template <>
 const Class& class_of<AlgebraicError>() {

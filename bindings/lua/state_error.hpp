@@ -21,6 +21,5 @@ template <>
 const Class& class_of<AlgebraicError>();
 
 // Seconds, transforms and bytes as a result.
-Record cost_record(const Cost& cost, std::string name);
 
 }  // namespace asperity::lua

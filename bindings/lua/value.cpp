@@ -5,7 +5,6 @@
 #include <new>
 
 #include "bindings/lua/embedded.hpp"
-#include "bindings/lua/parcel.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/record.hpp"
 #include "bindings/lua/registry.hpp"
@@ -68,7 +67,7 @@ std::string show(const Value& value) {
     std::string operator()(Unknown) const { return "?"; }
     std::string operator()(Value::Function) const { return "a function"; }
     std::string operator()(Script) const { return "a function"; }
-    std::string operator()(const std::shared_ptr<const Parcel>&) const { return "a table"; }
+    std::string operator()(const std::shared_ptr<const StoredValue>&) const { return "a table"; }
     static std::string count(std::size_t n) { return "a table of " + std::to_string(n); }
   };
   return std::visit(Shower{}, value.data);
@@ -94,7 +93,7 @@ struct Pusher {
     lua_call(L, 0, 1);
   }
 
-  void operator()(const std::shared_ptr<const Parcel>& v) const { v->push(L); }
+  void operator()(const std::shared_ptr<const StoredValue>& v) const { v->push(L); }
 
   void operator()(const Object& v) const {
     void* block = lua_newuserdatauv(L, sizeof(Object), 0);
@@ -157,6 +156,12 @@ struct Pusher {
 void push(lua_State* L, const Value& value) {
   luaL_checkstack(L, 8, "too many nested results");
   std::visit(Pusher{L}, value.data);
+}
+
+List text_list(const std::vector<std::string>& items) {
+  List list;
+  for (const std::string& item : items) list.items.emplace_back(item);
+  return list;
 }
 
 }  // namespace asperity::lua

@@ -4,6 +4,7 @@
 // values that print themselves and complain about unknown fields; objects are native values.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -22,7 +23,6 @@ namespace asperity::lua {
 struct Class;
 class Call;
 class Value;
-class Parcel;
 using Values = std::vector<Value>;
 
 // The native class of T: its name, fields and methods. Specialised beside each binding.
@@ -78,6 +78,13 @@ struct Script {
   const char* name;
 };
 
+// A value kept outside any state, which can be put into one as often as wanted.
+class StoredValue {
+ public:
+  virtual ~StoredValue() = default;
+  virtual void push(lua_State* L) const = 0;  // raises on lack of memory: call inside protect()
+};
+
 class Value {
  public:
   using Numbers = std::shared_ptr<const Array<double>>;  // a plain table of numbers
@@ -86,7 +93,7 @@ class Value {
   using Variant =
       std::variant<std::monostate, bool, std::int64_t, double, std::string, Object, std::shared_ptr<Record>,
                    std::shared_ptr<List>, std::shared_ptr<Map>, Numbers, Rows, std::shared_ptr<Iterator>,
-                   Unknown, Function, Script, std::shared_ptr<const Parcel>>;
+                   Unknown, Function, Script, std::shared_ptr<const StoredValue>>;
 
   Value() = default;
   Value(bool v) : data(v) {}
@@ -105,7 +112,8 @@ class Value {
   Value(Unknown v) : data(v) {}
   Value(Function v) : data(v) {}
   Value(Script v) : data(v) {}
-  Value(std::shared_ptr<const Parcel> v) : data(std::move(v)) {}
+  template <std::derived_from<StoredValue> T>
+  Value(std::shared_ptr<const T> v) : data(std::shared_ptr<const StoredValue>(std::move(v))) {}
   template <class T>
   Value(const std::optional<T>& v) {
     if (v) *this = Value(*v);
@@ -126,6 +134,8 @@ struct Record::Entry {
 
 inline List::List() = default;
 inline List::List(Values values) : items(std::move(values)) {}
+// A table of texts.
+List text_list(const std::vector<std::string>& items);
 
 // A native value for Lua. T needs a class_of<T>.
 template <class T>

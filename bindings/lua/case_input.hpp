@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a case of an ensemble depends on beside what it is given: the files it looked at, and whether it drew
+// random numbers. A case that is kept counts again only where all of that is as it was.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace asperity::lua {
+
+// A file that a case looked at; no digest where there was none. One that `require` found in the folder of the
+// script is known by its name there: another run looks in the folder of its own script.
+struct CaseInput {
+  std::string file;
+  std::int64_t bytes = 0;
+  std::string digest;
+  std::string beside_script = {};  // "helper.lua"; else empty
+};
+CaseInput input_of_case(const std::string& file);
+// Of a file as it is now; empty where there is none.
+std::string present_digest(const std::string& file);
+
+struct CaseNotes {
+  std::vector<CaseInput> inputs;
+  bool drew = false;  // random numbers, which its seed decides
+};
+
+}  // namespace asperity::lua
