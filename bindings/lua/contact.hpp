@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.contact, and contacts, their states and fields as native values of the language.
+// lab.contact, and contacts as native values of the language.
 #pragma once
 
 #include <cstdint>
@@ -9,26 +9,13 @@
 #include <vector>
 
 #include "bindings/lua/registry.hpp"
-#include "engine/contact/state.hpp"
-#include "engine/core/grid.hpp"
+#include "bindings/lua/state_class.hpp"
 #include "engine/experiment/specimen_pair.hpp"
 
 namespace asperity::lua {
 
-// A field of a state over the tile, with what it is.
-struct StateField {
-  std::string name;
-  Grid grid;
-  std::shared_ptr<const Field> values;
-  Dimension dimension;
-};
-
 template <>
 const Class& class_of<SpecimenPair>();
-template <>
-const Class& class_of<asperity::State>();
-template <>
-const Class& class_of<StateField>();
 
 // The tables of c:press, c:place and c:shift, which events of a protocol share.
 struct PressKeys {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fields and methods of a state (a contact under load) and of its fields over the tile. A field
 // is worked out when the script reads it, and not before.
+#include "bindings/lua/state_class.hpp"
+
 #include <algorithm>
 
-#include "bindings/lua/contact.hpp"
 #include "bindings/lua/discretisation_error.hpp"
 #include "bindings/lua/files.hpp"
 #include "bindings/lua/picture.hpp"
