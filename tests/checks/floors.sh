@@ -13,8 +13,13 @@ find engine bindings \( -name '*.cpp' -o -name '*.hpp' -o -name '*.h' \) -print 
     below["engine/surface"] = "engine/core"
     below["engine/metrology"] = "engine/core engine/surface"
     below["engine/contact"] = "engine/core engine/surface"
+    below["engine/plot"] = below["engine/contact"]
+    below["engine/accuracy"] = below["engine/contact"] " engine/contact"
     below["engine/friction"] = below["engine/contact"] " engine/metrology engine/contact"
-    below["engine/experiment"] = below["engine/friction"] " engine/friction"
+    below["engine/specimen"] = below["engine/friction"] " engine/friction engine/accuracy engine/experiment"
+    below["engine/run"] = below["engine/contact"] " engine/contact engine/plot engine/experiment"
+    below["engine/recording"] = below["engine/specimen"] " engine/specimen engine/plot"
+    below["engine/experiment"] = below["engine/recording"] " engine/recording engine/run"
     below["engine/study"] = below["engine/experiment"] " engine/experiment"
     below["bindings"] = below["engine/study"] " engine/study"
   }
