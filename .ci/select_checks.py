@@ -78,7 +78,8 @@ SANITIZED_TARGETS = {"bindings": ("test_bindings", "test_bindings_c")}
 # What the thread sanitizer watches of them: the targets of the preset `thread`.
 THREADED = ("core", "surface", "metrology", "contact", "experiment", "bindings", "dignity")
 # Readers, by the room that reads.
-FUZZED = {"surface": ("engine/surface/io", "engine/core/text", "engine/core/quantity"),
+FUZZED = {"core": ("engine/core/files/json",),
+          "surface": ("engine/surface/io", "engine/core/text", "engine/core/quantity"),
           "experiment": ("engine/experiment",),
           "bindings": ("bindings/lua",)}
 # What several reproductions and claims have in common; any other file of theirs is one test.

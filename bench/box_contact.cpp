@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "engine/contact/elasticity/box/ascending_sort.hpp"
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/experiment/specimen_pair.hpp"
 
 namespace {

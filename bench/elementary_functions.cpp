@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/core/elementary_functions.hpp"
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/arithmetic/random.hpp"
 
 namespace {
 

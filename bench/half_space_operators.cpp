@@ -14,9 +14,9 @@
 
 #include "engine/contact/elasticity/half_space/contact_preconditioner.hpp"
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
-#include "engine/core/fourier_filter.hpp"
+#include "engine/core/arithmetic/random.hpp"
+#include "engine/core/fourier/fourier_filter.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 
 namespace {
 

@@ -18,7 +18,7 @@
 #include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/state.hpp"
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 #include "engine/experiment/run_directory.hpp"
 
 namespace asperity::cli {

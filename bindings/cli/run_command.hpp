@@ -12,7 +12,7 @@
 
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/state.hpp"
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity {
 class RunDirectory;

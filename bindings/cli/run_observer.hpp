@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "bindings/lua/value.hpp"
+#include "engine/core/files/json.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/experiment/json.hpp"
 
 namespace asperity::cli {
 

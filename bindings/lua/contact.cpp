@@ -11,7 +11,7 @@
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/shear.hpp"
 #include "bindings/lua/surface.hpp"
-#include "engine/experiment/aside_file.hpp"
+#include "engine/core/files/aside_file.hpp"
 #include "engine/experiment/bench_log.hpp"
 
 namespace asperity::lua {

@@ -14,9 +14,9 @@
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/state.hpp"
 #include "bindings/lua/transfer.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/core/random.hpp"
 #include "engine/experiment/notebook.hpp"
 #include "engine/experiment/run_directory.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/contact/plan.hpp"
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity::lua {
 

@@ -11,10 +11,10 @@
 
 #include "bindings/lua/lua_api.hpp"
 #include "bindings/lua/value.hpp"
+#include "engine/core/arithmetic/rounding_mode.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/core/rounding_mode.hpp"
 
 namespace asperity::lua {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "bindings/lua/ensemble_case.hpp"
-#include "engine/core/result_store.hpp"
+#include "engine/core/files/result_store.hpp"
 
 namespace asperity::lua {
 

@@ -11,7 +11,7 @@
 #include "bindings/lua/grid_keys.hpp"
 #include "bindings/lua/registry.hpp"
 #include "bindings/lua/surface.hpp"
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::lua {

@@ -6,7 +6,7 @@
 #include "bindings/lua/measure.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/surface.hpp"
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/experiment/picture_profile.hpp"
 #include "engine/metrology/levelling.hpp"
 #include "engine/surface/io/read.hpp"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/result_store.hpp"
+#include "engine/core/files/result_store.hpp"
 #include "engine/core/slabs/team.hpp"
 
 namespace asperity::lua {

@@ -12,7 +12,7 @@
 #include "engine/contact/elasticity/slabs/slab_solve.hpp"
 #include "engine/contact/scene.hpp"
 #include "engine/core/cost.hpp"
-#include "engine/core/result_store.hpp"
+#include "engine/core/files/result_store.hpp"
 #include "engine/core/slabs/team.hpp"
 #include "engine/surface/slabs/slab_surface.hpp"
 

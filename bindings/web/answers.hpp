@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bindings/web/http.hpp"
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity::web {
 

@@ -9,7 +9,7 @@
 
 #include "bindings/cli/replay_command.hpp"
 #include "bindings/cli/run_command.hpp"
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity::web {
 

@@ -20,8 +20,8 @@
 #include "bindings/web/event_channel.hpp"
 #include "bindings/web/sandbox/system_calls.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/part_file.hpp"
 #include "engine/core/loaded_part.hpp"
-#include "engine/core/part_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/run_facts.hpp"
 

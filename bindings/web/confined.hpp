@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bindings/web/sandbox/confinement.hpp"
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity::web {
 

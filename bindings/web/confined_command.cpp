@@ -21,9 +21,9 @@
 #include "bindings/web/plain_files.hpp"
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/aside_file.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/aside_file.hpp"
 #include "engine/experiment/recorded_run.hpp"
 #include "engine/experiment/run_directory.hpp"
 

@@ -12,8 +12,8 @@
 #include "bindings/web/frames.hpp"
 #include "bindings/web/views.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/aside_file.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/experiment/aside_file.hpp"
 
 namespace asperity::web {
 

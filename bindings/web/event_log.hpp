@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "bindings/web/sandbox/confined_process.hpp"
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity::web {
 

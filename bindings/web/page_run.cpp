@@ -9,7 +9,7 @@
 #include "bindings/web/plain_files.hpp"
 #include "bindings/web/run_follower.hpp"
 #include "engine/core/error.hpp"
-#include "engine/experiment/aside_file.hpp"
+#include "engine/core/files/aside_file.hpp"
 
 namespace asperity::web {
 

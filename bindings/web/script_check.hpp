@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity::web {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity::web {
 

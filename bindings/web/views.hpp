@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/contact/state.hpp"
+#include "engine/core/files/json.hpp"
 #include "engine/core/grid.hpp"
-#include "engine/experiment/json.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity::web {

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "engine/contact/finer_heights.hpp"
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"

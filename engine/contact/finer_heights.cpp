@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/surface/operations/resampling.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 

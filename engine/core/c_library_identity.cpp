@@ -9,8 +9,8 @@
 #include <gnu/libc-version.h>
 #endif
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity {
 

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 

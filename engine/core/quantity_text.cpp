@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "engine/contact/discretisation_error.hpp"
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
+#include "engine/core/part_monitor.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/part_monitor.hpp"
 #include "engine/experiment/precision_choice.hpp"
 #include "engine/surface/operations/resampling.hpp"
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/aside_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/aside_file.hpp"
 #include "engine/experiment/palette.hpp"
 
 namespace asperity {

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/experiment/recorded_turns.hpp"

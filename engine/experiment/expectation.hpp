@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/experiment/table.hpp"
-#include "engine/experiment/table_filter.hpp"
+#include "engine/core/files/table.hpp"
+#include "engine/core/files/table_filter.hpp"
 
 namespace asperity {
 

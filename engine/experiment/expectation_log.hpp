@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/files/json.hpp"
 #include "engine/experiment/expectation.hpp"
-#include "engine/experiment/json.hpp"
 
 namespace asperity {
 

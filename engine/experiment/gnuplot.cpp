@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/aside_file.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/aside_file.hpp"
 
 extern char** environ;
 

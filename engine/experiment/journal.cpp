@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/aside_file.hpp"
 #include "engine/core/patient_lock.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/aside_file.hpp"
 
 namespace asperity {
 

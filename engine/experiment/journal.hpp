@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "engine/core/digest.hpp"
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "engine/core/cost.hpp"
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity {
 

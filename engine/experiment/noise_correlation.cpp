@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {

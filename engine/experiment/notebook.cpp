@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "engine/core/files/aside_file.hpp"
 #include "engine/core/patient_lock.hpp"
-#include "engine/experiment/aside_file.hpp"
 
 namespace asperity {
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <string_view>
 
+#include "engine/core/files/table.hpp"
 #include "engine/experiment/expectation.hpp"
 #include "engine/experiment/expectation_log.hpp"
 #include "engine/experiment/journal.hpp"
-#include "engine/experiment/table.hpp"
 
 namespace asperity {
 

@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/aside_file.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/aside_file.hpp"
 
 namespace asperity {
 

@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/files/table.hpp"
+#include "engine/core/files/table_filter.hpp"
 #include "engine/experiment/chart.hpp"
 #include "engine/experiment/notebook.hpp"
 #include "engine/experiment/run_directory.hpp"
-#include "engine/experiment/table.hpp"
-#include "engine/experiment/table_filter.hpp"
 
 namespace asperity {
 

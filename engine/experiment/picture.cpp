@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/aside_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/aside_file.hpp"
 #include "engine/experiment/chart_axis.hpp"
 #include "engine/experiment/gnuplot.hpp"
 #include "engine/experiment/palette.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/experiment/placement.hpp"
 
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 
 namespace asperity {
 

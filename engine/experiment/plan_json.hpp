@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/contact/plan.hpp"
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
-#include "engine/experiment/part_monitor.hpp"
+#include "engine/core/part_monitor.hpp"
 
 namespace asperity {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/experiment/hidden_ramp.hpp"
 #include "engine/experiment/recording_marks.hpp"
 

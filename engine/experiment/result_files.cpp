@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/disk.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/part_file.hpp"
+#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/disk.hpp"
+#include "engine/core/files/part_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/aside_file.hpp"
 #include "engine/surface/io/hdf5_file.hpp"
 
 namespace asperity {

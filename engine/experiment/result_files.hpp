@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/result_store.hpp"
+#include "engine/core/files/result_store.hpp"
 
 namespace asperity {
 

@@ -11,12 +11,12 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/disk.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/part_file.hpp"
+#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/disk.hpp"
+#include "engine/core/files/part_file.hpp"
 #include "engine/core/patient_lock.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/aside_file.hpp"
 #include "engine/experiment/recorded_run.hpp"
 #include "engine/experiment/run_facts.hpp"
 

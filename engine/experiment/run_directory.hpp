@@ -26,10 +26,10 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/experiment/aside_file.hpp"
+#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/json.hpp"
 #include "engine/experiment/expectation_log.hpp"
 #include "engine/experiment/journal.hpp"
-#include "engine/experiment/json.hpp"
 #include "engine/experiment/notebook.hpp"
 #include "engine/experiment/run_lock.hpp"
 

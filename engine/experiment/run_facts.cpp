@@ -15,8 +15,8 @@
 #include "engine/core/build_identity.hpp"
 #include "engine/core/c_library_identity.hpp"
 #include "engine/core/digest.hpp"
+#include "engine/core/files/aside_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/aside_file.hpp"
 
 namespace asperity {
 

@@ -17,9 +17,9 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/json.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/aside_file.hpp"
-#include "engine/experiment/json.hpp"
 
 namespace asperity {
 

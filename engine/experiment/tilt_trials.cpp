@@ -8,11 +8,11 @@
 #include <map>
 #include <span>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/core/random.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

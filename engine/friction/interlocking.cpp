@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier.hpp"
-#include "engine/core/fourier_batch.hpp"
+#include "engine/core/fourier/fourier.hpp"
+#include "engine/core/fourier/fourier_batch.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 #include "engine/metrology/blocked_sums.hpp"

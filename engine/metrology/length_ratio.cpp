@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 
 namespace asperity {
 

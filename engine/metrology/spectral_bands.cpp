@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/elementary_functions.hpp"
-#include "engine/core/fourier.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/fourier/fourier.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {

@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier.hpp"
+#include "engine/core/fourier/fourier.hpp"
 #include "engine/metrology/blocked_sums.hpp"
 
 namespace asperity {

@@ -7,12 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/core/random.hpp"
 #include "engine/core/text.hpp"
 #include "engine/metrology/roughness.hpp"
 #include "engine/metrology/spherical_tip.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 
 namespace asperity {
 

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "engine/experiment/json.hpp"
-#include "engine/experiment/table.hpp"
+#include "engine/core/files/json.hpp"
+#include "engine/core/files/table.hpp"
 #include "engine/study/study_result.hpp"
 
 namespace asperity {

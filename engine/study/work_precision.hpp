@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "engine/core/monitor.hpp"
-#include "engine/experiment/part_monitor.hpp"
+#include "engine/core/part_monitor.hpp"
 #include "engine/study/cost_forecast.hpp"
 #include "engine/study/study_result.hpp"
 

@@ -3,7 +3,7 @@
 # N10: results do not hang on the C library's sine, exponential, logarithm or power, which choose by the processor:
 # no file of engine/ calls one but the file that tells C libraries apart, nor a function of the standard library
 # built on one, nor a random distribution (the names of unfinished files alone are drawn by the system); they are in
-# engine/core/elementary_functions.hpp. And Eigen is asked for products in one file alone, which fixes what Eigen chooses.
+# engine/core/arithmetic/elementary_functions.hpp. And Eigen is asked for products in one file alone, which fixes what Eigen chooses.
 # usage: elementary.sh [the project's folder]
 set -eu
 cd "${1:-$(dirname -- "$0")/../..}"
@@ -14,12 +14,12 @@ names="$names|(comp_)?ellint_[123]|riemann_zeta|beta|legendre|laguerre|hermite"
 found=0
 if grep -rnE "(std|__builtin)(::|_)($names)[fl]?\b *\(" engine bindings/lua --include='*.cpp' --include='*.hpp' |
   grep -v '^engine/core/c_library_identity\.cpp:'; then
-  echo "use elementary:: of engine/core/elementary_functions.hpp: the C library rounds by the processor"
+  echo "use elementary:: of engine/core/arithmetic/elementary_functions.hpp: the C library rounds by the processor"
   found=1
 fi
 if grep -rnE "<random>|std::(normal|lognormal|exponential|gamma|weibull)_distribution" engine \
-  --include='*.cpp' --include='*.hpp' | grep -v '^engine/core/part_file\.cpp:'; then
-  echo "use engine/core/random.hpp: distributions of the standard library are each compiler's own"
+  --include='*.cpp' --include='*.hpp' | grep -v '^engine/core/files/part_file\.cpp:'; then
+  echo "use engine/core/arithmetic/random.hpp: distributions of the standard library are each compiler's own"
   found=1
 fi
 if grep -rn '<Eigen/' engine --include='*.cpp' --include='*.hpp' |
@@ -27,5 +27,5 @@ if grep -rn '<Eigen/' engine --include='*.cpp' --include='*.hpp' |
   echo "Eigen chooses its operations by the processor: see engine/surface/generators/table_product.hpp"
   found=1
 fi
-grep -q 'elementary::sincos(' engine/core/fourier_lanes.cpp || { echo "the check reads no sources"; found=1; }
+grep -q 'elementary::sincos(' engine/core/fourier/fourier_lanes.cpp || { echo "the check reads no sources"; found=1; }
 exit $found

@@ -16,10 +16,10 @@
 
 #include "engine/contact/elasticity/half_space/half_order_pyramid.hpp"
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::contact_preconditioner_test {
 namespace {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "engine/contact/solver.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::test {
 

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::half_order_pyramid_test {
 namespace {

@@ -10,11 +10,11 @@
 #include <tuple>
 
 #include "engine/contact/elasticity/half_space/love_kernel.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::half_space_compliance_test {
 namespace {

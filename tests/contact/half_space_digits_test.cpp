@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/contact/elasticity/half_space/approach_solve.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/random.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 #include "tests/contact/half_space_problems.hpp"

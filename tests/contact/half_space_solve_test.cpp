@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 #include "tests/contact/half_space_problems.hpp"
 
 namespace asperity::half_space_solve_test {

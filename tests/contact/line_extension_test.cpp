@@ -8,9 +8,9 @@
 #include <cmath>
 #include <string>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/cost.hpp"
-#include "engine/core/random.hpp"
 #include "tests/contact/half_space_problems.hpp"
 
 namespace asperity::line_extension_test {

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 #include "tests/contact/half_space_problems.hpp"
 
 namespace asperity::single_precision_test {

@@ -10,7 +10,7 @@
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 #include "engine/contact/elasticity/slabs/slab_preconditioner.hpp"
 #include "engine/contact/elasticity/slabs/slab_transfer.hpp"
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 
 namespace asperity::slab_level_test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // N10: elementary functions are correctly rounded, held bit for bit against MPFR over wide ranges, at special
 // values, beside exact results and ties, and under other rounding modes.
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 
 #include <gtest/gtest.h>
 #include <mpfr.h>
@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/random.hpp"
-#include "engine/core/rounding_mode.hpp"
+#include "engine/core/arithmetic/random.hpp"
+#include "engine/core/arithmetic/rounding_mode.hpp"
 
 namespace asperity::elementary_functions_test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // N10: transforms of any length in lanes, against the sum of the definition: smooth lengths, primes and their
 // products, batches that are not full, and the same bits whatever else is in the batch.
-#include "engine/core/fourier_batch.hpp"
+#include "engine/core/fourier/fourier_batch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 
 namespace asperity::fourier_batch_test {
 namespace {

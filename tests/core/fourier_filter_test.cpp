@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fused filter against whole transforms, periodic and padded.
-#include "engine/core/fourier_filter.hpp"
+#include "engine/core/fourier/fourier_filter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier.hpp"
+#include "engine/core/fourier/fourier.hpp"
 #include "engine/core/grid.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::fourier_filter_test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The filter in lanes against the one by rows and columns of the library, periodic and padded; rows that come
 // and go; its memory.
-#include "engine/core/fourier_lane_filter.hpp"
+#include "engine/core/fourier/fourier_lane_filter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier_filter.hpp"
+#include "engine/core/fourier/fourier_filter.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::fourier_lane_filter_test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Transforms in lanes against the sum of the definition, there and back, in both precisions.
-#include "engine/core/fourier_lanes.hpp"
+#include "engine/core/fourier/fourier_lanes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::fourier_lanes_test {
 namespace {

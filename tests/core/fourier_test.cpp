@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Transforms against the sum that defines them, on sizes no fast algorithm likes.
-#include "engine/core/fourier.hpp"
+#include "engine/core/fourier/fourier.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::fourier_test {
 namespace {

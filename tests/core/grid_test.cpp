@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::grid_test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names of files that are written aside: no two are one, each is known for what it is, and what a killed
 // writer left is told from what somebody is writing.
-#include "engine/core/part_file.hpp"
+#include "engine/core/files/part_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stream of random numbers against published values and the moments it must have.
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 
 #include <gtest/gtest.h>
 

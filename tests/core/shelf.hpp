@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/core/files/result_store.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/core/result_store.hpp"
 
 namespace asperity {
 

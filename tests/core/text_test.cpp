@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 
 namespace asperity::text_test {
 namespace {

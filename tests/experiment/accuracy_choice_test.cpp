@@ -11,9 +11,9 @@
 #include <numbers>
 
 #include "engine/contact/discretisation_error.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/core/random.hpp"
 #include "engine/experiment/specimen_pair.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/self_affine.hpp"

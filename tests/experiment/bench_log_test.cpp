@@ -10,8 +10,8 @@
 #include "engine/experiment/protocol_run.hpp"
 #include "engine/surface/io/source_file.hpp"
 #include "tests/contact/contacts.hpp"
-#include "tests/experiment/run_fixture.hpp"
 #include "tests/experiment/synthetic_recording.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::bench_log_test {
 namespace {

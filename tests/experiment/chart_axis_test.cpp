@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::chart_axis_test {
 namespace {

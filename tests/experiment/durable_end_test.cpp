@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/experiment/run_directory.hpp"
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::durable_end_test {
 namespace {

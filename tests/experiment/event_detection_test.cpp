@@ -9,8 +9,8 @@
 
 #include "engine/experiment/press_recording.hpp"
 #include "engine/surface/io/source_file.hpp"
-#include "tests/experiment/run_fixture.hpp"
 #include "tests/experiment/synthetic_recording.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::event_detection_test {
 namespace {

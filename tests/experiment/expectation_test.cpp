@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::expectation_test {
 namespace {

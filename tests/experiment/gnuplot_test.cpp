@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "engine/core/monitor.hpp"
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::gnuplot_test {
 namespace {

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::journal_test {
 namespace {

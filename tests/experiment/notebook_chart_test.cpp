@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::notebook_chart_test {
 namespace {

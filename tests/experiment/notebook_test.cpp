@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::notebook_test {
 namespace {

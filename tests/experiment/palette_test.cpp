@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::palette_test {
 namespace {

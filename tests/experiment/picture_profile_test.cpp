@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::picture_profile_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/experiment/gnuplot.hpp"
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::picture_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::press_log_test {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "engine/surface/io/source_file.hpp"
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::press_recording_test {
 namespace {

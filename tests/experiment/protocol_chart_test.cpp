@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "engine/experiment/event_detection.hpp"
-#include "tests/experiment/run_fixture.hpp"
 #include "tests/experiment/synthetic_recording.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::protocol_chart_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::protocol_test {
 namespace {

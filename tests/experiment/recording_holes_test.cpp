@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "engine/experiment/event_detection.hpp"
-#include "tests/experiment/run_fixture.hpp"
 #include "tests/experiment/synthetic_recording.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::recording_holes_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "engine/core/build_identity.hpp"
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::result_files_test {
 namespace {

@@ -13,7 +13,7 @@
 #include "engine/core/digest.hpp"
 #include "engine/experiment/recorded_run.hpp"
 #include "engine/experiment/run_facts.hpp"
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::run_directory_test {
 namespace {

@@ -2,8 +2,8 @@
 // Facts about the surroundings of a run.
 #include "engine/experiment/run_facts.hpp"
 
-#include "engine/experiment/aside_file.hpp"
-#include "tests/experiment/run_fixture.hpp"
+#include "engine/core/files/aside_file.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::run_facts_test {
 namespace {

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::run_lock_test {
 namespace {

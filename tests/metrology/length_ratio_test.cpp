@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/metrology/line_fit.hpp"
 
 namespace asperity::length_ratio_test {

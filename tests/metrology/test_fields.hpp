@@ -8,10 +8,10 @@
 #include <cmath>
 #include <string>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier.hpp"
-#include "engine/core/random.hpp"
+#include "engine/core/fourier/fourier.hpp"
 #include "engine/surface/profile.hpp"
 #include "engine/surface/surface.hpp"
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/random.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/self_affine.hpp"

@@ -18,8 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/random.hpp"
 #include "tests/surface/stored_zip.hpp"
 
 namespace asperity::testing {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 #include "tests/surface/files.hpp"
 
 namespace asperity::holes_test {

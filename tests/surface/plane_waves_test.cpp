@@ -9,9 +9,9 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::plane_waves_test {
 namespace {

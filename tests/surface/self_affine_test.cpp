@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
-#include "engine/core/fourier.hpp"
+#include "engine/core/fourier/fourier.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity::self_affine_test {

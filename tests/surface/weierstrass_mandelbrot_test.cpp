@@ -16,10 +16,10 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 
 namespace asperity::weierstrass_mandelbrot_test {
 namespace {

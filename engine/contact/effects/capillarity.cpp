@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/contact/effects/adhesion.hpp"
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 

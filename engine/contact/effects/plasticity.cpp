@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/core/fourier_batch.hpp"
+#include "engine/core/fourier/fourier_batch.hpp"
 
 namespace asperity {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/study/exact/in_range.hpp"
 
 namespace asperity::exact {

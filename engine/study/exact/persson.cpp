@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::exact {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/core/text.hpp"
 #include "engine/study/exact/in_range.hpp"
 

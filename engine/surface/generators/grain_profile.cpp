@@ -6,11 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/result_store.hpp"
+#include "engine/core/files/result_store.hpp"
 
 namespace asperity {
 

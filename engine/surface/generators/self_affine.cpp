@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/fourier.hpp"
+#include "engine/core/fourier/fourier.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/surface/generators/recalled_heights.hpp"
 #include "engine/surface/generators/self_affine_modes.hpp"

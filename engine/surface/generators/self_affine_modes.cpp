@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/surface/generators/option_checks.hpp"
 
 namespace asperity {

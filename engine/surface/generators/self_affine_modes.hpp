@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/core/random.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
 namespace asperity {

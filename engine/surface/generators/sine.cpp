@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"

@@ -3,8 +3,8 @@
 // Komvopoulos (1998):
 //   z = L (G/L)^(D−2) √(ln γ/M) Σ_{m=1..M} Σ_{n=0..n_max} γ^((D−3)n)
 //       { cos φ_mn − cos[2π γⁿ (x cos(πm/M) + y sin(πm/M))/L + φ_mn] },
-// so z = 0 at node (0, 0). Phases of the argument are exact (core/exact_phase.hpp) and the sum over
-// the waves is a matrix product (plane_waves.hpp). The surface is not periodic, and nothing is done
+// so z = 0 at node (0, 0). Phases of the argument are exact (core/arithmetic/exact_phase.hpp) and the sum
+// over the waves is a matrix product (plane_waves.hpp). The surface is not periodic, and nothing is done
 // about waves the grid cannot carry but to count them, or to leave them out when asked.
 #pragma once
 

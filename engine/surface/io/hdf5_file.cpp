@@ -9,8 +9,8 @@
 #include <set>
 
 #include "engine/core/digest.hpp"
-#include "engine/core/disk.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5/write_call.hpp"

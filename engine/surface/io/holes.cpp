@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
-#include "engine/core/part_file.hpp"
+#include "engine/core/files/part_file.hpp"
 #include "engine/surface/io/source_file.hpp"
 
 namespace asperity {

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <string>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier.hpp"
+#include "engine/core/fourier/fourier.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/operations/interpolation.hpp"

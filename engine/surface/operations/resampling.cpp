@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
-#include "engine/core/fourier.hpp"
+#include "engine/core/fourier/fourier.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/surface/operations/interpolation.hpp"
 

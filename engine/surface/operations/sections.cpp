@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/study/exact/weierstrass_mandelbrot_height.hpp"
 
 namespace asperity::stability::weierstrass_mandelbrot_test {

@@ -14,9 +14,9 @@
 #include <map>
 #include <string>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/core/random.hpp"
 #include "tests/stability/properties/property.hpp"
 
 namespace asperity::stability {

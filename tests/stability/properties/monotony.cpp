@@ -4,7 +4,7 @@
 // bring a little less: so much as its tolerance leaves.
 #include <cmath>
 
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "tests/stability/properties/property.hpp"
 
 namespace asperity::stability {

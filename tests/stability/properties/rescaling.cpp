@@ -3,7 +3,7 @@
 // for its exponent.
 #include <cmath>
 
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "tests/stability/properties/property.hpp"
 
 namespace asperity::stability {

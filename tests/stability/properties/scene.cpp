@@ -9,8 +9,8 @@
 
 #include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/geometry.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/random.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
 namespace asperity::stability {

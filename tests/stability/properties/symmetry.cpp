@@ -7,8 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/random.hpp"
 #include "tests/stability/properties/property.hpp"
 
 namespace asperity::stability {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "engine/contact/elasticity/half_space/lane_terms.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/contact/boundary.hpp"
-#include "engine/core/fourier_filter.hpp"
+#include "engine/core/fourier/fourier_filter.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {

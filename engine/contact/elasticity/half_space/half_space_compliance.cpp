@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "engine/contact/elasticity/half_space/love_kernel.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier_batch.hpp"
-#include "engine/core/fourier_filter.hpp"
-#include "engine/core/fourier_lane_filter.hpp"
+#include "engine/core/fourier/fourier_batch.hpp"
+#include "engine/core/fourier/fourier_filter.hpp"
+#include "engine/core/fourier/fourier_lane_filter.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/parallel.hpp"
 

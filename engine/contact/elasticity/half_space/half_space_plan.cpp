@@ -7,7 +7,7 @@
 #include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/elasticity/half_space/line_extension.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier_lane_filter.hpp"
+#include "engine/core/fourier/fourier_lane_filter.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"

@@ -14,7 +14,7 @@
 #include "engine/contact/elasticity/half_space/light_contact.hpp"
 #include "engine/contact/elasticity/half_space/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/offset_descent.hpp"
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {

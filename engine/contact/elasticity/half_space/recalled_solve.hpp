@@ -9,7 +9,7 @@
 
 #include "engine/contact/elasticity/half_space/adhesive_solve.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"
-#include "engine/core/result_store.hpp"
+#include "engine/core/files/result_store.hpp"
 
 namespace asperity {
 

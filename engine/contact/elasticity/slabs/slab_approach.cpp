@@ -10,8 +10,8 @@
 
 #include "engine/contact/elasticity/slabs/slab_solve.hpp"
 #include "engine/contact/elasticity/slabs/slab_transfer.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"

@@ -11,7 +11,7 @@
 #include "engine/contact/elasticity/slabs/slab_light_contact.hpp"
 #include "engine/contact/elasticity/slabs/slab_quality.hpp"
 #include "engine/contact/elasticity/slabs/slab_transfer.hpp"
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 
 namespace asperity {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/fourier_lanes.hpp"
+#include "engine/core/fourier/fourier_lanes.hpp"
 
 #include <numbers>
 #include <string>
 #include <type_traits>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {

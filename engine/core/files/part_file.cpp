@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/part_file.hpp"
+#include "engine/core/files/part_file.hpp"
 
 #include <sys/random.h>
 #include <sys/utsname.h>

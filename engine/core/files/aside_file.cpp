@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/aside_file.hpp"
+#include "engine/core/files/aside_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
-#include "engine/core/part_file.hpp"
+#include "engine/core/files/part_file.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

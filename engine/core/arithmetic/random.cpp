@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/random.hpp"
+#include "engine/core/arithmetic/random.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 
 namespace asperity {
 

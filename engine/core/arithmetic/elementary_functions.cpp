@@ -3,7 +3,7 @@
 // round alike, that is the result, else MPFR decides. Arguments are reduced by tables until three or four
 // terms of a series are enough, the first one or two of them exact. MPFR also takes what is rare: huge
 // angles, subnormal results, zeros and infinities.
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 
 #include <mpfr.h>
 
@@ -13,7 +13,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/core/elementary_tables.hpp"
+#include "engine/core/arithmetic/elementary_tables.hpp"
 #include "engine/core/pairs.hpp"
 
 namespace asperity::elementary {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A row of n real values is transformed as n/2 complex ones, even places and odd places, and taken apart
 // afterwards: X(k) = E + W^k O. The factors 2 of that are left to the multiplier.
-#include "engine/core/fourier_lane_filter.hpp"
+#include "engine/core/fourier/fourier_lane_filter.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -9,10 +9,10 @@
 #include <optional>
 #include <type_traits>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier_blocks.hpp"
-#include "engine/core/lane_transpose.hpp"
+#include "engine/core/fourier/fourier_blocks.hpp"
+#include "engine/core/fourier/lane_transpose.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {

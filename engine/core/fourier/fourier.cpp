@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/fourier.hpp"
+#include "engine/core/fourier/fourier.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/fourier_batch.hpp"
-#include "engine/core/fourier_blocks.hpp"
+#include "engine/core/fourier/fourier_batch.hpp"
+#include "engine/core/fourier/fourier_blocks.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/result_store.hpp"
+#include "engine/core/files/result_store.hpp"
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/fourier_batch.hpp"
+#include "engine/core/fourier/fourier_batch.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <map>
 #include <mutex>
 
-#include "engine/core/lane_transpose.hpp"
+#include "engine/core/fourier/lane_transpose.hpp"
 
 namespace asperity {
 

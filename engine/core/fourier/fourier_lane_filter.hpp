@@ -11,7 +11,7 @@
 #include <memory>
 #include <span>
 
-#include "engine/core/fourier_lanes.hpp"
+#include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/scratch_pool.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/exact_phase.hpp"
+#include "engine/core/arithmetic/exact_phase.hpp"
 
 #include <mpfr.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/elementary_functions.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which rows a `where` speaks of.
-#include "engine/experiment/table_filter.hpp"
+#include "engine/core/files/table_filter.hpp"
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::table_filter_test {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table: free columns in order of appearance, units, CSV as in RFC 4180.
-#include "engine/experiment/table.hpp"
+#include "engine/core/files/table.hpp"
 #include "engine/core/constants.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::table_test {
 namespace {

@@ -11,7 +11,7 @@
 #include <functional>
 #include <span>
 
-#include "engine/core/fourier_batch.hpp"
+#include "engine/core/fourier/fourier_batch.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/scratch_pool.hpp"
 

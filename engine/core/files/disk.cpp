@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/disk.hpp"
+#include "engine/core/files/disk.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

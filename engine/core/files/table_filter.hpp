@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/experiment/table.hpp"
+#include "engine/core/files/table.hpp"
 
 namespace asperity {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The JSON value: exact numbers, kept order, and texts that are not JSON.
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::json_test {
 namespace {

@@ -3,7 +3,7 @@
 // (fourier_lanes.hpp), and back. Included only by sources of this folder.
 #pragma once
 
-#include "engine/core/fourier_lanes.hpp"
+#include "engine/core/fourier/fourier_lanes.hpp"
 
 namespace asperity::lane_transpose {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/fourier_filter.hpp"
+#include "engine/core/fourier/fourier_filter.hpp"
 
 #include <algorithm>
 #include <array>
 #include <optional>
 
 #include "engine/core/error.hpp"
-#include "engine/core/fourier_batch.hpp"
-#include "engine/core/fourier_blocks.hpp"
+#include "engine/core/fourier/fourier_batch.hpp"
+#include "engine/core/fourier/fourier_blocks.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/json.hpp"
+#include "engine/core/files/json.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The share of the whole, from what its parts say of themselves.
-#include "engine/experiment/part_monitor.hpp"
+#include "engine/core/part_monitor.hpp"
 
 #include <gtest/gtest.h>
 

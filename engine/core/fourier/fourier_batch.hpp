@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/core/fourier_lanes.hpp"
+#include "engine/core/fourier/fourier_lanes.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {

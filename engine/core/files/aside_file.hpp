@@ -2,7 +2,7 @@
 // Files written aside and renamed: a reader sees the old file or the whole new one, never a torn one.
 // Errors of the system come back as one sentence with the file's name and the reason ("no space left
 // on device"). Does not wait for the disk unless asked to: a power cut may lose the last moments, a kill does
-// not. Names aside are those of core/part_file.hpp.
+// not. Names aside are those of core/files/part_file.hpp.
 #pragma once
 
 #include <filesystem>
@@ -33,8 +33,8 @@ class AsideFile {
 };
 
 // The whole content at once. `durable`: the disk has the content before the name stands for it; the name
-// itself is on the disk once the folder is (core/disk.hpp). Throws Error{bad_file} and leaves an earlier file
-// as it was.
+// itself is on the disk once the folder is (core/files/disk.hpp). Throws Error{bad_file} and leaves an
+// earlier file as it was.
 enum class Durable { no, yes };
 void write_aside(const std::filesystem::path& target, std::string_view content,
                  Durable durable = Durable::no);

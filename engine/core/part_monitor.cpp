@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/part_monitor.hpp"
+#include "engine/core/part_monitor.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files written aside: whole or not at all, and what the system's refusals say.
-#include "engine/experiment/aside_file.hpp"
+#include "engine/core/files/aside_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "tests/experiment/run_fixture.hpp"
+#include "tests/support/run_fixture.hpp"
 
 namespace asperity::aside_file_test {
 namespace {
