@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bindings/lua/options.hpp"
-#include "engine/experiment/picture.hpp"
+#include "engine/plot/picture.hpp"
 
 namespace asperity::lua {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bindings/web/confined.hpp"
-#include "engine/experiment/gnuplot.hpp"
+#include "engine/plot/gnuplot.hpp"
 
 namespace asperity::web {
 

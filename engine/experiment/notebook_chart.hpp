@@ -14,9 +14,9 @@
 
 #include "engine/core/files/table.hpp"
 #include "engine/core/files/table_filter.hpp"
-#include "engine/experiment/chart.hpp"
 #include "engine/experiment/notebook.hpp"
 #include "engine/experiment/run_directory.hpp"
+#include "engine/plot/chart.hpp"
 
 namespace asperity {
 

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "engine/experiment/chart.hpp"
 #include "engine/experiment/protocol.hpp"
+#include "engine/plot/chart.hpp"
 
 namespace asperity {
 

@@ -7,7 +7,7 @@
 // bit stands as a diamond at the bottom.
 #pragma once
 
-#include "engine/experiment/chart.hpp"
+#include "engine/plot/chart.hpp"
 #include "engine/study/study_result.hpp"
 
 namespace asperity {

@@ -9,8 +9,8 @@
 
 #include "engine/core/grid.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/experiment/chart.hpp"
-#include "engine/experiment/picture.hpp"
+#include "engine/plot/chart.hpp"
+#include "engine/plot/picture.hpp"
 
 namespace asperity {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/core/grid.hpp"
-#include "engine/experiment/chart_axis.hpp"
-#include "engine/experiment/gnuplot.hpp"
+#include "engine/plot/chart_axis.hpp"
+#include "engine/plot/gnuplot.hpp"
 
 namespace asperity {
 

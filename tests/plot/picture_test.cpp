@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures of fields: means that conserve, true scale, strips, blanks, and what is refused.
-#include "engine/experiment/picture.hpp"
+#include "engine/plot/picture.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "engine/experiment/gnuplot.hpp"
+#include "engine/plot/gnuplot.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::picture_test {

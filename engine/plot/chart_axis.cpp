@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/chart_axis.hpp"
+#include "engine/plot/chart_axis.hpp"
 
 #include <algorithm>
 #include <array>

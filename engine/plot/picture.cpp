@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/picture.hpp"
+#include "engine/plot/picture.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/aside_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/chart_axis.hpp"
-#include "engine/experiment/gnuplot.hpp"
-#include "engine/experiment/palette.hpp"
+#include "engine/plot/chart_axis.hpp"
+#include "engine/plot/gnuplot.hpp"
+#include "engine/plot/palette.hpp"
 
 namespace asperity {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Charts: what is left out and said, what is refused, and files that come out whole.
-#include "engine/experiment/chart.hpp"
+#include "engine/plot/chart.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Maps and charts in characters.
-#include "engine/experiment/text_picture.hpp"
+#include "engine/plot/text_picture.hpp"
 
 #include <gtest/gtest.h>
 

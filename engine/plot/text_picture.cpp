@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/text_picture.hpp"
+#include "engine/plot/text_picture.hpp"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/palette.hpp"
+#include "engine/plot/palette.hpp"
 
 namespace asperity {
 

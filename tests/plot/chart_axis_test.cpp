@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Axes: prefix units, ranges, and tics a reader can use, up to the ends of the doubles.
-#include "engine/experiment/chart_axis.hpp"
+#include "engine/plot/chart_axis.hpp"
 
 #include <cmath>
 #include <limits>

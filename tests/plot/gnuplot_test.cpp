@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Running gnuplot: text that stays text, the same bytes twice, and what its failures say.
-#include "engine/experiment/gnuplot.hpp"
+#include "engine/plot/gnuplot.hpp"
 
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/palette.hpp"
+#include "engine/plot/palette.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures of profiles: traces, outlines, and long traces that keep their peaks.
-#include "engine/experiment/picture_profile.hpp"
+#include "engine/plot/picture_profile.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/picture_profile.hpp"
+#include "engine/plot/picture_profile.hpp"
 
 #include <algorithm>
 #include <numbers>

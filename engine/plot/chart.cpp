@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/chart.hpp"
+#include "engine/plot/chart.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/aside_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/palette.hpp"
+#include "engine/plot/palette.hpp"
 
 namespace asperity {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Palettes: their ends, order of lightness, and line colours that differ.
-#include "engine/experiment/palette.hpp"
+#include "engine/plot/palette.hpp"
 
 #include <set>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/gnuplot.hpp"
+#include "engine/plot/gnuplot.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/experiment/chart.hpp"
+#include "engine/plot/chart.hpp"
 #include "engine/surface/profile.hpp"
 
 namespace asperity {
