@@ -3,8 +3,8 @@
 
 #include "bindings/lua/record.hpp"
 #include "bindings/lua/state_error.hpp"
-#include "engine/contact/chosen_accuracy.hpp"
-#include "engine/contact/discretisation_error.hpp"
+#include "engine/accuracy/chosen_accuracy.hpp"
+#include "engine/accuracy/discretisation_error.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {

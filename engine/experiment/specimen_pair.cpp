@@ -6,13 +6,13 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/contact/discretisation_error.hpp"
+#include "engine/accuracy/accuracy_choice.hpp"
+#include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/part_monitor.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/accuracy_choice.hpp"
 #include "engine/experiment/placement.hpp"
 
 namespace asperity {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/contact/chosen_accuracy.hpp"
+#include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/scene.hpp"
 #include "engine/contact/solver.hpp"

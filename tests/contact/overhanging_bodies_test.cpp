@@ -5,9 +5,9 @@
 #include <numbers>
 #include <string>
 
-#include "engine/contact/discretisation_error.hpp"
+#include "engine/accuracy/discretisation_error.hpp"
+#include "engine/accuracy/other_grids.hpp"
 #include "engine/contact/effects/plasticity.hpp"
-#include "engine/contact/other_grids.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A pose carries over node by node: an upper node that lies over lower node (i, j) is found from the turn
 // and shift of the given lattice, in cells of either grid.
-#include "engine/contact/finer_heights.hpp"
+#include "engine/accuracy/finer_heights.hpp"
 
 #include <algorithm>
 #include <cmath>

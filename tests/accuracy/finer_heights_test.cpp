@@ -2,7 +2,7 @@
 // Bodies on thrice the cells lie as they did: the nodes of the contact are every third node of the finer
 // ones, for every turn and shift; generated surfaces show what lies between the nodes, others are
 // interpolated.
-#include "engine/contact/finer_heights.hpp"
+#include "engine/accuracy/finer_heights.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // solve leaves undone is nearly always below the error of the cells, and what a solve costs more than at
 // three times as much is less than what a few solved twice do; where the bound is still too wide, the same
 // grid is solved again more tightly.
-#include "engine/experiment/accuracy_choice.hpp"
+#include "engine/accuracy/accuracy_choice.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "engine/contact/discretisation_error.hpp"
+#include "engine/accuracy/discretisation_error.hpp"
+#include "engine/accuracy/precision_choice.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/part_monitor.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/precision_choice.hpp"
 #include "engine/surface/operations/resampling.hpp"
 
 namespace asperity {

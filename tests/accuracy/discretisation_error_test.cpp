@@ -2,7 +2,7 @@
 // Estimates of the error of the grid: where the answer is known, where nothing was asked for, and at the
 // ends (too few cells, prescribed quantities, no limit). Their distribution over many scenes is in
 // tests/accuracy.
-#include "engine/contact/discretisation_error.hpp"
+#include "engine/accuracy/discretisation_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/chosen_accuracy.hpp"
+#include "engine/accuracy/chosen_accuracy.hpp"
 
 #include <cmath>
 

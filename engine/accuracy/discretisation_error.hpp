@@ -30,7 +30,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/contact/other_grids.hpp"
+#include "engine/accuracy/other_grids.hpp"
 #include "engine/contact/state.hpp"
 
 namespace asperity {

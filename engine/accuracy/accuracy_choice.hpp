@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cells, tolerance and precision chosen for an error that was asked for: the same press of the same surfaces
 // on grids from coarse to fine, each twice the cells of the one before, until the estimate of the
-// discretisation error (contact/discretisation_error.hpp), times the margin that covers 19 scenes in 20, and
+// discretisation error (accuracy/discretisation_error.hpp), times the margin that covers 19 scenes in 20, and
 // the algebraic bound together are within what was asked for. The grids before a grid are the coarser ones
 // its estimate needs, so nothing is solved twice. Surfaces that generators made are made again with all their
 // waves and features; others are sampled at every second node, and beyond the cells they came with
@@ -13,7 +13,7 @@
 
 #include <memory>
 
-#include "engine/contact/chosen_accuracy.hpp"
+#include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/core/monitor.hpp"

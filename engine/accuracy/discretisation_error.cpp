@@ -5,7 +5,7 @@
 // How much differences count beside the outline and the first touch (also of an approach that is prescribed),
 // margins, and growths and shares of a finer grid are those that were best on 150 such scenes of other seeds
 // than tests/accuracy.
-#include "engine/contact/discretisation_error.hpp"
+#include "engine/accuracy/discretisation_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/contact/finer_heights.hpp"
+#include "engine/accuracy/finer_heights.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What was chosen for an error that a script asked for, and why: the grids that were tried, what each
 // reached, and the one that was kept. A record for the reader; how it is found is in
-// experiment/accuracy_choice.hpp.
+// accuracy/accuracy_choice.hpp.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/contact/discretisation_error.hpp"
+#include "engine/accuracy/discretisation_error.hpp"
 #include "engine/experiment/specimen_pair.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/self_affine.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "engine/contact/chosen_accuracy.hpp"
+#include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/experiment/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/resampling.hpp"

@@ -2,7 +2,7 @@
 // Cells chosen for an error: what is chosen, that it is met and what it costs, that the bodies lie on other
 // cells as they did, and that a choice which fails leaves the contact as it was. Held-out seeds against
 // finer grids are in tests/accuracy.
-#include "engine/experiment/accuracy_choice.hpp"
+#include "engine/accuracy/accuracy_choice.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <functional>
 #include <numbers>
 
-#include "engine/contact/discretisation_error.hpp"
+#include "engine/accuracy/discretisation_error.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The precision of the steps where an error is asked for: what the rule says, that solves bear it out by
 // their counts, and that a choice keeps to it.
-#include "engine/experiment/precision_choice.hpp"
+#include "engine/accuracy/precision_choice.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 
-#include "engine/experiment/accuracy_choice.hpp"
+#include "engine/accuracy/accuracy_choice.hpp"
 #include "engine/experiment/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 

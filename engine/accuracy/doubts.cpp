@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/doubts.hpp"
+#include "engine/accuracy/doubts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "engine/contact/chosen_accuracy.hpp"
-#include "engine/contact/discretisation_error.hpp"
+#include "engine/accuracy/chosen_accuracy.hpp"
+#include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/geometry.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/precision_choice.hpp"
+#include "engine/accuracy/precision_choice.hpp"
 
 #include <variant>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact on other cells is made of the combined heights as they lie, under a body without heights that
 // keeps the material of the upper one: no turn or shift has to be found again on other cells.
-#include "engine/contact/other_grids.hpp"
+#include "engine/accuracy/other_grids.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/accuracy/finer_heights.hpp"
 #include "engine/contact/effects/plasticity.hpp"
-#include "engine/contact/finer_heights.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
