@@ -10,7 +10,7 @@
 
 #include "engine/contact/elasticity/box/ascending_sort.hpp"
 #include "engine/core/arithmetic/random.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 
 namespace {
 

@@ -26,8 +26,8 @@
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/experiment/specimen_pair.hpp"
 #include "engine/friction/junction_law.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 
 #include "bindings/lua/registry.hpp"
 #include "bindings/lua/state_class.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::lua {
 

@@ -11,7 +11,7 @@
 #include "bindings/lua/refinement.hpp"
 #include "bindings/lua/surface.hpp"
 #include "engine/contact/effects/catalogue.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::lua {
 

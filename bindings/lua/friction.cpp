@@ -6,7 +6,7 @@
 
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/session.hpp"
-#include "engine/experiment/slip_growth.hpp"
+#include "engine/specimen/slip_growth.hpp"
 
 namespace asperity::lua {
 

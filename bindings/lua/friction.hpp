@@ -3,8 +3,8 @@
 #pragma once
 
 #include "bindings/lua/registry.hpp"
-#include "engine/experiment/tilt_trials.hpp"
 #include "engine/friction/junction_law.hpp"
+#include "engine/specimen/tilt_trials.hpp"
 
 namespace asperity::lua {
 

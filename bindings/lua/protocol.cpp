@@ -13,8 +13,8 @@
 #include "engine/experiment/event_detection.hpp"
 #include "engine/experiment/press_log.hpp"
 #include "engine/experiment/protocol_chart.hpp"
-#include "engine/experiment/protocol_run.hpp"
 #include "engine/experiment/run_directory.hpp"
+#include "engine/specimen/protocol_run.hpp"
 
 namespace asperity::lua {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bindings/lua/registry.hpp"
-#include "engine/experiment/protocol.hpp"
+#include "engine/specimen/protocol.hpp"
 
 namespace asperity::lua {
 

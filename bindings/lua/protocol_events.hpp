@@ -7,7 +7,7 @@
 #include <string>
 
 #include "bindings/lua/registry.hpp"
-#include "engine/experiment/protocol.hpp"
+#include "engine/specimen/protocol.hpp"
 
 namespace asperity::lua {
 

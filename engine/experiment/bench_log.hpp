@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity {
 

@@ -25,7 +25,7 @@
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/experiment/press_recording.hpp"
-#include "engine/experiment/protocol.hpp"
+#include "engine/specimen/protocol.hpp"
 
 namespace asperity {
 

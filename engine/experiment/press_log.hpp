@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "engine/core/monitor.hpp"
-#include "engine/experiment/protocol.hpp"
+#include "engine/specimen/protocol.hpp"
 
 namespace asperity {
 

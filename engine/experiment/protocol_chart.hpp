@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "engine/experiment/protocol.hpp"
 #include "engine/plot/chart.hpp"
+#include "engine/specimen/protocol.hpp"
 
 namespace asperity {
 

@@ -14,7 +14,7 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/sine.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "engine/accuracy/accuracy_choice.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
 namespace asperity::precision_choice_test {

@@ -7,7 +7,7 @@
 
 #include "engine/experiment/event_detection.hpp"
 #include "engine/experiment/press_log.hpp"
-#include "engine/experiment/protocol_run.hpp"
+#include "engine/specimen/protocol_run.hpp"
 #include "engine/surface/io/source_file.hpp"
 #include "tests/contact/contacts.hpp"
 #include "tests/experiment/synthetic_recording.hpp"

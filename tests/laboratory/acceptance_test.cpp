@@ -11,10 +11,10 @@
 #include <map>
 #include <vector>
 
-#include "engine/experiment/specimen_pair.hpp"
 #include "engine/metrology/fractal_dimension.hpp"
 #include "engine/metrology/line_fit.hpp"
 #include "engine/metrology/roughness.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 

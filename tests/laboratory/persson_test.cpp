@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "engine/contact/solver.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
 namespace asperity::persson_test {

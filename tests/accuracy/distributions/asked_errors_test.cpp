@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "engine/accuracy/chosen_accuracy.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/resampling.hpp"
 

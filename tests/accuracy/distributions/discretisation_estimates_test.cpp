@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "engine/accuracy/discretisation_error.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/sine.hpp"

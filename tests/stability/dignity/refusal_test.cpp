@@ -13,7 +13,7 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "engine/contact/state.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "tests/stability/properties/scene.hpp"
 
 namespace asperity::stability {

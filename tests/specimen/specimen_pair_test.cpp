@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bench: presses, sweeps, placements, copies, and that a failed call changes nothing.
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/placement.hpp"
+#include "engine/specimen/placement.hpp"
 
 #include "engine/core/arithmetic/random.hpp"
 

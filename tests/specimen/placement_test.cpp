@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Placements drawn by seed: which turns and shifts they may take.
-#include "engine/experiment/placement.hpp"
+#include "engine/specimen/placement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/heights.hpp"
 #include "tests/contact/contacts.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Trials on the tilt stage with real contacts: repeats, placements, scatter, the specimen's area.
-#include "engine/experiment/tilt_trials.hpp"
+#include "engine/specimen/tilt_trials.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -6,9 +6,9 @@
 #include <functional>
 #include <optional>
 
-#include "engine/experiment/specimen_pair.hpp"
 #include "engine/friction/junction_law.hpp"
-#include "tests/experiment/counted_scenes.hpp"
+#include "engine/specimen/specimen_pair.hpp"
+#include "tests/specimen/counted_scenes.hpp"
 
 namespace asperity::powerless_effects_test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/protocol.hpp"
+#include "engine/specimen/protocol.hpp"
 
 #include <algorithm>
 #include <cmath>

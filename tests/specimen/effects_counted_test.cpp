@@ -11,9 +11,9 @@
 #include "engine/contact/effects/catalogue.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/specimen_pair.hpp"
 #include "engine/friction/junction_law.hpp"
-#include "tests/experiment/counted_scenes.hpp"
+#include "engine/specimen/specimen_pair.hpp"
+#include "tests/specimen/counted_scenes.hpp"
 
 namespace asperity::effects_counted_test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/tilt_trials.hpp"
+#include "engine/specimen/tilt_trials.hpp"
 
 #include <algorithm>
 #include <cmath>

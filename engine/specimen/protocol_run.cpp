@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/protocol_run.hpp"
+#include "engine/specimen/protocol_run.hpp"
 
 #include <string>
 #include <utility>

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/experiment/specimen_pair.hpp"
 #include "engine/friction/junction_law.hpp"
 #include "engine/friction/tilt_stage.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/parallel.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/experiment/tilt_trials.hpp"
+#include "engine/specimen/tilt_trials.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 

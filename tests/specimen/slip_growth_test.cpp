@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the effects of a contact pulled sideways do on the bench: shear of a pair under load, the growth of
 // slip as a stage is raised, junctions that rest before, and slopes that push.
-#include "engine/experiment/slip_growth.hpp"
+#include "engine/specimen/slip_growth.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -6,7 +6,7 @@
 // share is found at the first probe pressure and, as the stage does, taken to hold down to the weight.
 #pragma once
 
-#include "engine/experiment/tilt_trials.hpp"
+#include "engine/specimen/tilt_trials.hpp"
 
 namespace asperity {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Protocols under way: the same states as presses made by hand, and what a failed or a stopped event leaves.
-#include "engine/experiment/protocol_run.hpp"
+#include "engine/specimen/protocol_run.hpp"
 
 #include <numbers>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/slip_growth.hpp"
+#include "engine/specimen/slip_growth.hpp"
 
 #include <algorithm>
 

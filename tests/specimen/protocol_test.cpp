@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Protocols as values: what they refuse, how they read, and that equal ones have equal digests.
-#include "engine/experiment/protocol.hpp"
+#include "engine/specimen/protocol.hpp"
 
 #include <limits>
 #include <numbers>

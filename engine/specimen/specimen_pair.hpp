@@ -19,8 +19,8 @@
 #include "engine/contact/scene.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/contact/state.hpp"
-#include "engine/experiment/protocol.hpp"
 #include "engine/friction/partial_slip.hpp"
+#include "engine/specimen/protocol.hpp"
 
 namespace asperity {
 

@@ -10,8 +10,8 @@
 
 #include "engine/contact/state.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/experiment/protocol.hpp"
-#include "engine/experiment/specimen_pair.hpp"
+#include "engine/specimen/protocol.hpp"
+#include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity {
 
