@@ -18,7 +18,7 @@
 #include "bindings/lua/study.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/run_directory.hpp"
 #include "engine/study/study_chart.hpp"
 #include "engine/study/study_text.hpp"
 

@@ -19,7 +19,7 @@
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/state.hpp"
 #include "engine/core/files/json.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::cli {
 

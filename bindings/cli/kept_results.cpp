@@ -10,8 +10,8 @@
 #include "engine/core/build_identity.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/recorded_run.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/recorded_run.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::cli {
 

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "bindings/cli/run_command.hpp"
-#include "engine/experiment/journal.hpp"
-#include "engine/experiment/recorded_run.hpp"
-#include "engine/experiment/result_files.hpp"
+#include "engine/run/journal.hpp"
+#include "engine/run/recorded_run.hpp"
+#include "engine/run/result_files.hpp"
 
 namespace asperity::cli {
 

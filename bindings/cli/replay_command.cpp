@@ -18,11 +18,11 @@
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/across_versions.hpp"
-#include "engine/experiment/changed_laws.hpp"
-#include "engine/experiment/recorded_run.hpp"
-#include "engine/experiment/run_directory.hpp"
-#include "engine/experiment/run_facts.hpp"
+#include "engine/run/across_versions.hpp"
+#include "engine/run/changed_laws.hpp"
+#include "engine/run/recorded_run.hpp"
+#include "engine/run/run_directory.hpp"
+#include "engine/run/run_facts.hpp"
 
 namespace asperity::cli {
 

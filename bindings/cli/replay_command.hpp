@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `asperity replay`: a recorded run again, from its own copy of the script, into a directory of its own; then
 // every line of the two journals and every file is compared by its digest
-// (engine/experiment/recorded_run.hpp).
+// (engine/run/recorded_run.hpp).
 #pragma once
 
 #include <cstdint>

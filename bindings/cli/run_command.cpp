@@ -28,8 +28,8 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/sanitizers.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/result_files.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/result_files.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::cli {
 

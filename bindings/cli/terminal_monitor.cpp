@@ -8,7 +8,7 @@
 
 #include "bindings/cli/plain_streams.hpp"
 #include "bindings/cli/run_observer.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::cli {
 

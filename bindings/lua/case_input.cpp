@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "engine/core/error.hpp"
-#include "engine/experiment/run_facts.hpp"
+#include "engine/run/run_facts.hpp"
 
 namespace asperity::lua {
 

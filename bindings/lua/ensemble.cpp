@@ -17,8 +17,8 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/experiment/notebook.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/notebook.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::lua {
 

@@ -5,7 +5,7 @@
 
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/plan_json.hpp"
+#include "engine/run/plan_json.hpp"
 
 namespace asperity::lua {
 

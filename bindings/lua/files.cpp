@@ -6,8 +6,8 @@
 
 #include "bindings/lua/case_input.hpp"
 #include "bindings/lua/session.hpp"
-#include "engine/experiment/run_directory.hpp"
-#include "engine/experiment/run_facts.hpp"
+#include "engine/run/run_directory.hpp"
+#include "engine/run/run_facts.hpp"
 
 namespace asperity::lua {
 

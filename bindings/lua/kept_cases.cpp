@@ -11,7 +11,7 @@
 #include "engine/core/c_library_identity.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/experiment/run_facts.hpp"
+#include "engine/run/run_facts.hpp"
 
 namespace asperity::lua {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "bindings/lua/registry.hpp"
-#include "engine/experiment/ledger.hpp"
+#include "engine/run/ledger.hpp"
 
 namespace asperity::lua {
 

@@ -4,7 +4,7 @@
 #include "bindings/lua/embedded.hpp"
 #include "bindings/lua/registry.hpp"
 #include "bindings/lua/session.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/run_directory.hpp"
 
 extern "C" __attribute__((visibility("default"))) int luaopen_asperity(lua_State* L) {
   using namespace asperity;

@@ -6,8 +6,8 @@
 
 #include "bindings/lua/session.hpp"
 #include "engine/core/laws_met.hpp"
-#include "engine/experiment/notebook_chart.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/notebook_chart.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::lua {
 

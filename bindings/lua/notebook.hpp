@@ -3,8 +3,8 @@
 #pragma once
 
 #include "bindings/lua/registry.hpp"
-#include "engine/experiment/notebook.hpp"
-#include "engine/experiment/notebook_chart.hpp"
+#include "engine/run/notebook.hpp"
+#include "engine/run/notebook_chart.hpp"
 
 namespace asperity::lua {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/plan.hpp"
 
-#include "engine/experiment/plan_json.hpp"
+#include "engine/run/plan_json.hpp"
 
 namespace asperity::lua {
 

@@ -13,7 +13,7 @@
 #include "engine/experiment/event_detection.hpp"
 #include "engine/experiment/press_log.hpp"
 #include "engine/experiment/protocol_chart.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/run_directory.hpp"
 #include "engine/specimen/protocol_run.hpp"
 
 namespace asperity::lua {

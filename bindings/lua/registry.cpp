@@ -18,7 +18,7 @@
 #include "bindings/lua/surface.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/run_directory.hpp"
 #include "engine/specimen/protocol.hpp"
 
 namespace asperity::lua {

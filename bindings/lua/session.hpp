@@ -18,7 +18,7 @@
 #include "bindings/lua/script_spelling.hpp"
 #include "bindings/lua/value.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/experiment/ledger.hpp"
+#include "engine/run/ledger.hpp"
 
 namespace asperity {
 class RunDirectory;

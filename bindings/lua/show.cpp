@@ -10,9 +10,9 @@
 #include "bindings/lua/picture.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/surface.hpp"
-#include "engine/experiment/run_directory.hpp"
 #include "engine/plot/picture_profile.hpp"
 #include "engine/plot/text_picture.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::lua {
 

@@ -8,7 +8,7 @@
 #include "bindings/lua/options.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/core/files/aside_file.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/run_directory.hpp"
 #include "engine/study/study_chart.hpp"
 #include "engine/study/study_text.hpp"
 

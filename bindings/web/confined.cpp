@@ -23,7 +23,7 @@
 #include "engine/core/files/part_file.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/run_facts.hpp"
+#include "engine/run/run_facts.hpp"
 
 namespace asperity::web {
 

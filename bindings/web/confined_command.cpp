@@ -24,8 +24,8 @@
 #include "engine/core/files/aside_file.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/recorded_run.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/recorded_run.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::web {
 

@@ -2,7 +2,7 @@
 // Which of the laws that changed from one version to the next a run meets, and where. The places where such a
 // law acts say so; `asperity replay` of a run by an earlier version listens, and so knows which differences
 // the change explains. Where nobody listens a call costs one load. What changed, and since when, is told in
-// experiment/changed_laws.cpp.
+// run/changed_laws.cpp.
 #pragma once
 
 #include <array>

@@ -19,7 +19,7 @@
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::lua::ensemble_test {
 namespace {

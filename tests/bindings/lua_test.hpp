@@ -18,7 +18,7 @@
 #include "bindings/lua/state.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/run_directory.hpp"
 
 namespace asperity::lua {
 

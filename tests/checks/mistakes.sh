@@ -43,7 +43,7 @@ mistake upward engine/core/digest.cpp 's|^#include "engine/core/digest.hpp"$|&\n
   "layout and include direction" "engine/core does not stand on engine/contact"
 mistake stale docs/reference.md '0,/^### `lab\.surface\.sine`/s/^### `lab\.surface\.sine`/&!/' \
   "its tests" "checks:generated.*Failed"
-mistake race engine/experiment/ledger.cpp '/^void Ledger::add(std::string_view/,/^}/{/scoped_lock/d}' \
+mistake race engine/run/ledger.cpp '/^void Ledger::add(std::string_view/,/^}/{/scoped_lock/d}' \
   "its tests, with the thread sanitizer" "data race"
 mistake overread engine/surface/io/binary_cursor.cpp \
   '/^std::string_view BinaryCursor::take/a\  const volatile char beyond = bytes_.data()[bytes_.size() + 40];\n  static_cast<void>(beyond);' \
@@ -56,7 +56,7 @@ mistake package lab 's/ libzip-dev / /' \
   "a newcomer's first chart in a clean root (beside the others)" "libzip"
 mistake lesson scripts/lessons/01_roughness.lua 's/ra="0.5 um"/ra="0.5 mm"/' \
   "its tests" "lessons: 01_roughness.*Failed"
-mistake descriptor engine/experiment/journal.cpp 's/^  if (descriptor_ >= 0) ::close(descriptor_);$//' \
+mistake descriptor engine/run/journal.cpp 's/^  if (descriptor_ >= 0) ::close(descriptor_);$//' \
   "its tests" "was left open"
 [ $missed = 0 ] || exit 1
 echo "every mistake was found"

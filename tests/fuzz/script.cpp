@@ -6,7 +6,7 @@
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/state.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/experiment/run_directory.hpp"
+#include "engine/run/run_directory.hpp"
 #include "tests/fuzz/script_limits.hpp"
 #include "tests/fuzz/target.hpp"
 

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/run/expectation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/laws_met.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+[[noreturn]] void refuse(std::string sentence, std::string hint) {
+  throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
+}
+
+struct Value {
+  std::size_t row;
+  double number;
+};
+
+struct Level {
+  double x;     // value of the other column
+  double mean;  // of the rows that share it
+};
+
+// Why a thing cannot be judged, if so, and otherwise the clauses that tell how it is violated.
+struct Finding {
+  std::string obstacle;
+  std::vector<std::string> violations;
+};
+
+std::string row_name(std::size_t row) { return "row " + std::to_string(row + 1); }
+
+// Six digits, or all of them where six would hide the difference.
+std::string telling(double value, double beside) {
+  const std::string text = format_short(value);
+  return value != beside && text == format_short(beside) ? format_exact(value) : text;
+}
+
+template <class Holds>
+void judge_rows(const std::vector<Value>& values, double bound, const Holds& holds, Finding& finding) {
+  constexpr std::size_t shown = 3;
+  std::size_t offending = 0;
+  std::string clause;
+  for (const Value& value : values) {
+    if (holds(value.number)) continue;
+    if (++offending <= shown)
+      clause += (clause.empty() ? "" : ", ") + row_name(value.row) + " has " + telling(value.number, bound);
+  }
+  if (offending == 0) return;
+  if (offending > shown) clause += " and " + std::to_string(offending - shown) + " more";
+  finding.violations.push_back(clause + " (" + std::to_string(offending) + " of " +
+                               std::to_string(values.size()) + (values.size() == 1 ? " row)" : " rows)"));
+}
+
+std::vector<Level> levels_of(const Table& table, const std::vector<Value>& values, std::size_t other,
+                             std::string_view name, Finding& finding) {
+  std::vector<std::pair<double, double>> points;
+  for (const Value& value : values) {
+    const auto x = number_in(table.cell(value.row, other));
+    if (!x || std::isnan(*x)) {
+      finding.obstacle = row_name(value.row) + " has " + short_text(table.cell(value.row, other)) + " in " +
+                         quoted(name) + ", which has no place in an order";
+      return {};
+    }
+    points.emplace_back(*x, value.number);
+  }
+  std::ranges::sort(points);
+  std::vector<Level> levels;
+  for (std::size_t k = 0; k < points.size();) {
+    double sum = 0;
+    std::size_t end = k;
+    while (end < points.size() && same_cell(points[end].first, points[k].first)) sum += points[end++].second;
+    levels.push_back({points[k].first, sum / static_cast<double>(end - k)});
+    k = end;
+  }
+  if (levels.size() < 2)
+    finding.obstacle = "a trend in " + quoted(name) + " needs two of its values at least";
+  return levels;
+}
+
+void judge_trend(const Table& table, const std::vector<Value>& values, const std::string& name, bool rising,
+                 Finding& finding) {
+  const auto other = table.find_column(name);
+  if (!other) {
+    finding.obstacle =
+        "the notebook has no column " + quoted(name) + did_you_mean(name, table.column_names());
+    return;
+  }
+  const std::vector<Level> levels = levels_of(table, values, *other, name, finding);
+  if (!finding.obstacle.empty()) return;
+  std::string clause;
+  std::size_t offending = 0;
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+    const Level& a = levels[k];
+    const Level& b = levels[k + 1];
+    if (rising ? b.mean > a.mean : b.mean < a.mean) continue;
+    if (++offending > 1) continue;
+    const std::string step = a.mean == b.mean ? "stays at " + format_short(a.mean) + " from "
+                                              : (b.mean > a.mean ? "rises from " : "falls from ") +
+                                                    telling(a.mean, b.mean) + " to " +
+                                                    telling(b.mean, a.mean) + " between ";
+    clause = "it " + step + quoted(name) + " = " + telling(a.x, b.x) + (a.mean == b.mean ? " to " : " and ") +
+             telling(b.x, a.x);
+  }
+  if (offending == 0) return;
+  if (offending > 1) clause += " and turns " + std::to_string(offending - 1) + " more times";
+  finding.violations.push_back(clause);
+}
+
+std::string shown(const ExpectedValue& wanted) {
+  return wanted.quantity.empty() ? format_short(wanted.value) : wanted.quantity;
+}
+
+std::string wanted(const Expectation& e) {
+  std::vector<std::string> parts;
+  if (e.near) {
+    std::string part = "near " + shown(*e.near);
+    part += e.within ? " within " + shown(*e.within) : " within " + format_short(*e.relative * 100) + " %";
+    parts.push_back(part);
+  }
+  if (e.at_least) parts.push_back("at least " + shown(*e.at_least));
+  if (e.at_most) parts.push_back("at most " + shown(*e.at_most));
+  if (e.increasing_in) parts.push_back("increasing in " + quoted(*e.increasing_in));
+  if (e.decreasing_in) parts.push_back("decreasing in " + quoted(*e.decreasing_in));
+  return joined(parts, " and ");
+}
+
+bool is_near(const Expectation& e, double value) {
+  const double near = e.near->value;
+  const double allowed = e.within ? e.within->value : *e.relative * std::abs(near);
+  const double rounding =
+      4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(value), std::abs(near));
+  return std::abs(value - near) <= allowed + (std::isfinite(rounding) ? rounding : 0.0);
+}
+
+// The rows to judge; sets the obstacle when there is none or one of them holds no number.
+std::vector<Value> values_of(const Expectation& e, const Table& table, Finding& finding) {
+  std::vector<std::size_t> rows;
+  try {
+    rows = e.where.rows(table);
+  } catch (const Error& error) {
+    finding.obstacle = error.what();
+    return {};
+  }
+  const auto column = table.find_column(e.column);
+  if (!column) {
+    finding.obstacle =
+        "the notebook has no column " + quoted(e.column) + did_you_mean(e.column, table.column_names());
+    return {};
+  }
+  if (rows.empty()) {
+    finding.obstacle = table.rows() == 0 ? "the notebook has no rows" : "no row matches";
+    return {};
+  }
+  std::vector<Value> values;
+  for (const std::size_t row : rows) {
+    const Cell& cell = table.cell(row, *column);
+    if (is_empty(cell)) continue;
+    const auto number = number_in(cell);
+    if (!number || std::isnan(*number)) {
+      finding.obstacle = row_name(row) + " has " + (number ? "nan" : "the text \"" + short_text(cell) + "\"");
+      return {};
+    }
+    values.push_back({row, *number});
+  }
+  if (values.empty()) finding.obstacle = "none of the rows has a value in that column";
+  return values;
+}
+
+std::string found_text(const std::vector<Value>& values, std::size_t rows_of_table) {
+  const auto [low, high] =
+      std::ranges::minmax_element(values, {}, [](const Value& value) { return value.number; });
+  std::string text = std::to_string(values.size()) + (values.size() == 1 ? " row" : " rows");
+  if (values.size() < rows_of_table) text += " of " + std::to_string(rows_of_table);
+  text += low->number == high->number
+              ? ", " + format_short(low->number)
+              : ", " + telling(low->number, high->number) + " to " + telling(high->number, low->number);
+  return text;
+}
+
+void require_number(const std::optional<ExpectedValue>& wanted, std::string_view key, bool finite,
+                    bool positive) {
+  if (!wanted) return;
+  const double value = wanted->value;
+  if (std::isnan(value) || (finite && !std::isfinite(value)) || (positive && value < 0))
+    refuse(quoted(key) + " is " + shown(*wanted),
+           positive ? "give a finite number, zero or above" : "give a number to compare with");
+}
+
+void require_order(const Expectation& e) {
+  if (e.at_least && e.at_most && e.at_least->value > e.at_most->value)
+    refuse("`at_least` is " + shown(*e.at_least) + " and `at_most` is " + shown(*e.at_most),
+           "no value is both; exchange them");
+}
+
+void count_in_unit(std::optional<ExpectedValue>& wanted, std::string_view key, const TableColumn& column) {
+  if (!wanted || wanted->quantity.empty()) return;
+  const Quantity given = parse_quantity(wanted->quantity);
+  const Dimension unit = parse_unit(column.unit).dimension;
+  try {
+    wanted->value = parse_quantity_in(wanted->quantity, column.unit);
+    if (wanted->value != given.value) laws_met().meet(Law::column_units);
+  } catch (const Error&) {
+    laws_met().meet(Law::column_units);
+    const std::string had = column.unit.empty() ? "has no unit" : "is in " + column.unit;
+    const std::string kind =
+        given.dimension == dimension::number ? "has no unit" : "is " + describe(given.dimension);
+    const std::string other = unit == dimension::number ? "a share such as \"5 %\"" : describe(unit);
+    throw Error(ErrorCode::bad_unit,
+                quoted(key) + " is \"" + wanted->quantity + "\", which " + kind + ", and column " +
+                    quoted(column.name) + " " + had,
+                column.unit.empty()
+                    ? "give a plain number, or the column its unit: book:units{ " + column.name + "=\"" +
+                          si_unit(given.dimension) + "\" } before the first row"
+                    : "give a plain number, which is counted in " + column.unit + ", or " + other);
+  }
+  wanted->quantity = format_short(wanted->value) + (column.unit.empty() ? "" : " " + column.unit);
+}
+
+}  // namespace
+
+ExpectedValue::ExpectedValue(std::string_view text) : value(parse_quantity(text).value), quantity(text) {}
+
+Expectation in_column_unit(const Expectation& expectation, const Table& table) {
+  const auto place = table.find_column(expectation.column);
+  if (!place) return expectation;
+  Expectation counted = expectation;
+  const TableColumn& column = table.columns()[*place];
+  count_in_unit(counted.near, "near", column);
+  count_in_unit(counted.within, "within", column);
+  count_in_unit(counted.at_least, "at_least", column);
+  count_in_unit(counted.at_most, "at_most", column);
+  return counted;
+}
+
+void check(const Expectation& e) {
+  if (!e.near && !e.at_least && !e.at_most && !e.increasing_in && !e.decreasing_in)
+    refuse("the expectation of " + quoted(e.column) + " has no condition",
+           "give `near` with `within` or `rel`, `at_least`, `at_most`, `increasing_in` or `decreasing_in`");
+  if (e.near && e.within.has_value() == e.relative.has_value())
+    refuse(e.within ? "`near` is given both `within` and `rel`" : "`near` needs a width",
+           "give `within` (absolute) or `rel` (a fraction of `near`)");
+  if (e.near && e.near->value == 0 && e.relative)
+    refuse("`near` is 0, of which `rel` leaves no width", "give `within`");
+  if (!e.near && (e.within || e.relative))
+    refuse(std::string(e.within ? "`within`" : "`rel`") + " needs `near`",
+           "say what the value should be near");
+  require_number(e.near, "near", true, false);
+  require_number(e.within, "within", true, true);
+  if (e.relative) require_number(ExpectedValue(*e.relative), "rel", true, true);
+  require_number(e.at_least, "at_least", false, false);
+  require_number(e.at_most, "at_most", false, false);
+  // A quantity and a plain number can be compared once the column's unit is known.
+  const bool of_one_kind =
+      e.at_least && e.at_most && e.at_least->quantity.empty() == e.at_most->quantity.empty();
+  if (of_one_kind) require_order(e);
+  if (e.increasing_in && e.decreasing_in && *e.increasing_in == *e.decreasing_in)
+    refuse("`increasing_in` and `decreasing_in` both name " + quoted(*e.increasing_in), "keep one of them");
+}
+
+Verdict evaluate(const Expectation& asked, const Table& table, std::string_view notebook) {
+  check(asked);
+  const Expectation e = in_column_unit(asked, table);
+  if (table.find_column(e.column)) require_order(e);
+  Finding finding;
+  const std::vector<Value> values = values_of(e, table, finding);
+  if (finding.obstacle.empty()) {
+    if (e.near)
+      judge_rows(
+          values, e.near->value, [&](double v) { return is_near(e, v); }, finding);
+    if (e.at_least)
+      judge_rows(
+          values, e.at_least->value, [&](double v) { return v >= e.at_least->value; }, finding);
+    if (e.at_most)
+      judge_rows(
+          values, e.at_most->value, [&](double v) { return v <= e.at_most->value; }, finding);
+    if (e.increasing_in) judge_trend(table, values, *e.increasing_in, true, finding);
+    if (finding.obstacle.empty() && e.decreasing_in)
+      judge_trend(table, values, *e.decreasing_in, false, finding);
+  }
+
+  Verdict verdict;
+  verdict.notebook = notebook;
+  verdict.label = e.label;
+  verdict.should_fail = e.should_fail;
+  verdict.judged = finding.obstacle.empty();
+  const bool holds = verdict.judged && finding.violations.empty();
+  verdict.passed = verdict.judged && holds != e.should_fail;
+
+  const std::string subject = quoted(e.column) + (e.where.empty() ? "" : " where " + e.where.text());
+  if (!verdict.judged) {
+    verdict.sentence = subject + " cannot be judged " + wanted(e) + ": " + finding.obstacle;
+  } else if (holds) {
+    verdict.sentence = std::string(e.should_fail ? "holds, and should fail: " : "") + subject + " is " +
+                       wanted(e) + " (" + found_text(values, table.rows()) + ")";
+  } else {
+    verdict.sentence =
+        (e.should_fail ? "fails, as it should: " + subject + " is not " : subject + " should be ") +
+        wanted(e) + ", but " + joined(finding.violations, " and ");
+    if (e.should_fail) {
+      const std::size_t comma = verdict.sentence.rfind(", but ");
+      verdict.sentence.replace(comma, 6, ": ");
+    }
+  }
+  return verdict;
+}
+
+}  // namespace asperity

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/run/notebook.hpp"
+
+#include <utility>
+
+#include "engine/core/files/aside_file.hpp"
+#include "engine/core/patient_lock.hpp"
+
+namespace asperity {
+
+namespace {
+
+Json to_json(const Cell& cell) {
+  if (const double* number = std::get_if<double>(&cell)) return *number;
+  if (const bool* truth = std::get_if<bool>(&cell)) return *truth;
+  if (const std::string* text = std::get_if<std::string>(&cell)) return *text;
+  return {};
+}
+
+}  // namespace
+
+Notebook::Notebook(std::string name, std::filesystem::path csv, Journal& journal, ExpectationLog& log)
+    : name_(std::move(name)), csv_(std::move(csv)), journal_(journal), log_(log) {}
+
+void Notebook::write(std::span<const Entry> row) {
+  Json values = Json::object();
+  Json units;
+  for (const Entry& entry : row) {
+    values.set(entry.column, to_json(entry.value));
+    if (!entry.unit.empty()) units.set(entry.column, entry.unit);
+  }
+  const std::lock_guard lock(mutex_);
+  table_.check(row);
+  Json fields = Json::object({{"notebook", name_}, {"row", std::move(values)}});
+  if (!units.is_null()) fields.set("units", std::move(units));
+  journal_.write("row", fields);
+  const bool new_header = table_.append(row);
+  if (csv_.empty()) return;
+  // The file of a run that is taken up again has these rows, and more.
+  if (journal_.repeating()) {
+    stale_ = true;
+    return;
+  }
+  if (new_header || stale_) {
+    rewrite();
+  } else {
+    append_last_row();
+  }
+}
+
+void Notebook::declare_unit(std::string_view column, std::string_view unit) {
+  const std::lock_guard lock(mutex_);
+  const bool new_header = table_.declare_unit(column, unit);
+  if (new_header && !csv_.empty() && table_.rows() > 0 && !journal_.repeating()) rewrite();
+}
+
+std::string Notebook::unit_of(std::string_view column) const {
+  const std::lock_guard lock(mutex_);
+  const auto place = table_.find_column(column);
+  return place ? table_.columns()[*place].unit : std::string();
+}
+
+void Notebook::rewrite() {
+  stale_ = true;
+  write_aside(csv_, table_.csv());
+  stale_ = false;
+}
+
+void Notebook::append_last_row() {
+  stale_ = true;
+  // Somebody may have taken the file away; then it is written anew.
+  if (!append_to_existing(csv_, table_.csv_row(table_.rows() - 1))) return rewrite();
+  stale_ = false;
+}
+
+Verdict Notebook::expect(const Expectation& expectation) {
+  check(expectation);
+  const std::lock_guard lock(mutex_);
+  Verdict verdict = evaluate(expectation, table_, name_);
+  log_.add(verdict);
+  journal_.write("expect", asperity::to_json(verdict));
+  return verdict;
+}
+
+Table Notebook::table() const {
+  const std::lock_guard lock(mutex_);
+  return table_;
+}
+
+bool Notebook::save(std::chrono::milliseconds patience) {
+  const std::unique_lock lock = lock_within(mutex_, patience);
+  if (!lock.owns_lock()) return false;
+  if (stale_ && !csv_.empty()) rewrite();
+  return true;
+}
+
+}  // namespace asperity

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/run/recorded_run.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "engine/core/digest.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/run/journal.hpp"
+#include "engine/run/run_facts.hpp"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* unhashed = "unhashed";
+
+std::string whole_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || fs::is_directory(path))
+    throw Error(ErrorCode::bad_file, "there is no " + quoted(path.string()) + " that can be read",
+                "give the directory of a run, such as runs/quick_start-1");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+const Json& member(const Json& record, std::string_view name, const fs::path& file) {
+  if (const Json* found = record.is_object() ? record.find(name) : nullptr) return *found;
+  throw Error(ErrorCode::bad_file, quoted(file.string()) + " has no `" + std::string(name) + "`",
+              "it is not the record of a run, or it was altered");
+}
+
+std::string described(const Json& line) {
+  for (const char* name : {"function", "notebook", "event"})
+    if (const Json* value = line.find(name)) return value->string();
+  return "";
+}
+
+void compare_lines(const RecordedRun& recorded, const RecordedRun& again, std::vector<Difference>& found) {
+  std::size_t compared = std::max(recorded.journal.size(), again.journal.size());
+  if (!recorded.ended()) {
+    compared = recorded.journal.size();
+    // What ended it is not what it found.
+    if (compared > 0 && described(recorded.journal.back()) == "end") --compared;
+  }
+  for (std::size_t k = 0; k < compared; ++k) {
+    const Json* one = k < recorded.journal.size() ? &recorded.journal[k] : nullptr;
+    const Json* other = k < again.journal.size() ? &again.journal[k] : nullptr;
+    if (one != nullptr && other != nullptr && *one == *other) continue;
+    found.push_back(
+        difference_of("line " + std::to_string(k + 1) + ", " + described(one != nullptr ? *one : *other),
+                      differing_members(one, other)));
+  }
+}
+
+std::optional<std::string> named(const Json& entry) {
+  const Json* file = entry.is_object() ? entry.find("file") : nullptr;
+  return file != nullptr ? std::optional(file->string()) : std::nullopt;
+}
+
+// Lists of files, each with its digest.
+void compare_files(const RecordedRun& recorded, const RecordedRun& again, std::string_view list,
+                   std::vector<Difference>& found) {
+  const auto digest_in = [&](const RecordedRun& run, const std::string& file) -> const Json* {
+    const Json* entries = run.manifest.find(list);
+    if (entries == nullptr) return nullptr;
+    for (const Json& entry : entries->list())
+      if (named(entry) == file) return entry.find("digest");
+    return nullptr;
+  };
+  std::vector<std::string> files;
+  for (const RecordedRun* run : {&recorded, &again})
+    if (const Json* entries = run->manifest.find(list))
+      for (const Json& entry : entries->list())
+        if (const auto file = named(entry);
+            file && std::find(files.begin(), files.end(), *file) == files.end())
+          files.push_back(*file);
+  const std::string kind(list.substr(0, list.size() - 1));  // "outputs" -> "output"
+  for (const std::string& file : files) {
+    const Json *one = digest_in(recorded, file), *other = digest_in(again, file);
+    if (one != nullptr && other != nullptr && *one == *other) continue;
+    found.push_back({kind + " " + quoted(file), brief(one), brief(other)});
+  }
+}
+
+}  // namespace
+
+Difference difference_of(std::string where, const std::vector<DifferingMember>& members) {
+  const auto join_path = [&](const std::string& path) { return path.empty() ? where : where + ", " + path; };
+  if (members.size() == 1)
+    return {join_path(members[0].path), brief(members[0].one), brief(members[0].other)};
+  const auto list = [&](const Json* DifferingMember::*side) {
+    constexpr std::size_t most = 6;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(members.size(), most); ++k)
+      text += (k > 0 ? ", " : "") + members[k].path + " " + brief(members[k].*side);
+    return members.size() > most ? text + " …" : text;
+  };
+  return {std::move(where), list(&DifferingMember::one), list(&DifferingMember::other)};
+}
+
+std::string program_version(const RecordedRun& run) {
+  const Json* version = run.versions.is_object() ? run.versions.find("asperity") : nullptr;
+  return version != nullptr && version->is_string() ? version->string() : std::string();
+}
+
+Json read_manifest(const fs::path& root) {
+  const fs::path file = root / "manifest.json";
+  return Json::parse(whole_file(file), quoted(file.string()));
+}
+
+RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
+  RecordedRun run;
+  run.root = root;
+  const fs::path file = root / "manifest.json";
+  const Json manifest = read_manifest(root);
+  run.status = member(manifest, "status", file).string();
+  const Json& script = member(manifest, "script", file);
+  const Json& rest = member(manifest, unhashed, file);
+  run.script_path = member(rest, "script_path", file).string();
+  run.script_text = whole_file(root / "script.lua");
+  const std::string digest = Digester().add(run.script_text).hex();
+  if (digest != member(script, "digest", file).string())
+    throw Error(ErrorCode::bad_file, quoted((root / "script.lua").string()) + " is not the script that ran",
+                "it was altered since; run it as a script of its own");
+  for (const Json& argument : member(manifest, "arguments", file).list())
+    run.arguments.push_back(argument.string());
+  run.seed = static_cast<std::int64_t>(member(manifest, "seed", file).number());
+  run.trusted = member(manifest, "trusted", file).boolean();
+  run.versions = member(manifest, "versions", file);
+  if (const Json* machine = rest.is_object() ? rest.find("machine") : nullptr) run.machine = *machine;
+  run.manifest = without_unhashed(manifest);
+  try {
+    run.journal = read_journal(root / "journal.jsonl", !run.ended()).lines;
+  } catch (const Error& error) {
+    if (!journal_may_be_damaged) throw;
+    run.journal_fault = error.sentence();
+    run.journal_hint = error.hint();
+    return run;
+  }
+  const Json* facts = run.manifest.find("journal");
+  if (!run.ended() || facts == nullptr) return run;
+  const JournalFacts now = facts_of(run.journal);
+  if (!(member(*facts, "digest", file) == Json(now.digest)))
+    run.journal_fault = quoted((root / "journal.jsonl").string()) + " was altered since the run";
+  return run;
+}
+
+std::vector<std::string> altered_outputs(const RecordedRun& run) {
+  std::vector<std::string> sentences;
+  const Json* outputs = run.manifest.find("outputs");
+  if (outputs == nullptr) return sentences;
+  for (const Json& entry : outputs->list()) {
+    const auto file = named(entry);
+    const Json* digest = entry.find("digest");
+    if (!file || digest == nullptr) continue;
+    const fs::path place = run.root / *file;
+    std::error_code missing;
+    if (!fs::is_regular_file(place, missing))
+      sentences.push_back(quoted(*file) + " is missing from the run");
+    else if (file_digest(place) != digest->string())
+      sentences.push_back(quoted(*file) + " was altered since the run");
+  }
+  return sentences;
+}
+
+std::vector<Difference> differences(const RecordedRun& recorded, const RecordedRun& again) {
+  std::vector<Difference> found;
+  compare_lines(recorded, again, found);
+  if (!recorded.ended()) return found;
+  compare_files(recorded, again, "inputs", found);
+  compare_files(recorded, again, "outputs", found);
+  const Json *one = recorded.manifest.find("expectations"), *other = again.manifest.find("expectations");
+  if ((one == nullptr) != (other == nullptr) || (one != nullptr && !(*one == *other)))
+    found.push_back({"expectations", brief(one), brief(other)});
+  return found;
+}
+
+}  // namespace asperity

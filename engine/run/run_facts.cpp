@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/run/run_facts.hpp"
+
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <ctime>
+#include <fstream>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "engine/core/build_identity.hpp"
+#include "engine/core/c_library_identity.hpp"
+#include "engine/core/digest.hpp"
+#include "engine/core/files/aside_file.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return {text.data(), length};
+}
+
+namespace {
+
+// Of what /proc/cpuinfo names, what decides how libraries round.
+std::string vector_instructions(const std::string& flags) {
+  const std::string all = " " + flags + " ";
+  std::vector<std::string> found;
+  for (const char* name : {"sse2", "avx", "fma", "avx2", "avx512f"})
+    if (all.find(" " + std::string(name) + " ") != std::string::npos) found.emplace_back(name);
+  return joined(found, " ");
+}
+
+Json facts_of_this_machine() {
+  Json facts = Json::object();
+  std::ifstream processors("/proc/cpuinfo");
+  for (std::string line; std::getline(processors, line) && !line.empty();) {
+    const std::size_t colon = line.find(": ");
+    if (colon == std::string::npos) continue;
+    if (line.starts_with("model name")) facts.set("processor", line.substr(colon + 2));
+    if (line.starts_with("flags"))
+      facts.set("vector_instructions", vector_instructions(line.substr(colon + 2)));
+  }
+  facts.set("processors", std::thread::hardware_concurrency());
+  const long pages = ::sysconf(_SC_PHYS_PAGES);
+  const long page = ::sysconf(_SC_PAGESIZE);
+  if (pages > 0 && page > 0) facts.set("memory", static_cast<std::int64_t>(pages) * page);
+  utsname system{};
+  if (::uname(&system) == 0)
+    facts.set("system", std::string(system.sysname) + " " + system.release + " " + system.machine);
+  if (const std::string library = c_library_version(); !library.empty()) facts.set("c_library", library);
+  facts.set("c_library_functions", c_library_functions());
+  if (const std::string build = build_identity(); !build.empty()) facts.set("build", build);
+  return facts;
+}
+
+}  // namespace
+
+Json machine_facts() {
+  static const Json facts = facts_of_this_machine();
+  return facts;
+}
+
+std::vector<std::string> differing_machines(const Json& then, const Json& now) {
+  std::vector<std::string> lines;
+  const auto compare = [&](const char* name, const std::string& what, bool with_values) {
+    const Json *before = then.find(name), *after = now.find(name);
+    if (before == nullptr || after == nullptr || *before == *after) return;
+    lines.push_back("another " + what +
+                    (with_values ? ": " + before->string() + ", here " + after->string() : ""));
+  };
+  compare("processor", "processor", true);
+  compare("vector_instructions", "set of vector instructions", true);
+  compare("c_library", "C library", true);
+  compare("c_library_functions", "rounding of the C library's functions, which it chooses by the processor",
+          false);
+  compare("build", "build of the program: identity", true);
+  return lines;
+}
+
+std::string file_digest(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw_file_error("read", path, errno);
+  Digester digester;
+  digester.add("file");
+  std::string piece(std::size_t{1} << 20, '\0');
+  while (file) {
+    file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    const auto taken = static_cast<std::size_t>(file.gcount());
+    if (taken > 0) digester.add(std::string_view(piece).substr(0, taken));
+  }
+  if (file.bad()) throw_file_error("read", path, EIO);
+  return digester.hex();
+}
+
+}  // namespace asperity

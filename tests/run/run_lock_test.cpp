@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The lock of a run directory: one holder at a time, named to all others, and none once its process has
+// ended.
+#include "engine/run/run_lock.hpp"
+
+#include <sys/utsname.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/run_fixture.hpp"
+
+namespace asperity::run_lock_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunLockTest : public InFolder {
+ protected:
+  std::string held_by(pid_t process) const {
+    utsname system{};
+    ::uname(&system);
+    return "`" + folder.string() + "` is being written by process " + std::to_string(process) + " on " +
+           system.nodename;
+  }
+  // Another process that holds the lock until it is killed.
+  pid_t holder(const RunLock::Ask& ask = RunLock::ask_system) const {
+    int ready[2];
+    EXPECT_EQ(::pipe(ready), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      try {
+        const std::shared_ptr<RunLock> lock = RunLock::take(folder, ask);
+        if (::write(ready[1], "y", 1) == 1)
+          for (;;) ::pause();
+      } catch (const Error&) {
+      }
+      ::_exit(1);
+    }
+    ::close(ready[1]);
+    char byte = 0;
+    EXPECT_EQ(::read(ready[0], &byte, 1), 1);
+    ::close(ready[0]);
+    return child;
+  }
+  static void kill(pid_t process) {
+    ::kill(process, SIGKILL);
+    ::waitpid(process, nullptr, 0);
+  }
+  static int no_locks(int) { return ENOLCK; }
+};
+
+TEST_F(RunLockTest, F1TheSecondComerIsToldProcessAndHostAndChangesNothing) {
+  const std::shared_ptr<RunLock> lock = RunLock::take(folder);
+  const std::string before = content_of(folder / ".lock");
+  for (int k = 0; k < 3; ++k)
+    EXPECT_EQ(
+        error_of([&] { RunLock::take(folder); }),
+        "bad_state: " + held_by(::getpid()) + "; wait until that one has ended, or give another directory");
+  EXPECT_NE(error_of([&] { RunLock::take_if_known(folder); }), "");
+  EXPECT_EQ(content_of(folder / ".lock"), before);
+  EXPECT_EQ(files_in(folder), 1U);
+  lock->release();
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
+}
+
+TEST_F(RunLockTest, F1IsFreeOnceItsProcessIsKilled) {
+  const pid_t child = holder();
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }).find("bad_state: " + held_by(child)), 0U);
+  kill(child);
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
+}
+
+// Who has just taken up what a dead process left has not yet written its name.
+TEST_F(RunLockTest, F1WhoIsNamedLives) {
+  const pid_t child = holder();
+  kill(child);
+  fs::create_directory(folder / "other");
+  const std::shared_ptr<RunLock> other = RunLock::take(folder / "other");
+  const std::string name = content_of(folder / "other/.lock");
+  std::thread successor;
+  const auto ask = [&](int) {
+    if (!successor.joinable())  // it is asked again
+      successor = std::thread([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        std::ofstream(folder / ".lock") << name;
+      });
+    return EAGAIN;
+  };
+  EXPECT_EQ(
+      error_of([&] { RunLock::take(folder, ask); }),
+      "bad_state: " + held_by(::getpid()) + "; wait until that one has ended, or give another directory");
+  successor.join();
+}
+
+// Of many at once one holds it: until all others have been refused.
+TEST_F(RunLockTest, F1OfManyOneHasIt) {
+  constexpr int comers = 8;
+  int until[2];
+  ASSERT_EQ(::pipe(until), 0);
+  for (int k = 0; k < comers; ++k) {
+    if (::fork() != 0) continue;
+    ::close(until[1]);
+    try {
+      const std::shared_ptr<RunLock> lock = RunLock::take(folder);
+      char end = 0;
+      ::_exit(::read(until[0], &end, 1) == 0 ? 0 : 4);
+    } catch (const Error& error) {
+      ::_exit(std::string(error.what()).find("is being written by process ") != std::string::npos ? 2 : 3);
+    }
+  }
+  ::close(until[0]);
+  int held = 0, refused = 0;
+  const auto wait_for = [&](int flags) {
+    int status = 0;
+    if (::waitpid(-1, &status, flags) <= 0) return false;
+    held += WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 1 : 0;
+    refused += WIFEXITED(status) && WEXITSTATUS(status) == 2 ? 1 : 0;
+    return true;
+  };
+  int ended = 0;
+  const auto last_try = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (ended + 1 < comers && std::chrono::steady_clock::now() < last_try)
+    if (wait_for(WNOHANG))
+      ++ended;
+    else
+      ::usleep(5'000);
+  ::close(until[1]);
+  for (; ended < comers; ++ended) wait_for(0);
+  EXPECT_EQ(held, 1);
+  EXPECT_EQ(refused, comers - 1);
+}
+
+TEST_F(RunLockTest, F1WithoutLocksProcessAndHostDecide) {
+  const pid_t child = holder(no_locks);
+  EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }),
+            "bad_state: " + held_by(child) + "; wait until that one has ended, or give another directory");
+  kill(child);
+  {
+    const std::shared_ptr<RunLock> lock = RunLock::take(folder, no_locks);
+    EXPECT_NE(lock->notice().find("gives no locks"), std::string::npos);
+    EXPECT_NE(error_of([&] { RunLock::take(folder, no_locks); }), "");
+  }
+  EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }), "");
+  EXPECT_EQ(RunLock::take(folder)->notice(), "");
+  std::ofstream(folder / ".lock")
+      << "{\"process\":1,\"host\":\"another\",\"machine_start\":\"x\",\"process_space\":\"\","
+         "\"process_start\":\"1\"}\n";
+  EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }),
+            "bad_state: `" + folder.string() +
+                "` is being written by process 1 on another; if that one has ended, remove `" +
+                (folder / ".lock").string() + "`; this file system gives no locks, which would tell");
+}
+
+// What cannot be known of a holder is no sign of its end: behind barriers neither the start of the machine
+// nor the name space of processes can be read, and a signal to another process is not permitted.
+TEST_F(RunLockTest, F1AHolderOfWhomLittleIsKnownIsBelievedToLive) {
+  utsname system{};
+  ::uname(&system);
+  std::ofstream(folder / ".lock")
+      << "{\"process\":999999999,\"host\":\"" << system.nodename
+      << "\",\"machine_start\":\"\",\"process_space\":\"\",\"process_start\":\"\"}\n";
+  EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }).find("bad_state: " + held_by(999999999)), 0U);
+}
+
+// F1: a child that works for this process holds the folder as long as either of them.
+TEST_F(RunLockTest, F1AnInheritedLockHoldsUntilBothAreDone) {
+  const std::string held = "bad_state: " + held_by(::getpid());
+  std::shared_ptr<RunLock> parent = RunLock::take(folder);
+  std::shared_ptr<RunLock> child = RunLock::inherited(folder, ::dup(parent->descriptor()));
+  child->release();
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }).find(held), 0U);
+  child = RunLock::inherited(folder, ::dup(parent->descriptor()));
+  parent->release();
+  EXPECT_NE(error_of([&] { RunLock::take(folder); }).find("is being written by another process"),
+            std::string::npos);
+  child.reset();
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
+}
+
+// F1: the child of a holder that was killed dies with it, a moment later.
+TEST_F(RunLockTest, F1IsFreeAtOnceThoughAChildIsStillDying) {
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t process = ::fork();
+  if (process == 0) {
+    const std::shared_ptr<RunLock> lock = RunLock::take(folder);
+    if (::fork() == 0) {
+      ::usleep(150'000);
+      ::_exit(0);
+    }
+    if (::write(ready[1], "y", 1) == 1)
+      for (;;) ::pause();
+    ::_exit(1);
+  }
+  ::close(ready[1]);
+  char byte = 0;
+  EXPECT_EQ(::read(ready[0], &byte, 1), 1);
+  ::close(ready[0]);
+  kill(process);
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
+}
+
+// Text that is no name stands for nobody.
+TEST_F(RunLockTest, ATornNameHoldsNothing) {
+  for (const char* text : {"", "{\"process\":1", "[]\n", "{}\n", "\n"}) {
+    std::ofstream(folder / ".lock") << text;
+    EXPECT_EQ(error_of([&] { RunLock::take(folder, no_locks); }), "") << text;
+    std::ofstream(folder / ".lock") << text;
+    EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "") << text;
+  }
+}
+
+TEST_F(RunLockTest, S3IsNoLink) {
+  std::ofstream(folder / "victim") << "mine";
+  fs::create_symlink(folder / "victim", folder / ".lock");
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }),
+            "bad_file: `" + (folder / ".lock").string() +
+                "` is a link; a run writes its own files where they are; take the link away");
+  EXPECT_EQ(content_of(folder / "victim"), "mine");
+}
+
+TEST_F(RunLockTest, IsNotMadeWhereOnlyAskedFor) {
+  EXPECT_EQ(RunLock::take_if_known(folder), nullptr);
+  EXPECT_EQ(files_in(folder), 0U);
+}
+
+}  // namespace
+}  // namespace asperity::run_lock_test
