@@ -12,7 +12,7 @@
 #include "bindings/lua/shear.hpp"
 #include "bindings/lua/surface.hpp"
 #include "engine/core/files/aside_file.hpp"
-#include "engine/experiment/bench_log.hpp"
+#include "engine/recording/bench_log.hpp"
 
 namespace asperity::lua {
 

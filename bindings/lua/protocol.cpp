@@ -10,9 +10,9 @@
 #include "bindings/lua/session.hpp"
 #include "engine/core/files/aside_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/event_detection.hpp"
-#include "engine/experiment/press_log.hpp"
-#include "engine/experiment/protocol_chart.hpp"
+#include "engine/recording/event_detection.hpp"
+#include "engine/recording/press_log.hpp"
+#include "engine/recording/protocol_chart.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/specimen/protocol_run.hpp"
 

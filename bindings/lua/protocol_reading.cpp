@@ -7,9 +7,9 @@
 #include "bindings/lua/protocol.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/event_detection.hpp"
-#include "engine/experiment/press_log.hpp"
-#include "engine/experiment/press_recording.hpp"
+#include "engine/recording/event_detection.hpp"
+#include "engine/recording/press_log.hpp"
+#include "engine/recording/press_recording.hpp"
 #include "engine/surface/io/source_file.hpp"
 
 namespace asperity::lua {

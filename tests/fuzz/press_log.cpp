@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Press logs as spreadsheets write them. A log that is read and can be written reads back as the same
 // protocol.
-#include "engine/experiment/press_log.hpp"
+#include "engine/recording/press_log.hpp"
 
 #include "engine/surface/io/source_file.hpp"
 #include "tests/fuzz/target.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings of a press as loggers write them. What is detected in one is a protocol that can be written as a
 // press log, which reads back as it was.
-#include "engine/experiment/press_recording.hpp"
+#include "engine/recording/press_recording.hpp"
 
-#include "engine/experiment/event_detection.hpp"
-#include "engine/experiment/press_log.hpp"
+#include "engine/recording/event_detection.hpp"
+#include "engine/recording/press_log.hpp"
 #include "engine/surface/io/source_file.hpp"
 #include "tests/fuzz/target.hpp"
 

@@ -23,7 +23,7 @@ cat touches
 # Not a test of the physics: a percentage, and a certificate that held.
 grep -qE '^[0-9]+\.[0-9]{2} % of the tile touches, to [0-9]e-(0[6-9]|1[0-9])$' touches || fail "press did not say how much touches"
 # Another floor alone, and a version that is not there.
-sed -i 's/asperity::engine/asperity::experiment/' own/CMakeLists.txt
+sed -i 's/asperity::engine/asperity::specimen/' own/CMakeLists.txt
 ends 0 "Built target press" cmake --build build
 sed -i 's/asperity 0.2/asperity 7.0/' own/CMakeLists.txt
 ends 1 "compatible with requested version" cmake -S own -B other -DCMAKE_PREFIX_PATH="$folder/installed"

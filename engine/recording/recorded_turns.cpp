@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The body's heading while each load is on, and what it changes by from one to the next.
-#include "engine/experiment/recorded_turns.hpp"
+#include "engine/recording/recorded_turns.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/experiment/straight_pieces.hpp"
+#include "engine/recording/straight_pieces.hpp"
 
 namespace asperity {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/log_table.hpp"
+#include "engine/recording/log_table.hpp"
 
 #include <algorithm>
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/log_forms.hpp"
+#include "engine/recording/log_forms.hpp"
 #include "engine/surface/io/foreign_format.hpp"
 
 namespace asperity {

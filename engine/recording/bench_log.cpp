@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/bench_log.hpp"
+#include "engine/recording/bench_log.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "engine/core/error.hpp"
-#include "engine/experiment/press_log.hpp"
+#include "engine/recording/press_log.hpp"
 
 namespace asperity {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings of a press: units of the titles, missing cells, and everything wrong with a file by line and
 // column; and which tables look like one.
-#include "engine/experiment/press_recording.hpp"
+#include "engine/recording/press_recording.hpp"
 
 #include <cmath>
 #include <numbers>

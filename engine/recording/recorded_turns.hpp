@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/experiment/recording_marks.hpp"
+#include "engine/recording/recording_marks.hpp"
 
 namespace asperity {
 

@@ -2,7 +2,7 @@
 // What detect_events found, in words.
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/event_detection.hpp"
+#include "engine/recording/event_detection.hpp"
 
 namespace asperity {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/noise_correlation.hpp"
+#include "engine/recording/noise_correlation.hpp"
 
 #include <algorithm>
 #include <array>

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/core/monitor.hpp"
-#include "engine/experiment/press_recording.hpp"
+#include "engine/recording/press_recording.hpp"
 
 namespace asperity {
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/experiment/press_recording.hpp"
+#include "engine/recording/press_recording.hpp"
 
 namespace asperity {
 

@@ -8,7 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/press_log.hpp"
+#include "engine/recording/press_log.hpp"
 
 namespace asperity {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/experiment/hidden_ramp.hpp"
-#include "engine/experiment/recording_marks.hpp"
+#include "engine/recording/hidden_ramp.hpp"
+#include "engine/recording/recording_marks.hpp"
 
 namespace asperity {
 

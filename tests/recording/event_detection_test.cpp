@@ -2,14 +2,14 @@
 // Events found in recordings whose truth is known: counts, loads within four standard errors, dwells within
 // two steps of time, over noise, drift, slow ramps, short holds and overshoot; and what is said where the
 // noise is too much.
-#include "engine/experiment/event_detection.hpp"
+#include "engine/recording/event_detection.hpp"
 
 #include <filesystem>
 #include <numbers>
 
-#include "engine/experiment/press_recording.hpp"
+#include "engine/recording/press_recording.hpp"
 #include "engine/surface/io/source_file.hpp"
-#include "tests/experiment/synthetic_recording.hpp"
+#include "tests/recording/synthetic_recording.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::event_detection_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/protocol_chart.hpp"
+#include "engine/recording/protocol_chart.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/event_detection.hpp"
+#include "engine/recording/event_detection.hpp"
 
 namespace asperity {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Spans, events and sentences out of what recording_marks.hpp marked.
-#include "engine/experiment/event_detection.hpp"
+#include "engine/recording/event_detection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/recorded_turns.hpp"
-#include "engine/experiment/recording_holes.hpp"
-#include "engine/experiment/recording_marks.hpp"
+#include "engine/recording/recorded_turns.hpp"
+#include "engine/recording/recording_holes.hpp"
+#include "engine/recording/recording_marks.hpp"
 
 namespace asperity {
 

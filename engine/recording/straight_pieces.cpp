@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/straight_pieces.hpp"
+#include "engine/recording/straight_pieces.hpp"
 
 #include <algorithm>
 #include <cstdint>

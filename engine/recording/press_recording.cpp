@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/press_recording.hpp"
+#include "engine/recording/press_recording.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/log_table.hpp"
+#include "engine/recording/log_table.hpp"
 
 namespace asperity {
 

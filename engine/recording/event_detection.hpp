@@ -24,7 +24,7 @@
 
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/experiment/press_recording.hpp"
+#include "engine/recording/press_recording.hpp"
 #include "engine/specimen/protocol.hpp"
 
 namespace asperity {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The log of a bench: what was done by protocol or by hand reads back as it was done, with what was measured
 // beside it; and a recording that was detected, run and logged comes back as the same events.
-#include "engine/experiment/bench_log.hpp"
+#include "engine/recording/bench_log.hpp"
 
 #include <numbers>
 
-#include "engine/experiment/event_detection.hpp"
-#include "engine/experiment/press_log.hpp"
+#include "engine/recording/event_detection.hpp"
+#include "engine/recording/press_log.hpp"
 #include "engine/specimen/protocol_run.hpp"
 #include "engine/surface/io/source_file.hpp"
 #include "tests/contact/contacts.hpp"
-#include "tests/experiment/synthetic_recording.hpp"
+#include "tests/recording/synthetic_recording.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::bench_log_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Press logs: rows as people write them become events, everything wrong with a file is named by line and
 // column, and a protocol written out reads back as itself.
-#include "engine/experiment/press_log.hpp"
+#include "engine/recording/press_log.hpp"
 
 #include <cmath>
 #include <vector>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a protocol's chart shows: a recording with what was found in it, recorded times, dwells that add up,
 // or events one by one.
-#include "engine/experiment/protocol_chart.hpp"
+#include "engine/recording/protocol_chart.hpp"
 
 #include <numbers>
 
-#include "engine/experiment/event_detection.hpp"
-#include "tests/experiment/synthetic_recording.hpp"
+#include "engine/recording/event_detection.hpp"
+#include "tests/recording/synthetic_recording.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::protocol_chart_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/hidden_ramp.hpp"
+#include "engine/recording/hidden_ramp.hpp"
 
 #include <algorithm>
 #include <cmath>

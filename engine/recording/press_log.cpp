@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading of press logs. Numbers are read together with the unit of their column, so that "152.78" under
 // "[MPa]" is the same double as "152.78 MPa" in a script.
-#include "engine/experiment/press_log.hpp"
+#include "engine/recording/press_log.hpp"
 
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/log_table.hpp"
+#include "engine/recording/log_table.hpp"
 
 namespace asperity {
 

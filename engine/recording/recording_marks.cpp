@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Marks rests, holds and peaks on a recording; recording_times.cpp says when they begin and end.
-#include "engine/experiment/recording_marks.hpp"
+#include "engine/recording/recording_marks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/experiment/noise_correlation.hpp"
+#include "engine/recording/noise_correlation.hpp"
 
 namespace asperity {
 

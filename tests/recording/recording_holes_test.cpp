@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings in which rows are absent: what was recorded beside a gap is found, what may have happened in one
 // is refused or warned of as for empty cells, and a logger that writes at uneven times loses no rows by that.
-#include "engine/experiment/recording_holes.hpp"
+#include "engine/recording/recording_holes.hpp"
 
 #include <cmath>
 #include <functional>
 #include <numeric>
 
-#include "engine/experiment/event_detection.hpp"
-#include "tests/experiment/synthetic_recording.hpp"
+#include "engine/recording/event_detection.hpp"
+#include "tests/recording/synthetic_recording.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::recording_holes_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/experiment/log_forms.hpp"
+#include "engine/recording/log_forms.hpp"
 
 #include <algorithm>
 #include <array>

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/experiment/event_detection.hpp"
-#include "engine/experiment/straight_pieces.hpp"
+#include "engine/recording/event_detection.hpp"
+#include "engine/recording/straight_pieces.hpp"
 
 namespace asperity {
 
