@@ -24,9 +24,12 @@ CORE = ("engine/core",)
 SURFACE = CORE + ("engine/surface",)
 METROLOGY = SURFACE + ("engine/metrology",)
 CONTACT = SURFACE + ("engine/contact",)
-FRICTION = CONTACT + ("engine/metrology", "engine/friction")
-EXPERIMENT = FRICTION + ("engine/experiment",)
-STUDY = EXPERIMENT + ("engine/study",)
+PLOT = SURFACE + ("engine/plot",)
+FRICTION = CONTACT + ("engine/friction",)
+SPECIMEN = FRICTION + ("engine/accuracy", "engine/specimen")
+RUN = CONTACT + ("engine/plot", "engine/run")
+RECORDING = SPECIMEN + ("engine/plot", "engine/recording")
+STUDY = RECORDING + ("engine/metrology", "engine/run", "engine/study")
 LUA = STUDY + ("bindings/lua", "scripts")
 PROGRAM = LUA + ("bindings/cli",)
 WEB = PROGRAM + ("bindings/web",)
@@ -37,13 +40,17 @@ GROUPS = {
     "surface": ("surface: ?", SURFACE, ("tests/surface",)),
     "metrology": ("metrology: ?", METROLOGY, ("tests/metrology",)),
     "contact": ("contact: ?", CONTACT, ("tests/contact",)),
-    "friction": ("friction: ?", FRICTION, ("tests/friction",)),
-    "experiment": ("experiment: ?", EXPERIMENT, ("tests/experiment",)),
+    "friction": ("friction: ?", FRICTION + ("engine/metrology",), ("tests/friction",)),
+    "plot": ("plot: ?", PLOT, ("tests/plot",)),
+    "accuracy": ("accuracy: ?", SPECIMEN, ("tests/accuracy",)),
+    "specimen": ("specimen: ?", SPECIMEN, ("tests/specimen",)),
+    "run": ("run: ?", RUN, ("tests/run",)),
+    "recording": ("recording: ?", RECORDING, ("tests/recording",)),
     "study": ("study: ?", STUDY, ("tests/study",)),
     "bindings": ("bindings(_c)?: ?", LUA, ("tests/bindings",)),
     "web": ("web: ?", WEB, ("tests/web",)),
-    "laboratory": ("laboratory: ", EXPERIMENT, ("tests/laboratory",)),
-    "accuracy": ("accuracy: ", EXPERIMENT, ("tests/accuracy",)),
+    "laboratory": ("laboratory: ", SPECIMEN, ("tests/laboratory",)),
+    "distributions": ("distributions: ", SPECIMEN, ("tests/accuracy/distributions",)),
     "stability": ("stability: ?", PROGRAM, ("tests/stability",)),
     "fuzz": ("fuzz: ", LUA, ("tests/fuzz",)),
     "scripts": ("(scripts|module): ", PROGRAM, ("tests/scripts",)),
@@ -67,20 +74,24 @@ SANITIZED = {
     "metrology": ("engine/metrology",),
     "contact": ("engine/contact",),
     "friction": ("engine/friction",),
-    "experiment": ("engine/experiment",),
+    "plot": ("engine/plot",),
+    "accuracy": ("engine/accuracy",),
+    "specimen": ("engine/specimen",),
+    "run": ("engine/run",),
+    "recording": ("engine/recording",),
     "study": ("engine/study",),
     "bindings": ("bindings/lua",),
     "web": ("bindings/web",),
-    "dignity": ("engine/contact", "engine/experiment"),
+    "dignity": ("engine/contact", "engine/accuracy", "engine/specimen"),
 }
 SANITIZED_NAMES = {"bindings": "bindings(_c)?: shard", "dignity": "stability: shard"}
 SANITIZED_TARGETS = {"bindings": ("test_bindings", "test_bindings_c")}
 # What the thread sanitizer watches of them: the targets of the preset `thread`.
-THREADED = ("core", "surface", "metrology", "contact", "experiment", "bindings", "dignity")
+THREADED = ("core", "surface", "metrology", "contact", "run", "bindings", "dignity")
 # Readers, by the room that reads.
 FUZZED = {"core": ("engine/core/files/json",),
           "surface": ("engine/surface/io", "engine/core/text", "engine/core/quantity"),
-          "experiment": ("engine/experiment",),
+          "recording": ("engine/recording",),
           "bindings": ("bindings/lua",)}
 # What several reproductions and claims have in common; any other file of theirs is one test.
 SHARED_BY_REPRODUCTIONS = ("tests/reproductions/beginning.sh", "tests/reproductions/reproduction.py",
@@ -215,7 +226,7 @@ class Selection:
             if group == "fuzz":
                 self.fuzz |= set(FUZZED)
         if path.startswith("tests/data/") or path.startswith("tests/reference/"):
-            self.release |= {"surface", "metrology", "friction", "contact", "experiment", "bindings", "scripts", "examples"}
+            self.release |= {"surface", "metrology", "friction", "contact", "specimen", "recording", "bindings", "scripts", "examples"}
         if path.startswith(USED_BY_REPRODUCTIONS):
             self.release.add("reproductions")
         if path.startswith("tests/package/"):

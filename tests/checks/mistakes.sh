@@ -40,7 +40,7 @@ mistake() {
 mistake format engine/metrology/roughness.cpp 's/^namespace asperity {$/namespace asperity   {/' \
   "layout and include direction" "roughness.cpp"
 mistake upward engine/core/digest.cpp 's|^#include "engine/core/digest.hpp"$|&\n\n#include "engine/contact/plan.hpp"|' \
-  "layout and include direction" "engine/core does not stand on engine/contact"
+  "layout and include direction" "engine/core does not see engine/contact"
 mistake stale docs/reference.md '0,/^### `lab\.surface\.sine`/s/^### `lab\.surface\.sine`/&!/' \
   "its tests" "checks:generated.*Failed"
 mistake race engine/run/ledger.cpp '/^void Ledger::add(std::string_view/,/^}/{/scoped_lock/d}' \
