@@ -9,7 +9,7 @@
 #include <string>
 
 #include "bindings/cli/shard.hpp"
-#include "bindings/lua/ranks.hpp"
+#include "engine/run/ranks.hpp"
 
 struct AsperityMpi;
 
@@ -24,7 +24,7 @@ std::optional<LaunchedRank> launched_rank(const Environment& environment = envir
 // Threads of each rank where none are asked for: the processors it may use, shared by the ranks of a machine.
 int threads_of(const LaunchedRank& launched);
 
-class MpiRanks final : public lua::Ranks {
+class MpiRanks final : public Ranks {
  public:
   // Joins the others; the signals of a stop are blocked first, so that no thread of MPI takes them. Throws
   // Error{bad_file} where the program was built without it.

@@ -201,7 +201,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   UntilLine until(results, run->journal(), command.afresh_from.value_or(0));
   ResultStore* store = command.afresh_from ? static_cast<ResultStore*>(&until) : &results;
   if (command.store_limit == 0) store = nullptr;
-  std::optional<lua::RankStore> of_ranks;
+  std::optional<RankStore> of_ranks;
   if (command.ranks != nullptr) {
     // What another rank than 0 keeps would be gone with its folder.
     command.ranks->own_store = command.ranks->leads() || command.store ? store : nullptr;

@@ -44,7 +44,7 @@ struct RunCommand {
   std::shared_ptr<RunLock> lock;            // of the directory, where it was taken already
   std::vector<std::string> reuse;           // runs, or folders of results, to take results from
   std::optional<std::string> store;         // folder of results that several runs share, instead of its own
-  std::optional<lua::Shard> shard;          // of the cases of ensembles; needs `store`
+  std::optional<Shard> shard;               // of the cases of ensembles; needs `store`
   std::optional<std::int64_t> store_limit;  // bytes of results to keep; 0: none
   // Of a replay: from this line of the journal on nothing is taken from `reuse`.
   std::optional<std::int64_t> afresh_from;

@@ -18,7 +18,7 @@ std::optional<long> whole_number(std::string_view text) {
   return value;
 }
 
-lua::Shard from_slurm(const Environment& environment) {
+Shard from_slurm(const Environment& environment) {
   const auto read = [&](const char* name) -> long {
     const std::optional<std::string> text = environment(name);
     if (!text)
@@ -52,7 +52,7 @@ std::optional<std::string> environment_variable(const char* name) {
   return std::string(value);
 }
 
-lua::Shard parse_shard(const std::string& text, const Environment& environment) {
+Shard parse_shard(const std::string& text, const Environment& environment) {
   if (text == "slurm") return from_slurm(environment);
   const std::size_t slash = text.find('/');
   const auto index = whole_number(std::string_view(text).substr(0, slash));

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "bindings/lua/session.hpp"
+#include "engine/run/case_scheduler.hpp"
 
 namespace asperity::cli {
 
@@ -15,6 +15,6 @@ std::optional<std::string> environment_variable(const char* name);
 
 // "2/3" is the second of three; "slurm" what SLURM_ARRAY_TASK_ID, _MIN and _COUNT say, for job arrays whose
 // numbers follow each other. Throws Error{bad_value}.
-lua::Shard parse_shard(const std::string& text, const Environment& environment = environment_variable);
+Shard parse_shard(const std::string& text, const Environment& environment = environment_variable);
 
 }  // namespace asperity::cli

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "bindings/lua/crew.hpp"
 #include "bindings/lua/ensemble_case.hpp"
 #include "bindings/lua/explanation.hpp"
 #include "bindings/lua/guard.hpp"
 #include "bindings/lua/options.hpp"
 #include "bindings/lua/placeholder.hpp"
 #include "bindings/lua/record.hpp"
+#include "bindings/lua/scripted_cases.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/state.hpp"
 #include "bindings/lua/transfer.hpp"

@@ -249,10 +249,6 @@ std::string case_name(const std::vector<CaseValue>& values) {
   return name;
 }
 
-std::string without_traceback(const std::string& failure) {
-  return failure.substr(0, failure.find("\nstack traceback:"));
-}
-
 std::string wrong_return(const std::string& found) {
   return "`run` returned " + found + "; return a table of named results";
 }

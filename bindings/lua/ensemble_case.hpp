@@ -14,6 +14,7 @@
 #include "bindings/lua/case_input.hpp"
 #include "bindings/lua/lua_api.hpp"
 #include "bindings/lua/parcel.hpp"
+#include "engine/run/case_scheduler.hpp"
 
 namespace asperity {
 class Ledger;
@@ -47,15 +48,11 @@ struct CaseSetup {
   bool watched = false;            // look at the stop flag every few thousand instructions
 };
 
-struct CaseResult {
+struct CaseResult : FinishedCase {
   std::shared_ptr<const Parcel> row;  // null if it failed
   std::string digest;                 // of the row
-  std::string failure;                // message and traceback
-  std::string output;                 // what it printed
-  std::vector<std::string> warnings;
   std::vector<CaseInput> inputs;
   bool drew = false;  // random numbers, which its seed decides
-  double transforms = 0;
   double seconds = 0;
 };
 
@@ -88,9 +85,6 @@ std::string case_name(const std::vector<CaseValue>& values);
 
 // Never throws: what goes wrong is the failure of the result.
 CaseResult run_case(const CaseSetup& setup, RunningStates& states);
-
-// A failure without the traceback at its end.
-std::string without_traceback(const std::string& failure);
 
 // What `run` may return besides a table, as a sentence for errors.
 std::string wrong_return(const std::string& found);

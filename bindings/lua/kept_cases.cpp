@@ -5,12 +5,12 @@
 #include <cctype>
 #include <filesystem>
 
-#include "bindings/lua/ranks.hpp"
 #include "bindings/lua/session.hpp"
 #include "engine/core/byte_string.hpp"
 #include "engine/core/c_library_identity.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/run/ranks.hpp"
 #include "engine/run/run_facts.hpp"
 
 namespace asperity::lua {

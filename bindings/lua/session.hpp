@@ -18,6 +18,7 @@
 #include "bindings/lua/script_spelling.hpp"
 #include "bindings/lua/value.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/run/case_scheduler.hpp"
 #include "engine/run/ledger.hpp"
 
 namespace asperity {
@@ -28,19 +29,9 @@ namespace asperity::lua {
 
 class Explanation;
 class Mistakes;
-class Ranks;
 struct CaseNotes;
 struct Refinement;
 class Variation;
-
-// Process `index` of `count`, counted from 1, which run the same script and share a store: cases k = index -
-// 1 modulo `count` are its own.
-struct Shard {
-  int index = 1, count = 1;
-  bool own(std::size_t k) const {
-    return k % static_cast<std::size_t>(count) == static_cast<std::size_t>(index - 1);
-  }
-};
 
 class Session {
  public:

@@ -3,11 +3,11 @@
 // the fields may be more than one machine has room for.
 #include <utility>
 
-#include "bindings/lua/ranks.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/spread.hpp"
 #include "engine/core/byte_string.hpp"
 #include "engine/core/digest.hpp"
+#include "engine/run/ranks.hpp"
 
 namespace asperity::lua {
 

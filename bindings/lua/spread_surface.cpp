@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // lab.spread: one contact that does not fit one process, over the ranks of mpirun. Here its surfaces.
 #include "bindings/lua/files.hpp"
-#include "bindings/lua/ranks.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/spread.hpp"
 #include "bindings/lua/surface_keys.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/run/ranks.hpp"
 
 namespace asperity::lua {
 

@@ -136,7 +136,7 @@ CarriedCommand command_of(const Json& json) {
   run.store_limit = optional_whole_in(json, "store_limit");
   run.limit_disk = optional_whole_in(json, "limit_disk");
   if (const int count = small_in(json, "shards"); count > 0)
-    run.shard = lua::Shard{small_in(json, "shard"), count};
+    run.shard = Shard{small_in(json, "shard"), count};
   run.barriers = command_member(json, "barriers");
   run.terminal = command_member(json, "terminal").boolean();
   if (const Json* const replay = json.find("replay")) {

@@ -132,4 +132,8 @@ std::string did_you_mean(std::string_view name, std::span<const std::string> can
   return near.empty() ? std::string() : " (did you mean " + quoted(near) + "?)";
 }
 
+std::string without_traceback(const std::string& message) {
+  return message.substr(0, message.find("\nstack traceback:"));
+}
+
 }  // namespace asperity

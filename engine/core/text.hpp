@@ -30,6 +30,9 @@ std::string joined(std::span<const std::string> items, std::string_view last = "
 // not UTF-8, become question marks. Linear in its length.
 std::string plain_text(std::string text);
 
+// The message of a script that failed, without the traceback below it.
+std::string without_traceback(const std::string& message);
+
 // The candidate nearest to `name` by edit distance (a transposition counts one, case does not
 // count), if it is near enough to be a likely slip; otherwise empty.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);

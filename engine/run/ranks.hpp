@@ -15,7 +15,7 @@
 #include "engine/core/files/result_store.hpp"
 #include "engine/core/slabs/team.hpp"
 
-namespace asperity::lua {
+namespace asperity {
 
 class Ranks {
  public:
@@ -82,4 +82,4 @@ class RankStore final : public ResultStore {
   Ranks& ranks_;
 };
 
-}  // namespace asperity::lua
+}  // namespace asperity

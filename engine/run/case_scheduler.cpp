@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/crew.hpp"
+#include "engine/run/case_scheduler.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
-#include <cstdio>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -14,45 +13,45 @@
 #include <thread>
 #include <utility>
 
-#include "bindings/lua/ranks.hpp"
 #include "engine/core/byte_string.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/text.hpp"
+#include "engine/run/ranks.hpp"
 
-namespace asperity::lua {
+namespace asperity {
 
 namespace {
 
 constexpr auto look_every = std::chrono::milliseconds(20);
 constexpr auto exchange_every = std::chrono::milliseconds(1);
 
-class Crew {
+using Finished = EnsembleCases::Finished;
+
+class CaseScheduler {
  public:
-  Crew(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup, const KeptCases& kept,
-       const std::string& place, Session& session)
-      : setup_(setup),
-        kept_(kept),
-        place_(place),
-        session_(session),
-        shard_(session.is_case ? std::nullopt : session.shard),
-        ranks_(session.is_case ? nullptr : session.ranks),
-        results_(cases),
-        finished_(cases, false) {
-    for (std::size_t k = 0; k < cases; ++k)
+  CaseScheduler(EnsembleCases& cases, const CaseSchedule& schedule)
+      : cases_(cases),
+        schedule_(schedule),
+        shard_(schedule.shard),
+        ranks_(schedule.ranks),
+        results_(cases.count()),
+        finished_(cases.count(), false) {
+    for (std::size_t k = 0; k < cases.count(); ++k)
       if (!follows() && (!shard_ || shard_->own(k))) waiting_.push_back(k);
-    wanted_ = follows() ? cases : waiting_.size();
+    wanted_ = follows() ? cases.count() : waiting_.size();
     if (ranks_ == nullptr) return;
     open_ = true;
     given_.resize(static_cast<std::size_t>(ranks_->size()));
     idle_.resize(static_cast<std::size_t>(ranks_->size()));
     Digester digester;
-    for (std::size_t k = 0; k < cases; ++k) digester.add(case_name(setup_(k).values));
-    name_ = std::to_string(session.ensembles) + " " + digester.hex();
+    for (std::size_t k = 0; k < cases.count(); ++k) digester.add(cases_.name(k));
+    name_ = std::to_string(schedule.ensemble) + " " + digester.hex();
   }
 
-  std::vector<CaseResult> run() {
+  std::vector<Finished> run() {
     const int threads = thread_count();
     const std::size_t wanted = std::min(wanted_, static_cast<std::size_t>(threads));
     // A case that works alone may use all threads, unless it is itself inside a case.
@@ -70,7 +69,7 @@ class Crew {
     if (leads()) ranks_->send_to_others(Ranks::Kind::rows, all_rows());
     if (shard_) find_others();
     double transforms = 0;
-    for (const CaseResult& result : results_) transforms += result.transforms;
+    for (const Finished& result : results_) transforms += result->transforms;
     cost::count_transforms(transforms);
     return std::move(results_);
   }
@@ -78,16 +77,16 @@ class Crew {
  private:
   // No case is begun after this, whatever the way out; then the threads are joined.
   struct Ending {
-    explicit Ending(Crew& c) : crew(c) {}
+    explicit Ending(CaseScheduler& s) : scheduler(s) {}
     ~Ending() {
-      const std::lock_guard lock(crew.mutex_);
-      crew.waiting_.clear();
-      crew.open_ = false;
-      crew.more_.notify_all();
+      const std::lock_guard lock(scheduler.mutex_);
+      scheduler.waiting_.clear();
+      scheduler.open_ = false;
+      scheduler.more_.notify_all();
     }
     Ending(const Ending&) = delete;
     Ending& operator=(const Ending&) = delete;
-    Crew& crew;
+    CaseScheduler& scheduler;
   };
 
   void start(std::vector<std::jthread>& workers, std::size_t wanted, bool single) {
@@ -113,7 +112,7 @@ class Crew {
     while (stop_flag().reason() == StopReason::none) {
       const std::optional<std::size_t> k = next();
       if (!k) break;
-      CaseResult result = result_of(*k);
+      Finished result = result_of(*k);
       const std::lock_guard lock(mutex_);
       finish(*k, std::move(result));
     }
@@ -132,48 +131,43 @@ class Crew {
     return k;
   }
 
-  CaseResult result_of(std::size_t k) {
+  Finished result_of(std::size_t k) {
     try {
-      const CaseSetup setup = setup_(k);
-      if (std::optional<CaseResult> found = kept_.find(setup, false)) return *std::move(found);
-      CaseResult result = run_case(setup, states_);
-      if (stop_flag().reason() != StopReason::none && !result.failure.empty()) return result;
-      if (ranks_ != nullptr) require_bytes(setup, result);
+      if (Finished found = cases_.find_kept(k, false)) return found;
+      Finished result = cases_.compute(k);
+      if (stop_flag().reason() != StopReason::none && !result->failure.empty()) return result;
+      if (ranks_ != nullptr) require_bytes(k, *result);
       try {
-        kept_.keep(setup, result, shard_.has_value());
+        cases_.keep(k, *result, shard_.has_value());
       } catch (const Error& error) {
         // Nobody else would find what this shard is here to compute.
-        result.row.reset();
-        result.failure = error.what();
-        kept_.keep(setup, result, true);
+        cases_.fail(*result, error.what());
+        cases_.keep(k, *result, true);
       }
       return result;
     } catch (const std::exception& error) {
-      CaseResult result;
-      result.failure = error.what();
-      return result;
+      return cases_.failed(error.what());
     }
   }
 
   // A row that other processes cannot be given is a failure in every one of them.
-  static void require_bytes(const CaseSetup& setup, CaseResult& result) {
+  void require_bytes(std::size_t k, FinishedCase& result) {
     try {
-      (void)case_bytes(result, setup.values);
+      (void)cases_.bytes(k, result);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::not_permitted) throw;
-      result.row.reset();
-      result.failure = error.what();
+      cases_.fail(result, error.what());
     }
   }
 
   // With the mutex held.
-  void finish(std::size_t k, CaseResult result) {
+  void finish(std::size_t k, Finished result) {
     if (follows()) {
       outbox_.emplace_back(k, std::move(result));
       changed_.notify_all();
       return;
     }
-    if (!result.failure.empty()) ++failed_;
+    if (!result->failure.empty()) ++failed_;
     results_[k] = std::move(result);
     finished_[k] = true;
     ++done_;
@@ -198,10 +192,10 @@ class Crew {
   // Rank 0 looks up all cases before any is handed out.
   void find_kept() {
     for (std::size_t k = 0; k < results_.size(); ++k)
-      if (std::optional<CaseResult> found = kept_.find(setup_(k), false)) {
+      if (Finished found = cases_.find_kept(k, false)) {
         const std::lock_guard lock(mutex_);
         std::erase(waiting_, k);
-        finish(k, *std::move(found));
+        finish(k, std::move(found));
       }
   }
 
@@ -248,9 +242,8 @@ class Crew {
       } else if (message->kind == Ranks::Kind::result) {
         const auto k = static_cast<std::size_t>(in.number<std::uint64_t>());
         if (given.erase(k) == 0) continue;
-        const CaseSetup setup = setup_(k);
-        CaseResult result = case_from_bytes(in.text(), setup.values);
-        kept_.keep(setup, result, false);
+        Finished result = cases_.from_bytes(k, in.text());
+        cases_.keep(k, *result, false);
         {
           const std::lock_guard lock(mutex_);
           finish(k, std::move(result));
@@ -273,12 +266,12 @@ class Crew {
   std::string all_rows() const {
     ByteWriter out;
     out.text(name_);
-    for (std::size_t k = 0; k < results_.size(); ++k) out.text(case_bytes(results_[k], setup_(k).values));
+    for (std::size_t k = 0; k < results_.size(); ++k) out.text(cases_.bytes(k, *results_[k]));
     return out.take();
   }
 
   void follow() {
-    std::vector<std::pair<std::size_t, CaseResult>> finished;
+    std::vector<std::pair<std::size_t, Finished>> finished;
     {
       const std::lock_guard lock(mutex_);
       finished.swap(outbox_);
@@ -287,7 +280,7 @@ class Crew {
       ByteWriter out;
       out.text(name_);
       out.number(static_cast<std::uint64_t>(k));
-      out.text(case_bytes(result, setup_(k).values));
+      out.text(cases_.bytes(k, *result));
       ranks_->send(0, Ranks::Kind::result, out.take());
     }
     while (std::optional<Ranks::Message> message = ranks_->receive()) {
@@ -308,7 +301,7 @@ class Crew {
           waiting_.push_back(static_cast<std::size_t>(in.number<std::uint64_t>()));
       } else if (message->kind == Ranks::Kind::rows) {
         for (std::size_t k = 0; k < results_.size(); ++k) {
-          results_[k] = case_from_bytes(in.text(), setup_(k).values);
+          results_[k] = cases_.from_bytes(k, in.text());
           finished_[k] = true;
         }
         waiting_.clear();
@@ -323,26 +316,25 @@ class Crew {
   void find_others() {
     std::size_t own = 0, kept = 0;
     for (std::size_t k = 0; k < results_.size(); ++k) {
-      const CaseSetup setup = setup_(k);
       if (shard_->own(k)) {
         ++own;
-        if (!kept_.find(setup, true))
-          throw Error(ErrorCode::bad_file, "what " + case_name(setup.values) + " found could not be kept",
+        if (!cases_.find_kept(k, true))
+          throw Error(ErrorCode::bad_file, "what " + cases_.name(k) + " found could not be kept",
                       "see that the folder given by --store can be written and has room");
         ++kept;
         continue;
       }
-      std::optional<CaseResult> found = kept_.find(setup, true);
+      Finished found = cases_.find_kept(k, true);
       if (!found) continue;
       ++kept;
       const std::lock_guard lock(mutex_);
-      finish(k, *std::move(found));
+      finish(k, std::move(found));
     }
     if (kept < results_.size())
-      session_.shard_end("shard " + std::to_string(shard_->index) + " of " + std::to_string(shard_->count) +
-                         ": its " + std::to_string(own) + (own == 1 ? " case" : " cases") +
-                         " of the ensemble " + place_ + (own == 1 ? " is" : " are") + " done; " +
-                         std::to_string(kept) + " of " + std::to_string(results_.size()) + " are");
+      schedule_.shard_end("shard " + std::to_string(shard_->index) + " of " + std::to_string(shard_->count) +
+                          ": its " + std::to_string(own) + (own == 1 ? " case" : " cases") +
+                          " of the ensemble " + schedule_.place + (own == 1 ? " is" : " are") + " done; " +
+                          std::to_string(kept) + " of " + std::to_string(results_.size()) + " are");
     show();
   }
 
@@ -358,13 +350,13 @@ class Crew {
     }
     if (leads()) lead();
     if (follows() && open) follow();  // once all rows are there, what comes is for later
-    if (stop_flag().reason() != StopReason::none) states_.interrupt();
+    if (stop_flag().reason() != StopReason::none) cases_.interrupt();
     const auto [done, failed] = show();
     if (!over) {
       const std::string part = std::to_string(done) + " of " + std::to_string(wanted_) + " cases done" +
                                (failed > 0 ? ", " + std::to_string(failed) + " failed" : "");
       const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begun_;
-      session_.monitor().progress_of_parts(
+      schedule_.monitor.progress_of_parts(
           "ensemble", static_cast<double>(done) / static_cast<double>(wanted_), part, since.count());
     }
     return over;
@@ -380,41 +372,37 @@ class Crew {
       done = done_;
       failed = failed_;
       for (; shown_ < finished_.size() && finished_[shown_]; ++shown_) {
-        CaseResult& result = results_[shown_];
+        FinishedCase& result = *results_[shown_];
         output += result.output;
         result.output.clear();
         warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
         // A stop makes the states that run fail: that is no failure of their cases.
         if (!result.failure.empty() && stop_flag().reason() == StopReason::none)
-          failures.push_back(case_name(setup_(shown_).values) +
-                             " failed: " + without_traceback(result.failure));
+          failures.push_back(cases_.name(shown_) + " failed: " + without_traceback(result.failure));
       }
     }
-    std::fwrite(output.data(), 1, output.size(), session_.output);
+    if (!output.empty()) schedule_.print(output);
     for (const std::string& warning : warnings)
-      if (warned_.insert(warning).second) session_.monitor().warn(warning);
-    for (const std::string& failure : failures) session_.monitor().warn(failure);
+      if (warned_.insert(warning).second) schedule_.monitor.warn(warning);
+    for (const std::string& failure : failures) schedule_.monitor.warn(failure);
     return {done, failed};
   }
 
-  const std::function<CaseSetup(std::size_t)>& setup_;
-  const KeptCases& kept_;
-  const std::string& place_;
-  Session& session_;
+  EnsembleCases& cases_;
+  const CaseSchedule& schedule_;
   const std::optional<Shard> shard_;
   Ranks* const ranks_;
   std::string name_;                          // of this ensemble among those of the run, for other ranks
   std::vector<std::set<std::size_t>> given_;  // of rank 0: to each of the others
   std::vector<std::size_t> idle_;             // of rank 0: threads of each that wait for cases
-  RunningStates states_;
-  std::size_t wanted_ = 0;  // of this process
+  std::size_t wanted_ = 0;                    // of this process
 
   std::mutex mutex_;  // of what follows
   std::condition_variable changed_, more_;
-  bool open_ = false;                                       // cases may come yet
-  std::vector<std::pair<std::size_t, CaseResult>> outbox_;  // of the other ranks
-  std::deque<std::size_t> waiting_;                         // cases that nobody has begun
-  std::vector<CaseResult> results_;
+  bool open_ = false;                                     // cases may come yet
+  std::vector<std::pair<std::size_t, Finished>> outbox_;  // of the other ranks
+  std::deque<std::size_t> waiting_;                       // cases that nobody has begun
+  std::vector<Finished> results_;
   std::vector<bool> finished_;
   std::size_t done_ = 0, failed_ = 0;
   std::size_t working_ = 0;
@@ -426,10 +414,9 @@ class Crew {
 
 }  // namespace
 
-std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
-                                  const KeptCases& kept, const std::string& place, Session& session) {
-  if (cases == 0) return {};
-  return Crew(cases, setup, kept, place, session).run();
+std::vector<Finished> run_cases(EnsembleCases& cases, const CaseSchedule& schedule) {
+  if (cases.count() == 0) return {};
+  return CaseScheduler(cases, schedule).run();
 }
 
-}  // namespace asperity::lua
+}  // namespace asperity

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/ranks.hpp"
+#include "engine/run/ranks.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
 
-#include "bindings/lua/ensemble_case.hpp"
 #include "engine/core/byte_string.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/core/text.hpp"
 
-namespace asperity::lua {
+namespace asperity {
 
 namespace {
 
@@ -199,4 +199,4 @@ void RankStore::keep(const std::string& key, std::string_view call, const Result
   ranks_.send_to_others(Ranks::Kind::kept, result_bytes(key, facts, fields));
 }
 
-}  // namespace asperity::lua
+}  // namespace asperity
