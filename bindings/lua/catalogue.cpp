@@ -2,7 +2,7 @@
 // The list of everything a script can see, one line a module and a class.
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/discretisation_error.hpp"
-#include "bindings/lua/friction.hpp"
+#include "bindings/lua/law.hpp"
 #include "bindings/lua/ledger.hpp"
 #include "bindings/lua/material.hpp"
 #include "bindings/lua/notebook.hpp"
@@ -15,6 +15,7 @@
 #include "bindings/lua/study.hpp"
 #include "bindings/lua/stylus.hpp"
 #include "bindings/lua/surface.hpp"
+#include "bindings/lua/tilt_stage.hpp"
 
 namespace asperity::lua {
 

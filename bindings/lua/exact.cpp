@@ -3,7 +3,7 @@
 // Weierstrass–Mandelbrot height a few thousand cosines.
 #include <limits>
 
-#include "bindings/lua/friction.hpp"
+#include "bindings/lua/law.hpp"
 #include "bindings/lua/weierstrass_mandelbrot_keys.hpp"
 #include "engine/study/exact/box_paraboloid.hpp"
 #include "engine/study/exact/hertz.hpp"

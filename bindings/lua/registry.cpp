@@ -7,7 +7,6 @@
 
 #include "bindings/lua/contact.hpp"
 #include "bindings/lua/explanation.hpp"
-#include "bindings/lua/friction.hpp"
 #include "bindings/lua/guard.hpp"
 #include "bindings/lua/known_body.hpp"
 #include "bindings/lua/mistakes.hpp"
@@ -16,6 +15,7 @@
 #include "bindings/lua/result_digest.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/surface.hpp"
+#include "bindings/lua/tilt_stage.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"

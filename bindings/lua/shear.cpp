@@ -2,7 +2,7 @@
 #include "bindings/lua/shear.hpp"
 
 #include "bindings/lua/contact.hpp"
-#include "bindings/lua/friction.hpp"
+#include "bindings/lua/law.hpp"
 #include "bindings/lua/record.hpp"
 #include "bindings/lua/session.hpp"
 #include "bindings/lua/state_error.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lab.friction and lab.tilt_stage.
+// lab.tilt_stage: the angle at which a specimen slips.
 #pragma once
+
+#include <memory>
 
 #include "bindings/lua/registry.hpp"
 #include "engine/friction/junction_law.hpp"
@@ -8,7 +10,6 @@
 
 namespace asperity::lua {
 
-// A stage set up: which contact, which law, which weight.
 struct TiltStage {
   std::shared_ptr<SpecimenPair> contact;
   std::shared_ptr<const JunctionLaw> law;
@@ -16,11 +17,8 @@ struct TiltStage {
 };
 
 template <>
-const Class& class_of<JunctionLaw>();
-template <>
 const Class& class_of<TiltStage>();
 
-Function friction_function();
 Function tilt_stage_function();
 
 }  // namespace asperity::lua
