@@ -114,6 +114,9 @@ int explain(const RunCommand& command, bool json) {
   TerminalMonitor monitor;
   lua::Session session(monitor);
   session.explanation = std::make_shared<lua::Explanation>();
+  session.on_call_left_out = [&](const lua::Call& call, const lua::Function& function) {
+    note_call(*session.explanation, call, function);
+  };
   return dry_run(command, "explanation", session, [&](const std::string& reached) {
     monitor.clear();
     if (json) {

@@ -16,6 +16,9 @@
 
 namespace asperity::lua {
 
+class Call;
+struct Function;
+
 class Explanation {
  public:
   // A call that solves this plan; in `what`'s words, "contact:press".
@@ -50,5 +53,8 @@ class Explanation {
   std::map<std::string, std::int64_t> unplanned_;
   std::int64_t times_ = 1;
 };
+
+// Notes a heavy call that a dry run leaves out, with the presses it would make.
+void note_call(Explanation& explanation, const Call& call, const Function& function);
 
 }  // namespace asperity::lua

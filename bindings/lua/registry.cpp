@@ -5,21 +5,14 @@
 #include <cctype>
 #include <unordered_map>
 
-#include "bindings/lua/contact.hpp"
-#include "bindings/lua/explanation.hpp"
 #include "bindings/lua/guard.hpp"
-#include "bindings/lua/known_body.hpp"
 #include "bindings/lua/mistakes.hpp"
 #include "bindings/lua/placeholder.hpp"
-#include "bindings/lua/protocol.hpp"
 #include "bindings/lua/result_digest.hpp"
 #include "bindings/lua/session.hpp"
-#include "bindings/lua/surface.hpp"
-#include "bindings/lua/tilt_stage.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
-#include "engine/specimen/protocol.hpp"
 
 namespace asperity::lua {
 
@@ -88,45 +81,6 @@ bool any_argument_unknown(const Call& call) {
   return false;
 }
 
-// The contact that a call would press, if it is known.
-const SpecimenPair* pressed_by(const Call& call, const Function& function) {
-  const auto contact_at = [&](int k) -> const SpecimenPair* {
-    const Object* object = Argument(call.L, k).as_any_object();
-    if (object == nullptr || object->pointer == nullptr) return nullptr;
-    if (object->type == &class_of<SpecimenPair>())
-      return static_cast<const SpecimenPair*>(object->pointer.get());
-    if (object->type == &class_of<TiltStage>())
-      return static_cast<const TiltStage*>(object->pointer.get())->contact.get();
-    return nullptr;
-  };
-  if (!function.heavy) return nullptr;
-  const SpecimenPair* own = contact_at(1);
-  return own != nullptr || call.count() < 1 ? own : contact_at(2);
-}
-
-// How often it would press: once, along the list of a sweep, at the events of a protocol, at probe pressures.
-std::int64_t presses_of(const Call& call) {
-  const Object* self = Argument(call.L, 1).as_any_object();
-  if (self != nullptr && self->type == &class_of<Protocol>() && self->pointer != nullptr) {
-    const auto& events = static_cast<const Protocol*>(self->pointer.get())->events();
-    return std::count_if(events.begin(), events.end(), [](const Protocol::Event& event) {
-      return std::holds_alternative<PressRequest>(event.step);
-    });
-  }
-  // A stage solves at each of its probe pressures; it may raise them, which is not known here.
-  if (self != nullptr && self->type == &class_of<TiltStage>() && self->pointer != nullptr) {
-    const auto* stage = static_cast<const TiltStage*>(self->pointer.get());
-    const bool probes = std::holds_alternative<HalfSpaceOptions>(stage->contact->scene().elasticity);
-    return probes ? static_cast<std::int64_t>(stage->options.probe_pressures.size()) : 1;
-  }
-  std::int64_t presses = 1;
-  if (call.given(1) && call.argument(1).is_table())
-    call.argument(1).each([&](const Argument&, const Argument& loads) {
-      if (loads.is_table()) presses = std::max(presses, loads.length());
-    });
-  return presses;
-}
-
 Values placeholders_of(const Function& function) {
   Values results;
   for (const std::string& type : result_types(function)) results.push_back(placeholder_of(type));
@@ -135,12 +89,7 @@ Values placeholders_of(const Function& function) {
 
 // A dry run reads the arguments and gives placeholders.
 Values dry_call(const Call& call, const Function& function) {
-  if (Explanation* explanation = call.session().explanation.get(); explanation != nullptr && function.heavy) {
-    if (const SpecimenPair* pair = pressed_by(call, function))
-      explanation->note(pair->plan(), call.function_name(), presses_of(call));
-    else if (function.returns.find("State") != std::string::npos)
-      explanation->note_unplanned(call.function_name());
-  }
+  if (const auto& told = call.session().on_call_left_out; told && function.heavy) told(call, function);
   if (function.options != nullptr) {
     const int k = static_cast<int>(function.parameters.size()) + 1;
     const Argument table = call.argument(k);
@@ -150,10 +99,16 @@ Values dry_call(const Call& call, const Function& function) {
   if (function.look != nullptr) function.look(call);
   call.session().gave_placeholders = true;
   Values results = placeholders_of(function);
-  if (function.returns == class_of<Surface>().name)
-    if (auto* surface = std::get_if<Object>(&results.front().data))
-      surface->known = known_result(call, function);
+  if (const Class* made = find_class(function.returns); made != nullptr && made->known != nullptr)
+    if (auto* object = std::get_if<Object>(&results.front().data))
+      object->known = made->known(call, function);
   return results;
+}
+
+// Whether a dry run that plans contacts needs what the function makes: a body.
+bool makes_a_body(const Function& function) {
+  const Class* made = find_class(function.returns);
+  return made != nullptr && made->known != nullptr;
 }
 
 Values call_function(lua_State* L, const Entry& entry) {
@@ -174,8 +129,7 @@ Values call_function(lua_State* L, const Entry& entry) {
   }
   check_count(call, function);
   // To explain a contact its bodies are needed; to check a script they are not.
-  const bool left_out = function.heavy && (call.session().explanation == nullptr ||
-                                           function.returns != class_of<Surface>().name);
+  const bool left_out = function.heavy && (call.session().explanation == nullptr || !makes_a_body(function));
   if (call.session().dry_run && (left_out || placeholder_self || any_argument_unknown(call)))
     return dry_call(call, function);
   LedgerScope scope = call.session().ledger_scope(call.function_name(), function.heavy);

@@ -78,7 +78,9 @@ struct Class {
   // What one among the results of a heavy call or of a turn has cost, effect by effect, to be added to the
   // ledger; null: nothing.
   void (*enter)(const void* self, Ledger& ledger) = nullptr;
-  void (*closing)(void* self) = nullptr;   // before it is closed by hand or by <close>
+  void (*closing)(void* self) = nullptr;  // before it is closed by hand or by <close>
+  // What a dry run knows of one that a call would give; null where it needs to know nothing of them.
+  std::shared_ptr<const KnownBody> (*known)(const Call& call, const Function& function) = nullptr;
   std::vector<std::string> names() const;  // fields and methods
 };
 

@@ -27,7 +27,9 @@ class RunDirectory;
 
 namespace asperity::lua {
 
+class Call;
 class Explanation;
+struct Function;
 class Mistakes;
 struct CaseNotes;
 struct Refinement;
@@ -63,6 +65,8 @@ class Session {
   std::shared_ptr<RunDirectory> run;  // null when nothing is recorded
   // Of a dry run that makes surfaces and plans contacts, to say what the script will compute; else null.
   std::shared_ptr<Explanation> explanation;
+  // Told each heavy call that a dry run leaves out; empty where nobody asks.
+  std::function<void(const Call& call, const Function& function)> on_call_left_out;
   // Of a dry run that goes on past mistakes and tells all of them; else null.
   std::shared_ptr<Mistakes> mistakes;
   // What this state's calls cost; the states of cases write into that of their ensemble.

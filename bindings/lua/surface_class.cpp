@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bindings/lua/files.hpp"
+#include "bindings/lua/known_body.hpp"
 #include "bindings/lua/measure.hpp"
 #include "bindings/lua/picture.hpp"
 #include "bindings/lua/session.hpp"
@@ -100,6 +101,7 @@ const Class& class_of<Surface>() {
     c.native_bytes = bytes_of_surface;
     c.equal = equal_surfaces;
     c.digest = digest_of_surface;
+    c.known = known_result;
     c.fields = {
         {"cells",
          "{nx, ny}",
