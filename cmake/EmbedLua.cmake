@@ -18,7 +18,7 @@ endfunction()
 entries(modules ${FOLDER}/*.lua)
 entries(lessons ${FOLDER}/lessons/*.lua)
 file(WRITE ${OUTPUT} "// Generated from scripts/*.lua and scripts/lessons/*.lua at build time.
-#include \"bindings/lua/embedded.hpp\"
+#include \"bindings/lua/registry/embedded.hpp\"
 
 namespace asperity::lua {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/lua/version.hpp"
+#include "bindings/lua/runtime/version.hpp"
 #include "engine/core/build_identity.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "bindings/lua/lessons.hpp"
+#include "bindings/lua/editor/lessons.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 

@@ -12,7 +12,7 @@
 
 #include "bindings/cli/edit/line_editor.hpp"
 #include "bindings/cli/line_history.hpp"
-#include "bindings/lua/completion.hpp"
+#include "bindings/lua/editor/completion.hpp"
 
 namespace asperity::cli {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "bindings/lua/session.hpp"
-#include "bindings/lua/state.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/state.hpp"
 #include "engine/core/files/json.hpp"
 
 namespace asperity {

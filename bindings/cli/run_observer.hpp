@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "bindings/lua/value.hpp"
+#include "bindings/lua/registry/value.hpp"
 #include "engine/core/files/json.hpp"
 #include "engine/core/monitor.hpp"
 

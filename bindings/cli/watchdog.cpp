@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "bindings/lua/state.hpp"
+#include "bindings/lua/runtime/state.hpp"
 
 namespace asperity::cli {
 

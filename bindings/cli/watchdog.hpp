@@ -14,7 +14,7 @@
 #include <optional>
 #include <thread>
 
-#include "bindings/lua/lua_api.hpp"
+#include "bindings/lua/registry/lua_api.hpp"
 #include "engine/core/monitor.hpp"
 
 namespace asperity::cli {

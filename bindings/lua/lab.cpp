@@ -3,19 +3,19 @@
 #include <numbers>
 #include <string>
 
-#include "bindings/lua/base_library.hpp"
-#include "bindings/lua/contact.hpp"
-#include "bindings/lua/ensemble.hpp"
-#include "bindings/lua/help.hpp"
-#include "bindings/lua/law.hpp"
-#include "bindings/lua/ledger.hpp"
-#include "bindings/lua/material.hpp"
-#include "bindings/lua/notebook.hpp"
-#include "bindings/lua/record.hpp"
-#include "bindings/lua/stylus.hpp"
-#include "bindings/lua/tilt_stage.hpp"
-#include "bindings/lua/version.hpp"
-#include "bindings/lua/work_precision.hpp"
+#include "bindings/lua/editor/help.hpp"
+#include "bindings/lua/ensemble/ensemble.hpp"
+#include "bindings/lua/friction/law.hpp"
+#include "bindings/lua/metrology/stylus.hpp"
+#include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/run/ledger.hpp"
+#include "bindings/lua/run/notebook.hpp"
+#include "bindings/lua/runtime/base_library.hpp"
+#include "bindings/lua/runtime/version.hpp"
+#include "bindings/lua/specimen/contact.hpp"
+#include "bindings/lua/specimen/tilt_stage.hpp"
+#include "bindings/lua/study/work_precision.hpp"
+#include "bindings/lua/surface/material.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::lua {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loadable module: `require "asperity"` from any Lua 5.4. It links no Lua; the interpreter that
 // loads it supplies one. Nothing is recorded here: files go where the script says.
-#include "bindings/lua/embedded.hpp"
-#include "bindings/lua/registry.hpp"
-#include "bindings/lua/session.hpp"
+#include "bindings/lua/registry/embedded.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/session.hpp"
 #include "engine/run/run_directory.hpp"
 
 extern "C" __attribute__((visibility("default"))) int luaopen_asperity(lua_State* L) {

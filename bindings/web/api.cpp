@@ -6,8 +6,8 @@
 #include <charconv>
 #include <utility>
 
-#include "bindings/lua/lessons.hpp"
-#include "bindings/lua/version.hpp"
+#include "bindings/lua/editor/lessons.hpp"
+#include "bindings/lua/runtime/version.hpp"
 #include "bindings/web/answers.hpp"
 #include "bindings/web/plain_files.hpp"
 #include "bindings/web/run_files.hpp"

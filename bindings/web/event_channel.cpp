@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "bindings/cli/terminal_monitor.hpp"
-#include "bindings/lua/contact.hpp"
-#include "bindings/lua/placeholder.hpp"
-#include "bindings/lua/surface.hpp"
+#include "bindings/lua/registry/placeholder.hpp"
+#include "bindings/lua/specimen/contact.hpp"
+#include "bindings/lua/surface/surface.hpp"
 #include "bindings/web/frames.hpp"
 #include "bindings/web/views.hpp"
 #include "engine/core/error.hpp"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bindings/lua/completion.hpp"
+#include "bindings/lua/editor/completion.hpp"
 #include "bindings/web/positions.hpp"
 
 namespace asperity::web {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lua values read by the engine, and functions of the script called by it: heights and phases that
 // fail, return the wrong thing, yield, or call back into the laboratory.
-#include "bindings/lua/argument.hpp"
+#include "bindings/lua/registry/argument.hpp"
 
 #include "tests/bindings/lua_test.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is offered where: a `|` in the scripts below stands for the cursor.
-#include "bindings/lua/completion.hpp"
+#include "bindings/lua/editor/completion.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // accuracy={ estimate=true } and accuracy={ error= } in the language: what a script reads, what it is told
 // where it did not ask, and which keys do not go together.
-#include "bindings/lua/discretisation_error.hpp"
+#include "bindings/lua/contact/discretisation_error.hpp"
 
 #include "tests/bindings/lua_test.hpp"
 

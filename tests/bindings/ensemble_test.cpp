@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "bindings/lua/state.hpp"
+#include "bindings/lua/runtime/state.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/parallel.hpp"

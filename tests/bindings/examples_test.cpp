@@ -3,8 +3,8 @@
 // the reference shows, in a run of its own, so that none leans on another.
 #include <vector>
 
-#include "bindings/lua/help.hpp"
-#include "bindings/lua/registry.hpp"
+#include "bindings/lua/editor/help.hpp"
+#include "bindings/lua/registry/registry.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::examples_test {

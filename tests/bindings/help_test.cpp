@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the registry says about itself: help, the reference page and the editor's types are complete.
-#include "bindings/lua/help.hpp"
+#include "bindings/lua/editor/help.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of cases as bytes, bit for bit; what bytes cannot carry; and what decides whether two functions are
 // the same.
-#include "bindings/lua/kept_cases.hpp"
+#include "bindings/lua/ensemble/kept_cases.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <limits>
 #include <string>
 
-#include "bindings/lua/argument.hpp"
-#include "bindings/lua/code_digest.hpp"
-#include "bindings/lua/state.hpp"
-#include "bindings/lua/transfer.hpp"
+#include "bindings/lua/ensemble/transfer.hpp"
+#include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/runtime/code_digest.hpp"
+#include "bindings/lua/runtime/state.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::lua::kept_cases_test {

@@ -12,10 +12,10 @@
 #include <memory>
 #include <string>
 
-#include "bindings/lua/argument.hpp"
-#include "bindings/lua/registry.hpp"
-#include "bindings/lua/session.hpp"
-#include "bindings/lua/state.hpp"
+#include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/state.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/run/run_directory.hpp"

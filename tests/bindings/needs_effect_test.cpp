@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bindings/lua/registry.hpp"
+#include "bindings/lua/registry/registry.hpp"
 #include "engine/contact/effects/catalogue.hpp"
 #include "tests/bindings/lua_test.hpp"
 

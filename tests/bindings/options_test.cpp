@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of named keys: closed sets, checked for names, types, units and ranges, all problems at once.
-#include "bindings/lua/options.hpp"
+#include "bindings/lua/registry/options.hpp"
 
 #include "tests/bindings/lua_test.hpp"
 

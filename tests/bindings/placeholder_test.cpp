@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A dry run: heavy calls give placeholders that keep names checked, pass through arithmetic and text,
 // and stop the check where the script's path depends on one.
-#include "bindings/lua/placeholder.hpp"
+#include "bindings/lua/registry/placeholder.hpp"
 
 #include "tests/bindings/lua_test.hpp"
 

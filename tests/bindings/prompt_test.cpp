@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A conversation line by line: what is shown, what waits for more, and what stays.
-#include "bindings/lua/prompt.hpp"
+#include "bindings/lua/editor/prompt.hpp"
 
-#include "bindings/lua/shown_line.hpp"
+#include "bindings/lua/editor/shown_line.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::prompt_test {

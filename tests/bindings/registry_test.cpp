@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The three frames of a call: errors of the engine reach the script as Lua errors with its line, and
 // nothing that a failed call held stays behind, whichever way Lua's errors leave.
-#include "bindings/lua/registry.hpp"
+#include "bindings/lua/registry/registry.hpp"
 
 #include <memory>
 
-#include "bindings/lua/surface.hpp"
+#include "bindings/lua/surface/surface.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "tests/bindings/lua_test.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Digests of what heavy calls return: every number counts, what a call cost does not.
-#include "bindings/lua/result_digest.hpp"
+#include "bindings/lua/registry/result_digest.hpp"
 
 #include <gtest/gtest.h>
 
-#include "bindings/lua/surface.hpp"
+#include "bindings/lua/surface/surface.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity::lua::result_digest_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A Lua state as the program makes it: strict globals, seeded random numbers, error values as text,
 // and stops that reach Lua code wherever it is.
-#include "bindings/lua/state.hpp"
+#include "bindings/lua/runtime/state.hpp"
 
 #include "tests/bindings/lua_test.hpp"
 

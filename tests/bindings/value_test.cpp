@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Native values in the hands of a script: how they print, compare and end, and what they refuse.
-#include "bindings/lua/value.hpp"
+#include "bindings/lua/registry/value.hpp"
 
 #include <memory>
 
-#include "bindings/lua/surface.hpp"
+#include "bindings/lua/surface/surface.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "tests/bindings/lua_test.hpp"
 

@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "bindings/lua/registry.hpp"
-#include "bindings/lua/session.hpp"
-#include "bindings/lua/state.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/state.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace asperity::fuzz {

@@ -2,9 +2,9 @@
 // Whole scripts, looked through and then run, each in a sandbox of its own held to 30000 instructions,
 // 64 MiB and a fifth of a second. Whatever it does, it ends with a message or without one, and everything
 // it held is given back.
-#include "bindings/lua/argument.hpp"
-#include "bindings/lua/session.hpp"
-#include "bindings/lua/state.hpp"
+#include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/state.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/run/run_directory.hpp"
 #include "tests/fuzz/script_limits.hpp"

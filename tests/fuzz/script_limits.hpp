@@ -9,8 +9,8 @@
 #include <mutex>
 #include <thread>
 
-#include "bindings/lua/lua_api.hpp"
-#include "bindings/lua/state.hpp"
+#include "bindings/lua/registry/lua_api.hpp"
+#include "bindings/lua/runtime/state.hpp"
 #include "engine/core/monitor.hpp"
 
 namespace asperity::fuzz {

@@ -1,0 +1,421 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fields and methods of a state (a contact under load) and of its fields over the tile. A field
+// is worked out when the script reads it, and not before.
+#include "bindings/lua/contact/state_class.hpp"
+
+#include <algorithm>
+
+#include "bindings/lua/contact/discretisation_error.hpp"
+#include "bindings/lua/contact/state_error.hpp"
+#include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/files.hpp"
+#include "bindings/lua/surface/picture.hpp"
+#include "bindings/lua/surface/surface.hpp"
+#include "engine/accuracy/doubts.hpp"
+#include "engine/accuracy/other_grids.hpp"
+#include "engine/contact/geometry.hpp"
+#include "engine/contact/state_file.hpp"
+#include "engine/core/node_value.hpp"
+#include "engine/surface/io/xdmf.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+using Contacting = asperity::State;
+
+// A field of a state that is one member function.
+template <auto member>
+Values read_state_number(Call& call) {
+  return {Value((call.self<Contacting>().*member)())};
+}
+
+Values cost_of(Call& call) {
+  const StateCost& cost = call.self<Contacting>().cost();
+  Record record = cost_record(cost.total, "cost");
+  Record by_effect;
+  by_effect.name = "cost by effect";
+  for (const auto& [effect, share] : cost.by_effect) by_effect.add(effect, cost_record(share, effect));
+  record.add("by_effect", std::move(by_effect));
+  return {std::move(record)};
+}
+
+Values certificate_of(Call& call) {
+  const Certificate& c = call.self<Contacting>().certificate();
+  Record record;
+  record.name = "certificate";
+  record.add("penetration", c.penetration)
+      .add("tension", c.tension)
+      .add("complementarity", c.complementarity)
+      .add("load", c.load)
+      .add("cap", c.cap)
+      .add("attraction", c.attraction);
+  return {std::move(record)};
+}
+
+Value state_numbers(const std::vector<double>& values) {
+  return Value::Numbers(std::make_shared<const Array<double>>(values.begin(), values.end()));
+}
+
+Values spot_areas(Call& call) { return {state_numbers(call.self<Contacting>().spot_areas())}; }
+
+Dimension field_dimension(const std::string& name) {
+  if (name == "pressure") return dimension::pressure;
+  return name == "contact" ? dimension::number : dimension::length;
+}
+
+Values field(Call& call) {
+  const Contacting& state = call.self<Contacting>();
+  const std::string name = call.text(1, "name");
+  return {object(StateField{name, state.grid(), state.field(name), field_dimension(name)})};
+}
+
+Values deformed(Call& call) { return {object(call.self<Contacting>().deformed(call.text(1, "body")))}; }
+
+const Block<HistogramOptions>& histogram_block() {
+  using O = HistogramOptions;
+  static const Block<O> block{"distribution",
+                              {integer("bins", &O::bins, between(1, 100000), "number of bins"),
+                               flag("log", &O::log, "bins of equal ratio instead of equal width")}};
+  return block;
+}
+
+Values distribution(Call& call) {
+  const HistogramOptions options = call.options(histogram_block(), 2);
+  const Histogram h = call.self<Contacting>().distribution(call.text(1, "name"), options);
+  List counts;
+  for (const std::int64_t n : h.counts) counts.items.emplace_back(n);
+  Record record;
+  record.name = "distribution";
+  record.add("edges", state_numbers(h.edges))
+      .add("counts", std::move(counts))
+      .add("density", state_numbers(h.density))
+      .add("values", h.values)
+      .add("mean", h.mean);
+  return {std::move(record)};
+}
+
+struct StateFileKeys {
+  std::vector<std::string> fields;
+};
+const Block<StateFileKeys>& state_file_block() {
+  using O = StateFileKeys;
+  static const Block<O> block{
+      "write",
+      {custom<O>("fields", "string[]", "which fields to write; without it all the state has",
+                 [](const Argument& value, const OptionInfo& info, O& o, Problems& problems) {
+                   if (!value.is_table() || value.length() == 0)
+                     return detail::wrong_type(value, info, "a list of names such as {\"pressure\", \"gap\"}",
+                                               problems);
+                   for (int k = 1; k <= value.length(); ++k)
+                     value.element(k, [&](const Argument& part) {
+                       if (!part.is_text())
+                         return detail::wrong_type(part, info, "the name of a field", problems);
+                       const std::string name(part.text());
+                       if (std::find(o.fields.begin(), o.fields.end(), name) == o.fields.end())
+                         o.fields.push_back(name);
+                     });
+                 })}};
+  return block;
+}
+Values write_state(Call& call) {
+  const StateFileKeys keys = call.options(state_file_block(), 2);
+  const std::string name = call.text(1, "path");
+  const std::string path = writable_path(call, name);
+  if (has_xdmf_beside(path)) writable_path(call, xdmf_path(name).string());
+  write_state(call.self<Contacting>(), path, keys.fields);
+  return {path};
+}
+
+std::string describe_state(const void* self) { return described(*static_cast<const Contacting*>(self)); }
+std::size_t state_bytes(const void* self) {
+  return static_cast<std::size_t>(bytes_held_with_other_grids(*static_cast<const Contacting*>(self)));
+}
+std::string digest_of_state(const void* self) { return static_cast<const Contacting*>(self)->digest(); }
+bool equal_states(const void* a, const void* b) {
+  return static_cast<const Contacting*>(a)->digest() == static_cast<const Contacting*>(b)->digest();
+}
+
+// --- fields over the tile
+
+Values field_value(Call& call) {
+  return {node_value(*call.self<StateField>().values, call.number(1, "i"), call.number(2, "j"))};
+}
+
+Values field_values(Call& call) { return {Value::Rows(call.self<StateField>().values)}; }
+
+Values field_picture(Call& call) {
+  const StateField& f = call.self<StateField>();
+  PictureOptions options = call.options(picture_block(), 2);
+  if (options.label == PictureOptions{}.label) options.label = f.name;
+  options.unit = si_unit(f.dimension);
+  if (options.palette == PictureOptions{}.palette && f.name == "contact") options.palette = "contact";
+  if (options.palette == PictureOptions{}.palette && f.name == "pressure") options.palette = "heat";
+  const std::string path = writable_path(call, call.text(1, "path"));
+  warn_of(call, draw(f.grid, *f.values, options, path));
+  return {path};
+}
+
+std::string describe_field(const void* self) {
+  const auto& f = *static_cast<const StateField*>(self);
+  const Range r = known_range(f.values->values());
+  return f.name + " field " + std::to_string(f.grid.nx) + " x " + std::to_string(f.grid.ny) + ", from " +
+         format_quantity(r.min, f.dimension) + " to " + format_quantity(r.max, f.dimension);
+}
+
+std::size_t field_bytes(const void* self) {
+  return static_cast<const StateField*>(self)->values->size() * sizeof(double);
+}
+
+}  // namespace
+
+template <>
+const Class& class_of<asperity::State>() {
+  using S = Contacting;
+  static const Class type = [] {
+    Class c;
+    c.name = "State";
+    c.article_name = "a state";
+    c.sentence =
+        "A contact under load: an immutable value whose fields are computed when they are first read.";
+    c.describe = describe_state;
+    c.native_bytes = state_bytes;
+    c.digest = digest_of_state;
+    c.enter = [](const void* self, Ledger& ledger) {
+      ledger.add_effects(static_cast<const Contacting*>(self)->cost().by_effect);
+    };
+    c.equal = equal_states;
+    c.fields = {
+        {"load", "number", "force on the whole tile", dimension::force, read_state_number<&S::load>},
+        {"pressure", "number", "load over the nominal area", dimension::pressure,
+         read_state_number<&S::pressure>},
+        {"attraction", "number",
+         "force by which the bodies attract each other; the contacts carry load and this", dimension::force,
+         read_state_number<&S::attraction>},
+        {"drawn_from",
+         "number[]",
+         "the branch of bodies that attract each other: values of the prescribed quantity gone to in turn "
+         "before this one; empty where they were brought together from apart",
+         {},
+         [](Call& call) -> Values { return {state_numbers(call.self<S>().drawn_from())}; }},
+        {"approach", "number",
+         "from first touch of the bodies as they are now; after yielding that is the touch of the worn "
+         "faces, and "
+         "`separation` is what one event compares with the next",
+         dimension::length, read_state_number<&S::approach>},
+        {"indentation",
+         "number",
+         "approach over the peak-to-valley of the combined heights; flats have none: an error. The key "
+         "`flatten` "
+         "counts another thing, the share by which the peak-to-valley under load has fallen",
+         {},
+         read_state_number<&S::indentation>},
+        {"flatten",
+         "number",
+         "share of that peak-to-valley pressed away",
+         {},
+         read_state_number<&S::flatten>},
+        {"overlap_fraction",
+         "number",
+         "share of the tile on which the bodies face each other: 1 unless, on a free boundary, the upper "
+         "body "
+         "is turned so that it does not cover the lower one. `pressure` and fractions are of the whole tile",
+         {},
+         read_state_number<&S::overlap_fraction>},
+        {"area", "number", "real contact area", dimension::area, read_state_number<&S::area>},
+        {"area_fraction",
+         "number",
+         "nodes in contact over all nodes",
+         {},
+         read_state_number<&S::area_fraction>},
+        {"corrected_area_fraction",
+         "number",
+         "area fraction less the excess of its stepped outline",
+         {},
+         read_state_number<&S::corrected_area_fraction>},
+        {"contacts", "integer", "nodes in contact", {}, read_state_number<&S::contacts>},
+        {"spots", "integer", "regions of contact joined by an edge", {}, read_state_number<&S::spots>},
+        {"spots8",
+         "integer",
+         "regions of contact joined by an edge or a corner",
+         {},
+         read_state_number<&S::spots8>},
+        {"peak_pressure", "number", "greatest pressure", dimension::pressure,
+         read_state_number<&S::peak_pressure>},
+        {"separation", "number",
+         "of the mean planes of the bodies where they face each other, undeformed, as they stand under this "
+         "load",
+         dimension::length, read_state_number<&S::separation>},
+        {"mean_gap", "number",
+         "mean of the gap, 0 in contact, over the part of the tile where the bodies face each other",
+         dimension::length, read_state_number<&S::mean_gap>},
+        {"stiffness", "number",
+         "d pressure / d approach at this contact set; math.huge where all of a periodic tile touches",
+         dimension::stiffness, read_state_number<&S::stiffness>},
+        {"secant_stiffness", "number",
+         "pressure over approach; math.huge of flats that carry a load and come no nearer",
+         dimension::stiffness, read_state_number<&S::secant_stiffness>},
+        {"energy", "number", "elastic energy in the tile", dimension::energy, read_state_number<&S::energy>},
+        {"plastic_volume", "number", "volume this press took from both bodies; needs plasticity",
+         dimension::volume, read_state_number<&S::plastic_volume>},
+        {"plastic_fraction",
+         "number",
+         "share of the tile at the cap; needs plasticity",
+         {},
+         read_state_number<&S::plastic_fraction>},
+        {"iterations",
+         "integer",
+         "of the solver; 0 for a closed form",
+         {},
+         read_state_number<&S::iterations>},
+        {"residual", "number", "greatest entry of the certificate", {}, read_state_number<&S::residual>},
+        {"certificate",
+         "table",
+         "how far the contact conditions are from being met, each relative; with `adhesion` these bound "
+         "tractions "
+         "and not lengths: gaps and approaches may be off by more",
+         {},
+         certificate_of},
+        {"converged",
+         "boolean",
+         "whether every entry of the certificate is within the tolerance",
+         {},
+         read_state_number<&S::converged>},
+        {"solver",
+         "string",
+         "what found the solution",
+         {},
+         [](Call& call) -> Values { return {std::string(call.self<S>().solver())}; }},
+        {"effects_run",
+         "string[]",
+         "effects that were computed",
+         {},
+         [](Call& call) -> Values { return {text_list(call.self<S>().effects_run())}; }},
+        {"effects_off",
+         "string[]",
+         "effects that the scene does not name",
+         {},
+         [](Call& call) -> Values { return {text_list(call.self<S>().effects_off())}; }},
+        {"error",
+         "StateError",
+         "how far these numbers are from exact",
+         {},
+         [](Call& call) -> Values { return {object(StateError{call.self<S>()})}; }},
+        {"chosen",
+         "table",
+         "cells, tolerance and precision that were chosen for accuracy={ error= }, and why; nil otherwise",
+         {},
+         [](Call& call) -> Values { return {chosen_record(call.self<S>())}; }},
+        {"cost", "table", "seconds, transforms, bytes, and by effect", {}, cost_of},
+        {"digest", "string", "of pressures and approach", {}, read_state_number<&S::digest>},
+    };
+    c.methods = {
+        {.name = "spot_areas",
+         .body = spot_areas,
+         .sentence = "Areas of the contact regions in m^2, largest first.",
+         .returns = "number[]",
+         .example = "local areas = st:spot_areas()"},
+        {.name = "field",
+         .body = field,
+         .sentence = "A field over the tile: pressure, gap, contact, displacement, or the plastic part of "
+                     "the approach. Where nothing faces the lower body there is no pressure, and the gap is "
+                     "missing (nan).",
+         .parameters = {{"name", "\"pressure\"|\"gap\"|\"contact\"|\"displacement\"|\"plastic\"", "which"}},
+         .returns = "Field",
+         .example = "st:field \"pressure\":picture \"pressure.png\""},
+        {.name = "deformed",
+         .body = deformed,
+         .sentence = "A body under load, in its own frame.",
+         .parameters = {{"body", "\"lower\"|\"upper\"", "which"}},
+         .returns = "Surface",
+         .example = "local flattened = st:deformed \"lower\""},
+        {.name = "write",
+         .body = write_state,
+         .sentence =
+             "Writes the fields as maps of shape (ny, nx) into one HDF5 file, with load, approach, area, "
+             "certificate and digest as its attributes, and an .xdmf beside it for ParaView.",
+         .parameters = {{"path", "string", "an .h5 under the run directory"}},
+         .options = &state_file_block(),
+         .options_optional = true,
+         .returns = "string",
+         .example = "st:write(\"state.h5\", { fields={\"pressure\", \"gap\"} })",
+         .heavy = true},
+        {.name = "distribution",
+         .body = distribution,
+         .sentence =
+             "Probability density of the pressures in contact, of the open gaps or of the spot areas.",
+         .parameters = {{"name", "\"pressure\"|\"gap\"|\"spot_area\"", "of what"}},
+         .options = &histogram_block(),
+         .options_optional = true,
+         .returns = "table",
+         .example = "local d = st:distribution(\"pressure\", { bins=40 })"},
+    };
+    return c;
+  }();
+  return type;
+}
+
+template <>
+const Class& class_of<StateField>() {
+  using F = StateField;
+  static const Class type = [] {
+    Class c;
+    c.name = "Field";
+    c.article_name = "a field";
+    c.sentence =
+        "A quantity at every node of the tile; nan where it is missing, as the gap is where nothing "
+        "faces the lower body.";
+    c.describe = describe_field;
+    c.native_bytes = field_bytes;
+    c.fields = {
+        {"name", "string", "what it is", {}, [](Call& call) -> Values { return {call.self<F>().name}; }},
+        {"unit",
+         "string",
+         "SI unit of its values",
+         {},
+         [](Call& call) -> Values { return {si_unit(call.self<F>().dimension)}; }},
+        {"min",
+         "number",
+         "least value",
+         {},
+         [](Call& call) -> Values { return {known_range(call.self<F>().values->values()).min}; }},
+        {"max",
+         "number",
+         "greatest value",
+         {},
+         [](Call& call) -> Values { return {known_range(call.self<F>().values->values()).max}; }},
+        {"mean",
+         "number",
+         "mean over all nodes that have a value",
+         {},
+         [](Call& call) -> Values { return {known_mean(call.self<F>().values->values())}; }},
+    };
+    c.methods = {
+        {.name = "value",
+         .body = field_value,
+         .sentence = "The value at node (i, j), counted from 0.",
+         .parameters = {{"i", "integer", "along x"}, {"j", "integer", "along y"}},
+         .returns = "number",
+         .example = "print(st:field \"gap\":value(0, 0))"},
+        {.name = "values",
+         .body = field_values,
+         .sentence = "All values as a table of rows, values[j+1][i+1].",
+         .returns = "number[][]",
+         .example = "local first_row = st:field \"gap\":values()[1]"},
+        {.name = "picture",
+         .body = field_picture,
+         .sentence = "A picture of the field as PNG, true to scale.",
+         .parameters = {{"path", "string", "a .png under the run directory"}},
+         .options = &picture_block(),
+         .options_optional = true,
+         .returns = "string",
+         .example = "st:field \"gap\":picture(\"gap.png\", { title=\"the gap\" })",
+         .heavy = true},
+    };
+    return c;
+  }();
+  return type;
+}
+
+}  // namespace asperity::lua

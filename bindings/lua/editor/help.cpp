@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/editor/help.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::lua {
+
+std::string signature(const Function& function) {
+  std::string text = qualified_name(function);
+  std::vector<std::string> parts;
+  for (const Parameter& p : function.parameters) {
+    const bool optional = p.type.ends_with("?");
+    parts.push_back(optional ? "[" + p.name + "]" : p.name);
+  }
+  if (function.options != nullptr && function.options->is_list()) {
+    std::string keys;
+    for (const OptionInfo* option : function.options->options())
+      keys += (keys.empty() ? "{" : " | {") + option->name + "=}";
+    return text + "{ " + keys + ", ... }";
+  }
+  if (function.options != nullptr) {
+    std::string keys;
+    for (const OptionInfo* option : function.options->options())
+      keys += (keys.empty() ? "" : ", ") + option->name + "=" + option->default_text;
+    if (parts.empty()) return text + "{ " + keys + " }";
+    parts.push_back((function.options_optional ? "[{ " : "{ ") + keys +
+                    (function.options_optional ? " }]" : " }"));
+  }
+  return text + "(" + joined(parts, ", ") + ")";
+}
+
+std::string describe_option(const OptionInfo& option) {
+  std::string text = option.type;
+  if (!option.range_text.empty()) text += " " + option.range_text;
+  if (option.required)
+    text += ", required";
+  else if (!option.default_text.empty())
+    text += ", default " + option.default_text;
+  return text;
+}
+
+std::string describe_field(const Getter& field) {
+  const std::string unit = si_unit(field.dimension);
+  return field.type + (unit.empty() ? "" : ", " + unit);
+}
+
+namespace {
+
+// The options of a block, those of tables inside it after the table's own, as `accuracy.tolerance`.
+struct NamedOption {
+  std::string name;
+  const OptionInfo* option;
+};
+std::vector<NamedOption> all_options(const BlockInfo& block, const std::string& prefix = "") {
+  std::vector<NamedOption> result;
+  for (const OptionInfo* option : block.options()) {
+    result.push_back({prefix + option->name, option});
+    if (option->inner == nullptr) continue;
+    for (NamedOption& inner : all_options(*option->inner, prefix + option->name + "."))
+      result.push_back(std::move(inner));
+  }
+  return result;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text.size() >= width ? text : text + std::string(width - text.size(), ' ');
+}
+
+std::string function_help(const Function& function) {
+  std::string text = signature(function);
+  if (!function.returns.empty()) text += "  ->  " + function.returns;
+  text += "\n\n" + function.sentence + "\n";
+  std::size_t width = 0;
+  for (const Parameter& p : function.parameters) width = std::max(width, p.name.size());
+  if (function.options != nullptr)
+    for (const NamedOption& named : all_options(*function.options))
+      width = std::max(width, named.name.size());
+  if (width > 0) text += "\n";
+  for (const Parameter& p : function.parameters)
+    text += "  " + padded(p.name, width) + "  " + p.sentence + " (" + p.type + ")\n";
+  if (function.options != nullptr)
+    for (const auto& [name, option] : all_options(*function.options))
+      text += "  " + padded(name, width) + "  " + option->sentence + " (" + describe_option(*option) + ")\n";
+  if (!function.example.empty()) text += "\nExample:\n  " + function.example + "\n";
+  return text;
+}
+
+std::string class_help(const Class& type) {
+  std::string text = type.name + ": " + type.sentence + "\n";
+  std::size_t width = 0;
+  for (const std::string& name : type.names()) width = std::max(width, name.size());
+  if (!type.fields.empty()) text += "\nFields:\n";
+  for (const Getter& field : type.fields)
+    text += "  " + padded(field.name, width) + "  " + field.sentence + " (" + describe_field(field) + ")\n";
+  if (!type.methods.empty()) text += "\nMethods:\n";
+  for (const Function& method : type.methods)
+    text += "  " + padded(method.name, width) + "  " + method.sentence + "\n";
+  return text;
+}
+
+std::string module_help(const Module& module) {
+  std::string text = module.path + ": " + module.sentence + "\n\n";
+  std::size_t width = 0;
+  for (const Function& f : module.functions) width = std::max(width, f.name.size());
+  for (const Constant& c : module.constants) width = std::max(width, c.name.size());
+  if (module.call) text += function_help(*module.call) + "\n";
+  for (const Function& f : module.functions) text += "  " + padded(f.name, width) + "  " + f.sentence + "\n";
+  for (const Constant& c : module.constants) text += "  " + padded(c.name, width) + "  " + c.sentence + "\n";
+  for (const Module* child : modules())
+    if (child->path != module.path && child->path.starts_with(module.path + ".") &&
+        child->path.find('.', module.path.size() + 1) == std::string::npos)
+      text +=
+          "  " + padded(child->path.substr(module.path.size() + 1), width) + "  " + child->sentence + "\n";
+  return text;
+}
+
+std::string topics_help() {
+  std::string text = "Modules:\n";
+  for (const Module* module : modules())
+    text += "  " + padded(module->path, 16) + "  " + module->sentence + "\n";
+  text += "\nValues:\n";
+  for (const Class* type : classes()) text += "  " + padded(type->name, 16) + "  " + type->sentence + "\n";
+  return text +
+         "\nAsk for any of these, or for a function or method by name: help \"surface.sine\", help "
+         "\"press\".\n";
+}
+
+// The last part of "lab.surface.sine" or "surface:scaled".
+std::string last_name(const std::string& path) {
+  const std::size_t at = path.find_last_of(".:");
+  return at == std::string::npos ? path : path.substr(at + 1);
+}
+
+struct Topic {
+  std::string name;
+  std::string text;
+  std::string sentence;  // of the text
+};
+
+std::vector<Topic> all_topics() {
+  std::vector<Topic> topics;
+  for (const Module* module : modules()) {
+    topics.push_back({module->path, module_help(*module), module->sentence});
+    for (const Function& f : module->functions)
+      topics.push_back({qualified_name(f), function_help(f), f.sentence});
+    for (const Constant& c : module->constants)
+      topics.push_back(
+          {module->path + "." + c.name, module->path + "." + c.name + ": " + c.sentence + "\n", c.sentence});
+  }
+  for (const Class* type : classes()) {
+    topics.push_back({type->name, class_help(*type), type->sentence});
+    for (const Function& f : type->methods)
+      topics.push_back({qualified_name(f), function_help(f), f.sentence});
+    for (const Getter& field : type->fields)
+      topics.push_back(
+          {type->name + "." + field.name,
+           type->name + "." + field.name + ": " + field.sentence + " (" + describe_field(field) + ")\n",
+           field.sentence});
+  }
+  return topics;
+}
+
+std::vector<const Function*> functions_with_options() {
+  std::vector<const Function*> all;
+  const auto look_at = [&](const Function& f) {
+    if (f.options != nullptr) all.push_back(&f);
+  };
+  for (const Module* module : modules()) {
+    if (module->call) look_at(*module->call);
+    for (const Function& f : module->functions) look_at(f);
+  }
+  for (const Class* type : classes())
+    for (const Function& f : type->methods) look_at(f);
+  return all;
+}
+
+bool same_word(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
+  });
+}
+
+// The keys of this name, by the call that takes them; "" if there is none.
+std::string keys_help(const std::string& name) {
+  std::string text;
+  for (const Function* function : functions_with_options())
+    for (const auto& [path, option] : all_options(*function->options))
+      if (same_word(path, name) || same_word(last_name(path), name))
+        text += "Key `" + path + "` of " + qualified_name(*function) + ": " + option->sentence + " (" +
+                describe_option(*option) + ")\n";
+  return text;
+}
+
+// --- parts of names, words of sentences
+
+std::string lowered(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
+
+// Whether a sentence has a word that begins with this one.
+bool has_word(std::string_view sentence, std::string_view word) {
+  for (std::size_t at = sentence.find(word); at != std::string_view::npos; at = sentence.find(word, at + 1))
+    if (at == 0 || !is_letter(sentence[at - 1])) return true;
+  return false;
+}
+
+// A line for each topic and key that has the words in its name, then for those that have them in a sentence.
+// "" where there is none, and for a single letter, which is in every name.
+std::string hits_help(const std::string& asked, const std::vector<Topic>& topics) {
+  const std::string word = lowered(asked);
+  if (word.size() < 2 || word.find_first_not_of(' ') == std::string::npos) return "";
+  std::vector<std::string> by_name, by_sentence;
+  const auto look = [&](const std::string& name, std::string_view own, const std::string& sentence,
+                        const std::string& type) {
+    if (lowered(own).find(word) != std::string::npos)
+      by_name.push_back(name + ": " + sentence);
+    else if (has_word(lowered(sentence + " " + type), word))
+      by_sentence.push_back(name + ": " + sentence);
+  };
+  for (const Topic& topic : topics) look(topic.name, last_name(topic.name), topic.sentence, "");
+  for (const Function* function : functions_with_options())
+    for (const auto& [path, option] : all_options(*function->options))
+      look("key `" + path + "` of " + qualified_name(*function), last_name(path), option->sentence,
+           option->type);
+  const std::size_t found = by_name.size() + by_sentence.size();
+  if (found == 0) return "";
+  by_name.insert(by_name.end(), by_sentence.begin(), by_sentence.end());
+  constexpr std::size_t most = 40;
+  std::string text = "nothing is called " + quoted(asked) + "; it is part of\n";
+  for (std::size_t k = 0; k < std::min(found, most); ++k) text += "  " + by_name[k] + "\n";
+  if (found > most) text += "  and " + std::to_string(found - most) + " more\n";
+  return text;
+}
+
+// --- the reference page
+
+std::string cell(std::string text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  return result;
+}
+
+void function_reference(std::string& page, const Function& function) {
+  page += "### `" + qualified_name(function) + "`\n\n" + function.sentence + "\n\n";
+  page += "```lua\n" + signature(function) + (function.returns.empty() ? "" : "  --> " + function.returns) +
+          "\n```\n\n";
+  if (!function.parameters.empty() || function.options != nullptr) {
+    page += "| name | accepts | meaning |\n|---|---|---|\n";
+    for (const Parameter& p : function.parameters)
+      page += "| `" + p.name + "` | " + cell(p.type) + " | " + cell(p.sentence) + " |\n";
+    if (function.options != nullptr)
+      for (const auto& [name, option] : all_options(*function.options))
+        page +=
+            "| `" + name + "` | " + cell(describe_option(*option)) + " | " + cell(option->sentence) + " |\n";
+    page += "\n";
+  }
+  if (!function.example.empty()) page += "```lua\n" + function.example + "\n```\n\n";
+}
+
+// --- editor types
+
+std::string cats_type(const std::string& type) {
+  if (type.ends_with("?")) return cats_type(type.substr(0, type.size() - 1)) + "|nil";
+  if (type.starts_with("iterator<")) return "fun(): " + cats_type(type.substr(9, type.size() - 10));
+  if (const std::size_t at = type.find(" and "); at != std::string::npos && type.find(" with ") > at)
+    return cats_type(type.substr(0, at)) + ", " + cats_type(type.substr(at + 5));
+  if (const std::size_t at = type.find("[] with "); at != std::string::npos)
+    return cats_type(type.substr(0, at + 2)) + "|table";
+  if (type.ends_with("[]")) return cats_type(type.substr(0, type.size() - 2)) + "[]";
+  if (type.starts_with("{") || type.starts_with("\"")) return type.starts_with("{") ? "table" : type;
+  if (const std::size_t bar = type.find('|'); bar != std::string::npos)
+    return cats_type(type.substr(0, bar)) + "|" + cats_type(type.substr(bar + 1));
+  for (const char* known : {"number", "integer", "string", "boolean", "table", "function", "nil", "any"})
+    if (type == known) return type;
+  if (find_class(type) != nullptr) return "asperity." + type;
+  if (type.starts_with("a ") || type.starts_with("an ")) return "number|string";  // a quantity
+  return "any";
+}
+
+std::string block_class(const Function& function) {
+  std::string name = qualified_name(function);
+  std::replace(name.begin(), name.end(), ':', '.');
+  return "asperity.options." + name;
+}
+
+void cats_block(std::string& page, const Function& function) {
+  if (function.options == nullptr) return;
+  page += "---@class " + block_class(function) + "\n";
+  for (const OptionInfo* option : function.options->options())
+    page += "---@field " + option->name + (option->required ? "" : "?") + " " + cats_type(option->type) +
+            " " + option->sentence + " (" + describe_option(*option) + ")\n";
+  page += "\n";
+}
+
+void cats_function(std::string& page, const Function& function, const std::string& declared) {
+  page += "---" + function.sentence + "\n";
+  std::vector<std::string> names;
+  for (const Parameter& p : function.parameters) {
+    const bool optional = p.type.ends_with("?");
+    page += "---@param " + p.name + (optional ? "?" : "") + " " +
+            cats_type(optional ? p.type.substr(0, p.type.size() - 1) : p.type) + " " + p.sentence + "\n";
+    names.push_back(p.name);
+  }
+  if (function.options != nullptr) {
+    page += "---@param options" + std::string(function.options_optional ? "?" : "") + " " +
+            block_class(function) + "\n";
+    names.push_back("options");
+  }
+  for (const std::string& type : result_types(function)) page += "---@return " + cats_type(type) + "\n";
+  page += "function " + declared + "(" + joined(names, ", ") + ") end\n\n";
+}
+
+}  // namespace
+
+std::string help_text(const std::string& topic) {
+  if (topic.empty()) return topics_help();
+  const std::vector<Topic> topics = all_topics();
+  // `Surface` is the value and `surface` the module: the case counts where it tells them apart.
+  for (const std::string& name : {topic, "lab." + topic})
+    for (const Topic& t : topics)
+      if (t.name == name) return t.text;
+  for (const Topic& t : topics)
+    if (same_word(t.name, topic) || same_word(t.name, "lab." + topic)) return t.text;
+  // A bare name may mean several things: `close`, `roughness`. Show them all.
+  std::string found;
+  for (const Topic& t : topics)
+    if (same_word(last_name(t.name), topic)) found += (found.empty() ? "" : "\n") + t.text;
+  if (const std::string keys = keys_help(topic); !keys.empty()) found += (found.empty() ? "" : "\n") + keys;
+  if (!found.empty()) return found;
+  if (const std::string hits = hits_help(topic, topics); !hits.empty()) return hits;
+  std::vector<std::string> names;
+  for (const Function* function : functions_with_options())
+    for (const NamedOption& named : all_options(*function->options)) names.push_back(last_name(named.name));
+  for (const Topic& t : topics) {
+    names.push_back(t.name);
+    names.push_back(last_name(t.name));
+  }
+  throw Error(ErrorCode::unknown_name, "there is no help on " + quoted(topic) + did_you_mean(topic, names),
+              "help without a topic lists what there is");
+}
+
+std::vector<std::string> help_topics() {
+  std::vector<std::string> names;
+  for (const Topic& topic : all_topics()) names.push_back(topic.name);
+  return names;
+}
+
+const std::string& example_preamble() {
+  static const std::string text = R"(local lab = require "asperity"
+local al = lab.material "Al-2011"
+local function face(seed)
+  return lab.surface.self_affine{ cells=64, size="640 um", hurst=0.8, ra="1 um", short_wave="40 um", seed=seed,
+                                  material=al }
+end
+local s, fine = face(1), face(2):scaled{ ra="0.1 um" }
+local p = s:profile{ row=0 }
+local grain = lab.surface.grain_profile{ radius="100 um", D=1.3, points=512 }
+local stylus = lab.stylus{ tip="2 um", spacing="1 um", length="0.5 mm" }
+local c = lab.contact{ lower=s, upper=lab.material "quartz", boundary="periodic", accuracy={ estimate=true },
+                       effects={ elasticity="half_space", tangential={} } }
+local st = c:press{ pressure="10 MPa" }
+local q = c:shear{ ratio=0.5, friction=0.3 }
+local law = lab.friction{ tau0="500 MPa", alpha=0.2 }
+local stage = lab.tilt_stage{ contact=c, friction=law, mass="4.3 g" }
+local protocol = lab.protocol{ { press={ pressure="10 MPa" } }, { release=true }, { rotate="90 deg" } }
+local book = lab.notebook "examples"
+for N = 1, 3 do book:write{ N=N, D=2.5, r=0.1, mu=0.4 + 0.01 * N } end
+local study = lab.work_precision{
+  ask=function(knobs) return lab.exact.hertz{ radius=1, modulus=1, load=1 }.approach + 1e-2 / knobs.cells ^ 2 end,
+  truth={ cells=1024 }, try={ { name="finer grid", cells={ 16, 32, 64 } } }, repeats=1,
+}
+local tile = lab.spread.sine{ cells=64, size="1 mm", amplitude="1 um", material=al }
+local spread = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary="periodic",
+                                   effects={ elasticity="half_space" } }
+local under = spread:press{ pressure="10 MPa" }
+s:write "specimen.txt" p:write "scan.csv" protocol:write "press_log.csv"
+)";
+  return text;
+}
+
+std::string reference_page() {
+  std::string page =
+      "# Reference\n\n<!-- Generated by `asperity help --reference`; do not edit. -->\n\n"
+      "Every function, value and key of the language, from the same entries that drive the program.\n"
+      "The same inputs give the same bits on every x86-64 processor, in every build and for any number of "
+      "threads.\n"
+      "Excepted are contacts spread over several ranks (`lab.spread`), whose transforms choose by the "
+      "processor, and\n"
+      "what a script itself computes by `^` and by `math`, which is the C library's; where they differ,\n"
+      "`asperity replay` names processor, C library and build.\n"
+      "A quantity is a plain SI number or a string with a unit, `\"250 um\"`. Every entry has an example "
+      "that runs\n"
+      "after these lines:\n\n```lua\n" +
+      example_preamble() + "```\n\n";
+  for (const Module* module : modules()) {
+    page += "## `" + module->path + "`\n\n" + module->sentence + "\n\n";
+    if (!module->constants.empty()) {
+      page += "| constant | meaning |\n|---|---|\n";
+      for (const Constant& c : module->constants)
+        page += "| `" + module->path + "." + c.name + "` | " + cell(c.sentence) + " |\n";
+      page += "\n";
+    }
+    if (module->call) function_reference(page, *module->call);
+    for (const Function& f : module->functions) function_reference(page, f);
+  }
+  for (const Class* type : classes()) {
+    page += "## " + type->name + "\n\n" + type->sentence + "\n\n";
+    if (!type->fields.empty()) {
+      page += "| field | type | meaning |\n|---|---|---|\n";
+      for (const Getter& field : type->fields)
+        page +=
+            "| `" + field.name + "` | " + cell(describe_field(field)) + " | " + cell(field.sentence) + " |\n";
+      page += "\n";
+    }
+    for (const Function& f : type->methods) function_reference(page, f);
+  }
+  while (page.ends_with("\n\n")) page.pop_back();
+  return page;
+}
+
+std::string editor_types() {
+  std::string page =
+      "---@meta asperity\n-- Types of the language for editors (LuaCATS).\n"
+      "-- Generated by `asperity help --types`; do not edit.\n\n";
+  for (const Class* type : classes()) {
+    for (const Function& f : type->methods) cats_block(page, f);
+    page += "---" + type->sentence + "\n---@class asperity." + type->name + "\n";
+    for (const Getter& field : type->fields)
+      page += "---@field " + field.name + " " + cats_type(field.type) + " " + field.sentence + "\n";
+    page += "local " + type->name + " = {}\n\n";
+    for (const Function& f : type->methods) cats_function(page, f, type->name + ":" + f.name);
+  }
+  for (const Module* module : modules()) {
+    for (const Function& f : module->functions) cats_block(page, f);
+    if (module->call) cats_block(page, *module->call);
+    page += "---" + module->sentence + "\n---@class asperity." + module->path + "\n";
+    if (module->call)
+      page += "---@overload fun(options: " + block_class(*module->call) +
+              (module->call->options != nullptr && module->call->options->is_list() ? "[]" : "") +
+              "): " + cats_type(module->call->returns) + "\n";
+    for (const Constant& c : module->constants)
+      page += "---@field " + c.name + " " + cats_type(c.type) + " " + c.sentence + "\n";
+    page += (module->path == "lab" ? "local " : "") + module->path + " = {}\n\n";
+    for (const Function& f : module->functions) cats_function(page, f, module->path + "." + f.name);
+  }
+  return page + "return lab\n";
+}
+
+}  // namespace asperity::lua

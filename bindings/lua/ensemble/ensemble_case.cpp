@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/ensemble/ensemble_case.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+
+#include "bindings/lua/ensemble/transfer.hpp"
+#include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/runtime/state.hpp"
+#include "engine/core/cost.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+// Warnings are kept; progress is that of the whole ensemble.
+class CaseMonitor final : public Monitor {
+ public:
+  CaseMonitor(std::vector<std::string>& warnings, ResultStore* results)
+      : warnings_(warnings), results_(results) {}
+  void progress(std::string_view, double) override {}
+  void warn(std::string_view sentence) override { warnings_.emplace_back(sentence); }
+  ResultStore* results() override { return results_; }
+
+ private:
+  std::vector<std::string>& warnings_;
+  ResultStore* results_;
+};
+
+// A file in memory.
+class OutputBuffer {
+ public:
+  OutputBuffer() : file_(open_memstream(&data_, &size_)) {
+    if (file_ == nullptr) throw Error(ErrorCode::out_of_memory, "there is no memory for what a case prints");
+  }
+  ~OutputBuffer() {
+    std::fclose(file_);
+    std::free(data_);
+  }
+  OutputBuffer(const OutputBuffer&) = delete;
+  OutputBuffer& operator=(const OutputBuffer&) = delete;
+  std::FILE* file() const { return file_; }
+  std::string text() {
+    std::fflush(file_);
+    return std::string(data_, size_);
+  }
+
+ private:
+  char* data_ = nullptr;
+  std::size_t size_ = 0;
+  std::FILE* file_;
+};
+
+int keep_open(lua_State* L) {
+  static_cast<luaL_Stream*>(luaL_checkudata(L, 1, LUA_FILEHANDLE))->closef = keep_open;
+  luaL_pushfail(L);
+  lua_pushliteral(L, "cannot close standard file");
+  return 2;
+}
+
+int print_to_session(lua_State* L) {
+  std::FILE* output = Session::of(L).output;
+  bool written = true;
+  const int values = lua_gettop(L);
+  for (int k = 1; k <= values; ++k) {
+    std::size_t length = 0;
+    const char* text = luaL_tolstring(L, k, &length);
+    if (k > 1) written = std::fputc('\t', output) != EOF && written;
+    written = std::fwrite(text, 1, length, output) == length && written;
+    lua_pop(L, 1);
+  }
+  written = std::fputc('\n', output) != EOF && written;
+  return written ? 0 : luaL_error(L, "there is no memory for what is printed");
+}
+
+// print, io.write and io.stdout write to the session's output. Raises.
+void capture_output(lua_State* L) {
+  lua_pushcfunction(L, print_to_session);
+  lua_setglobal(L, "print");
+  lua_getglobal(L, "io");
+  lua_getfield(L, -1, "output");
+  auto* stream = static_cast<luaL_Stream*>(lua_newuserdatauv(L, sizeof(luaL_Stream), 0));
+  stream->closef = nullptr;  // closed, until it has a file
+  luaL_setmetatable(L, LUA_FILEHANDLE);
+  stream->f = Session::of(L).output;
+  stream->closef = keep_open;
+  lua_pushvalue(L, -1);
+  lua_setfield(L, -4, "stdout");
+  lua_call(L, 1, 0);
+  lua_pop(L, 1);
+}
+
+[[noreturn]] void fail(lua_State* L) {
+  stop_flag().check();
+  throw Error(ErrorCode::bad_value, error_text(L, -1));
+}
+
+// Whether two values are the same without asking Lua code.
+bool same(const Argument& a, const Argument& b) {
+  if (lua_rawequal(a.state(), a.index(), b.index()) != 0) return true;
+  const Object* first = a.as_any_object();
+  const Object* second = b.as_any_object();
+  return first != nullptr && second != nullptr && first->pointer == second->pointer;
+}
+
+// Leaves the table that `run` returned on top, whatever it returned.
+void make_table(lua_State* L) {
+  const Argument returned(L, -1);
+  if (returned.is_table()) return;
+  const std::shared_ptr<Record> record = record_at(L, -1);
+  if (record == nullptr && !returned.is_nil())
+    throw Error(ErrorCode::bad_value, wrong_return(returned.describe()));
+  auto action = [&record](lua_State* s) {
+    lua_newtable(s);
+    if (record == nullptr) return 1;
+    for (const Record::Entry& entry : record->entries) {
+      lua_pushlstring(s, entry.field.data(), entry.field.size());
+      push(s, entry.value);
+      lua_rawset(s, -3);
+    }
+    return 1;
+  };
+  if (protect(L, 0, 1, action) != LUA_OK) fail(L);
+}
+
+void refuse_other_values(const CaseSetup& setup, const Argument& returned, const Argument& given) {
+  for (const CaseValue& value : setup.values)
+    with_key(returned, value.key, [&](const Argument& found) {
+      with_key(given, value.key, [&](const Argument& own) {
+        if (!found.is_nil() && !same(found, own))
+          throw Error(ErrorCode::bad_value,
+                      "`run` returned " + quoted(value.key) + " = " + found.describe() + ", but " +
+                          quoted(value.key) + " is " + value.text + " in this case",
+                      "give the column another name");
+      });
+    });
+}
+
+// The next integer of math.random, and the generator as the seed leaves it: what comes first shows afterwards
+// whether the case drew any number. Pushes math.random and math.randomseed.
+lua_Integer first_draw(lua_State* L, std::uint64_t seed) {
+  auto action = [seed](lua_State* s) {
+    lua_getglobal(s, "math");
+    lua_getfield(s, -1, "random");
+    lua_getfield(s, -2, "randomseed");
+    lua_remove(s, -3);
+    lua_pushvalue(s, -2);
+    lua_pushinteger(s, 0);
+    lua_call(s, 1, 1);
+    lua_pushvalue(s, -2);
+    lua_pushinteger(s, static_cast<lua_Integer>(seed));
+    lua_pushinteger(s, 0);
+    lua_call(s, 2, 0);
+    return 3;
+  };
+  if (protect(L, 0, 3, action) != LUA_OK) fail(L);
+  const lua_Integer first = lua_tointeger(L, -1);
+  lua_pop(L, 1);
+  return first;
+}
+
+// Whether the next number is another than `first`.
+bool has_drawn(lua_State* L, int random, lua_Integer first) {
+  lua_pushvalue(L, random);
+  auto action = [](lua_State* s) {
+    lua_pushinteger(s, 0);
+    lua_call(s, 1, 1);
+    return 1;
+  };
+  if (protect(L, 1, 1, action) != LUA_OK) fail(L);
+  const bool drawn = lua_tointeger(L, -1) != first;
+  lua_pop(L, 1);
+  return drawn;
+}
+
+std::shared_ptr<const Parcel> call_run(lua_State* L, const CaseSetup& setup, CaseNotes& notes) {
+  const lua_Integer first = first_draw(L, setup.seed);
+  const int random = lua_gettop(L) - 1;
+  lua_pushcfunction(L, traceback_handler);
+  const int handler = lua_gettop(L);
+  // The values go into two tables: `run` may change its own.
+  auto prepare = [&setup](lua_State* s) {
+    capture_output(s);
+    lua_createtable(s, 0, static_cast<int>(setup.values.size()));
+    setup.run->push(s);
+    lua_createtable(s, 0, static_cast<int>(setup.values.size()));
+    for (const CaseValue& value : setup.values) {
+      lua_pushlstring(s, value.key.data(), value.key.size());
+      value.value->push(s);
+      lua_pushvalue(s, -2);
+      lua_pushvalue(s, -2);
+      lua_rawset(s, -7);
+      lua_rawset(s, -3);
+    }
+    return 3;
+  };
+  if (protect(L, 0, 3, prepare) != LUA_OK) fail(L);
+  const int ended = lua_pcall(L, 1, 1, handler);
+  if (has_drawn(L, random, first)) notes.drew = true;
+  if (ended != LUA_OK) fail(L);
+  make_table(L);
+  const Argument given(L, handler + 1), returned(L, -1);
+  refuse_other_values(setup, returned, given);
+  auto add_values = [](lua_State* s) {  // given, returned
+    lua_pushnil(s);
+    while (lua_next(s, 1) != 0) {
+      lua_pushvalue(s, -2);
+      lua_insert(s, -2);
+      lua_rawset(s, 2);
+    }
+    return 1;
+  };
+  lua_pushvalue(L, given.index());
+  lua_pushvalue(L, returned.index());
+  if (protect(L, 2, 1, add_values) != LUA_OK) fail(L);
+  return pack(L, -1, Cargo::data, "run(case)",
+              "return numbers, strings, booleans, tables of these, and values such as surfaces");
+}
+
+}  // namespace
+
+void RunningStates::interrupt() {
+  const std::lock_guard lock(mutex_);
+  for (lua_State* L : states_) lua::interrupt(L);
+}
+
+RunningStates::Member::Member(RunningStates& states, lua_State* L) : states_(states), L_(L) {
+  const std::lock_guard lock(states_.mutex_);
+  states_.states_.push_back(L_);
+}
+
+RunningStates::Member::~Member() {
+  const std::lock_guard lock(states_.mutex_);
+  std::erase(states_.states_, L_);
+}
+
+std::string case_name(const std::vector<CaseValue>& values) {
+  std::string name = "case";
+  for (const CaseValue& value : values)
+    name += (name.size() > 4 ? ", " : " ") + value.key + " = " + value.text;
+  return name;
+}
+
+std::string wrong_return(const std::string& found) {
+  return "`run` returned " + found + "; return a table of named results";
+}
+
+CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
+  CaseResult result;
+  const double transforms = cost::transforms();
+  const auto begun = std::chrono::steady_clock::now();
+  try {
+    CaseMonitor monitor(result.warnings, setup.results);
+    OutputBuffer output;
+    Session session(monitor);
+    session.seed = setup.seed;
+    session.trusted = setup.trusted;
+    session.is_case = true;
+    session.depth = setup.depth;
+    session.refinement = setup.refinement;
+    session.variation = setup.variation;
+    session.ledger = setup.ledger;
+    session.output = output.file();
+    session.left_behind = &setup.run->left_behind();
+    session.script = setup.script;
+    session.script_digest = setup.script_digest;
+    CaseNotes notes;
+    session.notes = &notes;
+    try {
+      const State state = make_state(session, "");
+      if (setup.watched) watch_for_stops(state.get());
+      const RunningStates::Member member(states, state.get());
+      result.row = call_run(state.get(), setup, notes);
+      result.digest = result.row->digest();
+    } catch (const Error& error) {
+      result.failure = error.what();
+    } catch (const std::bad_alloc&) {
+      result.failure = "out of memory";
+    }
+    result.output = output.text();
+    result.inputs = std::move(notes.inputs);
+    result.drew = notes.drew;
+  } catch (const std::exception& error) {
+    result.failure = error.what();
+  }
+  result.transforms = cost::transforms() - transforms;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return result;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/ensemble/kept_cases.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "bindings/lua/registry/session.hpp"
+#include "engine/core/byte_string.hpp"
+#include "engine/core/c_library_identity.hpp"
+#include "engine/core/digest.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/run/ranks.hpp"
+#include "engine/run/run_facts.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+constexpr std::string_view case_form = "asperity case 2";
+constexpr std::size_t bytes_a_number = 6;  // whole numbers that a double holds exactly
+
+// Bytes in a field of a kept result.
+Field packed(std::string_view bytes) {
+  const std::size_t numbers = (bytes.size() + bytes_a_number - 1) / bytes_a_number;
+  Field field(static_cast<int>(std::max<std::size_t>(numbers, 1)), 1);
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    constexpr std::array<double, bytes_a_number> place = {1.0, 0x1p8, 0x1p16, 0x1p24, 0x1p32, 0x1p40};
+    field[k / bytes_a_number] += place[k % bytes_a_number] * static_cast<unsigned char>(bytes[k]);
+  }
+  return field;
+}
+
+std::string unpacked(const Field& field, double length) {
+  if (!(length >= 0 && length <= static_cast<double>(field.size() * bytes_a_number))) ByteReader::damaged();
+  std::string bytes(static_cast<std::size_t>(length), '\0');
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    const double value = field[k / bytes_a_number];
+    if (!(value >= 0 && value < 0x1p48)) ByteReader::damaged();
+    bytes[k] = static_cast<char>((static_cast<std::uint64_t>(value) >> (8 * (k % bytes_a_number))) & 0xffU);
+  }
+  return bytes;
+}
+
+std::vector<Value> natives(const std::vector<CaseValue>& values) {
+  std::vector<Value> given;
+  for (const CaseValue& value : values)
+    given.push_back(value.value->native() != nullptr ? *value.value->native() : Value());
+  return given;
+}
+
+// Whether a text names a line, as errors that a case caught do: "fig9.lua:12: ".
+bool names_a_line(std::string_view text) {
+  for (std::size_t at = text.find(':'); at != std::string_view::npos; at = text.find(':', at + 1)) {
+    std::size_t end = at + 1;
+    while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
+    if (end > at + 1 && end < text.size() && text[end] == ':') return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& given) {
+  ByteWriter out;
+  out.text(case_form);
+  out.number(result.row != nullptr);
+  if (result.row != nullptr) out.text(result.row->bytes("run(case)", natives(given)));
+  for (const std::string* text : {&result.digest, &result.failure, &result.output}) out.text(*text);
+  out.number(static_cast<std::uint64_t>(result.warnings.size()));
+  for (const std::string& warning : result.warnings) out.text(warning);
+  out.number(static_cast<std::uint64_t>(result.inputs.size()));
+  for (const CaseInput& input : result.inputs) {
+    out.text(input.file);
+    out.number(input.bytes);
+    out.text(input.digest);
+    out.text(input.beside_script);
+  }
+  out.number(result.drew);
+  out.number(result.transforms);
+  out.number(result.seconds);
+  return out.take();
+}
+
+CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>& given) {
+  ByteReader in(bytes);
+  if (in.text() != case_form) ByteReader::damaged();
+  CaseResult result;
+  if (in.truth()) result.row = Parcel::from_bytes(in.text(), natives(given));
+  for (std::string* text : {&result.digest, &result.failure, &result.output}) *text = in.text();
+  for (std::size_t left = in.count(); left > 0; --left) result.warnings.push_back(in.text());
+  for (std::size_t left = in.count(); left > 0; --left) {
+    CaseInput input;
+    input.file = in.text();
+    input.bytes = in.number<std::int64_t>();
+    input.digest = in.text();
+    input.beside_script = in.text();
+    result.inputs.push_back(std::move(input));
+  }
+  result.drew = in.truth();
+  result.transforms = in.number<double>();
+  result.seconds = in.number<double>();
+  if (!in.at_end()) ByteReader::damaged();
+  return result;
+}
+
+ResultStore* results_for_cases(const Session& session) {
+  return session.ranks != nullptr ? session.ranks->own_store : session.monitor().results();
+}
+
+KeptCases::KeptCases(const Session& session, const Parcel& run) {
+  if (session.dry_run) return;
+  if (session.trusted || session.refinement != nullptr || session.variation != nullptr) return;
+  store_ = results_for_cases(session);
+  if (store_ == nullptr) return;
+  content_ = run.content(session.script);
+  folder_ = session.script.folder;
+  if (!content_.whole) script_ = session.script_digest + " " + std::to_string(session.ensembles);
+}
+
+std::string KeptCases::key_of(const CaseSetup& setup, bool drew) const {
+  Digester digester;
+  // A case's own arithmetic is the C library's: machines where that rounds otherwise do not share cases.
+  digester.add(case_form).add(c_library_functions()).add(content_.digest).add(setup.depth);
+  digester.add(static_cast<std::int64_t>(setup.values.size()));
+  bool whole = content_.whole;
+  for (const CaseValue& value : setup.values) {
+    const Parcel::Content content = value.value->content();
+    whole = whole && content.whole;
+    digester.add(value.key).add(content.digest);
+  }
+  // Values of which the digest is not the whole: the same script reaches the same ones at the same place.
+  if (!whole)
+    digester.add(script_.empty() ? setup.script_digest + " " + std::to_string(setup.ensemble) : script_);
+  if (drew) digester.add(static_cast<std::int64_t>(setup.seed));
+  return "case " + digester.hex();
+}
+
+std::optional<CaseResult> KeptCases::find(const CaseSetup& setup, bool with_failures) const {
+  if (store_ == nullptr) return {};
+  for (const bool drew : {false, true}) {
+    try {
+      std::optional<FoundResult> found = store_->find(key_of(setup, drew));
+      if (!found) continue;
+      const std::string bytes = unpacked(found->take("case"), found->number("bytes"));
+      CaseResult result = case_from_bytes(bytes, setup.values);
+      if (!result.failure.empty() && !with_failures) continue;
+      if (found->text("names lines") == "yes" && found->text("lines") != content_.lines) continue;
+      for (CaseInput& input : result.inputs)
+        if (!input.beside_script.empty()) input.file = folder_ + "/" + input.beside_script;
+      const bool same = std::ranges::all_of(
+          result.inputs, [](const CaseInput& input) { return present_digest(input.file) == input.digest; });
+      if (same) return result;
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::bad_file && error.code() != ErrorCode::internal) throw;
+    }
+  }
+  return {};
+}
+
+void KeptCases::keep(const CaseSetup& setup, const CaseResult& result, bool always) const {
+  if (store_ == nullptr || (result.row == nullptr && !always)) return;
+  std::string bytes;
+  try {
+    bytes = case_bytes(result, setup.values);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::not_permitted || always) throw;
+    return;  // it is computed again; the heavy calls in it are found
+  }
+  ResultFacts facts;
+  facts.cost.seconds = result.seconds;
+  facts.cost.transforms = result.transforms;
+  facts.however_cheap = always;
+  facts.numbers = {{"bytes", static_cast<double>(bytes.size())}};
+  facts.texts = {{"lines", content_.lines}, {"names lines", names_a_line(bytes) ? "yes" : "no"}};
+  const Field field = packed(bytes);
+  store_->keep(key_of(setup, result.drew), "lab.ensemble", facts, {{"case", &field}});
+}
+
+}  // namespace asperity::lua

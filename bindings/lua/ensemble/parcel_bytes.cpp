@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rows of cases as bytes: how they travel between processes and into files.
+#include <algorithm>
+#include <type_traits>
+
+#include "bindings/lua/ensemble/parcel.hpp"
+#include "bindings/lua/ensemble/reach.hpp"
+#include "bindings/lua/surface/grid_keys.hpp"
+#include "bindings/lua/surface/surface.hpp"
+#include "engine/core/byte_string.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+constexpr std::string_view form = "asperity value 1";
+// Results within results: more than any has, and less than the stack holds.
+constexpr int deepest_parcel = 200;
+
+enum class Tag : std::uint8_t {
+  nil,
+  truth,
+  integer,
+  number,
+  text,
+  node,
+  given,
+  surface,
+  profile,
+  material,
+  record,
+  list,
+  map,
+  numbers,
+  rows,
+  parcel
+};
+
+// What bytes cannot carry, in a few words; "" where they can.
+std::string no_bytes_for(const Value& value);
+
+std::string no_bytes_for(const Object& object) {
+  if (object.pointer == nullptr) return object.type->article_name + " that was closed";
+  if (object.type == &class_of<Surface>())
+    return static_cast<const Surface*>(object.pointer.get())->recipe() == nullptr
+               ? ""
+               : "a surface that its generator can make again on other cells";
+  if (object.type == &class_of<Profile>() || object.type == &class_of<Material>()) return "";
+  return object.type->article_name;
+}
+
+std::string no_bytes_for(const Value& value) {
+  if (const auto* object = std::get_if<Object>(&value.data)) return no_bytes_for(*object);
+  return "a result that holds functions";
+}
+
+const Value* same_object(const Object& object, const std::vector<Value>& given, std::size_t& place) {
+  for (place = 0; place < given.size(); ++place)
+    if (const auto* other = std::get_if<Object>(&given[place].data);
+        other != nullptr && other->pointer == object.pointer && object.pointer != nullptr)
+      return &given[place];
+  return nullptr;
+}
+
+}  // namespace
+
+const Value* Parcel::native() const {
+  const auto* id = std::get_if<NodeId>(&root_);
+  return id == nullptr ? nullptr : std::get_if<Value>(&nodes_[id->index]);
+}
+
+struct Parcel::Writer {
+  const Parcel& parcel;
+  const std::string& name;
+  const std::vector<Value>& given;
+  ByteWriter out{};
+  std::uint32_t node = 0;  // being written
+  int depth = 0;
+
+  void tag(Tag value) { out.number(static_cast<std::uint8_t>(value)); }
+  template <class T>
+  void optional(const std::optional<T>& value) {
+    out.number(value.has_value());
+    if (value) out.number(*value);
+  }
+
+  // "run(case).bench": through the tables that lead to a node.
+  std::string path_to(std::uint32_t to, int steps = 0) const {
+    if (const auto* root = std::get_if<NodeId>(&parcel.root_);
+        steps > 50 || (root != nullptr && root->index == to))
+      return name;
+    for (std::uint32_t k = 0; k < parcel.nodes_.size(); ++k) {
+      const auto* table = std::get_if<Table>(&parcel.nodes_[k]);
+      if (table == nullptr || k == to) continue;
+      for (const Entry& entry : table->entries) {
+        const auto* id = std::get_if<NodeId>(&entry.value);
+        if (id == nullptr || id->index != to) continue;
+        std::string step = "[...]";
+        if (const auto* text = std::get_if<std::string>(&entry.key))
+          step = is_name(*text) ? "." + *text : "[\"" + *text + "\"]";
+        else if (const auto* whole = std::get_if<std::int64_t>(&entry.key))
+          step = "[" + std::to_string(*whole) + "]";
+        return path_to(k, steps + 1) + step;
+      }
+    }
+    return name;
+  }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw Error(ErrorCode::not_permitted,
+                quoted(path_to(node)) + " holds " + what +
+                    ", which can be neither kept in a file nor sent to another process",
+                "return numbers read off it, or a surface's :heights()");
+  }
+
+  void write(const Material& material) {
+    out.text(material.name);
+    for (const auto& property : {material.young, material.poisson, material.hardness, material.density})
+      optional(property);
+    out.text(material.source);
+    out.number(material.rigid);
+  }
+  void write(const Object& object) {
+    std::size_t place = 0;
+    if (same_object(object, given, place) != nullptr) {
+      tag(Tag::given);
+      out.number(static_cast<std::uint64_t>(place));
+      return;
+    }
+    if (const std::string refused = no_bytes_for(object); !refused.empty()) refuse(refused);
+    if (object.type == &class_of<Surface>()) {
+      const auto& surface = *static_cast<const Surface*>(object.pointer.get());
+      tag(Tag::surface);
+      out.number(surface.grid().nx);
+      out.number(surface.grid().ny);
+      out.number(surface.grid().size_x);
+      out.number(surface.grid().size_y);
+      out.numbers(surface.heights().values());
+      out.number(surface.traits().periodic);
+      optional(surface.traits().aliased_share);
+      out.number(surface.material().has_value());
+      if (surface.material()) write(*surface.material());
+    } else if (object.type == &class_of<Profile>()) {
+      const auto& profile = *static_cast<const Profile*>(object.pointer.get());
+      tag(Tag::profile);
+      out.number(profile.spacing());
+      out.numbers(profile.heights());
+      optional(profile.closed_radius());
+    } else {
+      tag(Tag::material);
+      write(*static_cast<const Material*>(object.pointer.get()));
+    }
+  }
+  void write(const std::shared_ptr<Record>& record) {
+    tag(Tag::record);
+    out.text(record->name);
+    out.number(static_cast<std::uint64_t>(record->entries.size()));
+    for (const Record::Entry& entry : record->entries) {
+      out.text(entry.field);
+      write(entry.value);
+      for (const std::int8_t power :
+           {entry.dimension.length, entry.dimension.mass, entry.dimension.time, entry.dimension.angle})
+        out.number(power);
+    }
+    out.number(static_cast<std::uint64_t>(record->missing_effects.size()));
+    for (const auto& [field, effect] : record->missing_effects) {
+      out.text(field);
+      out.text(effect);
+    }
+  }
+  template <class Named>
+  void write_named(const Named& named) {
+    out.number(static_cast<std::uint64_t>(named.size()));
+    for (const auto& [key, item] : named) {
+      out.text(key);
+      write(item);
+    }
+  }
+  void write(const Value& value) {
+    if (++depth > deepest_parcel)
+      refuse("results within results, more than " + std::to_string(deepest_parcel) + " deep");
+    std::visit(
+        [&](const auto& held) {
+          using Held = std::decay_t<decltype(held)>;
+          if constexpr (std::is_same_v<Held, std::monostate>) {
+            tag(Tag::nil);
+          } else if constexpr (std::is_same_v<Held, bool>) {
+            tag(Tag::truth);
+            out.number(held);
+          } else if constexpr (std::is_same_v<Held, std::int64_t>) {
+            tag(Tag::integer);
+            out.number(held);
+          } else if constexpr (std::is_same_v<Held, double>) {
+            tag(Tag::number);
+            out.number(held);
+          } else if constexpr (std::is_same_v<Held, std::string>) {
+            tag(Tag::text);
+            out.text(held);
+          } else if constexpr (std::is_same_v<Held, Object> ||
+                               std::is_same_v<Held, std::shared_ptr<Record>>) {
+            write(held);
+          } else if constexpr (std::is_same_v<Held, std::shared_ptr<List>>) {
+            tag(Tag::list);
+            out.number(static_cast<std::uint64_t>(held->items.size()));
+            for (const Value& item : held->items) write(item);
+            write_named(held->named);
+          } else if constexpr (std::is_same_v<Held, std::shared_ptr<Map>>) {
+            tag(Tag::map);
+            write_named(held->items);
+          } else if constexpr (std::is_same_v<Held, Value::Numbers>) {
+            tag(Tag::numbers);
+            out.numbers(*held);
+          } else if constexpr (std::is_same_v<Held, Value::Rows>) {
+            tag(Tag::rows);
+            out.number(held->nx());
+            out.number(held->ny());
+            out.numbers(held->values());
+          } else if constexpr (std::is_same_v<Held, std::shared_ptr<const Parcel>>) {
+            tag(Tag::parcel);
+            out.text(held->bytes(name, given));
+          } else {
+            refuse(no_bytes_for(value));
+          }
+        },
+        value.data);
+    --depth;
+  }
+  void write(const Item& item) {
+    std::visit(
+        [&](const auto& held) {
+          using Held = std::decay_t<decltype(held)>;
+          if constexpr (std::is_same_v<Held, NodeId>) {
+            tag(Tag::node);
+            out.number(held.index);
+          } else if constexpr (std::is_constructible_v<Value, Held> && !std::is_same_v<Held, Unknown> &&
+                               !std::is_pointer_v<Held>) {
+            write(Value(held));
+          } else if constexpr (std::is_same_v<Held, std::monostate>) {
+            tag(Tag::nil);
+          } else {
+            refuse("a part of Lua's library");
+          }
+        },
+        item);
+  }
+
+  std::string all() {
+    out.text(form);
+    out.number(static_cast<std::uint64_t>(parcel.nodes_.size()));
+    for (node = 0; node < parcel.nodes_.size(); ++node) {
+      if (const auto* value = std::get_if<Value>(&parcel.nodes_[node])) {
+        out.number(false);
+        write(*value);
+        continue;
+      }
+      const auto* table = std::get_if<Table>(&parcel.nodes_[node]);
+      if (table == nullptr || !std::holds_alternative<std::monostate>(table->metatable)) refuse("a function");
+      out.number(true);
+      out.number(table->length);
+      out.number(static_cast<std::uint64_t>(table->entries.size()));
+      for (const Entry& entry : table->entries) {
+        write(entry.key);
+        write(entry.value);
+      }
+    }
+    write(parcel.root_);
+    return out.take();
+  }
+};
+
+struct Parcel::Reader {
+  ByteReader in;
+  const std::vector<Value>& given;
+  std::size_t nodes = 0;
+  int depth = 0;
+
+  template <class T>
+  std::optional<T> optional() {
+    if (!in.truth()) return {};
+    return in.template number<T>();
+  }
+  Array<double> numbers() {
+    return in.numbers([](std::size_t length) { return Array<double>(length); });
+  }
+  Field field() {
+    const int nx = in.number<int>(), ny = in.number<int>();
+    const Array<double> values = numbers();
+    if (nx < 0 || ny < 0 || static_cast<std::uint64_t>(nx) * static_cast<std::uint64_t>(ny) != values.size())
+      ByteReader::damaged();
+    Field result(nx, ny);
+    std::ranges::copy(values, result.values().begin());
+    return result;
+  }
+  Material material() {
+    Material result;
+    result.name = in.text();
+    for (auto* property : {&result.young, &result.poisson, &result.hardness, &result.density})
+      *property = optional<double>();
+    result.source = in.text();
+    result.rigid = in.truth();
+    return result;
+  }
+  Value surface() {
+    Grid grid;
+    grid.nx = in.number<int>();
+    grid.ny = in.number<int>();
+    grid.size_x = in.number<double>();
+    grid.size_y = in.number<double>();
+    const Array<double> values = numbers();
+    if (grid.nx < 1 || grid.ny < 1 || grid.nodes() != values.size()) ByteReader::damaged();
+    Field heights(grid.nx, grid.ny);
+    std::ranges::copy(values, heights.values().begin());
+    SurfaceTraits traits;
+    traits.periodic = in.truth();
+    traits.aliased_share = optional<double>();
+    if (in.truth()) traits.material = material();
+    return object(Surface(grid, std::move(heights), std::move(traits)));
+  }
+  Value profile() {
+    const auto spacing = in.number<double>();
+    Array<double> heights = numbers();
+    return object(Profile(spacing, std::move(heights), optional<double>()));
+  }
+  Value record() {
+    Record result;
+    result.name = in.text();
+    for (std::size_t left = in.count(); left > 0; --left) {
+      Record::Entry entry{in.text(), {}, {}};
+      entry.value = value();
+      for (std::int8_t* power :
+           {&entry.dimension.length, &entry.dimension.mass, &entry.dimension.time, &entry.dimension.angle})
+        *power = in.number<std::int8_t>();
+      result.entries.push_back(std::move(entry));
+    }
+    for (std::size_t left = in.count(); left > 0; --left) {
+      std::string effect_field = in.text();
+      result.missing_effects.emplace_back(std::move(effect_field), in.text());
+    }
+    return result;
+  }
+  std::vector<std::pair<std::string, Value>> named() {
+    std::vector<std::pair<std::string, Value>> result;
+    for (std::size_t left = in.count(); left > 0; --left) {
+      std::string key = in.text();
+      result.emplace_back(std::move(key), value());
+    }
+    return result;
+  }
+  Tag tag() {
+    const auto found = in.number<std::uint8_t>();
+    if (found > static_cast<std::uint8_t>(Tag::parcel)) ByteReader::damaged();
+    return static_cast<Tag>(found);
+  }
+  Value value() { return value(tag()); }
+  Value value(Tag kind) {
+    if (++depth > deepest_parcel) ByteReader::damaged();
+    Value result = [&]() -> Value {
+      switch (kind) {
+        case Tag::nil:
+          return {};
+        case Tag::truth:
+          return in.truth();
+        case Tag::integer:
+          return in.number<std::int64_t>();
+        case Tag::number:
+          return in.number<double>();
+        case Tag::text:
+          return in.text();
+        case Tag::given: {
+          const auto place = in.number<std::uint64_t>();
+          if (place >= given.size()) ByteReader::damaged();
+          return given[static_cast<std::size_t>(place)];
+        }
+        case Tag::surface:
+          return surface();
+        case Tag::profile:
+          return profile();
+        case Tag::material:
+          return object(material());
+        case Tag::record:
+          return record();
+        case Tag::list: {
+          List list;
+          for (std::size_t left = in.count(); left > 0; --left) list.items.push_back(value());
+          list.named = named();
+          return list;
+        }
+        case Tag::map: {
+          Map map;
+          map.items = named();
+          return map;
+        }
+        case Tag::numbers:
+          return std::make_shared<const Array<double>>(numbers());
+        case Tag::rows:
+          return std::make_shared<const Field>(field());
+        case Tag::parcel:
+          return from_bytes(in.text(), given);
+        case Tag::node:
+          break;
+      }
+      ByteReader::damaged();
+    }();
+    --depth;
+    return result;
+  }
+  Item item() {
+    const Tag kind = tag();
+    if (kind == Tag::node) {
+      const auto index = in.number<std::uint32_t>();
+      if (index >= nodes) ByteReader::damaged();
+      return NodeId{index};
+    }
+    const Value plain = kind <= Tag::text ? value(kind) : (ByteReader::damaged(), Value());
+    return std::visit(
+        [](const auto& held) -> Item {
+          if constexpr (std::is_constructible_v<Item, decltype(held)>)
+            return held;
+          else
+            ByteReader::damaged();
+        },
+        plain.data);
+  }
+
+  std::shared_ptr<const Parcel> all() {
+    if (in.text() != form) ByteReader::damaged();
+    auto parcel = std::make_shared<Parcel>();
+    nodes = in.count(2);
+    for (std::size_t k = 0; k < nodes; ++k) {
+      if (!in.truth()) {
+        parcel->nodes_.emplace_back(value());
+        continue;
+      }
+      Table table;
+      table.length = in.number<std::uint32_t>();
+      for (std::size_t left = in.count(2); left > 0; --left) {
+        Entry entry;
+        entry.key = item();
+        // Lua has no such keys.
+        const auto* number = std::get_if<double>(&entry.key);
+        if (std::holds_alternative<std::monostate>(entry.key) || (number != nullptr && *number != *number))
+          ByteReader::damaged();
+        entry.value = item();
+        table.entries.push_back(std::move(entry));
+      }
+      parcel->nodes_.emplace_back(std::move(table));
+    }
+    parcel->root_ = item();
+    if (!in.at_end()) ByteReader::damaged();
+    return parcel;
+  }
+};
+
+std::string Parcel::bytes(const std::string& name, const std::vector<Value>& given) const {
+  return Writer{*this, name, given}.all();
+}
+
+std::shared_ptr<const Parcel> Parcel::from_bytes(std::string_view bytes, const std::vector<Value>& given) {
+  return Reader{ByteReader(bytes), given}.all();
+}
+
+}  // namespace asperity::lua

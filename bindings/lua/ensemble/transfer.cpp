@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/ensemble/transfer.hpp"
+
+#include <algorithm>
+#include <new>
+#include <unordered_map>
+#include <utility>
+
+#include "bindings/lua/ensemble/reach.hpp"
+#include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+int append_code(lua_State*, const void* piece, std::size_t size, void* code) {
+  try {
+    static_cast<std::string*>(code)->append(static_cast<const char*>(piece), size);
+    return 0;
+  } catch (const std::bad_alloc&) {
+    return 1;
+  }
+}
+
+// Whether another thread may read it.
+bool shareable(const Value& value) {
+  if (const auto* object = std::get_if<Object>(&value.data))
+    return object->type->shareable && !object->closed;
+  if (const auto* record = std::get_if<std::shared_ptr<Record>>(&value.data))
+    return std::all_of((*record)->entries.begin(), (*record)->entries.end(),
+                       [](const Record::Entry& entry) { return shareable(entry.value); });
+  const auto field_is_shareable = [](const auto& field) { return shareable(field.second); };
+  if (const auto* list = std::get_if<std::shared_ptr<List>>(&value.data))
+    return std::all_of((*list)->items.begin(), (*list)->items.end(), shareable) &&
+           std::all_of((*list)->named.begin(), (*list)->named.end(), field_is_shareable);
+  if (const auto* map = std::get_if<std::shared_ptr<Map>>(&value.data))
+    return std::all_of((*map)->items.begin(), (*map)->items.end(), field_is_shareable);
+  return !std::holds_alternative<std::shared_ptr<Iterator>>(value.data);
+}
+
+}  // namespace
+
+// Goes through the graph depth first. Every table or function that is being read is a frame; the
+// value itself stays on the Lua stack at the frame's index, so nothing is recursive.
+class Packer {
+ public:
+  Packer(lua_State* state, Parcel& parcel, Cargo cargo, std::string name, std::string hint)
+      : L(state),
+        parcel_(parcel),
+        cargo_(cargo),
+        name_(std::move(name)),
+        hint_(std::move(hint)),
+        base_(state) {}
+
+  void pack_root(int index) { parcel_.root_ = pack(index); }
+
+  Parcel::Item pack(int index) {
+    const Argument::StackGuard guard(L);
+    lua_pushvalue(L, index);
+    Parcel::Item root = take();
+    while (!frames_.empty()) advance();
+    return root;
+  }
+
+  // The globals, and what the script keeps in Lua's own tables.
+  void pack_additions() {
+    with_globals([&](const Argument& globals) {
+      const Argument::StackGuard guard(L);
+      parcel_.strict_globals_ = lua_getmetatable(L, globals.index()) != 0;
+      pack_additions(globals, {"_G", ""});
+      for (const std::string_view library : base_libraries)
+        with_key(globals, library, [&](const Argument& table) {
+          const BasePath path{std::string(library), ""};
+          const BasePath* found = table.is_table() ? base_.find(L, table.index()) : nullptr;
+          if (found != nullptr && *found == path && library != "_G") pack_additions(table, path);
+        });
+    });
+  }
+
+ private:
+  struct Frame {
+    enum class Phase { begin, metatable, entries, value } phase = Phase::begin;  // of a table
+    std::uint32_t node = 0;
+    int index = 0;    // of the table or function on the Lua stack
+    int upvalue = 0;  // the last one read
+  };
+
+  // The value on top of the stack as an item. It is popped, unless it opens a frame, which pops it
+  // when it is done.
+  Parcel::Item take() {
+    if (lua_checkstack(L, 16) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
+    const Argument value(L, -1);
+    Parcel::Item item;
+    switch (lua_type(L, -1)) {
+      case LUA_TNIL:
+        break;
+      case LUA_TBOOLEAN:
+        item = value.boolean();
+        break;
+      case LUA_TNUMBER:
+        if (lua_isinteger(L, -1) != 0)
+          item = static_cast<std::int64_t>(lua_tointeger(L, -1));
+        else
+          item = value.number();
+        break;
+      case LUA_TSTRING:
+        item = std::string(value.text());
+        break;
+      case LUA_TLIGHTUSERDATA:
+        item = lua_touserdata(L, -1);
+        break;
+      default:
+        return take_object(value);
+    }
+    lua_pop(L, 1);
+    return item;
+  }
+
+  Parcel::Item take_object(const Argument& value) {
+    const void* identity = lua_topointer(L, -1);
+    if (const auto known = seen_.find(identity); known != seen_.end())
+      return popped(Parcel::NodeId{known->second});
+    if (const BasePath* path = base_.find(L, -1)) {
+      if (cargo_ == Cargo::data) refuse("a part of Lua's library");
+      return popped(base(*path));
+    }
+    switch (lua_type(L, -1)) {
+      case LUA_TTABLE:
+        if (const Module* module = module_at(L, -1)) {
+          if (cargo_ == Cargo::data) refuse("a part of the laboratory");
+          return popped(module);
+        }
+        return open(identity, Parcel::Table{static_cast<std::uint32_t>(std::min<lua_Unsigned>(
+                                                lua_rawlen(L, -1), lua_Unsigned{1} << 26)),
+                                            {},
+                                            {}});
+      case LUA_TFUNCTION:
+        if (cargo_ == Cargo::data) refuse("a function");
+        return lua_iscfunction(L, -1) != 0 ? take_host_function(identity) : take_function(identity);
+      case LUA_TUSERDATA:
+        return take_userdata(identity, value);
+      default:
+        refuse(value.describe());
+    }
+  }
+
+  Parcel::Item take_function(const void* identity) {
+    Parcel::ScriptFunction function;
+    if (lua_dump(L, append_code, &function.code, 0) != 0)
+      throw Error(ErrorCode::out_of_memory, "there is no memory for the code of a function");
+    return open(identity, std::move(function));
+  }
+
+  Parcel::Item take_host_function(const void* identity) {
+    const lua_CFunction function = lua_tocfunction(L, -1);
+    const bool has_state = lua_getupvalue(L, -1, 1) != nullptr;
+    if (has_state) lua_pop(L, 1);
+    // A case has a print of its own, which keeps the order of what cases print.
+    const BasePath* path = base_function(function);
+    if (path != nullptr && (has_state || *path == BasePath{"_G", "print"})) return popped(base(*path));
+    if (!has_state) return popped(function);
+    return open(identity, Parcel::HostFunction{function, {}});
+  }
+
+  Parcel::Item take_userdata(const void* identity, const Argument& value) {
+    if (const Object* object = value.as_any_object()) {
+      if (object->closed) refuse(object->type->article_name + " that was closed");
+      if (!object->type->shareable) refuse(object->type->article_name);
+      return popped(add_node(identity, Value(*object)));
+    }
+    if (value.is_unknown()) return popped(Unknown{});
+    if (auto record = record_at(L, -1)) {
+      Value whole;
+      whole.data = std::move(record);
+      if (!shareable(whole)) refuse("a result that holds something of its own state");
+      return popped(add_node(identity, std::move(whole)));
+    }
+    refuse(kind_of_userdata(value));
+  }
+
+  template <class T>
+  Parcel::Item popped(T item) {
+    lua_pop(L, 1);
+    return Parcel::Item(std::move(item));
+  }
+
+  Parcel::NodeId add_node(const void* identity, Parcel::Node node) {
+    const auto index = static_cast<std::uint32_t>(parcel_.nodes_.size());
+    parcel_.nodes_.push_back(std::move(node));
+    seen_.emplace(identity, index);
+    order_.push_back(identity);
+    return {index};
+  }
+
+  Parcel::Item open(const void* identity, Parcel::Node node) {
+    const Parcel::NodeId id = add_node(identity, std::move(node));
+    frames_.push_back({Frame::Phase::begin, id.index, lua_gettop(L), 0});
+    return id;
+  }
+
+  void close() {
+    lua_settop(L, frames_.back().index - 1);
+    frames_.pop_back();
+  }
+
+  Parcel::BaseId base(const BasePath& path) {
+    const auto found = std::find(parcel_.bases_.begin(), parcel_.bases_.end(), path);
+    const auto index = static_cast<std::uint32_t>(found - parcel_.bases_.begin());
+    if (found == parcel_.bases_.end()) parcel_.bases_.push_back(path);
+    return {index};
+  }
+
+  // Reads one more thing of the innermost frame. take() may open another, so nothing is held by
+  // reference across it.
+  void advance() {
+    const std::uint32_t node = frames_.back().node;
+    if (std::holds_alternative<Parcel::Table>(parcel_.nodes_[node]))
+      advance_table(node);
+    else
+      advance_function(node);
+  }
+
+  void advance_table(std::uint32_t node) {
+    const auto table = [&]() -> Parcel::Table& { return std::get<Parcel::Table>(parcel_.nodes_[node]); };
+    const std::size_t depth = frames_.size();
+    const int index = frames_.back().index;
+    Parcel::Item item;
+    switch (frames_.back().phase) {
+      case Frame::Phase::begin:
+        frames_.back().phase = Frame::Phase::entries;
+        if (lua_getmetatable(L, index) == 0) {
+          lua_pushnil(L);
+          return;
+        }
+        if (cargo_ == Cargo::data) refuse("a table with a metatable", true);
+        frames_.back().phase = Frame::Phase::metatable;
+        item = take();
+        table().metatable = std::move(item);
+        return;
+      case Frame::Phase::metatable:
+        frames_.back().phase = Frame::Phase::entries;
+        lua_pushnil(L);
+        return;
+      case Frame::Phase::entries:
+        while (lua_next(L, index) != 0) {
+          if (cargo_ == Cargo::data && lua_type(L, -2) != LUA_TNUMBER && lua_type(L, -2) != LUA_TSTRING &&
+              lua_type(L, -2) != LUA_TBOOLEAN)
+            refuse("under a key that is " + Argument(L, -2).describe());
+          lua_pushvalue(L, -2);
+          item = take();
+          table().entries.push_back({std::move(item), {}});
+          if (frames_.size() != depth) {
+            frames_[depth - 1].phase = Frame::Phase::value;
+            return;
+          }
+          item = take();
+          table().entries.back().value = std::move(item);
+          if (frames_.size() != depth) return;
+        }
+        close();
+        return;
+      case Frame::Phase::value:
+        frames_.back().phase = Frame::Phase::entries;
+        item = take();
+        table().entries.back().value = std::move(item);
+        return;
+    }
+  }
+
+  void advance_function(std::uint32_t node) {
+    const std::size_t depth = frames_.size();
+    const bool script = std::holds_alternative<Parcel::ScriptFunction>(parcel_.nodes_[node]);
+    while (frames_.size() == depth) {
+      const int index = frames_.back().index;
+      const int upvalue = ++frames_.back().upvalue;
+      if (lua_getupvalue(L, index, upvalue) == nullptr) return close();
+      if (!script) {
+        Parcel::Item item = take();
+        std::get<Parcel::HostFunction>(parcel_.nodes_[node]).upvalues.push_back(std::move(item));
+        continue;
+      }
+      const void* identity = lua_upvalueid(L, index, upvalue);
+      const auto [known, is_new] =
+          cell_of_.try_emplace(identity, static_cast<std::uint32_t>(parcel_.cells_.size()));
+      const std::uint32_t cell = known->second;
+      std::get<Parcel::ScriptFunction>(parcel_.nodes_[node]).cells.push_back(cell);
+      if (!is_new) {
+        lua_pop(L, 1);
+        continue;
+      }
+      cell_order_.push_back(identity);
+      parcel_.cells_.push_back({{}, node, upvalue});
+      Parcel::Item item = take();
+      parcel_.cells_[cell].value = std::move(item);
+    }
+  }
+
+  // "`run` uses the upvalue `app.bench`, which is a contact": how the frames lead to the value.
+  [[noreturn]] void refuse(const std::string& kind, bool the_table_itself = false) const {
+    std::vector<std::string> chain = {name_};
+    bool held_by_host = false;
+    const std::size_t steps = frames_.size() - (the_table_itself ? 1 : 0);
+    for (std::size_t k = 0; k < steps; ++k) {
+      const Frame& frame = frames_[k];
+      held_by_host = false;
+      if (!lua_isfunction(L, frame.index)) {
+        chain.back() += frame.phase == Frame::Phase::metatable ? std::string("'s metatable")
+                                                               : step_text(Argument(L, frame.index + 1));
+        continue;
+      }
+      held_by_host = lua_iscfunction(L, frame.index) != 0;
+      if (held_by_host) continue;
+      const Argument::StackGuard guard(L);
+      chain.emplace_back(lua_getupvalue(L, frame.index, frame.upvalue));
+    }
+    std::string text = quoted(chain[0]);
+    for (std::size_t k = 1; k < chain.size(); ++k)
+      text += (k == 1 ? " uses the upvalue " : ", which uses the upvalue ") + quoted(chain[k]);
+    const std::string verb = held_by_host ? "holds " : "is ";
+    throw Error(ErrorCode::not_permitted, text + (chain.size() > 1 ? ", which " : " ") + verb + kind, hint_);
+  }
+
+  template <class Use>
+  void with_globals(Use&& use) {
+    const Argument::StackGuard guard(L);
+    lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+    use(Argument(L, -1));
+  }
+
+  void pack_additions(const Argument& table, const BasePath& path) {
+    table.each([&](const Argument& key, const Argument& value) {
+      if (!key.is_text() && !key.is_number()) return;
+      if (is_original(value, path.library, key)) return;
+      const std::size_t nodes = parcel_.nodes_.size(), cells = parcel_.cells_.size();
+      name_ = path.library == "_G" ? step_text(key).substr(key.is_text() && is_name(key.text()) ? 1 : 0)
+                                   : path.library + step_text(key);
+      try {
+        Parcel::Item item = pack(value.index());
+        Parcel::Item name = key.is_text()   ? Parcel::Item(std::string(key.text()))
+                            : key.integer() ? Parcel::Item(*key.integer())
+                                            : Parcel::Item(key.number());
+        parcel_.additions_.push_back({base(path), {std::move(name), std::move(item)}});
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::not_permitted) throw;
+        forget(nodes, cells);
+        if (path.library == "_G" && key.is_text()) parcel_.left_behind_.emplace(key.text(), error.sentence());
+      }
+    });
+  }
+
+  // What a fresh state has under the same name anyway.
+  bool is_original(const Argument& value, const std::string& library, const Argument& key) const {
+    if (!key.is_text()) return false;
+    const BasePath own{library, std::string(key.text())};
+    if (value.is_function()) {
+      if (is_sandbox_function(L, value.index())) return true;
+      const BasePath* path = base_function(lua_tocfunction(L, value.index()));
+      return path != nullptr && *path == own;
+    }
+    const BasePath* path = base_.find(L, value.index());
+    return path != nullptr && (*path == own || (library == "_G" && *path == BasePath{own.key, ""}));
+  }
+
+  // Takes back what was packed after there were so many nodes and cells.
+  void forget(std::size_t nodes, std::size_t cells) {
+    frames_.clear();
+    for (; order_.size() > nodes; order_.pop_back()) seen_.erase(order_.back());
+    for (; cell_order_.size() > cells; cell_order_.pop_back()) cell_of_.erase(cell_order_.back());
+    parcel_.nodes_.resize(nodes, Parcel::Node(Value()));
+    parcel_.cells_.resize(cells);
+  }
+
+  lua_State* L;
+  Parcel& parcel_;
+  Cargo cargo_;
+  std::string name_, hint_;
+  BaseLibrary base_;
+  std::vector<Frame> frames_;
+  std::unordered_map<const void*, std::uint32_t> seen_, cell_of_;
+  std::vector<const void*> order_, cell_order_;
+};
+
+std::shared_ptr<const Parcel> pack(lua_State* L, int index, Cargo cargo, const std::string& name,
+                                   const std::string& hint) {
+  auto parcel = std::make_shared<Parcel>();
+  Packer packer(L, *parcel, cargo, name, hint);
+  packer.pack_root(index);
+  if (cargo == Cargo::functions) packer.pack_additions();
+  return parcel;
+}
+
+}  // namespace asperity::lua

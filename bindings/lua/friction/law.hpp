@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lab.friction: the junction law as a native value of the language.
+#pragma once
+
+#include <optional>
+
+#include "bindings/lua/registry/registry.hpp"
+#include "engine/friction/junction_law.hpp"
+
+namespace asperity::lua {
+
+template <>
+const Class& class_of<JunctionLaw>();
+
+Function friction_function();
+
+// `rest`, which law:on and the methods of a tilt stage take.
+struct OnKeys {
+  std::optional<double> rest;
+};
+Option<OnKeys> rest_option();
+
+}  // namespace asperity::lua

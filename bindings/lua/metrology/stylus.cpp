@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/metrology/stylus.hpp"
+
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/surface/surface.hpp"
+#include "engine/metrology/spherical_tip.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+const Block<StylusOptions>& stylus_block() {
+  using O = StylusOptions;
+  static const Block<O> block{
+      "lab.stylus",
+      {quantity("tip", &O::tip, dimension::length, at_least(0),
+                "radius of the spherical tip; 0 is a needle that follows the surface"),
+       Option<O>(quantity("spacing", &O::spacing, dimension::length, above(0),
+                          "distance between samples; or give `speed` and `rate`"))
+           .defaults_to("\"0.25 um\""),
+       quantity("length", &O::length, dimension::length, above(0), "of a trace"),
+       quantity("speed", &O::speed, dimension::speed, above(0), "of the tip; spacing = speed/rate"),
+       quantity("rate", &O::rate, dimension::frequency, above(0), "of the samples; spacing = speed/rate")}};
+  return block;
+}
+
+Values make_stylus(Call& call) { return {object(Stylus(call.options(stylus_block())))}; }
+
+struct ScanKeys {
+  int count = 5;
+  std::uint64_t seed = 1;
+};
+const Block<ScanKeys>& scan_block() {
+  static const Block<ScanKeys> block{
+      "scan",
+      {integer("count", &ScanKeys::count, between(1, most_traces), "number of traces"),
+       integer(
+           "seed", &ScanKeys::seed, at_least(0),
+           "of their places and angles: the same seed goes over the same lines of a surface of that size")}};
+  return block;
+}
+
+Record effect_record(const TipEffect& effect) {
+  Record record;
+  record.name = "tip effect";
+  record.add("Ra_ratio", effect.ra_ratio)
+      .add("rms_slope_ratio", effect.rms_slope_ratio)
+      .add("amplitude_ratio", effect.amplitude_ratio)
+      .add("mean_lift", effect.mean_lift, dimension::length)
+      .add("greatest_lift", effect.greatest_lift, dimension::length);
+  return record;
+}
+
+Record traverse_record(const Traverse& line) {
+  Record record;
+  record.name = "line";
+  record.add("x", line.start.x, dimension::length)
+      .add("y", line.start.y, dimension::length)
+      .add("angle", line.angle, dimension::angle);
+  return record;
+}
+
+Values scan(Call& call) {
+  const Surface& surface = call.object<Surface>(1, "surface");
+  const ScanKeys keys = call.options(scan_block(), 2);
+  StylusScan result = call.self<Stylus>().scan(surface, keys.count, keys.seed, call.session().monitor());
+  List traces, lines;
+  for (Profile& trace : result.traces) traces.items.push_back(object(std::move(trace)));
+  for (const Traverse& line : result.lines) lines.items.emplace_back(traverse_record(line));
+  traces.named.emplace_back("tip_effect", effect_record(result.effect));
+  traces.named.emplace_back("lines", std::move(lines));
+  return {std::move(traces)};
+}
+
+Values dilate(Call& call) {
+  return {object(
+      dilated(call.object<Surface>(1, "surface"), call.self<Stylus>().tip(), call.session().monitor()))};
+}
+Values close_map(Call& call) {
+  return {object(
+      closed(call.object<Surface>(1, "surface"), call.self<Stylus>().tip(), call.session().monitor()))};
+}
+
+std::string describe_stylus(const void* self) {
+  const auto& s = *static_cast<const Stylus*>(self);
+  return "stylus: tip radius " + format_quantity(s.tip(), dimension::length) + ", " +
+         std::to_string(s.samples()) + " samples every " + format_quantity(s.spacing(), dimension::length) +
+         (s.speed() ? ", at " + format_quantity(*s.speed(), dimension::speed) : "");
+}
+
+bool equal_styluses(const void* a, const void* b) {
+  return static_cast<const Stylus*>(a)->digest() == static_cast<const Stylus*>(b)->digest();
+}
+std::string digest_of_stylus(const void* self) { return static_cast<const Stylus*>(self)->digest(); }
+
+}  // namespace
+
+Function stylus_function() {
+  return {.name = "stylus",
+          .body = make_stylus,
+          .sentence =
+              "A stylus profiler with a spherical tip, which rests on the surface wherever it first "
+              "touches (grey-scale dilation).",
+          .options = &stylus_block(),
+          .options_optional = true,
+          .returns = "Stylus",
+          .example = "local stylus = lab.stylus{ tip=\"2 um\", speed=\"50 um/s\", rate=\"200 Hz\" }"};
+}
+
+template <>
+const Class& class_of<Stylus>() {
+  static const Class type = [] {
+    Class c;
+    c.name = "Stylus";
+    c.article_name = "a stylus";
+    c.sentence = "A stylus profiler; an immutable value.";
+    c.describe = describe_stylus;
+    c.equal = equal_styluses;
+    c.digest = digest_of_stylus;
+    c.fields = {
+        {"tip", "number", "radius of the tip", dimension::length,
+         [](Call& call) -> Values { return {call.self<Stylus>().tip()}; }},
+        {"spacing", "number", "distance between samples", dimension::length,
+         [](Call& call) -> Values { return {call.self<Stylus>().spacing()}; }},
+        {"length", "number", "of a trace", dimension::length,
+         [](Call& call) -> Values { return {call.self<Stylus>().length()}; }},
+        {"samples",
+         "integer",
+         "number of samples of a trace: the whole spacings in its length",
+         {},
+         [](Call& call) -> Values { return {call.self<Stylus>().samples()}; }},
+        {"speed", "number", "of the tip; nil where only the spacing is known", dimension::speed,
+         [](Call& call) -> Values { return {Value(call.self<Stylus>().speed())}; }},
+        {"rate", "number", "of the samples; nil where only the spacing is known", dimension::frequency,
+         [](Call& call) -> Values { return {Value(call.self<Stylus>().rate())}; }},
+        {"digest",
+         "string",
+         "equal styluses have equal digests",
+         {},
+         [](Call& call) -> Values { return {call.self<Stylus>().digest()}; }},
+    };
+    c.methods = {
+        {.name = "scan",
+         .body = scan,
+         .sentence =
+             "Traces at random places and angles, as the tip gives them: nothing is levelled or "
+             "filtered. On a periodic surface they go on past the rim; on any other they stay inside. "
+             "The list also holds tip_effect, what the tip changed against a needle on the same lines "
+             "(Ra_ratio, rms_slope_ratio, amplitude_ratio, mean_lift, greatest_lift), and lines, "
+             "where each trace begins (x, y) and its angle.",
+         .parameters = {{"surface", "Surface", "what is measured"}},
+         .options = &scan_block(),
+         .options_optional = true,
+         .returns = "Profile[] with tip_effect and lines",
+         .example = "local traces = stylus:scan(s, { count=5, seed=1 })",
+         .heavy = true},
+        {.name = "dilated",
+         .body = dilate,
+         .sentence = "The whole map as the tip gives it, touching at nodes.",
+         .parameters = {{"surface", "Surface", "what is measured"}},
+         .returns = "Surface",
+         .example = "local felt = stylus:dilated(s)",
+         .heavy = true},
+        {.name = "closed",
+         .body = close_map,
+         .sentence =
+             "The part of the map that the tip could touch, what it cannot enter filled (dilation, then "
+             "erosion, at the nodes; the closing of ISO 16610-85).",
+         .parameters = {{"surface", "Surface", "what is measured"}},
+         .returns = "Surface",
+         .example = "local reached = stylus:closed(s)",
+         .heavy = true},
+    };
+    return c;
+  }();
+  return type;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/registry/argument.hpp"
+
+#include "bindings/lua/registry/registry.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::lua {
+
+Argument::StackGuard::StackGuard(lua_State* state) : L(state), top_(lua_gettop(state)) {
+  if (lua_checkstack(L, 8) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
+}
+
+bool Argument::is_unknown() const {
+  const Object* object = as_any_object();
+  if (object != nullptr) return object->is_placeholder();
+  if (lua_type(L, index_) != LUA_TUSERDATA || lua_getmetatable(L, index_) == 0) return false;
+  lua_rawgetp(L, LUA_REGISTRYINDEX, unknown_key());
+  const bool same = lua_rawequal(L, -1, -2) != 0;
+  lua_pop(L, 2);
+  return same;
+}
+
+std::optional<std::int64_t> Argument::integer() const {
+  int is_integer = 0;
+  if (lua_type(L, index_) != LUA_TNUMBER) return {};
+  const lua_Integer value = lua_tointegerx(L, index_, &is_integer);
+  if (is_integer == 0) return {};
+  return value;
+}
+
+std::string_view Argument::text() const {
+  if (lua_type(L, index_) != LUA_TSTRING) return {};
+  std::size_t length = 0;
+  const char* data = lua_tolstring(L, index_, &length);
+  return {data, length};
+}
+
+Object* Argument::as_any_object() const { return native_at(L, index_); }
+
+Object* Argument::as_object(const Class& type) const {
+  Object* object = native_at(L, index_);
+  return object != nullptr && object->type == &type ? object : nullptr;
+}
+
+std::string Argument::describe() const {
+  switch (lua_type(L, index_)) {
+    case LUA_TNONE:
+    case LUA_TNIL:
+      return "nothing (nil)";
+    case LUA_TBOOLEAN:
+      return boolean() ? "the boolean true" : "the boolean false";
+    case LUA_TNUMBER:
+      return "the number " + format_short(number(), 10);
+    case LUA_TSTRING: {
+      std::string shown(text().substr(0, 40));
+      if (text().size() > 40) shown += "…";
+      return "the string \"" + shown + "\"";
+    }
+    case LUA_TTABLE:
+      return "a table";
+    case LUA_TFUNCTION:
+      return "a function";
+    case LUA_TTHREAD:
+      return "a coroutine";
+    default:
+      break;
+  }
+  const Object* object = as_any_object();
+  return object != nullptr ? object->type->article_name : "a userdata";
+}
+
+double Callback::operator()(std::initializer_list<double> arguments, std::string_view key) const {
+  const Argument::StackGuard guard(function_.state());
+  lua_pushvalue(function_.state(), function_.index());
+  for (const double argument : arguments) lua_pushnumber(function_.state(), argument);
+  return finish(static_cast<int>(arguments.size()), key);
+}
+
+double Callback::operator()(std::initializer_list<std::int64_t> arguments, std::string_view key) const {
+  const Argument::StackGuard guard(function_.state());
+  lua_pushvalue(function_.state(), function_.index());
+  for (const std::int64_t argument : arguments) lua_pushinteger(function_.state(), argument);
+  return finish(static_cast<int>(arguments.size()), key);
+}
+
+double Callback::finish(int arguments, std::string_view key) const {
+  lua_State* L = function_.state();
+  if (lua_pcall(L, arguments, 1, 0) != LUA_OK) {
+    stop_flag().check();
+    const Argument error(L, -1);
+    throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " failed: " +
+                                          (error.is_text() ? std::string(error.text()) : error.describe()));
+  }
+  const Argument result(L, -1);
+  if (!result.is_number())
+    throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " returned " + result.describe(),
+                "it must return a number");
+  return result.number();
+}
+
+}  // namespace asperity::lua

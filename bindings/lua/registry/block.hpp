@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A block of named options, described once: name, dimension, default, range and a sentence for each
+// key. The block reads a Lua table into a plain C++ struct, reports every problem of the table in
+// one Error (unknown keys with the nearest name, missing ones, wrong types, units and ranges),
+// and tells help(), the editor's types, the reference page and the journal what it knows.
+//
+//   Block<CutKeys>{"cut", {number("fraction", &CutKeys::fraction, between(0, 1), "of the height")}};
+//
+// The kinds of options are in options.hpp.
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/number_range.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::lua {
+
+class BlockInfo;
+
+struct OptionInfo {
+  std::string name;
+  std::string type;  // "length", "number", "integer", "string", "boolean", "Surface", "\"all\"|\"resolved\""
+  Dimension dimension{};
+  std::string default_text;  // as a script would write it; "" if there is none
+  std::string range_text;    // "above 0"; may be empty
+  std::string sentence;
+  bool required = false;
+  const BlockInfo* inner = nullptr;  // of a table inside the table
+};
+
+// What is known of a block without its struct.
+class BlockInfo {
+ public:
+  virtual ~BlockInfo() = default;
+  virtual const std::string& name() const = 0;
+  virtual std::vector<const OptionInfo*> options() const = 0;
+  // Whether what is given is a list of tables, each with one of these keys.
+  virtual bool is_list() const { return false; }
+  // Reads and throws away: what a dry run does. Throws like read().
+  virtual void check(const Argument& table, const std::string& caller) const = 0;
+};
+
+// The keys of a call with the values that were in force, as text.
+using Resolved = std::vector<std::pair<std::string, std::string>>;
+
+// A problem is a sentence about one key, without its line.
+using Problems = std::vector<std::string>;
+
+namespace detail {
+// Reads a number or a quantity; appends a problem and returns nothing if it cannot be had.
+std::optional<double> read_quantity(const Argument& value, const OptionInfo& info, const NumberRange& range,
+                                    Problems& problems);
+std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo& info,
+                                         const NumberRange& range, Problems& problems);
+// A number of cells, coarser or finer where a study of accuracy runs the script again (refinement.hpp).
+std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,
+                                       const NumberRange& range, Problems& problems);
+void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems);
+// Walks the table: calls read(option index, value) for known keys; reports unknown and missing ones.
+void read_table(const Argument& table, const std::string& caller,
+                const std::vector<const OptionInfo*>& options,
+                const std::function<void(std::size_t, const Argument&, Problems&)>& read,
+                const std::function<void(Problems&)>& finish);
+template <class T>
+void assign(std::optional<T>& member, T value) {
+  member = std::move(value);
+}
+template <class T, class U>
+void assign(T& member, U value) {
+  member = static_cast<T>(value);
+}
+inline std::optional<double> shown(double v) { return v; }
+inline std::optional<double> shown(int v) { return v; }
+inline std::optional<double> shown(std::int64_t v) { return static_cast<double>(v); }
+inline std::optional<double> shown(std::uint64_t v) { return static_cast<double>(v); }
+template <class T>
+std::optional<double> shown(const std::optional<T>& v) {
+  return v ? std::optional<double>(static_cast<double>(*v)) : std::nullopt;
+}
+}  // namespace detail
+
+// One key of a block that fills a struct O.
+template <class O>
+struct Option {
+  OptionInfo info;
+  std::function<void(const Argument&, const OptionInfo&, O&, Problems&)> read;
+  // The value as a script would write it, "" for none; may be null. Gives defaults and the record.
+  std::function<std::string(const O&)> show;
+
+  Option() = default;
+  // An option of a base struct serves the struct that extends it.
+  template <class Base>
+  requires(std::derived_from<O, Base> && !std::same_as<O, Base>) Option(Option<Base> base)
+      : info(std::move(base.info)), read(std::move(base.read)), show(std::move(base.show)) {}
+
+  Option required() && {
+    info.required = true;
+    return std::move(*this);
+  }
+  // How a value reads in the record, for options made with custom().
+  Option shown_by(std::function<std::string(const O&)> text) && {
+    show = std::move(text);
+    return std::move(*this);
+  }
+  // How the default reads where the struct cannot tell ("size", "roll_off = long_wave").
+  Option defaults_to(std::string text) && {
+    info.default_text = std::move(text);
+    return std::move(*this);
+  }
+};
+
+template <class O>
+class Block final : public BlockInfo {
+ public:
+  // `whole` sees the whole struct after all keys were read without a problem, and may add some.
+  using Check = void (*)(O&, Problems&);
+
+  Block(std::string name, std::vector<Option<O>> options, Check whole = nullptr)
+      : name_(std::move(name)), options_(std::move(options)), check_(whole) {
+    const O defaults{};
+    for (Option<O>& option : options_)
+      if (!option.info.required && option.info.default_text.empty() && option.show)
+        option.info.default_text = option.show(defaults);
+  }
+
+  const std::string& name() const override { return name_; }
+
+  std::vector<const OptionInfo*> options() const override {
+    std::vector<const OptionInfo*> infos;
+    for (const Option<O>& option : options_) infos.push_back(&option.info);
+    return infos;
+  }
+
+  // Throws Error with all problems of the table. No argument at all reads as an empty table.
+  // `resolved`, if given, receives every key with the value in force, as text.
+  O read(const Argument& table, const std::string& caller, Resolved* resolved = nullptr) const {
+    O result{};
+    bool placeholders = false;
+    detail::read_table(
+        table, caller, options(),
+        [&](std::size_t k, const Argument& value, Problems& problems) {
+          if (value.is_unknown()) {
+            // A native placeholder still has a class to check.
+            placeholders = true;
+            if (value.as_any_object() == nullptr) return;
+          }
+          options_[k].read(value, options_[k].info, result, problems);
+        },
+        [&](Problems& problems) {
+          if (check_ != nullptr && !placeholders) check_(result, problems);
+        });
+    if (resolved != nullptr) {
+      const Resolved values = this->resolved(result);
+      resolved->insert(resolved->end(), values.begin(), values.end());
+    }
+    return result;
+  }
+
+  // Every key with the value that it has there.
+  Resolved resolved(const O& values) const {
+    Resolved all;
+    for (const Option<O>& option : options_)
+      if (option.show)
+        if (std::string text = option.show(values); !text.empty()) all.emplace_back(option.info.name, text);
+    return all;
+  }
+
+  void check(const Argument& table, const std::string& caller) const override { (void)read(table, caller); }
+
+ private:
+  std::string name_;
+  std::vector<Option<O>> options_;
+  Check check_;
+};
+
+}  // namespace asperity::lua

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Native values in Lua: the metatable of a class, through which a script reads fields and calls
+// methods, and by which a native value is known.
+#include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/mistakes.hpp"
+#include "bindings/lua/registry/placeholder.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+const char native_key = 0;  // metatable[native_key] = true marks the metatables of native values
+
+int guarded_field(lua_State* L, const Class& type) {
+  static const std::string nothing;
+  return guarded(L, nothing, [&]() -> Values {
+    const Argument key(L, 2);
+    const Object* self = Argument(L, 1).as_object(type);
+    if (self == nullptr) throw Error(ErrorCode::bad_value, "this is not " + type.article_name);
+    if (!key.is_text())
+      throw Error(ErrorCode::unknown_name, type.article_name + " was indexed with " + key.describe(),
+                  "its fields have names");
+    if (self->closed) throw Error(ErrorCode::bad_state, type.article_name + " was used after it was closed");
+    for (const Getter& field : type.fields) {
+      if (field.name != key.text()) continue;
+      if (self->is_placeholder()) return {placeholder_of(field.type)};
+      Call call(L, field.name, true);
+      const LedgerScope scope = call.session().ledger_scope(field.name, false, type.name);
+      return field.body(call);
+    }
+    throw Error(ErrorCode::unknown_name, type.article_name + " has no field " +
+                                             quoted(key.text().substr(0, 40)) +
+                                             did_you_mean(key.text(), type.names()));
+  });
+}
+
+int outer_index(lua_State* L) {
+  lua_pushvalue(L, 2);
+  if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;  // a method
+  lua_pop(L, 1);
+  const int results = guarded_field(L, *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1))));
+  return results < 0 ? mistaken_field(L) : results;
+}
+
+int guarded_new_index(lua_State* L, const Class& type) {
+  static const std::string nothing;
+  return guarded(L, nothing, [&]() -> Values {
+    const Argument key(L, 2);
+    throw Error(ErrorCode::not_permitted,
+                type.article_name + " cannot be changed" +
+                    (key.is_text() ? " (field " + quoted(key.text().substr(0, 40)) + ")" : ""),
+                "its methods return new values");
+  });
+}
+
+int outer_new_index(lua_State* L) {
+  guarded_new_index(L, *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1))));
+  return noted_as_mistake(L) ? 0 : lua_error(L);
+}
+
+int outer_to_string(lua_State* L) {
+  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const int results = [&] {
+    return guarded(L, type.name, [&]() -> Values {
+      const Object* self = Argument(L, 1).as_object(type);
+      if (self == nullptr || self->pointer == nullptr || type.describe == nullptr)
+        return {type.article_name + (self != nullptr && self->closed ? " (closed)" : "")};
+      return {type.describe(self->pointer.get())};
+    });
+  }();
+  return results < 0 ? lua_error(L) : results;
+}
+
+int outer_equal(lua_State* L) {
+  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const int results = [&] {
+    return guarded(L, type.name, [&]() -> Values {
+      const Object* a = Argument(L, 1).as_object(type);
+      const Object* b = Argument(L, 2).as_object(type);
+      if (a == nullptr || b == nullptr || a->pointer == nullptr || b->pointer == nullptr) return {false};
+      return {a->pointer == b->pointer ||
+              (type.equal != nullptr && type.equal(a->pointer.get(), b->pointer.get()))};
+    });
+  }();
+  return results < 0 ? lua_error(L) : results;
+}
+
+int outer_length(lua_State* L) {
+  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const int results = [&] {
+    return guarded(L, type.name, [&]() -> Values {
+      const Object* self = Argument(L, 1).as_object(type);
+      if (self != nullptr && self->is_placeholder()) return {Unknown{}};
+      if (self == nullptr || self->closed)
+        throw Error(ErrorCode::bad_state, type.article_name + " was used after it was closed");
+      return {type.length(self->pointer.get())};
+    });
+  }();
+  return results < 0 ? lua_error(L) : results;
+}
+
+// A native value has fields to read and methods to call, and nothing to walk over.
+int outer_pairs(lua_State* L) {
+  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const int results = [&] {
+    static const std::string name = "pairs";
+    return guarded(L, name, [&]() -> Values {
+      throw Error(ErrorCode::bad_value, type.article_name + " is no table",
+                  "help \"" + type.name + "\" lists its fields and methods");
+    });
+  }();
+  return results < 0 ? lua_error(L) : results;
+}
+
+void drop(Object* object) {
+  if (object == nullptr) return;
+  object->pointer.reset();
+  object->known.reset();
+  object->closed = true;
+}
+
+// __gc: drops the native value. Safe to run twice.
+int release(lua_State* L) {
+  drop(native_at(L, 1));
+  return 0;
+}
+
+// __close: the same, after what the class does before it.
+int outer_close(lua_State* L) {
+  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const int results = [&] {
+    return guarded(L, type.name, [&]() -> Values {
+      Object* object = native_at(L, 1);
+      if (object != nullptr && object->pointer != nullptr && type.closing != nullptr)
+        type.closing(object->pointer.get());
+      drop(object);
+      return {};
+    });
+  }();
+  return results < 0 ? lua_error(L) : results;
+}
+
+void set_class_method(lua_State* L, const char* name, lua_CFunction function, const Class& type) {
+  lua_pushlightuserdata(L, const_cast<Class*>(&type));
+  lua_pushcclosure(L, function, 1);
+  lua_setfield(L, -2, name);
+}
+
+}  // namespace
+
+int mistaken_field(lua_State* L) {
+  if (!noted_as_mistake(L)) return lua_error(L);
+  push_unknown(L);
+  return 1;
+}
+
+Object* native_at(lua_State* L, int index) {
+  void* block = lua_touserdata(L, index);
+  if (lua_type(L, index) != LUA_TUSERDATA || lua_getmetatable(L, index) == 0) return nullptr;
+  lua_rawgetp(L, -1, &native_key);
+  const bool ours = lua_toboolean(L, -1) != 0;
+  lua_pop(L, 2);
+  return ours ? static_cast<Object*>(block) : nullptr;
+}
+
+void push_metatable(lua_State* L, const Class& type) {
+  luaL_checkstack(L, 8, nullptr);
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &type) == LUA_TTABLE) return;
+  lua_pop(L, 1);
+  lua_newtable(L);
+  lua_pushboolean(L, 1);
+  lua_rawsetp(L, -2, &native_key);
+  lua_pushstring(L, type.name.c_str());
+  lua_setfield(L, -2, "__name");
+  lua_pushstring(L, type.name.c_str());
+  lua_setfield(L, -2, "__metatable");
+  lua_pushlightuserdata(L, const_cast<Class*>(&type));
+  lua_newtable(L);
+  for (const Function& method : type.methods) {
+    push_function(L, method);
+    lua_setfield(L, -2, method.name.c_str());
+  }
+  lua_pushcclosure(L, outer_index, 2);
+  lua_setfield(L, -2, "__index");
+  set_class_method(L, "__newindex", outer_new_index, type);
+  set_class_method(L, "__tostring", outer_to_string, type);
+  set_class_method(L, "__eq", outer_equal, type);
+  set_class_method(L, "__pairs", outer_pairs, type);
+  if (type.length != nullptr) set_class_method(L, "__len", outer_length, type);
+  set_class_method(L, "__gc", release, type);
+  set_class_method(L, "__close", outer_close, type);
+  lua_pushvalue(L, -1);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, &type);
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/registry/options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/refinement.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/registry/variation.hpp"
+
+namespace asperity::lua {
+
+namespace {
+std::string show_bound(double value, Dimension dimension) {
+  return dimension == dimension::number || value == 0 ? format_short(value, 10)
+                                                      : format_quantity(value, dimension);
+}
+}  // namespace
+
+bool NumberRange::contains(double value) const {
+  if (std::isnan(value)) return false;
+  if (std::isinf(value)) return never && (value > 0);
+  return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+}
+
+std::string NumberRange::text(Dimension dimension) const {
+  const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
+  std::string result;
+  if (has_low && has_high) {
+    result = low_open || high_open
+                 ? (low_open ? "above " : "from ") + show_bound(low, dimension) +
+                       (high_open ? " and below " : " to ") + show_bound(high, dimension)
+                 : "from " + show_bound(low, dimension) + " to " + show_bound(high, dimension);
+  } else if (has_low) {
+    result = (low_open ? "above " : "at least ") + show_bound(low, dimension);
+  } else if (has_high) {
+    result = (high_open ? "below " : "at most ") + show_bound(high, dimension);
+  }
+  if (never) result += (result.empty() ? "" : ", or ") + std::string("math.huge for never");
+  return result;
+}
+
+namespace detail {
+
+void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems) {
+  problems.push_back(quoted(info.name) + " is " + value.describe() + "; give " + std::string(wanted));
+}
+
+namespace {
+// `finite`: say so, of a value whose one fault that is.
+std::string wanted_quantity(const OptionInfo& info, const NumberRange& range, bool finite = false) {
+  std::string wanted = info.dimension == dimension::number ? "a number" : describe(info.dimension);
+  if (finite) wanted = "a finite" + wanted.substr(wanted.find(' '));
+  if (const std::string limits = range.text(info.dimension); !limits.empty()) wanted += " " + limits;
+  if (info.dimension != dimension::number) wanted += ", e.g. \"" + example_quantity(info.dimension) + "\"";
+  return wanted;
+}
+}  // namespace
+
+namespace {
+// A bare number that is SI by the rules and reads like another unit.
+void warn_of_bare_number(const Argument& value, const OptionInfo& info, double number) {
+  std::string sentence;
+  if (info.dimension == dimension::angle && std::abs(number) > 2 * std::numbers::pi) {
+    sentence = quoted(info.name) + " is " + format_short(number) +
+               " rad, over a whole turn: a number without a unit is in radians; write \"" +
+               format_short(number) + " deg\"";
+  } else if (info.dimension == dimension::pressure && (info.name == "young" || info.name == "hardness") &&
+             number > 1 && number < 1000) {  // 1 is what problems without units take
+    sentence = quoted(info.name) + " is " + format_short(number) +
+               " Pa, softer than any solid: a number without a unit is in Pa; write \"" +
+               format_short(number) + " GPa\"";
+  } else {
+    return;
+  }
+  const Session* session = Session::find(value.state());
+  if (session != nullptr) session->monitor().warn(where(value.state()) + sentence);
+}
+}  // namespace
+
+std::optional<double> read_quantity(const Argument& value, const OptionInfo& info, const NumberRange& range,
+                                    Problems& problems) {
+  if (value.is_unknown()) return {};
+  double number = 0;
+  std::string found;
+  if (value.is_number()) {
+    number = value.number();
+    found = format_short(number, 10);
+    warn_of_bare_number(value, info, number);
+    if (info.dimension != dimension::number) found += " " + si_unit(info.dimension);
+  } else if (value.is_text()) {
+    try {
+      number = parse_quantity_as(value.text(), info.dimension);
+    } catch (const Error& error) {
+      problems.push_back(quoted(info.name) + ": " + error.what());
+      return {};
+    }
+    found = "\"" + std::string(value.text().substr(0, 40)) + "\"";
+  } else {
+    wrong_type(value, info, wanted_quantity(info, range), problems);
+    return {};
+  }
+  if (!range.contains(number)) {
+    problems.push_back(quoted(info.name) + " is " + found + "; give " +
+                       (range.text(info.dimension).empty()
+                            ? "a finite number"
+                            : wanted_quantity(info, range, std::isinf(number) && std::isinf(range.high))));
+    return {};
+  }
+  return number;
+}
+
+std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo& info,
+                                         const NumberRange& range, Problems& problems) {
+  if (value.is_unknown()) return {};
+  const std::string limits = range.text({});
+  const std::string wanted = "a whole number" + (limits.empty() ? "" : " " + limits);
+  std::optional<std::int64_t> number;
+  std::string found;
+  if (value.is_number()) {
+    number = value.integer();
+    found = format_short(value.number(), 10);
+  } else if (value.is_text()) {
+    // As for any other number: "64" is 64, and "64 um" a length where a number is wanted.
+    std::optional<Quantity> quantity;
+    try {
+      quantity = parse_quantity(value.text());
+    } catch (const Error&) {
+      wrong_type(value, info, wanted, problems);
+      return {};
+    }
+    try {
+      const double given = quantity->dimension == dimension::number
+                               ? quantity->value
+                               : parse_quantity_as(value.text(), dimension::number);
+      constexpr double exact = 9007199254740992;  // 2^53
+      if (given == std::floor(given) && std::abs(given) <= exact) number = static_cast<std::int64_t>(given);
+    } catch (const Error& error) {
+      problems.push_back(quoted(info.name) + ": " + error.what());
+      return {};
+    }
+    found = "\"" + std::string(value.text().substr(0, 40)) + "\"";
+  } else {
+    wrong_type(value, info, wanted, problems);
+    return {};
+  }
+  if (!number || !range.contains(static_cast<double>(*number))) {
+    problems.push_back(quoted(info.name) + " is " + found + "; give " + wanted);
+    return {};
+  }
+  return number;
+}
+
+std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,
+                                       const NumberRange& range, Problems& problems) {
+  const auto given = read_integer(value, info, range, problems);
+  Refinement* refinement = given ? refinement_of(value.state()) : nullptr;
+  if (refinement == nullptr) return given;
+  const std::int64_t made = refinement->cells(*given);
+  if (range.contains(static_cast<double>(made))) return made;
+  problems.push_back(quoted(info.name) + " is " + std::to_string(*given) + ", and " +
+                     format_short(refinement->cells_factor) + " times as many are more than " +
+                     range.text({}));
+  return {};
+}
+
+void read_table(const Argument& table, const std::string& caller,
+                const std::vector<const OptionInfo*>& options,
+                const std::function<void(std::size_t, const Argument&, Problems&)>& read,
+                const std::function<void(Problems&)>& finish) {
+  if (!table.is_nil() && !table.is_table())
+    throw Error(ErrorCode::bad_value,
+                caller + " takes one table of named keys, and was given " + table.describe(),
+                "write " + caller + "{ ... }");
+  Problems unknown, problems;
+  std::vector<std::string> names;
+  for (const OptionInfo* option : options) names.push_back(option->name);
+  std::vector<bool> seen(options.size(), false);
+  // Lua gives the keys in no fixed order; the values are read in the order of the block.
+  if (table.is_table()) {
+    table.each([&](const Argument& key, const Argument&) {
+      if (!key.is_text()) {
+        unknown.push_back(key.is_number() ? "position " + format_short(key.number()) +
+                                                " holds a value without a key; write `key = value`"
+                                          : "a key is " + key.describe() + "; keys are names");
+        return;
+      }
+      const auto found = std::find(names.begin(), names.end(), key.text());
+      if (found == names.end())
+        unknown.push_back("unknown key " + quoted(key.text().substr(0, 40)) +
+                          did_you_mean(key.text(), names));
+      else
+        seen[static_cast<std::size_t>(found - names.begin())] = true;
+    });
+    std::sort(unknown.begin(), unknown.end());
+    constexpr std::size_t enough = 12;
+    if (unknown.size() > enough) {
+      const std::size_t more = unknown.size() - enough;
+      unknown.resize(enough);
+      unknown.push_back("and " + std::to_string(more) + " more unknown keys");
+    }
+  }
+  if (!unknown.empty()) unknown.push_back("the keys are " + joined(names, " and "));
+  Variation* variation = variation_of(table.state());
+  for (std::size_t k = 0; k < options.size(); ++k) {
+    const Argument::StackGuard guard(table.state());
+    if (variation != nullptr && variation->replaces(table.state(), caller, names[k], seen[k])) {
+      seen[k] = true;
+      const std::size_t before = problems.size();
+      read(k, Argument(table.state(), lua_gettop(table.state())), problems);
+      if (problems.size() > before) variation->note_refused(caller, names[k], problems.back());
+      continue;
+    }
+    if (!seen[k]) continue;
+    // A raw look-up of a known key without allocating: walk the table again.
+    table.each([&](const Argument& key, const Argument& value) {
+      if (key.is_text() && key.text() == names[k]) read(k, value, problems);
+    });
+  }
+  for (std::size_t k = 0; k < options.size(); ++k) {
+    if (seen[k] || !options[k]->required) continue;
+    std::string example = options[k]->dimension == dimension::number
+                              ? ""
+                              : ", e.g. \"" + example_quantity(options[k]->dimension) + "\"";
+    problems.push_back(quoted(names[k]) + " is missing: " + options[k]->sentence + example);
+  }
+  if (problems.empty() && unknown.empty()) finish(problems);
+  problems.insert(problems.end(), unknown.begin(), unknown.end());
+  if (problems.empty()) return;
+  const std::size_t count = problems.size() - (unknown.empty() ? 0 : 1);
+  if (count == 1) {
+    std::string hint = unknown.empty() ? "" : problems.back();
+    throw Error(unknown.empty() ? ErrorCode::bad_value : ErrorCode::unknown_name,
+                caller + ": " + problems.front(), hint);
+  }
+  std::string sentence = caller + ": " + std::to_string(count) + " problems";
+  for (const std::string& problem : problems) sentence += "\n  " + problem;
+  throw Error(ErrorCode::bad_value, sentence);
+}
+
+}  // namespace detail
+}  // namespace asperity::lua

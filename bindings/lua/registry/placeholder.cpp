@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/registry/placeholder.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "bindings/lua/registry/registry.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+const char unknown_metatable_key = 0;
+
+int again(lua_State* L) {
+  push_unknown(L);
+  return 1;
+}
+
+int compared(lua_State* L) { return luaL_error(L, "%s", cannot_follow); }
+
+int to_string(lua_State* L) {
+  lua_pushliteral(L, "?");
+  return 1;
+}
+
+int ignored(lua_State*) { return 0; }
+
+// Whether any argument is a placeholder.
+bool any_unknown(lua_State* L) {
+  for (int k = 1; k <= lua_gettop(L); ++k)
+    if (Argument(L, k).is_unknown()) return true;
+  return false;
+}
+
+// Goes on in the original in upvalue 1, one of Lua's own functions without upvalues (never one wrapped
+// already), on the same frame: what it raises keeps the script's line.
+int call_original(lua_State* L) { return lua_tocfunction(L, lua_upvalueindex(1))(L); }
+
+// The original unless an argument is a placeholder, which it returns instead.
+int pass_unknown(lua_State* L) { return any_unknown(L) ? again(L) : call_original(L); }
+
+// table.concat also meets placeholders inside its list.
+int concat_unknown(lua_State* L) {
+  if (any_unknown(L)) return again(L);
+  if (lua_istable(L, 1)) {
+    const auto length = static_cast<lua_Integer>(lua_rawlen(L, 1));
+    for (lua_Integer k = 1; k <= length; ++k) {
+      lua_rawgeti(L, 1, k);
+      if (Argument(L, -1).is_unknown()) return again(L);
+      lua_pop(L, 1);
+    }
+  }
+  return call_original(L);
+}
+
+// type() and math.type(): a script asks them to choose its path.
+int refuse_unknown(lua_State* L) {
+  return Argument(L, 1).is_unknown() && native_at(L, 1) == nullptr ? luaL_error(L, "%s", cannot_follow)
+                                                                   : call_original(L);
+}
+
+// A loop over a placeholder runs its body once.
+int unknown_once(lua_State* L) {
+  if (lua_toboolean(L, lua_upvalueindex(1)) != 0) return lua_pushnil(L), 1;
+  lua_pushboolean(L, 1);
+  lua_replace(L, lua_upvalueindex(1));
+  lua_pushinteger(L, 1);
+  push_unknown(L);
+  return 2;
+}
+
+int pairs_or_once(lua_State* L) {
+  if (lua_gettop(L) >= 1 && Argument(L, 1).is_unknown()) {
+    lua_pushboolean(L, 0);
+    lua_pushcclosure(L, unknown_once, 1);
+    return 1;
+  }
+  return call_original(L);
+}
+
+void wrap(lua_State* L, const char* library, const char* name, lua_CFunction wrapper) {
+  lua_getglobal(L, library);
+  lua_getfield(L, -1, name);
+  if (lua_isfunction(L, -1)) {
+    lua_pushcclosure(L, wrapper, 1);
+    lua_setfield(L, -2, name);
+    lua_pop(L, 1);
+  } else {
+    lua_pop(L, 2);
+  }
+}
+
+// Of the values of one turn: "State", or "table and State?".
+std::optional<Values> one_turn(const std::shared_ptr<bool>& done, const std::string& types) {
+  if (*done) return std::nullopt;
+  *done = true;
+  Values values;
+  constexpr std::string_view separator = " and ";
+  for (std::string_view rest = types; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(separator), rest.size());
+    values.push_back(placeholder_of(std::string(rest.substr(0, end))));
+    rest.remove_prefix(std::min(end + separator.size(), rest.size()));
+  }
+  return values;
+}
+
+}  // namespace
+
+const void* unknown_key() { return &unknown_metatable_key; }
+
+void push_unknown(lua_State* L) {
+  lua_newuserdatauv(L, 0, 0);
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &unknown_metatable_key) != LUA_TTABLE) {
+    lua_pop(L, 1);
+    static const luaL_Reg methods[] = {
+        {"__add", again},        {"__sub", again},          {"__mul", again},    {"__div", again},
+        {"__mod", again},        {"__pow", again},          {"__unm", again},    {"__idiv", again},
+        {"__band", again},       {"__bor", again},          {"__bxor", again},   {"__shl", again},
+        {"__shr", again},        {"__bnot", again},         {"__concat", again}, {"__len", again},
+        {"__index", again},      {"__call", again},         {"__lt", compared},  {"__le", compared},
+        {"__newindex", ignored}, {"__tostring", to_string}, {nullptr, nullptr}};
+    lua_newtable(L);
+    luaL_setfuncs(L, methods, 0);
+    lua_pushliteral(L, "placeholder");
+    lua_setfield(L, -2, "__name");
+    lua_pushliteral(L, "placeholder");
+    lua_setfield(L, -2, "__metatable");
+    lua_pushvalue(L, -1);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &unknown_metatable_key);
+  }
+  lua_setmetatable(L, -2);
+}
+
+bool holds_unknown(const Argument& value, int depth) {
+  if (value.is_unknown()) return true;
+  if (depth == 0 || !value.is_table()) return false;
+  bool found = false;
+  value.each([&](const Argument&, const Argument& item) { found = found || holds_unknown(item, depth - 1); });
+  return found;
+}
+
+Value placeholder_of(const std::string& type) {
+  if (type.empty() || type == "nil") return {};
+  if (type.ends_with("?")) return placeholder_of(type.substr(0, type.size() - 1));
+  if (type == "boolean" || type == "string" || type == "number" || type == "integer") return Unknown{};
+  if (const std::size_t at = type.find("[] with "); at != std::string::npos) {
+    List list{{placeholder_of(type.substr(0, at))}};
+    for (std::string_view rest = std::string_view(type).substr(at + 8); !rest.empty();) {
+      const std::size_t end = std::min(rest.find(" and "), rest.size());
+      list.named.emplace_back(rest.substr(0, end), Unknown{});
+      rest.remove_prefix(std::min(end + 5, rest.size()));
+    }
+    return list;
+  }
+  if (type.ends_with("[]")) return List{{placeholder_of(type.substr(0, type.size() - 2))}};
+  if (type.starts_with("iterator<")) {
+    const std::string inner = type.substr(9, type.size() - 10);
+    auto done = std::make_shared<bool>(false);
+    return Iterator{[inner, done](Call&) { return one_turn(done, inner); }};
+  }
+  if (const Class* found = find_class(type)) return Object{found, nullptr, false};
+  return Unknown{};
+}
+
+bool stopped_at_placeholder(const std::string& message) {
+  const std::string first = message.substr(0, message.find('\n'));
+  for (const char* sign :
+       {cannot_follow, "got placeholder)", "a placeholder value", "'for' initial value must be a number",
+        "'for' limit must be a number", "'for' step must be a number"})
+    if (first.find(sign) != std::string::npos) return true;
+  return false;
+}
+
+bool met_nothing(const std::string& message) {
+  const std::string first = message.substr(0, message.find('\n'));
+  return first.find("attempt to ") != std::string::npos && first.find("a nil value") != std::string::npos;
+}
+
+namespace {
+// The digits of ":12:"; empty at the end where there are none.
+std::string_view line_number(std::string_view message) {
+  for (std::size_t at = message.find(':'); at != std::string::npos; at = message.find(':', at + 1)) {
+    const std::size_t end = message.find_first_not_of("0123456789", at + 1);
+    if (end != std::string::npos && end > at + 1 && message[end] == ':')
+      return message.substr(at + 1, end - at - 1);
+  }
+  return message.substr(message.size());
+}
+}  // namespace
+
+std::string line_of(const std::string& message) {
+  const std::string_view number = line_number(message);
+  return number.empty() ? "?" : std::string(number);
+}
+
+std::string without_place(const std::string& message) {
+  const std::string_view number = line_number(message);
+  std::size_t begin = 0;
+  if (!number.empty())
+    begin = message.find_first_not_of(
+        ": ", static_cast<std::size_t>(number.data() - message.data()) + number.size());
+  begin = std::min(begin, message.size());
+  return message.substr(begin, message.find('\n', begin) - begin);
+}
+
+void open_dry_run_library(lua_State* L) {
+  for (const char* name : {"abs",  "ceil", "cos", "deg",  "exp", "floor",     "fmod", "log",  "max",  "min",
+                           "modf", "rad",  "sin", "sqrt", "tan", "tointeger", "ult",  "asin", "acos", "atan"})
+    wrap(L, "math", name, pass_unknown);
+  for (const char* name : {"format", "rep", "len", "sub", "upper", "lower"})
+    wrap(L, "string", name, pass_unknown);
+  for (const char* name : {"unpack", "sort"}) wrap(L, "table", name, pass_unknown);
+  wrap(L, "table", "concat", concat_unknown);
+  wrap(L, "_G", "tonumber", pass_unknown);
+  wrap(L, "_G", "type", refuse_unknown);
+  wrap(L, "math", "type", refuse_unknown);
+  for (const char* name : {"pairs", "ipairs"}) wrap(L, "_G", name, pairs_or_once);
+  // The script's own output belongs to a run.
+  wrap(L, "_G", "print", ignored);
+  wrap(L, "io", "write", again);
+  lua_getglobal(L, "io");
+  for (const char* name : {"stdout", "stderr"}) {
+    push_unknown(L);
+    lua_setfield(L, -2, name);
+  }
+  lua_pop(L, 1);
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/registry/record.hpp"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+const char record_key = 0;
+const char iterator_key = 0;
+
+using RecordPointer = std::shared_ptr<Record>;
+using IteratorPointer = std::shared_ptr<Iterator>;
+
+// The block of a userdata whose metatable is the one registered under `key`; null otherwise.
+void* block_at(lua_State* L, int index, const void* key) {
+  if (lua_type(L, index) != LUA_TUSERDATA || lua_getmetatable(L, index) == 0) return nullptr;
+  lua_rawgetp(L, LUA_REGISTRYINDEX, key);
+  const bool same = lua_rawequal(L, -1, -2) != 0;
+  lua_pop(L, 2);
+  return same ? lua_touserdata(L, index) : nullptr;
+}
+
+Record* record_of(lua_State* L) {
+  auto* block = static_cast<RecordPointer*>(block_at(L, 1, &record_key));
+  return block == nullptr ? nullptr : block->get();
+}
+
+void push_text(lua_State* L, const std::string& text) { lua_pushlstring(L, text.data(), text.size()); }
+
+// The error for a field that is not there.
+int missing_field(lua_State* L) {
+  static const std::string nothing;
+  return guarded(L, nothing, [&]() -> Values {
+    const Record& record = *record_of(L);
+    std::vector<std::string> names;
+    for (const Record::Entry& entry : record.entries) names.push_back(entry.field);
+    const Argument key(L, 2);
+    for (const auto& [field, effect] : record.missing_effects)
+      if (key.is_text() && key.text() == field)
+        throw Error(
+            ErrorCode::bad_state,
+            quoted(field) + " needs the effect " + quoted(effect) + ", which this scene does not name",
+            "name it in the effects of the contact");
+    throw Error(ErrorCode::unknown_name,
+                "a " + record.name + " result has no field " +
+                    (key.is_text() ? quoted(key.text().substr(0, 40)) + did_you_mean(key.text(), names)
+                                   : key.describe()),
+                "it has " + joined(names, " and "));
+  });
+}
+
+int record_index(lua_State* L) {
+  const Record* record = record_of(L);
+  if (record == nullptr) return luaL_error(L, "this is not a result");
+  std::size_t length = 0;
+  const char* key = lua_type(L, 2) == LUA_TSTRING ? lua_tolstring(L, 2, &length) : nullptr;
+  if (key != nullptr) {
+    if (const Value* value = record->find(std::string_view(key, length))) {
+      push(L, *value);
+      return 1;
+    }
+  }
+  missing_field(L);
+  return mistaken_field(L);
+}
+
+int record_new_index(lua_State* L) {
+  return luaL_error(L, "a result cannot be changed; copy what you need into a table");
+}
+
+std::string describe(const Record& record) {
+  std::size_t width = 0;
+  for (const Record::Entry& entry : record.entries)
+    if (!entry.value.is_nil()) width = std::max(width, entry.field.size());
+  std::string text = record.name;
+  for (const Record::Entry& entry : record.entries)
+    if (!entry.value.is_nil())
+      text += "\n  " + entry.field + std::string(width - entry.field.size() + 2, ' ') + show(entry);
+  return text;
+}
+
+int describe_record(lua_State* L) {
+  static const std::string nothing;
+  return guarded(L, nothing, [&]() -> Values { return {describe(*record_of(L))}; });
+}
+
+int record_to_string(lua_State* L) {
+  if (record_of(L) == nullptr) return luaL_error(L, "this is not a result");
+  return describe_record(L) < 0 ? lua_error(L) : 1;
+}
+
+// next(record, key): fields in their order.
+int record_next(lua_State* L) {
+  const Record* record = record_of(L);
+  if (record == nullptr) return luaL_error(L, "this is not a result");
+  std::size_t k = 0;
+  if (lua_type(L, 2) == LUA_TSTRING) {
+    std::size_t length = 0;
+    const char* key = lua_tolstring(L, 2, &length);
+    while (k < record->entries.size() && record->entries[k].field != std::string_view(key, length)) ++k;
+    ++k;
+  }
+  if (k >= record->entries.size()) return lua_pushnil(L), 1;
+  push_text(L, record->entries[k].field);
+  push(L, record->entries[k].value);
+  return 2;
+}
+
+int record_pairs(lua_State* L) {
+  lua_pushcfunction(L, record_next);
+  lua_pushvalue(L, 1);
+  lua_pushnil(L);
+  return 3;
+}
+
+int record_release(lua_State* L) {
+  // Emptied rather than destroyed: a second call finds an empty pointer.
+  if (auto* block = static_cast<RecordPointer*>(block_at(L, 1, &record_key))) block->reset();
+  return 0;
+}
+
+int next_of(lua_State* L) {
+  static const std::string nothing;
+  return guarded(L, nothing, [&]() -> Values {
+    auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key));
+    if (block == nullptr || *block == nullptr) throw Error(ErrorCode::bad_state, "the iterator is finished");
+    const std::shared_ptr<Iterator> iterator = *block;
+    Call call(L, iterator->name, true);
+    LedgerScope scope = call.session().ledger_scope(iterator->name, false);
+    // The turn must not have advanced when it fails for lack of memory.
+    std::optional<Values> results = with_collection(L, [&] { return iterator->next(call); });
+    if (results) {
+      scope.keep();
+      enter_into_ledger(call.session(), *results);
+      return *std::move(results);
+    }
+    scope.forget();  // the turn that ends it is none
+    block->reset();
+    return {Value()};
+  });
+}
+
+int iterator_call(lua_State* L) {
+  const int results = next_of(L);
+  return results < 0 ? lua_error(L) : results;
+}
+
+int iterator_release(lua_State* L) {
+  if (auto* block = static_cast<IteratorPointer*>(block_at(L, 1, &iterator_key))) block->reset();
+  return 0;
+}
+
+void push_metatable_of(lua_State* L, const void* key, const char* name, const luaL_Reg* methods) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TTABLE) return;
+  lua_pop(L, 1);
+  lua_newtable(L);
+  luaL_setfuncs(L, methods, 0);
+  lua_pushstring(L, name);
+  lua_setfield(L, -2, "__name");
+  lua_pushstring(L, name);
+  lua_setfield(L, -2, "__metatable");
+  lua_pushvalue(L, -1);
+  lua_rawsetp(L, LUA_REGISTRYINDEX, key);
+}
+
+}  // namespace
+
+void push_record(lua_State* L, const std::shared_ptr<Record>& record) {
+  static const luaL_Reg methods[] = {{"__index", record_index},        {"__newindex", record_new_index},
+                                     {"__tostring", record_to_string}, {"__pairs", record_pairs},
+                                     {"__gc", record_release},         {nullptr, nullptr}};
+  void* block = lua_newuserdatauv(L, sizeof(RecordPointer), 0);
+  new (block) RecordPointer();
+  push_metatable_of(L, &record_key, "result", methods);
+  lua_setmetatable(L, -2);
+  *static_cast<RecordPointer*>(block) = record;
+}
+
+std::shared_ptr<Record> record_at(lua_State* L, int index) {
+  auto* block = static_cast<RecordPointer*>(block_at(L, index, &record_key));
+  return block == nullptr ? nullptr : *block;
+}
+
+void push_iterator(lua_State* L, const std::shared_ptr<Iterator>& iterator) {
+  static const luaL_Reg methods[] = {{"__call", iterator_call},
+                                     {"__gc", iterator_release},
+                                     {"__close", iterator_release},
+                                     {nullptr, nullptr}};
+  void* block = lua_newuserdatauv(L, sizeof(IteratorPointer), 0);
+  new (block) IteratorPointer();
+  push_metatable_of(L, &iterator_key, "iterator", methods);
+  lua_setmetatable(L, -2);
+  *static_cast<IteratorPointer*>(block) = iterator;
+}
+
+Record cost_record(const Cost& cost, std::string name) {
+  Record record;
+  record.name = std::move(name);
+  record.add("seconds", cost.seconds, dimension::time)
+      .add("transforms", cost.transforms)
+      .add("bytes", cost.bytes);
+  return record;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/registry/registry.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <unordered_map>
+
+#include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/mistakes.hpp"
+#include "bindings/lua/registry/placeholder.hpp"
+#include "bindings/lua/registry/result_digest.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/run/run_directory.hpp"
+
+namespace asperity::lua {
+
+std::vector<std::string> Class::names() const {
+  std::vector<std::string> result;
+  for (const Getter& field : fields) result.push_back(field.name);
+  for (const Function& method : methods) result.push_back(method.name);
+  return result;
+}
+
+std::vector<std::string> result_types(const Function& function) {
+  constexpr std::string_view separator = ", ";
+  std::vector<std::string> types;
+  for (std::string_view rest = function.returns; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(separator), rest.size());
+    types.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + separator.size(), rest.size()));
+  }
+  return types;
+}
+
+namespace {
+
+// A function as it is reached from a script.
+struct Entry {
+  const Function* function = nullptr;
+  const Class* owner = nullptr;
+  std::string name;
+};
+
+std::string lower_first(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+const std::unordered_map<const Function*, Entry>& entries() {
+  static const std::unordered_map<const Function*, Entry> all = [] {
+    std::unordered_map<const Function*, Entry> map;
+    for (const Module* module : modules()) {
+      for (const Function& f : module->functions) map[&f] = {&f, nullptr, module->path + "." + f.name};
+      if (module->call) map[&*module->call] = {&*module->call, nullptr, module->path};
+    }
+    for (const Class* type : classes())
+      for (const Function& f : type->methods) map[&f] = {&f, type, lower_first(type->name) + ":" + f.name};
+    return map;
+  }();
+  return all;
+}
+
+void check_count(const Call& call, const Function& function) {
+  const std::size_t most = function.parameters.size() + (function.options != nullptr ? 1 : 0);
+  if (call.count() > static_cast<int>(most))
+    throw Error(ErrorCode::bad_value,
+                call.function_name() + " takes " +
+                    (most == 0   ? std::string("no arguments")
+                     : most == 1 ? std::string("one argument")
+                                 : "at most " + std::to_string(most) + " arguments") +
+                    (most == 1 && function.options != nullptr ? ", a table of named keys," : "") +
+                    " and was given " + std::to_string(call.count()));
+}
+
+bool any_argument_unknown(const Call& call) {
+  constexpr int nested_options = 3;
+  for (int k = 1; k <= call.count(); ++k)
+    if (holds_unknown(call.argument(k), nested_options)) return true;
+  return false;
+}
+
+Values placeholders_of(const Function& function) {
+  Values results;
+  for (const std::string& type : result_types(function)) results.push_back(placeholder_of(type));
+  return results;
+}
+
+// A dry run reads the arguments and gives placeholders.
+Values dry_call(const Call& call, const Function& function) {
+  if (const auto& told = call.session().on_call_left_out; told && function.heavy) told(call, function);
+  if (function.options != nullptr) {
+    const int k = static_cast<int>(function.parameters.size()) + 1;
+    const Argument table = call.argument(k);
+    if (!table.is_unknown() && (!function.options_optional || call.given(k)))
+      function.options->check(table, call.function_name());
+  }
+  if (function.look != nullptr) function.look(call);
+  call.session().gave_placeholders = true;
+  Values results = placeholders_of(function);
+  if (const Class* made = find_class(function.returns); made != nullptr && made->known != nullptr)
+    if (auto* object = std::get_if<Object>(&results.front().data))
+      object->known = made->known(call, function);
+  return results;
+}
+
+// Whether a dry run that plans contacts needs what the function makes: a body.
+bool makes_a_body(const Function& function) {
+  const Class* made = find_class(function.returns);
+  return made != nullptr && made->known != nullptr;
+}
+
+Values call_function(lua_State* L, const Entry& entry) {
+  Call call(L, entry.name, entry.owner != nullptr);
+  const Function& function = *entry.function;
+  bool placeholder_self = false;
+  if (entry.owner != nullptr) {
+    const Object* self = Argument(L, 1).as_object(*entry.owner);
+    if (self == nullptr)
+      throw Error(ErrorCode::bad_value,
+                  entry.name + " was called on " + Argument(L, 1).describe() + ", not on " +
+                      entry.owner->article_name,
+                  "write a colon: x:" + function.name + "(...)");
+    if (self->closed && function.name == "close") return {};  // twice does no harm
+    if (self->closed)
+      throw Error(ErrorCode::bad_state, entry.owner->article_name + " was used after it was closed");
+    placeholder_self = self->is_placeholder();
+  }
+  check_count(call, function);
+  // To explain a contact its bodies are needed; to check a script they are not.
+  const bool left_out = function.heavy && (call.session().explanation == nullptr || !makes_a_body(function));
+  if (call.session().dry_run && (left_out || placeholder_self || any_argument_unknown(call)))
+    return dry_call(call, function);
+  LedgerScope scope = call.session().ledger_scope(call.function_name(), function.heavy);
+  if (function.returns.starts_with("iterator")) scope.forget();  // its turns count
+  Values results = function.body(call);
+  if (function.heavy) {
+    enter_into_ledger(call.session(), results);
+    record_call(call.session(), call.function_name(), Argument(L, 1).as_any_object(), call.inputs(), results);
+  }
+  return results;
+}
+
+int guarded_function(lua_State* L, const Entry& entry) {
+  return guarded(L, entry.name, [&]() -> Values {
+    return with_collection(L, [&] { return call_function(L, entry); });  // a failed call changes nothing
+  });
+}
+
+// A dry run goes on past a mistake with placeholders for the results.
+int after_failure(lua_State* L, const Entry& entry) {
+  if (!noted_as_mistake(L)) return -1;
+  return guarded(L, entry.name, [&] { return placeholders_of(*entry.function); });
+}
+
+// The outer frame of every function: nothing here has a destructor.
+int outer_function(lua_State* L) {
+  const Entry& entry = *static_cast<const Entry*>(lua_touserdata(L, lua_upvalueindex(1)));
+  int results = guarded_function(L, entry);
+  if (results < 0) results = after_failure(L, entry);
+  return results < 0 ? lua_error(L) : results;
+}
+
+}  // namespace
+
+void record_call(const Session& session, const std::string& function, const Object* self,
+                 const Resolved& inputs, const Values& results) {
+  if (session.run == nullptr || session.is_case) return;
+  Json line = Json::object();
+  line.set("function", function);
+  if (self != nullptr)
+    if (const std::string digest = digest_of(*self); !digest.empty()) line.set("self", digest);
+  Json given = Json::object();
+  for (const auto& [key, text] : inputs) given.set(key, text);
+  line.set("inputs", given);
+  if (const std::string digest = digest_of(results); !digest.empty()) line.set("result", digest);
+  session.run->journal().write("call", line);
+  if (session.onlooker) session.onlooker(function, results);
+}
+
+void enter_into_ledger(const Session& session, const Values& results) {
+  for (const Value& result : results) {
+    const auto* object = std::get_if<Object>(&result.data);
+    if (object != nullptr && object->pointer != nullptr && object->type->enter != nullptr)
+      object->type->enter(object->pointer.get(), *session.ledger);
+  }
+}
+
+const std::string& qualified_name(const Function& function) { return entries().at(&function).name; }
+
+const std::string* name_of_entry(const void* pointer) {
+  for (const auto& [function, entry] : entries())
+    if (&entry == pointer) return &entry.name;
+  return nullptr;
+}
+
+void push_function(lua_State* L, const Function& function) {
+  lua_pushlightuserdata(L, const_cast<Entry*>(&entries().at(&function)));
+  lua_pushcclosure(L, outer_function, 1);
+}
+
+void* Call::self_pointer(const Class& type) const {
+  const Object* object = Argument(L, 1).as_object(type);
+  if (object == nullptr || object->pointer == nullptr)
+    throw Error(ErrorCode::bad_state, "this is not " + type.article_name + " that can be used");
+  return object->pointer.get();
+}
+
+void* Call::object_pointer(int k, std::string_view name, const Class& type) const {
+  const Argument value = argument(k);
+  const Object* object = value.as_object(type);
+  if (object == nullptr)
+    throw Error(ErrorCode::bad_value, quoted(name) + " is " + value.describe(), "give " + type.article_name);
+  if (object->pointer == nullptr) throw Error(ErrorCode::bad_state, quoted(name) + " was closed");
+  return object->pointer.get();
+}
+
+double Call::number(int k, std::string_view name) const { return quantity(k, name, dimension::number); }
+
+double Call::quantity(int k, std::string_view name, Dimension dimension) const {
+  const Argument value = argument(k);
+  OptionInfo info;
+  info.name = name;
+  info.dimension = dimension;
+  Problems problems;
+  const auto number = detail::read_quantity(value, info, any(), problems);
+  if (!number)
+    throw Error(ErrorCode::bad_value, problems.empty() ? quoted(name) + " is not known" : problems.front());
+  return *number;
+}
+
+std::string Call::text(int k, std::string_view name) const {
+  const Argument value = argument(k);
+  if (!value.is_text())
+    throw Error(ErrorCode::bad_value, quoted(name) + " is " + value.describe(), "give a string");
+  return std::string(value.text());
+}
+
+}  // namespace asperity::lua

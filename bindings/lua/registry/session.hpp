@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What one Lua state works for: its monitor, seed and limits, and the run that keeps its results.
+// Every state has exactly one, held in the registry; the states of an ensemble's cases have one
+// each, with no run of their own.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bindings/lua/registry/lua_api.hpp"
+#include "bindings/lua/registry/script_spelling.hpp"
+#include "bindings/lua/registry/value.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/run/case_scheduler.hpp"
+#include "engine/run/ledger.hpp"
+
+namespace asperity {
+class RunDirectory;
+}
+
+namespace asperity::lua {
+
+class Call;
+class Explanation;
+struct Function;
+class Mistakes;
+struct CaseNotes;
+struct Refinement;
+class Variation;
+
+class Session {
+ public:
+  explicit Session(Monitor& monitor) : monitor_(&monitor) {}
+
+  Monitor& monitor() const { return *monitor_; }
+
+  // Another monitor while it lives, which is that of a part of longer work.
+  class Reporting {
+   public:
+    Reporting(Session& session, Monitor& monitor) : session_(session), outer_(session.monitor_) {
+      session_.monitor_ = &monitor;
+    }
+    ~Reporting() { session_.monitor_ = outer_; }
+    Reporting(const Reporting&) = delete;
+    Reporting& operator=(const Reporting&) = delete;
+
+   private:
+    Session& session_;
+    Monitor* outer_;
+  };
+
+  std::uint64_t seed = 1;             // of math.random and of anything a script leaves to the run
+  bool dry_run = false;               // asperity check: heavy calls give placeholders
+  bool gave_placeholders = false;     // a dry run has met a call it did not make
+  bool trusted = false;               // the whole of Lua, and files anywhere
+  int depth = 0;                      // ensembles this state stands inside
+  bool is_case = false;               // a case of an ensemble: cannot record
+  std::shared_ptr<RunDirectory> run;  // null when nothing is recorded
+  // Of a dry run that makes surfaces and plans contacts, to say what the script will compute; else null.
+  std::shared_ptr<Explanation> explanation;
+  // Told each heavy call that a dry run leaves out; empty where nobody asks.
+  std::function<void(const Call& call, const Function& function)> on_call_left_out;
+  // Of a dry run that goes on past mistakes and tells all of them; else null.
+  std::shared_ptr<Mistakes> mistakes;
+  // What this state's calls cost; the states of cases write into that of their ensemble.
+  std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
+  std::function<void(int)> exit_hook;      // what os.exit(code) does before the process ends
+  bool with_other_ranks = false;           // in a function that other ranks wait for: os.exit is an error
+  std::FILE* output = stdout;              // where print goes; a buffer in a case
+  std::map<std::string, int> studies;      // names given to studies of work and precision, and how often
+  std::shared_ptr<Refinement> refinement;  // of a script that a study of accuracy runs again; may be null
+  std::shared_ptr<Variation> variation;  // of a recorded run that is run again with other values; may be null
+  ScriptSpelling script;                 // as it was named; empty where there is none
+  std::string script_digest;             // of the text of the script and its arguments; may be empty
+  int ensembles = 0;                     // that the script has begun
+  std::optional<Shard> shard;            // of a run that computes some of the cases only
+  // What a shard does where the script can go no further without the cases of others: ends the process.
+  std::function<void(const std::string& sentence)> shard_end;
+  // Shown what each heavy call found; empty where nobody looks.
+  std::function<void(const std::string& call, const Values& results)> onlooker;
+  Ranks* ranks = nullptr;  // the processes that share the cases; may be null
+  // Of a case: what it depends on beside what it is given.
+  CaseNotes* notes = nullptr;
+  // Of a case: the script's globals that could not come along, and why.
+  const std::map<std::string, std::string>* left_behind = nullptr;
+
+  // A call that begins here. One that is not `lasting` gets a line in the ledger only if it takes long enough
+  // to matter.
+  LedgerScope ledger_scope(std::string_view call, bool lasting, std::string_view owner = {}) const {
+    return LedgerScope(*ledger, owner, call, is_case, lasting);
+  }
+
+  // Tells Lua's collector about memory it cannot see; collects when enough has piled up.
+  void nudge_collector(lua_State* L, std::size_t bytes);
+
+  static Session& of(lua_State* L);
+  // Null for a state that was never given one.
+  static Session* find(lua_State* L);
+  // Binds a session to a state; the session must outlive it. Raises on lack of memory.
+  static void attach(lua_State* L, Session& session);
+
+ private:
+  Monitor* monitor_;
+  std::size_t unseen_bytes_ = 0;
+};
+
+}  // namespace asperity::lua

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/runtime/base_library.hpp"
+
+#include <algorithm>
+
+#include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/runtime/state.hpp"
+#include "engine/core/error.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+template <class Use>
+void with_base_table(lua_State* L, std::string_view library, Use&& use) {
+  with_key(Argument(L, LUA_REGISTRYINDEX), LUA_LOADED_TABLE, [&](const Argument& loaded) {
+    if (!loaded.is_table()) return;
+    with_key(loaded, library, [&](const Argument& table) {
+      if (table.is_table()) use(table);
+    });
+  });
+}
+
+using FunctionPaths = std::unordered_map<lua_CFunction, BasePath>;
+
+FunctionPaths read_function_paths() {
+  const State state(luaL_newstate());
+  auto open = [](lua_State* L) {
+    luaL_openlibs(L);
+    return 0;
+  };
+  if (state == nullptr || protect(state.get(), 0, 0, open) != LUA_OK)
+    throw Error(ErrorCode::out_of_memory, "there is no memory for a Lua state");
+  FunctionPaths paths;
+  for (const std::string_view library : base_libraries)
+    with_base_table(state.get(), library, [&](const Argument& table) {
+      table.each([&](const Argument& key, const Argument& value) {
+        lua_CFunction function = lua_tocfunction(value.state(), value.index());
+        if (function == nullptr || !key.is_text()) return;
+        const auto [path, is_new] =
+            paths.try_emplace(function, BasePath{std::string(library), std::string(key.text())});
+        // Of two names (math.atan2 is math.atan) always the same one, whatever their order in memory.
+        if (!is_new && path->second.library == library && key.text() < path->second.key)
+          path->second.key = key.text();
+      });
+    });
+  return paths;
+}
+
+}  // namespace
+
+const BasePath* base_function(lua_CFunction function) {
+  static const FunctionPaths paths = read_function_paths();
+  const auto found = paths.find(function);
+  return found == paths.end() ? nullptr : &found->second;
+}
+
+BaseLibrary::BaseLibrary(lua_State* L) {
+  const Argument::StackGuard guard(L);
+  lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+  paths_[lua_topointer(L, -1)] = {"_G", ""};
+  for (const std::string_view library : base_libraries)
+    with_base_table(L, library, [&](const Argument& table) {
+      paths_.try_emplace(lua_topointer(L, table.index()), BasePath{std::string(library), ""});
+      if (library != "io" && library != "package") return;
+      table.each([&](const Argument& key, const Argument& value) {
+        const int kind = lua_type(L, value.index());
+        const bool part = library == "io" ? kind == LUA_TUSERDATA : kind == LUA_TTABLE;
+        if (part && key.is_text())
+          paths_.try_emplace(lua_topointer(L, value.index()),
+                             BasePath{std::string(library), std::string(key.text())});
+      });
+    });
+}
+
+const BasePath* BaseLibrary::find(lua_State* L, int index) const {
+  const auto found = paths_.find(lua_topointer(L, index));
+  return found == paths_.end() ? nullptr : &found->second;
+}
+
+bool is_sandbox_function(lua_State* L, int index) {
+  if (!lua_isfunction(L, index) || lua_iscfunction(L, index)) return false;
+  const Argument::StackGuard guard(L);
+  lua_Debug facts;
+  lua_pushvalue(L, index);
+  lua_getinfo(L, ">S", &facts);
+  return std::string_view(facts.source) == "=sandbox";
+}
+
+void push_base(lua_State* L, const BasePath& path) {
+  luaL_checkstack(L, 4, nullptr);
+  if (path.library == "_G") {
+    lua_pushglobaltable(L);
+  } else {
+    lua_getfield(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+    lua_getfield(L, -1, path.library.c_str());
+    lua_remove(L, -2);
+  }
+  if (path.key.empty()) return;
+  if (lua_istable(L, -1)) {
+    lua_pushlstring(L, path.key.data(), path.key.size());
+    lua_rawget(L, -2);
+  } else {
+    lua_pushnil(L);
+  }
+  lua_remove(L, -2);
+}
+
+}  // namespace asperity::lua

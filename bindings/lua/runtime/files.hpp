@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files as scripts name them: read from anywhere and noted among the run's inputs, written under the
+// run directory. And the option keys that every reader shares.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings/lua/registry/options.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "engine/surface/io/read.hpp"
+
+namespace asperity::lua {
+
+// Where a file that the script writes goes. Throws Error{not_permitted} for a way out of the run
+// directory, and inside a case of an ensemble.
+std::string writable_path(const Call& call, const std::string& name);
+// Where a file that the script reads lies: as named, or else the one the run wrote under that name.
+std::string readable_path(const Call& call, const std::string& name);
+// Tells the run of warnings, as drawing returns them.
+void warn_of(const Call& call, const std::vector<std::string>& warnings);
+// Enters a file that is about to be read, with its digest, in the run's manifest.
+void note_input(const Call& call, const std::string& path);
+
+// A length, or the name of a unit alone: "um" is short for "1 um".
+std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems);
+template <class O>
+Option<O> length_of_one(std::string name, std::optional<double> O::*member, std::string sentence) {
+  Option<O> option = quantity(std::move(name), member, dimension::length, above(0), std::move(sentence));
+  option.read = [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+    if (const auto length = read_unit(value, info, problems)) options.*member = *length;
+  };
+  return option;
+}
+template <class O>
+Option<O> unit_key(std::optional<double> O::*member) {
+  return length_of_one("unit", member, "length of one height of the file, where it has no unit, e.g. \"um\"");
+}
+template <class O>
+Option<O> unit_xy_key(std::optional<double> O::*member) {
+  return length_of_one("unit_xy", member,
+                       "length of one number of a position, in x y z points and in profiles of two columns "
+                       "that do not say it, e.g. \"mm\"");
+}
+void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Problems& problems);
+template <class O>
+Option<O> fill_key(HoleFill O::*member) {
+  return custom<O>("fill", "\"interpolate\"|a length",
+                   "what missing points become; without it they are an error",
+                   [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
+                     read_fill(value, info, options.*member, problems);
+                   });
+}
+
+}  // namespace asperity::lua

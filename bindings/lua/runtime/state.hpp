@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A Lua state as the program and the cases of an ensemble use it: counted memory, the reduced
+// library (or the whole one when trusted), strict globals, `require "asperity"`, and math.random
+// seeded from the run. The loadable module does not use this: it lives in somebody else's state.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bindings/lua/registry/lua_api.hpp"
+#include "bindings/lua/registry/session.hpp"
+
+namespace asperity::lua {
+
+struct StateCloser {
+  void operator()(lua_State* L) const { lua_close(L); }
+};
+using State = std::unique_ptr<lua_State, StateCloser>;
+
+// The pattern by which `require` looks in a folder.
+std::string search_path(const std::string& script_folder);
+
+// `script_folder` is where require looks for a script's own modules; may be empty. The session must
+// outlive the state. Throws Error{out_of_memory}.
+State make_state(Session& session, const std::string& script_folder);
+
+// Makes the state raise "interrupted" at its next instruction, and at every one after. Callable from
+// another thread or a signal handler.
+void interrupt(lua_State* L);
+// Looks at the stop flag every few thousand instructions, in coroutines too. Costs pure Lua up to half
+// its speed, so it is for runs with a limit.
+void watch_for_stops(lua_State* L);
+
+// Whether a request for memory of this thread's states, or of the engine, was refused for good since the
+// limit was set, even if the script caught the error.
+bool memory_limit_met();
+
+// An error value as text: a string as it is, anything else as tostring would show it.
+std::string error_text(lua_State* L, int index);
+
+// Lua's own error of memory with the line that was running when memory was last refused and a traceback;
+// any other message as it is.
+std::string placed_memory_error(const std::string& message);
+
+// The message handler of an uncaught error: text of the value, whatever it is, and a traceback.
+int traceback_handler(lua_State* L);
+
+}  // namespace asperity::lua

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lab.contact, and contacts as native values of the language.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bindings/lua/contact/state_class.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "engine/specimen/specimen_pair.hpp"
+
+namespace asperity::lua {
+
+template <>
+const Class& class_of<SpecimenPair>();
+
+// The tables of c:press, c:place and c:shift, which events of a protocol share.
+struct PressKeys {
+  int given = 0;  // ways to say how far; exactly one is
+  PressRequest request;
+  std::optional<double> dwell;
+  std::vector<double> drawn_from;
+};
+const Block<PressKeys>& press_block();
+// Writes the journal's line of a press that an iterator made, as one made by hand stands there.
+void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
+                  const PressRequest& request, const asperity::State& state);
+struct PlaceKeys {
+  std::uint64_t seed = 1;
+};
+const Block<PlaceKeys>& place_block();
+struct ShiftKeys {
+  double x = 0, y = 0;
+};
+const Block<ShiftKeys>& shift_block();
+
+Function contact_function();
+
+}  // namespace asperity::lua

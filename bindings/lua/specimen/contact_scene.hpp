@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The options table of lab.contact: bodies, boundary, effects and accuracy, read into a Scene.
+#pragma once
+
+#include "bindings/lua/registry/registry.hpp"
+#include "engine/contact/scene.hpp"
+
+namespace asperity::lua {
+
+// Every problem of the table in one Error.
+Scene read_scene(Call& call);
+// Of a dry run whose bodies are placeholders: throws what read_scene or the contact would for the scene,
+// as far as the bodies are known.
+void look_at_scene(const Call& call);
+// The keys, for the registry.
+const BlockInfo& scene_keys();
+
+}  // namespace asperity::lua

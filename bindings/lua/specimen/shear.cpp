@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/specimen/shear.hpp"
+
+#include "bindings/lua/contact/state_error.hpp"
+#include "bindings/lua/friction/law.hpp"
+#include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/specimen/contact.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+struct ShearKeys {
+  std::optional<double> force, ratio;
+  double friction = 0;
+  std::shared_ptr<JunctionLaw> law;
+};
+
+// A coefficient, or a law.
+void read_friction(const Argument& value, const OptionInfo& info, ShearKeys& keys, Problems& problems) {
+  Object* object = value.as_object(class_of<JunctionLaw>());
+  if (object == nullptr) {
+    if (value.as_any_object() != nullptr || value.is_table())
+      return detail::wrong_type(value, info, "a number, or a law from lab.friction", problems);
+    if (auto number = detail::read_quantity(value, info, above(0), problems)) keys.friction = *number;
+  } else if (object->closed) {
+    problems.push_back("`friction` was closed");
+  } else if (object->pointer != nullptr) {
+    keys.law = std::static_pointer_cast<JunctionLaw>(object->pointer);
+  }
+}
+
+const Block<ShearKeys>& shear_block() {
+  using K = ShearKeys;
+  static const Block<K> block{
+      "shear",
+      {quantity("force", &K::force, dimension::force, at_least(0), "that pulls the whole tile sideways"),
+       number("ratio", &K::ratio, between(0, 1),
+              "of that force over the one that slides, friction times load"),
+       custom<K>("friction", "number|Law",
+                 "Coulomb's coefficient; a law stands for its mean coefficient on the contact", read_friction)
+           .shown_by([](const K& keys) { return keys.law ? keys.law->text() : format_exact(keys.friction); })
+           .required()},
+      [](K& keys, Problems& problems) {
+        if (keys.force.has_value() == keys.ratio.has_value())
+          problems.push_back(std::string("give exactly one of `force` and `ratio`; ") +
+                             (keys.force ? "both are" : "none is") + " given");
+      }};
+  return block;
+}
+
+Values shear(Call& call) {
+  const ShearKeys keys = call.options(shear_block());
+  auto& pair = call.self<SpecimenPair>();
+  require_tangential(pair.scene().sliding);
+  ShearRequest request{keys.force, keys.ratio, keys.friction};
+  if (keys.law && pair.pressed() != nullptr) request.friction = keys.law->on(*pair.pressed()).mu.value_or(0);
+  PartialSlip slip = pair.shear(request, call.session().monitor());
+  call.session().ledger->add_effects(slip.cost().by_effect);
+  return {object(std::move(slip))};
+}
+
+// A field of the result that is one member function.
+template <auto member>
+Values read_slip_number(Call& call) {
+  return {Value((call.self<PartialSlip>().*member)())};
+}
+
+Values slip_field(Call& call) {
+  const auto& slip = call.self<PartialSlip>();
+  const std::string name = call.text(1, "name");
+  return {object(StateField{name, slip.normal().geometry().grid(),
+                            std::make_shared<const Field>(slip.field(name)),
+                            name == "shear" ? dimension::pressure : dimension::number})};
+}
+
+std::string describe_slip(const void* self) { return static_cast<const PartialSlip*>(self)->text(); }
+std::string digest_of_slip(const void* self) {
+  const auto& slip = *static_cast<const PartialSlip*>(self);
+  return slip.normal().digest() + "+" + format_exact(slip.friction()) + "+" + format_exact(slip.ratio());
+}
+
+}  // namespace
+
+Function shear_method() {
+  return {.name = "shear",
+          .body = shear,
+          .sentence =
+              "Pulls the contact under its present load sideways, by less than makes it slide, and says "
+              "which part of it slips (Cattaneo and Mindlin for spheres; by Jaeger and Ciavarella the "
+              "difference of two normal contacts). Nothing of the contact changes; needs tangential.",
+          .options = &shear_block(),
+          .returns = "Shear",
+          .example = "local q = c:shear{ ratio=0.5, friction=0.3 }",
+          .heavy = true};
+}
+
+template <>
+const Class& class_of<PartialSlip>() {
+  using S = PartialSlip;
+  static const Class type = [] {
+    Class c;
+    c.name = "Shear";
+    c.article_name = "a shear";
+    c.sentence = "A contact under load that is pulled sideways: part of it sticks, the rest slips.";
+    c.describe = describe_slip;
+    c.digest = digest_of_slip;
+    c.fields = {
+        {"load", "number", "force that presses the whole tile", dimension::force, read_slip_number<&S::load>},
+        {"force", "number", "force that pulls the whole tile sideways", dimension::force,
+         read_slip_number<&S::force>},
+        {"ratio", "number", "of that force over the one that slides", {}, read_slip_number<&S::ratio>},
+        {"friction", "number", "Coulomb's coefficient", {}, read_slip_number<&S::friction>},
+        {"slides", "boolean", "whether all of the contact slips", {}, read_slip_number<&S::slides>},
+        {"stick_area", "number", "area that sticks", dimension::area, read_slip_number<&S::stick_area>},
+        {"stick_fraction",
+         "number",
+         "of the contact area that sticks",
+         {},
+         read_slip_number<&S::stick_fraction>},
+        {"slip_fraction",
+         "number",
+         "of the contact area that slips",
+         {},
+         read_slip_number<&S::slip_fraction>},
+        {"displacement", "number", "of the bodies over each other, along the force", dimension::length,
+         read_slip_number<&S::displacement>},
+        {"stiffness", "number",
+         "d shear stress / d displacement at this force, over the nominal area; 0 where all slips",
+         dimension::stiffness, read_slip_number<&S::stiffness>},
+        {"cost",
+         "table",
+         "seconds, transforms and bytes of the second normal solve",
+         {},
+         [](Call& call) -> Values { return {cost_record(call.self<S>().cost().total, "cost")}; }},
+    };
+    c.methods = {
+        {.name = "field",
+         .body = slip_field,
+         .sentence = "A field over the tile: the shear traction along the force, or 1 where it sticks.",
+         .parameters = {{"name", "\"shear\"|\"stick\"", "which"}},
+         .returns = "Field",
+         .example = "q:field \"shear\":picture \"shear.png\""}};
+    return c;
+  }();
+  return type;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lab.tilt_stage: the angle at which a specimen slips.
+#pragma once
+
+#include <memory>
+
+#include "bindings/lua/registry/registry.hpp"
+#include "engine/friction/junction_law.hpp"
+#include "engine/specimen/tilt_trials.hpp"
+
+namespace asperity::lua {
+
+struct TiltStage {
+  std::shared_ptr<SpecimenPair> contact;
+  std::shared_ptr<const JunctionLaw> law;
+  TiltTrialOptions options;
+};
+
+template <>
+const Class& class_of<TiltStage>();
+
+Function tilt_stage_function();
+
+}  // namespace asperity::lua

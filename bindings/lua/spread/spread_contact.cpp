@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contacts over the ranks of mpirun as values of the language.
+#include <algorithm>
+#include <cmath>
+
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/spread/spread.hpp"
+#include "bindings/lua/surface/grid_keys.hpp"
+#include "bindings/lua/surface/surface.hpp"
+#include "engine/contact/effects/catalogue.hpp"
+#include "engine/contact/elasticity/slabs/slab_terms.hpp"
+#include "engine/contact/press_request.hpp"
+#include "engine/core/digest.hpp"
+#include "engine/core/quantity.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+// --- the scene
+
+const Block<PlasticityOptions>& spread_plasticity_block() {
+  using O = PlasticityOptions;
+  static const Block<O> block{"plasticity",
+                              {quantity("hardness", &O::hardness, dimension::pressure, above(0).or_never(),
+                                        "greatest pressure a body carries before it yields")
+                                   .defaults_to("that of the lower body"),
+                               quantity("hardening", &O::hardening, dimension::stiffness, above(0).or_never(),
+                                        "not computed over ranks: math.huge")}};
+  return block;
+}
+
+struct spread_SceneKeys {
+  std::optional<SlabSurface> lower;
+  std::optional<Material> upper;
+  Boundary boundary = Boundary::periodic;
+  bool elastic = false;
+  std::optional<PlasticityOptions> plasticity;
+  Accuracy accuracy;
+};
+
+const Block<Accuracy>& spread_accuracy_block() {
+  using O = Accuracy;
+  static const Block<O> block{
+      "accuracy",
+      {number("tolerance", &O::tolerance, {1e-15, 1, false, true, false},
+              "bound on every relative entry of the certificate"),
+       choice("on_failure", &O::on_failure, {{"error", O::OnFailure::error}, {"best", O::OnFailure::best}},
+              "what a solve that misses its tolerance does: raise an error, or return the best it got")}};
+  return block;
+}
+
+void read_effect(const std::string& name, const Argument& given, spread_SceneKeys& keys, Problems& problems) {
+  if (name == "elasticity") {
+    if (given.is_text() && given.text() == "half_space")
+      keys.elastic = true;
+    else
+      problems.push_back("`effects.elasticity` is " + given.describe() +
+                         "; over ranks it is \"half_space\", and lab.contact computes the others");
+  } else if (name == "plasticity") {
+    if (given.is_table())
+      keys.plasticity = spread_plasticity_block().read(given, "`effects.plasticity`");
+    else
+      problems.push_back("`effects.plasticity` is " + given.describe() +
+                         "; give a table such as { hardness=\"1 GPa\" }, {} for its defaults");
+  } else {
+    require_effect(name);
+    problems.push_back(
+        "`effects." + name +
+        "` is not computed over ranks, which know elasticity and plasticity; leave it out, or use "
+        "lab.contact");
+  }
+}
+
+void spread_read_effects(const Argument& value, const OptionInfo& info, spread_SceneKeys& keys,
+                         Problems& problems) {
+  if (!value.is_table())
+    return detail::wrong_type(value, info, "a table such as { elasticity=\"half_space\" }", problems);
+  std::vector<std::string> names;
+  value.each([&](const Argument& key, const Argument&) {
+    if (key.is_text())
+      names.emplace_back(key.text());
+    else
+      problems.push_back("`effects` holds " + key.describe() + " as a key");
+  });
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) {
+    try {
+      with_key(value, name, [&](const Argument& given) { read_effect(name, given, keys, problems); });
+    } catch (const Error& error) {
+      problems.push_back(error.what());
+    }
+  }
+  if (std::find(names.begin(), names.end(), "elasticity") == names.end())
+    problems.push_back("`effects` names no elasticity; give elasticity=\"half_space\"");
+}
+
+const Block<spread_SceneKeys>& spread_scene_block() {
+  using K = spread_SceneKeys;
+  static const Block<K> block{
+      "lab.spread.contact",
+      {custom<K>(
+           "lower", "SpreadSurface", "the lower body, rough side up, from lab.spread",
+           [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+             if (const SlabSurface* surface = value.as<SlabSurface>())
+               keys.lower = *surface;
+             else if (const Object* other = value.as_any_object();
+                      other != nullptr && other->type == &class_of<Surface>())
+               problems.push_back(
+                   "`lower` is a surface that every rank holds; make it with lab.spread, or press it with "
+                   "lab.contact");
+             else if (!value.is_unknown())
+               detail::wrong_type(value, info, "a surface from lab.spread", problems);
+           })
+           .required(),
+       custom<K>("upper", "Material", "a flat of a material, or lab.rigid",
+                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+                   if (const Material* material = value.as<Material>())
+                     keys.upper = *material;
+                   else if (!value.is_unknown())
+                     detail::wrong_type(
+                         value, info, "a material or lab.rigid; over ranks the upper body is flat", problems);
+                 })
+           .required(),
+       custom<K>(
+           "boundary", "\"periodic\"", "the tile goes on beyond its rim",
+           [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
+             if (value.is_text() && value.text() == "free")
+               problems.push_back(
+                   "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or use "
+                   "lab.contact");
+             else if (!value.is_text() || value.text() != "periodic")
+               detail::wrong_type(value, info, "\"periodic\"", problems);
+           })
+           .required(),
+       custom<K>(
+           "effects", "table",
+           "what the scene computes: { elasticity=\"half_space\" }, and plasticity={ hardness= } if pressure "
+           "is limited",
+           spread_read_effects)
+           .required(),
+       table_of("accuracy", &K::accuracy, spread_accuracy_block(),
+                "how close a solve must come, and what if it does not")}};
+  return block;
+}
+
+Values spread_make_contact(Call& call) {
+  const spread_SceneKeys keys = call.options(spread_scene_block());
+  const SlabTerms terms = slab_terms(keys.lower->material, *keys.upper, keys.plasticity);
+  SpreadContact contact;
+  contact.problem.surface = *keys.lower;
+  contact.problem.modulus = terms.modulus;
+  contact.problem.cap = terms.cap;
+  contact.problem.tolerance = keys.accuracy.tolerance;
+  contact.problem.best_effort = keys.accuracy.on_failure == Accuracy::OnFailure::best;
+  contact.plastic = keys.plasticity.has_value();
+  return {object(std::move(contact))};
+}
+
+// --- pressing
+
+struct SpreadPress {
+  std::optional<double> pressure, load, approach, indentation;
+};
+
+const Block<SpreadPress>& spread_press_block() {
+  using K = SpreadPress;
+  static const Block<K> block{
+      "press",
+      {quantity("pressure", &K::pressure, dimension::pressure, any(), "mean pressure over the tile"),
+       quantity("load", &K::load, dimension::force, any(), "force on the whole tile"),
+       quantity("approach", &K::approach, dimension::length, any(), "from first touch"),
+       quantity("indentation", &K::indentation, dimension::number, any(),
+                "approach over the peak-to-valley of the heights")},
+      [](K& keys, Problems& problems) {
+        const int given = int{keys.pressure.has_value()} + int{keys.load.has_value()} +
+                          int{keys.approach.has_value()} + int{keys.indentation.has_value()};
+        if (given != 1)
+          problems.push_back("give exactly one of `pressure`, `load`, `approach` and `indentation`; " +
+                             std::to_string(given) + " are given");
+      }};
+  return block;
+}
+
+std::string digest_of(const SpreadState& state) {
+  const SlabContactAnswer& a = *state.answer;
+  Digester digester;
+  digester.add(state.surface.digest);
+  for (const double number :
+       {a.mean_pressure, a.approach, a.peak_pressure, a.mean_gap, a.energy, a.plastic_volume,
+        static_cast<double>(a.contacts), static_cast<double>(a.yielded), static_cast<double>(a.iterations),
+        a.certificate.worst()})
+    digester.add(number);
+  return digester.hex();
+}
+
+Values spread_press(Call& call) {
+  const SpreadContact& contact = call.self<SpreadContact>();
+  const SpreadPress keys = call.options(spread_press_block());
+  const SlabSurface& surface = contact.problem.surface;
+  if (keys.indentation && surface.peak == surface.valley)
+    throw Error(ErrorCode::bad_value, "`indentation` is a fraction of a peak-to-valley that is zero",
+                "give `pressure`, `load` or `approach`");
+  SpreadState state;
+  state.problem = contact.problem;
+  if (keys.approach || keys.indentation)
+    state.request = {true,
+                     keys.approach ? *keys.approach : *keys.indentation * (surface.peak - surface.valley)};
+  else
+    state.request = {false, keys.pressure ? *keys.pressure : *keys.load / surface.grid.area()};
+  Team& team = team_of(call);
+  Monitor& monitor = call.session().monitor();
+  state.surface = surface;
+  state.plastic = contact.plastic;
+  state.ranks = team.size();
+  if (auto recalled = recalled_press(call, team, contact.problem, state.request)) {
+    state.has_fields = false;
+    state.cost = recalled->cost;
+    state.answer = std::make_shared<const SlabContactAnswer>(std::move(recalled->result));
+  } else {
+    const CostScope scope;
+    Costed<SlabContactAnswer> fresh;
+    fresh.result = solve(team, contact.problem, state.request, monitor);
+    fresh.cost = scope.so_far();
+    const auto held = fresh.cost.bytes + static_cast<std::int64_t>(surface.heights->size() * sizeof(double));
+    fresh.cost.bytes = static_cast<std::int64_t>(-team.reduce<0, 1>({-static_cast<double>(held)})[0]);
+    keep_press(call, contact.problem, state.request, fresh);
+    state.cost = fresh.cost;
+    state.answer = std::make_shared<const SlabContactAnswer>(std::move(fresh.result));
+  }
+  state.digest = digest_of(state);
+  return {object(std::move(state))};
+}
+
+std::string describe_spread_contact(const void* self) {
+  const SlabSurface& s = static_cast<const SpreadContact*>(self)->problem.surface;
+  return "contact of " + std::to_string(s.grid.nx) + " x " + std::to_string(s.grid.ny) + " cells over " +
+         std::to_string(s.slab.ranks) + (s.slab.ranks == 1 ? " rank" : " ranks");
+}
+std::string contact_digest(const void* self) {
+  const SlabContactProblem& p = static_cast<const SpreadContact*>(self)->problem;
+  return p.surface.digest;
+}
+
+}  // namespace
+
+SlabContactAnswer solve(Team& team, const SlabContactProblem& problem, const SpreadRequest& request,
+                        Monitor& monitor) {
+  return request.by_approach ? solve_slabs_at_approach(team, problem, request.value, monitor)
+                             : solve_slabs_at_pressure(team, problem, request.value, nullptr, monitor);
+}
+
+Function spread_contact_function() {
+  return {
+      .name = "contact",
+      .body = spread_make_contact,
+      .sentence =
+          "A periodic half-space contact over the ranks, under a flat: the problem, the certificates and the "
+          "units of lab.contact. Nothing stays on the surface after a press.",
+      .options = &spread_scene_block(),
+      .returns = "SpreadContact",
+      .example =
+          "local c = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary=\"periodic\", effects={ "
+          "elasticity=\"half_space\" } }"};
+}
+
+template <>
+const Class& class_of<SpreadContact>() {
+  static const Class type = [] {
+    Class c;
+    c.name = "SpreadContact";
+    c.article_name = "a contact over ranks";
+    c.sentence = "A surface in slabs under a flat, ready to be pressed by all ranks together.";
+    c.shareable = false;
+    c.describe = describe_spread_contact;
+    c.digest = contact_digest;
+    c.methods = {{.name = "press",
+                  .body = spread_press,
+                  .sentence = "The state under a load, found by all ranks together, each with its rows.",
+                  .options = &spread_press_block(),
+                  .returns = "SpreadState",
+                  .example = "local st = spread:press{ pressure=\"10 MPa\" }",
+                  .heavy = true}};
+    return c;
+  }();
+  return type;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lab.exact: closed-form answers to hold a computed one against. Each call is a few operations, or for a
+// Weierstrass–Mandelbrot height a few thousand cosines.
+#include <limits>
+
+#include "bindings/lua/friction/law.hpp"
+#include "bindings/lua/surface/weierstrass_mandelbrot_keys.hpp"
+#include "engine/study/exact/box_paraboloid.hpp"
+#include "engine/study/exact/hertz.hpp"
+#include "engine/study/exact/persson.hpp"
+#include "engine/study/exact/wavy.hpp"
+#include "engine/study/exact/weierstrass_mandelbrot_height.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+// Load or approach, one of them.
+struct PressedKeys {
+  std::optional<double> load, approach;
+};
+template <class K>
+void one_of_load_and_approach(K& keys, Problems& problems) {
+  if (keys.load.has_value() == keys.approach.has_value())
+    problems.push_back("give `load` or `approach`, one of them");
+}
+template <class K>
+Option<K> load_key() {
+  return quantity("load", &PressedKeys::load, dimension::force, above(0), "normal force");
+}
+template <class K>
+Option<K> approach_key() {
+  return quantity("approach", &PressedKeys::approach, dimension::length, above(0), "from first touch");
+}
+
+// --- hertz
+
+struct HertzKeys : PressedKeys {
+  double radius = 0, modulus = 0;
+  std::shared_ptr<JunctionLaw> law;
+};
+const Block<HertzKeys>& hertz_block() {
+  using K = HertzKeys;
+  static const Block<K> block{
+      "lab.exact.hertz",
+      {Option<K>(quantity("radius", &K::radius, dimension::length, above(0), "of the paraboloid")).required(),
+       Option<K>(quantity("modulus", &K::modulus, dimension::pressure, above(0), "E* of the two bodies"))
+           .required(),
+       load_key<K>(), approach_key<K>(),
+       native<JunctionLaw>("friction", &K::law, "Law", "a law, from lab.friction",
+                           "adds the friction force and its ratio to the load")},
+      one_of_load_and_approach<K>};
+  return block;
+}
+Values hertz(Call& call) {
+  const HertzKeys keys = call.options(hertz_block());
+  const exact::Hertz h = keys.load ? exact::hertz_under_load(keys.radius, keys.modulus, *keys.load)
+                                   : exact::hertz_at_approach(keys.radius, keys.modulus, *keys.approach);
+  Record record;
+  record.name = "Hertz";
+  record.add("load", h.load, dimension::force)
+      .add("approach", h.approach, dimension::length)
+      .add("contact_radius", h.contact_radius, dimension::length)
+      .add("area", h.area, dimension::area)
+      .add("peak_pressure", h.peak_pressure, dimension::pressure)
+      .add("energy", h.energy, dimension::energy);
+  if (keys.law) {
+    const double force =
+        exact::friction(h, keys.law->tau0(), keys.law->alpha(),
+                        keys.law->tau_max().value_or(std::numeric_limits<double>::infinity()));
+    record.add("force", force, dimension::force).add("mu", force / h.load);
+  }
+  return {std::move(record)};
+}
+
+// --- waves
+
+struct WaveKeys {
+  double amplitude = 0, wavelength = 0, modulus = 0, pressure = 0;
+};
+Block<WaveKeys> wave_block(const char* name) {
+  using K = WaveKeys;
+  return {
+      name,
+      {quantity("amplitude", &K::amplitude, dimension::length, above(0), "height of a crest above the mean")
+           .required(),
+       quantity("wavelength", &K::wavelength, dimension::length, above(0), "length of a wave").required(),
+       quantity("modulus", &K::modulus, dimension::pressure, above(0), "E* of the two bodies").required(),
+       quantity("pressure", &K::pressure, dimension::pressure, above(0), "mean pressure").required()}};
+}
+const Block<WaveKeys>& one_wave_block() {
+  static const Block<WaveKeys> block = wave_block("lab.exact.wave");
+  return block;
+}
+const Block<WaveKeys>& crossed_waves_block() {
+  static const Block<WaveKeys> block = wave_block("lab.exact.crossed_waves");
+  return block;
+}
+Values wavy(const char* name, const exact::WavyContact& contact) {
+  Record record;
+  record.name = name;
+  record.add("full_pressure", contact.full_pressure, dimension::pressure)
+      .add("area_fraction", contact.area_fraction)
+      .add("peak_pressure", contact.peak_pressure, dimension::pressure)
+      .add("mean_gap", contact.mean_gap, dimension::length)
+      .add("approach", contact.approach, dimension::length)
+      .add("energy_per_area", contact.energy_per_area, dimension::energy_per_area);
+  return {std::move(record)};
+}
+Values one_wave(Call& call) {
+  const WaveKeys k = call.options(one_wave_block());
+  return wavy("wave", exact::one_wave(k.amplitude, k.wavelength, k.modulus, k.pressure));
+}
+Values crossed_waves(Call& call) {
+  const WaveKeys k = call.options(crossed_waves_block());
+  return wavy("crossed waves", exact::crossed_waves(k.amplitude, k.wavelength, k.modulus, k.pressure));
+}
+
+// --- persson
+
+struct PerssonKeys {
+  double modulus = 0, rms_slope = 0, pressure = 0, hardness = std::numeric_limits<double>::infinity();
+};
+const Block<PerssonKeys>& persson_block() {
+  using K = PerssonKeys;
+  static const Block<K> block{
+      "lab.exact.persson",
+      {quantity("modulus", &K::modulus, dimension::pressure, above(0), "E* of the two bodies").required(),
+       number("rms_slope", &K::rms_slope, above(0), "of the combined heights").required(),
+       quantity("pressure", &K::pressure, dimension::pressure, above(0), "mean pressure").required(),
+       quantity("hardness", &K::hardness, dimension::pressure, above(0).or_never(), "greatest pressure")}};
+  return block;
+}
+Values persson(Call& call) {
+  const PerssonKeys k = call.options(persson_block());
+  const exact::PerssonArea area = exact::persson_area(k.modulus, k.rms_slope, k.pressure, k.hardness);
+  Record record;
+  record.name = "Persson";
+  record.add("area_fraction", area.elastic + area.capped)
+      .add("elastic_fraction", area.elastic)
+      .add("plastic_fraction", area.capped);
+  return {std::move(record)};
+}
+
+// --- box elements
+
+struct BoxParaboloidKeys : PressedKeys {
+  double radius = 0, stiffness = 0;
+};
+const Block<BoxParaboloidKeys>& box_paraboloid_block() {
+  using K = BoxParaboloidKeys;
+  static const Block<K> block{
+      "lab.exact.box_paraboloid",
+      {Option<K>(quantity("radius", &K::radius, dimension::length, above(0), "of the paraboloid")).required(),
+       Option<K>(quantity("stiffness", &K::stiffness, dimension::stiffness, above(0), "of the elements"))
+           .required(),
+       load_key<K>(), approach_key<K>()},
+      one_of_load_and_approach<K>};
+  return block;
+}
+Values box_paraboloid(Call& call) {
+  const BoxParaboloidKeys keys = call.options(box_paraboloid_block());
+  const exact::BoxParaboloid box =
+      keys.load ? exact::box_paraboloid_under_load(keys.radius, keys.stiffness, *keys.load)
+                : exact::box_paraboloid_at_approach(keys.radius, keys.stiffness, *keys.approach);
+  Record record;
+  record.name = "box paraboloid";
+  record.add("load", box.load, dimension::force)
+      .add("approach", box.approach, dimension::length)
+      .add("area", box.area, dimension::area)
+      .add("energy", box.energy, dimension::energy);
+  return {std::move(record)};
+}
+
+// --- weierstrass_mandelbrot
+
+struct HeightKeys : WeierstrassMandelbrotOptions {
+  int i = -1, j = -1;
+};
+const Block<HeightKeys>& height_block() {
+  using K = HeightKeys;
+  static const Block<K> block{
+      "lab.exact.weierstrass_mandelbrot",
+      [] {
+        auto keys = weierstrass_mandelbrot_keys<K>();
+        keys.push_back(
+            custom<K>("node", "{integer, integer}", "the node, {i, j} from 0",
+                      [](const Argument& value, const OptionInfo& info, K& k, Problems& problems) {
+                        if (!value.is_table() || value.length() != 2)
+                          return detail::wrong_type(value, info, "two whole numbers {i, j}", problems);
+                        for (int part = 1; part <= 2; ++part)
+                          value.element(part, [&](const Argument& index) {
+                            if (auto n =
+                                    detail::read_integer(index, info, between(0, max_cells - 1), problems))
+                              (part == 1 ? k.i : k.j) = static_cast<int>(*n);
+                          });
+                      })
+                .required());
+        return keys;
+      }(),
+      [](K& k, Problems& problems) {
+        if (k.i >= k.nx || k.j >= k.ny)
+          problems.push_back("`node` is {" + std::to_string(k.i) + ", " + std::to_string(k.j) +
+                             "}, outside the " + std::to_string(k.nx) + " x " + std::to_string(k.ny) +
+                             " cells");
+        if (k.phases == WavePhases::function)
+          problems.push_back(
+              "`phases` is a function; an exact height has \"golden\" phases, or those of `seed`");
+        if (k.band == WaveBand::resolved)
+          problems.push_back("`band` is \"resolved\"; an exact height is of all waves");
+      }};
+  return block;
+}
+Values height(Call& call) {
+  const HeightKeys keys = call.options(height_block());
+  return {exact::weierstrass_mandelbrot_height(keys, keys.i, keys.j)};
+}
+
+}  // namespace
+
+const Module& exact_module() {
+  static const Module module = {
+      .path = "lab.exact",
+      .sentence = "Answers in closed form, to hold a computed one against.",
+      .functions =
+          {{.name = "hertz",
+            .body = hertz,
+            .sentence =
+                "A paraboloid on an elastic half-space (Hertz 1882), frictionless and without adhesion.",
+            .options = &hertz_block(),
+            .returns = "table",
+            .example = "print(lab.exact.hertz{ radius=\"1 mm\", modulus=\"70 GPa\", load=\"1 N\" })"},
+           {.name = "wave",
+            .body = one_wave,
+            .sentence = "A wavy half-space h cos(2 pi x / wavelength) on a flat (Westergaard 1939).",
+            .options = &one_wave_block(),
+            .returns = "table",
+            .example = "print(lab.exact.wave{ amplitude=0.01, wavelength=1, modulus=1, pressure=0.01 })"},
+           {.name = "crossed_waves",
+            .body = crossed_waves,
+            .sentence =
+                "h cos(2 pi x / wavelength) cos(2 pi y / wavelength) on a flat, in full contact (Johnson, "
+                "Greenwood & Higginson 1985).",
+            .options = &crossed_waves_block(),
+            .returns = "table",
+            .example =
+                "print(lab.exact.crossed_waves{ amplitude=0.01, wavelength=1, modulus=1, pressure=0.05 })"},
+           {.name = "persson",
+            .body = persson,
+            .sentence =
+                "Real contact area of a rough half-space by Persson's theory (2001), with a hardness or "
+                "without: a theory, 25 % below simulations at pressures of 0.01 to 0.04 E*h', h' the rms "
+                "slope, and 20 % "
+                "at 0.1 E*h'.",
+            .options = &persson_block(),
+            .returns = "table",
+            .example = "print(lab.exact.persson{ modulus=1, rms_slope=0.1, pressure=0.01 })"},
+           {.name = "box_paraboloid",
+            .body = box_paraboloid,
+            .sentence = "A paraboloid on independent box elements.",
+            .options = &box_paraboloid_block(),
+            .returns = "table",
+            .example = "print(lab.exact.box_paraboloid{ radius=1, stiffness=1, load=1e-3 })"},
+           {.name = "weierstrass_mandelbrot",
+            .body = height,
+            .sentence =
+                "One height of a Weierstrass-Mandelbrot surface to the last digit of a double, summed in "
+                "thousands of bits.",
+            .options = &height_block(),
+            .returns = "number",
+            .example = "print(lab.exact.weierstrass_mandelbrot{ cells=150, D=2.5, phases=\"golden\", "
+                       "node={75, 40} })",
+            .heavy = true}},
+      .constants = {},
+      .call = {},
+  };
+  return module;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/study/study.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "bindings/lua/registry/options.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/files.hpp"
+#include "engine/core/files/aside_file.hpp"
+#include "engine/run/run_directory.hpp"
+#include "engine/study/study_chart.hpp"
+#include "engine/study/study_text.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+Value knob(const KnobValue& value) {
+  return std::visit([](const auto& v) { return Value(v); }, value);
+}
+
+Map knobs_map(const Knobs& knobs) {
+  Map map;
+  for (const Knob& one : knobs) map.items.emplace_back(one.name, knob(one.value));
+  return map;
+}
+
+Value finite(double value) { return std::isfinite(value) ? Value(value) : Value(); }
+
+Values rows_of_study(Call& call) {
+  const StudyResult& result = call.self<Study>().result;
+  List list;
+  for (const StudyRow& row : result.rows) {
+    Map map = knobs_map(result.knobs_of(row));
+    const auto add = [&](const char* name, Value value) {
+      if (!value.is_nil()) map.items.emplace_back(name, std::move(value));
+    };
+    add("way", result.way_of(row).name);
+    add("value", finite(row.value));
+    add("error", finite(row.error));
+    add("absolute_error", finite(row.absolute_error));
+    add("held_error", finite(row.held_error));
+    add("seconds", finite(row.seconds));
+    add("seconds_low", finite(row.seconds_low));
+    add("seconds_high", finite(row.seconds_high));
+    add("first_seconds", finite(row.first_seconds));
+    add("runs", static_cast<std::int64_t>(row.runs.size()));
+    add("failed", row.end == StudyRow::End::failed);
+    add("left_out", row.end == StudyRow::End::left_out);
+    add("steady", row.steady);
+    add("pareto", row.pareto);
+    if (!row.reason.empty())
+      add("reason", (row.end == StudyRow::End::left_out ? "left out: " : "") + row.reason);
+    list.items.emplace_back(std::move(map));
+  }
+  return {std::move(list)};
+}
+
+Values chart_study(Call& call) {
+  const Study& study = call.self<Study>();
+  const std::string file = call.given(1) ? call.text(1, "path") : safe_file_name(study.name) + ".svg";
+  picture_format(file);
+  const LineChart lines = study_chart(study.result, "");
+  const std::string path = writable_path(call, file);
+  for (const std::string& warning : draw(lines, path)) call.session().monitor().warn(warning);
+  if (const auto& run = call.session().run)
+    run->journal().write("chart", Json::object({{"study", study.name}, {"file", file}}));
+  return {path};
+}
+
+struct CheapestKeys {
+  double error = 0;
+};
+const Block<CheapestKeys>& cheapest_block() {
+  static const Block<CheapestKeys> block{
+      "cheapest",
+      {Option<CheapestKeys>(number("error", &CheapestKeys::error, above(0),
+                                   "greatest error, relative to the truth (absolute where the truth is 0)"))
+           .required()}};
+  return block;
+}
+Values cheapest_setting(Call& call) {
+  const double error = call.options(cheapest_block()).error;
+  auto study = call.shared_self<Study>();
+  const StudyRow& row = cheapest(study->result, error);
+  const auto place = static_cast<std::size_t>(&row - study->result.rows.data());
+  return {object(StudyChoice{std::move(study), place})};
+}
+
+std::string describe_study(const void* self) { return study_text(static_cast<const Study*>(self)->result); }
+std::string describe_choice(const void* self) {
+  const auto& choice = *static_cast<const StudyChoice*>(self);
+  return lua_source(choice.study->result.knobs_of(choice.found()));
+}
+
+// A field of the study's result, and one of the row that was chosen.
+template <auto read>
+Values of_study(Call& call) {
+  return {Value(read(call.self<Study>().result))};
+}
+template <auto read>
+Values of_row(Call& call) {
+  return {Value(read(call.self<StudyChoice>().found()))};
+}
+
+}  // namespace
+
+void record_request(RunDirectory* run, const std::string& name, const StudyRequest& request) {
+  if (run == nullptr) return;
+  run->journal().write("study", Json::object({{"name", name}, {"asked", to_json(request)}}));
+}
+
+void record_calls(RunDirectory* run, const std::string& name, std::span<const StudyRun> calls) {
+  if (run == nullptr) return;
+  for (const StudyRun& call : calls) {
+    Json line = Json::object({{"name", name}});
+    if (call.way != nullptr) line.set("way", *call.way);
+    line.set("knobs", to_json(*call.knobs)).set("round", call.round);
+    if (call.value) line.set("value", *call.value);
+    line.set("unhashed", Json::object({{"seconds", call.seconds}}));
+    run->journal().write("study run", line);
+  }
+}
+
+void record_result(RunDirectory* run, const std::string& name, const StudyResult& result) {
+  if (run == nullptr) return;
+  Json line = Json::object({{"name", name}});
+  line.set("found", answers_json(result));
+  Json::List seconds;
+  for (const StudyRow& row : result.rows) {
+    seconds.emplace_back();
+    if (std::isfinite(row.seconds)) seconds.back() = row.seconds;
+  }
+  line.set("unhashed", Json::object({{"seconds", std::move(seconds)},
+                                     {"asked_seconds", result.asked_seconds},
+                                     {"total_seconds", result.total_seconds}}));
+  run->journal().write("study end", line);
+  const std::filesystem::path file = run->path_for(safe_file_name(name) + ".csv");
+  if (!run->dry()) write_aside(file, study_table(result).csv());
+}
+
+template <>
+const Class& class_of<Study>() {
+  static const Class type = [] {
+    Class c;
+    c.name = "Study";
+    c.article_name = "a study";
+    c.sentence =
+        "What a study of work and precision found. print() shows its rows and the cheapest setting for 10 %, "
+        "1 % and "
+        "0.1 %.";
+    c.describe = describe_study;
+    c.fields = {
+        {"truth",
+         "number",
+         "the value that errors are measured against",
+         {},
+         of_study<[](const StudyResult& r) { return r.truth; }>},
+        {"truth_seconds", "number", "what that value took; 0 if it was given", dimension::time,
+         of_study<[](const StudyResult& r) { return r.truth_seconds; }>},
+        {"relative",
+         "boolean",
+         "whether `error` is relative to the truth; it is absolute where the truth is 0",
+         {},
+         of_study<[](const StudyResult& r) { return r.relative(); }>},
+        {"calls",
+         "integer",
+         "how often `ask` was called",
+         {},
+         of_study<[](const StudyResult& r) { return r.calls; }>},
+        {"seconds", "number", "time inside `ask`, over all calls", dimension::time,
+         of_study<[](const StudyResult& r) { return r.asked_seconds; }>},
+        {"overhead",
+         "number",
+         "time of the study itself, over that inside `ask`",
+         {},
+         of_study<[](const StudyResult& r) { return r.overhead(); }>},
+    };
+    c.methods = {
+        {.name = "rows",
+         .body = rows_of_study,
+         .sentence =
+             "One table a setting: way, the knobs, value, error (relative to the truth), absolute_error, "
+             "held_error "
+             "(greatest error among it and the finer settings of its way), seconds (median), seconds_low and "
+             "seconds_high (fastest and slowest run), first_seconds (of the first run, which is not timed), "
+             "runs, "
+             "steady (all answers the same bits), pareto (nothing is both faster and closer), failed, "
+             "left_out and "
+             "the reason.",
+         .returns = "table[]",
+         .example =
+             "for _, row in ipairs(study:rows()) do print(row.way, row.cells, row.error, row.seconds) end"},
+        {.name = "chart",
+         .body = chart_study,
+         .sentence = "Draws error against time on logarithmic axes, a line per way, bars from the fastest to "
+                     "the slowest run, "
+                     "rings about what nothing beats, and marks at the rim for settings that failed or were "
+                     "left out; returns "
+                     "the file.",
+         .parameters = {{"path", "string?", "an .svg or .png under the run directory; default <name>.svg"}},
+         .returns = "string",
+         .example = "study:chart \"work_precision.svg\"",
+         .heavy = true},
+        {.name = "cheapest",
+         .body = cheapest_setting,
+         .sentence = "The fastest setting whose error, and that of every finer measured setting of its way, "
+                     "is at most the "
+                     "one asked for: a setting that comes near the truth by accident, where the error "
+                     "changes its sign, is "
+                     "not taken. Settings count as finer along the list of their way (turned round where "
+                     "`cells` falls or "
+                     "`tolerance` rises). An error says what the best reached was.",
+         .options = &cheapest_block(),
+         .returns = "StudyChoice",
+         .example = "local best = study:cheapest{ error=1e-3 } print(best, best.seconds, best.error)"},
+    };
+    return c;
+  }();
+  return type;
+}
+
+template <>
+const Class& class_of<StudyChoice>() {
+  static const Class type = [] {
+    Class c;
+    c.name = "StudyChoice";
+    c.article_name = "a setting of a study";
+    c.sentence = "A setting that a study chose. print() shows its knobs as Lua source, to be pasted.";
+    c.describe = describe_choice;
+    c.fields = {
+        {"knobs",
+         "table",
+         "its knobs, as `ask` was given them",
+         {},
+         [](Call& call) -> Values {
+           const auto& choice = call.self<StudyChoice>();
+           return {knobs_map(choice.study->result.knobs_of(choice.found()))};
+         }},
+        {"way",
+         "string",
+         "the name of its way",
+         {},
+         [](Call& call) -> Values {
+           const auto& choice = call.self<StudyChoice>();
+           return {choice.study->result.way_of(choice.found()).name};
+         }},
+        {"seconds", "number", "median of its runs", dimension::time,
+         of_row<[](const StudyRow& r) { return r.seconds; }>},
+        {"value", "number", "its answer", {}, of_row<[](const StudyRow& r) { return r.value; }>},
+        {"error",
+         "number",
+         "its error, relative to the truth",
+         {},
+         of_row<[](const StudyRow& r) { return r.error; }>},
+        {"absolute_error",
+         "number",
+         "its distance from the truth",
+         {},
+         of_row<[](const StudyRow& r) { return r.absolute_error; }>},
+        {"held_error",
+         "number",
+         "greatest error among it and the finer settings of its way",
+         {},
+         of_row<[](const StudyRow& r) { return r.held_error; }>},
+        {"confirmed",
+         "integer",
+         "how many finer settings of its way were measured",
+         {},
+         of_row<[](const StudyRow& r) { return static_cast<std::int64_t>(r.confirmed); }>},
+    };
+    return c;
+  }();
+  return type;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/study/work_precision.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/options.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/state.hpp"
+#include "bindings/lua/study/study.hpp"
+#include "engine/study/work_precision.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+// --- what is asked for
+
+struct StudyKeys {
+  StudyRequest request;
+  std::string name = "work_precision";
+  bool unknown = false;  // a dry run met a knob that it cannot know
+};
+
+std::optional<KnobValue> knob_value(const Argument& value, StudyKeys& keys) {
+  if (value.is_unknown()) {
+    keys.unknown = true;
+    return KnobValue(0.0);
+  }
+  if (value.is_boolean()) return KnobValue(value.boolean());
+  if (value.is_number())
+    return value.integer() && lua_isinteger(value.state(), value.index()) != 0 ? KnobValue(*value.integer())
+                                                                               : KnobValue(value.number());
+  if (value.is_text()) return KnobValue(std::string(value.text()));
+  return {};
+}
+
+constexpr const char* knob_kinds = "a number, a string or a boolean";
+
+void read_sweep(const std::string& name, const std::string& path, const Argument& value, StudyKeys& keys,
+                std::vector<KnobSweep>& knobs, Problems& problems) {
+  KnobSweep knob{name, {}, value.is_table()};
+  const auto take = [&](const Argument& item, const std::string& place) {
+    if (auto read = knob_value(item, keys))
+      knob.values.push_back(*std::move(read));
+    else
+      problems.push_back(quoted(place) + " is " + item.describe() + "; give " + knob_kinds +
+                         ", and turn it into what you need inside `ask`");
+  };
+  if (!value.is_table()) {
+    take(value, path);
+  } else {
+    const std::int64_t length = value.length();
+    std::int64_t entries = 0;
+    value.each([&](const Argument&, const Argument&) { ++entries; });
+    if (entries != length) {
+      problems.push_back(quoted(path) + " is not a list; write its values one after the other, without nil");
+      return;
+    }
+    for (std::int64_t k = 1; k <= length; ++k)
+      value.element(k, [&](const Argument& item) { take(item, path + "[" + std::to_string(k) + "]"); });
+  }
+  knobs.push_back(std::move(knob));
+}
+
+void read_way(const Argument& table, const std::string& path, StudyKeys& keys, Problems& problems) {
+  if (!table.is_table()) {
+    problems.push_back(quoted(path) + " is " + table.describe() +
+                       "; give a way such as { name=\"finer grid\", cells={128, 256} }");
+    return;
+  }
+  std::string name;
+  std::vector<KnobSweep> knobs;
+  table.each([&](const Argument& key, const Argument& value) {
+    if (!key.is_text()) {
+      problems.push_back(quoted(path) + " holds a value without a key; write `knob = value`");
+    } else if (key.text() != "name") {
+      const std::string knob(key.text());
+      read_sweep(knob, path + "." + knob, value, keys, knobs, problems);
+    } else if (value.is_text() && !value.text().empty()) {
+      name = value.text();
+    } else {
+      problems.push_back(quoted(path + ".name") + " is " + value.describe() + "; give the way's name");
+      name = "?";
+    }
+  });
+  if (name.empty()) {
+    problems.push_back(quoted(path) + " has no `name`; name the way, as in name=\"finer grid\"");
+    return;
+  }
+  if (!problems.empty()) return;
+  try {
+    keys.request.ways.push_back(make_way(std::move(name), std::move(knobs)));
+  } catch (const Error& error) {
+    problems.push_back(error.what());
+  }
+}
+
+void read_ways(const Argument& value, const OptionInfo& info, StudyKeys& keys, Problems& problems) {
+  if (!value.is_table() || value.length() == 0)
+    return detail::wrong_type(
+        value, info, "a list of ways, such as { { name=\"finer grid\", cells={128, 256} } }", problems);
+  for (std::int64_t k = 1; k <= value.length(); ++k)
+    value.element(k, [&](const Argument& way) {
+      if (way.is_unknown())
+        keys.unknown = true;
+      else
+        read_way(way, info.name + "[" + std::to_string(k) + "]", keys, problems);
+    });
+}
+
+void read_truth(const Argument& value, const OptionInfo& info, StudyKeys& keys, Problems& problems) {
+  if (value.is_number()) {
+    keys.request.truth = value.number();
+  } else if (value.is_text()) {
+    try {
+      keys.request.truth = parse_quantity(value.text()).value;
+    } catch (const Error& error) {
+      problems.push_back(quoted(info.name) + ": " + error.what());
+    }
+  } else if (value.is_table()) {
+    Knobs knobs;
+    value.each([&](const Argument& key, const Argument& item) {
+      const auto read = knob_value(item, keys);
+      if (!key.is_text())
+        problems.push_back(quoted(info.name) + " holds a value without a key; write `knob = value`");
+      else if (!read)
+        problems.push_back(quoted(info.name + "." + std::string(key.text())) + " is " + item.describe() +
+                           "; give " + knob_kinds);
+      else
+        knobs.push_back({std::string(key.text()), *read});
+    });
+    std::sort(knobs.begin(), knobs.end(), [](const Knob& a, const Knob& b) { return a.name < b.name; });
+    keys.request.truth = std::move(knobs);
+  } else {
+    detail::wrong_type(value, info, "the exact value, or a table of the knobs of a finer setting", problems);
+  }
+}
+
+struct AtMost {
+  std::optional<double> seconds;
+};
+
+const Block<StudyKeys>& study_block() {
+  using K = StudyKeys;
+  Option<AtMost> at_most =
+      quantity("at_most", &AtMost::seconds, dimension::time, above(0),
+               "longest time for the whole study, the truth included; it is quoted first, and "
+               "settings that would not fit are left out");
+  Option<K> budget;
+  budget.info = at_most.info;
+  budget.read = [read = at_most.read](const Argument& value, const OptionInfo& info, K& keys,
+                                      Problems& problems) {
+    AtMost given;
+    read(value, info, given, problems);
+    keys.request.at_most = given.seconds;
+  };
+  Option<K> repeats =
+      custom<K>("repeats", "integer", "timed runs of each setting, after a first one that is not timed",
+                [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+                  if (auto n = detail::read_integer(value, info, between(1, 100000), problems))
+                    keys.request.repeats = static_cast<int>(*n);
+                });
+  repeats.info.range_text = "from 1 to 100000";
+  repeats.info.default_text = "5";
+  static const Block<K> block{
+      "lab.work_precision",
+      {custom<K>("ask", "function",
+                 "function(knobs) returning the quantity, one number; nil (and a message) or an error where "
+                 "a setting "
+                 "fails",
+                 [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
+                   if (!value.is_function()) detail::wrong_type(value, info, "a function(knobs)", problems);
+                 })
+           .required(),
+       custom<K>("truth", "number|table",
+                 "the exact value, or the knobs of a finer setting whose answer is taken for it", read_truth)
+           .required(),
+       custom<K>("try", "table[]",
+                 "the ways: tables with a `name`, and knobs that `ask` understands; a knob given as a list "
+                 "is swept, "
+                 "from coarse to fine, and several lists go along together",
+                 read_ways)
+           .required(),
+       std::move(repeats), std::move(budget),
+       text("name", &K::name, "of the study and of <name>.csv, where its rows are kept")}};
+  return block;
+}
+
+// --- the function that is asked
+
+StudyAnswer read_answer(lua_State* L, const Knobs& knobs) {
+  const Argument value(L, -2), message(L, -1);
+  if (value.is_number()) return {value.number(), ""};
+  if (value.is_nil()) return {{}, message.is_text() ? std::string(message.text()) : std::string()};
+  throw Error(ErrorCode::bad_value, "`ask` returned " + value.describe() + " for " + lua_source(knobs),
+              "return one number, or nil where the setting failed");
+}
+
+class LuaWork final : public StudyWork {
+ public:
+  LuaWork(const Call& call, const Argument& ask, std::string name)
+      : L(call.L), ask_(ask), session_(call.session()), name_(std::move(name)) {}
+
+  // Leaves the function and its knobs on the stack.
+  void prepare(const Knobs& knobs) override {
+    if (lua_checkstack(L, 8) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
+    lua_pushvalue(L, ask_.index());
+    auto action = [&knobs](lua_State* s) {
+      lua_createtable(s, 0, static_cast<int>(knobs.size()));
+      for (const Knob& knob : knobs) {
+        lua_pushlstring(s, knob.name.data(), knob.name.size());
+        std::visit([s](const auto& v) { push_knob(s, v); }, knob.value);
+        lua_rawset(s, -3);
+      }
+      return 2;
+    };
+    if (protect(L, 1, 2, action) != LUA_OK)
+      throw Error(ErrorCode::out_of_memory, "there is no memory for the knobs");
+  }
+
+  StudyAnswer ask(const Knobs& knobs, Monitor& monitor) override {
+    const int bottom = lua_gettop(L) - 2;
+    StudyAnswer answer;
+    {
+      const Session::Reporting reporting(session_, monitor);
+      if (lua_pcall(L, 1, 2, 0) != LUA_OK) {
+        stop_flag().check();
+        answer.failure = error_text(L, -1);
+        lua_settop(L, bottom);
+        return answer;
+      }
+    }
+    answer = read_answer(L, knobs);
+    lua_settop(L, bottom);
+    return answer;
+  }
+
+  // What a run left behind is collected between runs, and not in the time of another setting.
+  void settle() override { lua_gc(L, LUA_GCCOLLECT); }
+
+  void record(std::span<const StudyRun> runs) override { record_calls(session_.run.get(), name_, runs); }
+
+ private:
+  static void push_knob(lua_State* s, bool v) { lua_pushboolean(s, v ? 1 : 0); }
+  static void push_knob(lua_State* s, std::int64_t v) { lua_pushinteger(s, v); }
+  static void push_knob(lua_State* s, double v) { lua_pushnumber(s, v); }
+  static void push_knob(lua_State* s, const std::string& v) { lua_pushlstring(s, v.data(), v.size()); }
+
+  lua_State* L;
+  Argument ask_;
+  Session& session_;
+  std::string name_;
+};
+
+// A second study of one name gets a number.
+std::string own_name(Session& session, const std::string& name) {
+  const int count = ++session.studies[name];
+  return count == 1 ? name : name + "-" + std::to_string(count);
+}
+
+// A dry run asks once, with the first setting.
+Values dry_study(Call& call, const StudyKeys& keys, const Argument& ask) {
+  if (!keys.unknown) {
+    const Knobs& knobs = keys.request.ways.front().settings.front();
+    LuaWork work(call, ask, keys.name);
+    work.prepare(knobs);
+    const int bottom = lua_gettop(call.L) - 2;
+    if (lua_pcall(call.L, 1, 2, 0) != LUA_OK) {
+      stop_flag().check();
+      throw Error(ErrorCode::bad_value,
+                  keys.request.ways.front().name + " " + lua_source(knobs) + ": " + error_text(call.L, -1));
+    }
+    if (!Argument(call.L, -2).is_unknown()) read_answer(call.L, knobs);
+    lua_settop(call.L, bottom);
+  }
+  call.session().gave_placeholders = true;
+  return {Object{&class_of<Study>(), nullptr, false}};
+}
+
+Values work_precision(Call& call) {
+  StudyKeys keys = call.options(study_block());
+  Session& session = call.session();
+  if (session.is_case)
+    throw Error(ErrorCode::not_permitted, "a case of an ensemble times nothing: other cases run beside it",
+                "make the study outside the ensemble");
+  return with_key(call.argument(1), "ask", [&](const Argument& ask) -> Values {
+    if (session.dry_run) return dry_study(call, keys, ask);
+    auto study = std::make_shared<Study>();
+    study->name = own_name(session, keys.name);
+    LuaWork work(call, ask, study->name);
+    WorkPrecision runner(std::move(keys.request), work, session.monitor());
+    record_request(session.run.get(), study->name, runner.result().request);
+    try {
+      runner.run();
+    } catch (const std::exception&) {
+      record_result(session.run.get(), study->name, runner.result());
+      throw;
+    }
+    study->result = runner.result();
+    record_result(session.run.get(), study->name, study->result);
+    return {object(std::move(study))};
+  });
+}
+
+}  // namespace
+
+Function work_precision_function() {
+  Function f;
+  f.name = "work_precision";
+  f.body = work_precision;
+  f.sentence =
+      "Measures what accuracy costs: asks for one quantity by several ways over their settings, times each "
+      "as the "
+      "median of `repeats` runs, and compares with the truth. Every setting is run once untimed for its "
+      "answer, then "
+      "all are timed in rounds; a setting that fails keeps its row. What the study will take is said first "
+      "on "
+      "standard error.";
+  f.options = &study_block();
+  f.returns = "Study";
+  f.example =
+      "local study = lab.work_precision{ ask=function(knobs) return lab.surface.sine{ cells=knobs.cells, "
+      "size=1, amplitude=\"1 mm\" }:roughness().Ra end, truth={ cells=512 }, try={ { name=\"finer grid\", "
+      "cells={ 32, "
+      "64, 128 } } } }";
+  return f;
+}
+
+}  // namespace asperity::lua

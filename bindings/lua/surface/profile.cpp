@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Profiles: lab.profile and the methods of a profile.
+#include <numbers>
+
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/files.hpp"
+#include "bindings/lua/surface/measure.hpp"
+#include "bindings/lua/surface/surface.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/metrology/levelling.hpp"
+#include "engine/plot/picture_profile.hpp"
+#include "engine/surface/io/read.hpp"
+#include "engine/surface/io/source_file.hpp"
+#include "engine/surface/io/write.hpp"
+#include "engine/surface/operations.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+Value::Numbers profile_numbers(std::span<const double> values) {
+  return std::make_shared<const Array<double>>(values.begin(), values.end());
+}
+
+Values heights_of_profile(Call& call) { return {profile_numbers(call.self<Profile>().heights())}; }
+
+Values positions(Call& call) {
+  const Profile& p = call.self<Profile>();
+  Array<double> x(static_cast<std::size_t>(p.size()));
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = static_cast<double>(k) * p.spacing();
+  return {profile_numbers(x)};
+}
+
+// x and y of a closed outline about its centre.
+Values outline(Call& call) {
+  const Profile& p = call.self<Profile>();
+  if (!p.closed())
+    throw Error(ErrorCode::bad_state, "the profile is not a closed outline", "grain_profile makes one");
+  const auto h = p.heights();
+  Array<double> x(h.size()), y(h.size());
+  for (std::size_t k = 0; k < h.size(); ++k) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(h.size());
+    x[k] = (*p.closed_radius() + h[k]) * elementary::cos(angle);
+    y[k] = (*p.closed_radius() + h[k]) * elementary::sin(angle);
+  }
+  return {profile_numbers(x), profile_numbers(y)};
+}
+
+Values roughness_of_profile(Call& call) { return {roughness_record(roughness(call.self<Profile>()), false)}; }
+Values spectrum_of_profile(Call& call) {
+  return {spectrum_record(spectrum(call.self<Profile>(), call.options(spectrum_block())), false)};
+}
+Values fractal_dimension_of_profile(Call& call) {
+  return {fractal_dimension_record(
+      fractal_dimension(call.self<Profile>(), call.options(fractal_dimension_block(false))))};
+}
+Values filtered_profile(Call& call) {
+  const GaussianFilter filter = call.options(filter_block());
+  const Profile& profile = call.self<Profile>();
+  Values result = {object(gaussian_filtered(profile, filter))};
+  warn_of_empty_filter(call, filter, profile.length(), profile.spacing());
+  return result;
+}
+Values level_profile(Call& call) {
+  return {object(levelled(call.self<Profile>(), call.options(level_block()).degree))};
+}
+
+Values cut_off_profile(Call& call) {
+  return {object(cut(call.self<Profile>(), call.options(cut_block()).fraction))};
+}
+
+struct ProfilePictureKeys {
+  std::string title;
+};
+const Block<ProfilePictureKeys>& profile_picture_block() {
+  static const Block<ProfilePictureKeys> block{
+      "picture", {text("title", &ProfilePictureKeys::title, "above the picture")}};
+  return block;
+}
+Values picture_of_profile(Call& call) {
+  const ProfilePictureKeys keys = call.options(profile_picture_block(), 2);
+  const std::string path = writable_path(call, call.text(1, "path"));
+  warn_of(call, draw(call.self<Profile>(), keys.title, path));
+  return {path};
+}
+
+Values write_profile(Call& call) {
+  const Profile& profile = call.self<Profile>();
+  const std::string path = writable_path(call, call.text(1, "path"));
+  write_profile(profile, path, call.session().monitor());
+  return {path};
+}
+
+const Block<ReadProfileOptions>& read_profile_block() {
+  using O = ReadProfileOptions;
+  static const Block<O> block{
+      "lab.profile.read",
+      {quantity("spacing", &O::spacing, dimension::length, above(0),
+                "distance between samples, where the file has none"),
+       unit_key(&O::unit), unit_xy_key(&O::unit_xy), fill_key(&O::fill),
+       text("format", &O::format, "read as this format whatever the file looks like"),
+       text("channel", &O::channel, "which of several arrays in an HDF5, GWY or OPD file, by its name")}};
+  return block;
+}
+
+Values read_profile_file(Call& call) {
+  const std::string path = readable_path(call, call.text(1, "path"));
+  const ReadProfileOptions options = call.options(read_profile_block(), 2);
+  // Its size is known before its digest: what does not fit into memory is not read through for nothing.
+  const SourceFile file(path, call.session().monitor());
+  note_input(call, path);
+  return {object(read_profile(file, options, call.session().monitor()))};
+}
+
+std::string describe_profile(const void* self) {
+  const auto& p = *static_cast<const Profile*>(self);
+  return (p.closed() ? "closed profile of " : "profile of ") + std::to_string(p.size()) + " samples, " +
+         format_quantity(p.length(), dimension::length) + " long, peak to valley " +
+         format_quantity(p.height_range().span(), dimension::length);
+}
+std::size_t bytes_of_profile(const void* self) {
+  return static_cast<const Profile*>(self)->heights().size_bytes();
+}
+bool equal_profiles(const void* a, const void* b) {
+  return static_cast<const Profile*>(a)->digest() == static_cast<const Profile*>(b)->digest();
+}
+std::string digest_of_profile(const void* self) { return static_cast<const Profile*>(self)->digest(); }
+
+}  // namespace
+
+template <>
+const Class& class_of<Profile>() {
+  static const Class type = [] {
+    Class c;
+    c.name = "Profile";
+    c.article_name = "a profile";
+    c.sentence =
+        "Heights at equal spacing along a line, or once around a closed outline; an immutable value.";
+    c.describe = describe_profile;
+    c.native_bytes = bytes_of_profile;
+    c.equal = equal_profiles;
+    c.digest = digest_of_profile;
+    c.fields = {
+        {"points",
+         "integer",
+         "number of samples",
+         {},
+         [](Call& call) -> Values { return {call.self<Profile>().size()}; }},
+        {"spacing", "number", "distance between samples", dimension::length,
+         [](Call& call) -> Values { return {call.self<Profile>().spacing()}; }},
+        {"length", "number", "samples times spacing", dimension::length,
+         [](Call& call) -> Values { return {call.self<Profile>().length()}; }},
+        {"radius", "number", "of a closed outline, whose heights are r - radius; else nil", dimension::length,
+         [](Call& call) -> Values { return {Value(call.self<Profile>().closed_radius())}; }},
+        {"digest",
+         "string",
+         "equal profiles have equal digests",
+         {},
+         [](Call& call) -> Values { return {call.self<Profile>().digest()}; }},
+    };
+    c.methods = {
+        {.name = "heights",
+         .body = heights_of_profile,
+         .sentence = "All heights in metres.",
+         .returns = "number[]",
+         .example = "local z = p:heights()"},
+        {.name = "positions",
+         .body = positions,
+         .sentence = "Positions of the samples along the profile in metres.",
+         .returns = "number[]",
+         .example = "local x = p:positions()"},
+        {.name = "outline",
+         .body = outline,
+         .sentence = "x and y of the points of a closed outline: two tables.",
+         .returns = "number[], number[]",
+         .example = "local x, y = grain:outline()"},
+        {.name = "roughness",
+         .body = roughness_of_profile,
+         .sentence =
+             "Amplitude and slope statistics (ISO 21920-2): Ra, Rq, amplitude (peak to valley), skewness, "
+             "kurtosis, rms_slope, peak, valley, mean.",
+         .returns = "table",
+         .example = "print(p:roughness().Ra)"},
+        {.name = "spectrum",
+         .body = spectrum_of_profile,
+         .sentence = "Power spectral density along the profile.",
+         .options = &spectrum_block(),
+         .options_optional = true,
+         .returns = "table",
+         .example = "local c = p:spectrum().C"},
+        {.name = "fractal_dimension",
+         .body = fractal_dimension_of_profile,
+         .sentence = "Fractal dimension of the profile.",
+         .options = &fractal_dimension_block(false),
+         .options_optional = true,
+         .returns = "table",
+         .example = "print(p:fractal_dimension{}.D)"},
+        {.name = "filtered",
+         .body = filtered_profile,
+         .sentence = "ISO 16610-21 Gaussian filter.",
+         .options = &filter_block(),
+         .returns = "Profile",
+         .example = "p:filtered{ long_wave=\"0.8 mm\" }"},
+        {.name = "levelled",
+         .body = level_profile,
+         .sentence = "Less the least-squares polynomial of a degree.",
+         .options = &level_block(),
+         .options_optional = true,
+         .returns = "Profile",
+         .example = "p:levelled()"},
+        {.name = "cut",
+         .body = cut_off_profile,
+         .sentence = "Heights above max - fraction * peak-to-valley brought down to it; the profile keeps "
+                     "its length.",
+         .options = &cut_block(),
+         .returns = "Profile",
+         .example = "p:cut{ fraction=0.2 }"},
+        {.name = "picture",
+         .body = picture_of_profile,
+         .sentence = "A drawing of the profile, or of the shape of a closed outline: .svg or .png.",
+         .parameters = {{"path", "string", "under the run directory"}},
+         .options = &profile_picture_block(),
+         .options_optional = true,
+         .returns = "string",
+         .example = "grain:picture \"grain.svg\"",
+         .heavy = true},
+        {.name = "write",
+         .body = write_profile,
+         .sentence = "Writes the profile: .csv, .txt or .npy by the extension of the path.",
+         .parameters = {{"path", "string", "under the run directory"}},
+         .returns = "string",
+         .example = "p:write \"trace.csv\"",
+         .heavy = true},
+    };
+    return c;
+  }();
+  return type;
+}
+
+const Module& profile_module() {
+  static const Module module = [] {
+    Module m;
+    m.path = "lab.profile";
+    m.sentence = "Profiles: stylus traces from files. Surfaces give others with s:profile and s:profiles.";
+    m.functions = {
+        {.name = "read",
+         .body = read_profile_file,
+         .sentence = "A stylus trace from a file: a profiler's CSV, NPY, or text of one or two columns.",
+         .parameters = {{"path", "string", "the file"}},
+         .options = &read_profile_block(),
+         .options_optional = true,
+         .returns = "Profile",
+         .example = "local trace = lab.profile.read \"scan.csv\"",
+         .heavy = true}};
+    return m;
+  }();
+  return module;
+}
+
+}  // namespace asperity::lua

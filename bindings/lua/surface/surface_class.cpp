@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fields of a surface, and its methods that measure and record; those that make other surfaces and
+// profiles are in surface_operations.cpp.
+#include <algorithm>
+
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/files.hpp"
+#include "bindings/lua/surface/known_body.hpp"
+#include "bindings/lua/surface/measure.hpp"
+#include "bindings/lua/surface/picture.hpp"
+#include "bindings/lua/surface/surface.hpp"
+#include "bindings/lua/surface/surface_operations.hpp"
+#include "engine/metrology/levelling.hpp"
+#include "engine/surface/io/write.hpp"
+#include "engine/surface/io/xdmf.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+Values surface_height(Call& call) {
+  return {call.self<Surface>().height(call.number(1, "i"), call.number(2, "j"))};
+}
+
+Values heights(Call& call) {
+  const Surface surface = call.self<Surface>();
+  // The field lives in the surface; the pointer shares its ownership.
+  auto holder = std::make_shared<const Surface>(surface);
+  return {Value::Rows(holder, &holder->heights())};
+}
+
+Values roughness_of(Call& call) { return {roughness_record(roughness(call.self<Surface>()), true)}; }
+
+Values spectrum_of(Call& call) {
+  return {spectrum_record(spectrum(call.self<Surface>(), call.options(spectrum_block())), true)};
+}
+
+Values fractal_dimension_of(Call& call) {
+  return {fractal_dimension_record(
+      fractal_dimension(call.self<Surface>(), call.options(fractal_dimension_block(true))))};
+}
+
+Values filtered(Call& call) {
+  const GaussianFilter filter = call.options(filter_block());
+  const Surface& surface = call.self<Surface>();
+  const Grid& grid = surface.grid();
+  Values result = {object(gaussian_filtered(surface, filter))};
+  warn_of_empty_filter(call, filter, std::max(grid.size_x, grid.size_y), std::min(grid.hx(), grid.hy()));
+  return result;
+}
+Values level(Call& call) {
+  return {object(levelled(call.self<Surface>(), call.options(level_block()).degree))};
+}
+
+// --- files
+
+Values write_surface(Call& call) {
+  const std::string name = call.text(1, "path");
+  const std::string path = writable_path(call, name);
+  if (has_xdmf_beside(path)) writable_path(call, xdmf_path(name).string());
+  write_surface(call.self<Surface>(), path, call.session().monitor());
+  return {path};
+}
+
+Values picture(Call& call) {
+  const PictureOptions options = call.options(picture_block(), 2);
+  const std::string path = writable_path(call, call.text(1, "path"));
+  warn_of(call, draw(call.self<Surface>(), options, path));
+  return {path};
+}
+
+std::string describe_surface(const void* self) {
+  const auto& s = *static_cast<const Surface*>(self);
+  const Grid& g = s.grid();
+  std::string text = "surface " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " cells, " +
+                     format_quantity(g.size_x, dimension::length) + " x " +
+                     format_quantity(g.size_y, dimension::length) + ", peak to valley " +
+                     format_quantity(s.peak_to_valley(), dimension::length);
+  if (s.material()) text += ", " + s.material()->name;
+  return text;
+}
+
+std::size_t bytes_of_surface(const void* self) {
+  return static_cast<const Surface*>(self)->heights().size() * sizeof(double);
+}
+bool equal_surfaces(const void* a, const void* b) {
+  return static_cast<const Surface*>(a)->digest() == static_cast<const Surface*>(b)->digest();
+}
+std::string digest_of_surface(const void* self) { return static_cast<const Surface*>(self)->digest(); }
+
+}  // namespace
+
+template <>
+const Class& class_of<Surface>() {
+  static const Class type = [] {
+    Class c;
+    c.name = "Surface";
+    c.article_name = "a surface";
+    c.sentence = "Heights on a regular grid of cells; an immutable value whose methods return new ones.";
+    c.describe = describe_surface;
+    c.native_bytes = bytes_of_surface;
+    c.equal = equal_surfaces;
+    c.digest = digest_of_surface;
+    c.known = known_result;
+    c.fields = {
+        {"cells",
+         "{nx, ny}",
+         "cells along x and y",
+         {},
+         [](Call& call) -> Values {
+           const Grid& g = call.self<Surface>().grid();
+           return {List{{g.nx, g.ny}}};
+         }},
+        {"size", "{number, number}", "length along x and y", dimension::length,
+         [](Call& call) -> Values {
+           const Grid& g = call.self<Surface>().grid();
+           return {List{{g.size_x, g.size_y}}};
+         }},
+        {"material",
+         "Material",
+         "what the body is made of, or nil",
+         {},
+         [](Call& call) -> Values {
+           const auto& m = call.self<Surface>().material();
+           return {m ? object(*m) : Value()};
+         }},
+        {"periodic",
+         "boolean",
+         "whether the heights continue smoothly across the rim",
+         {},
+         [](Call& call) -> Values { return {call.self<Surface>().traits().periodic}; }},
+        {"aliased_share",
+         "number",
+         "share of the variance past Nyquist; nil where it is not known",
+         {},
+         [](Call& call) -> Values { return {Value(call.self<Surface>().traits().aliased_share)}; }},
+        {"peak_to_valley", "number", "greatest less least height", dimension::length,
+         [](Call& call) -> Values { return {call.self<Surface>().peak_to_valley()}; }},
+        {"digest",
+         "string",
+         "of grid and heights: equal surfaces have equal digests",
+         {},
+         [](Call& call) -> Values { return {call.self<Surface>().digest()}; }},
+    };
+    c.methods = {
+        {.name = "height",
+         .body = surface_height,
+         .sentence = "Height of node (i, j) in metres, counted from 0.",
+         .parameters = {{"i", "integer", "along x"}, {"j", "integer", "along y"}},
+         .returns = "number",
+         .example = "s:height(0, 0)"},
+        {.name = "heights",
+         .body = heights,
+         .sentence = "All heights as a table of rows, heights[j+1][i+1].",
+         .returns = "number[][]",
+         .example = "local h = s:heights()"},
+        {.name = "roughness",
+         .body = roughness_of,
+         .sentence =
+             "Amplitude and slope statistics of all nodes (ISO 25178-2), nothing levelled or filtered first: "
+             "Ra, "
+             "Rq, amplitude, skewness, kurtosis, rms_slope, peak, valley, mean, also by their areal names "
+             "Sa, Sq, "
+             "Sz, Ssk, Sku, Sdq. Its amplitude is peak to valley; that of lab.surface.sine is half of it.",
+         .returns = "table",
+         .example = "print(s:roughness().Ra)"},
+        {.name = "spectrum",
+         .body = spectrum_of,
+         .sentence = "Radially averaged power spectral density.",
+         .options = &spectrum_block(),
+         .options_optional = true,
+         .returns = "table",
+         .example = "local c = s:spectrum().C"},
+        {.name = "fractal_dimension",
+         .body = fractal_dimension_of,
+         .sentence = "Fractal dimension of the profiles of the surface, with its scatter over them.",
+         .options = &fractal_dimension_block(true),
+         .options_optional = true,
+         .returns = "table",
+         .example = "print(s:fractal_dimension{ method=\"structure\" }.D)"},
+        {.name = "filtered",
+         .body = filtered,
+         .sentence = "ISO 16610 Gaussian filter.",
+         .options = &filter_block(),
+         .returns = "Surface",
+         .example = "s:filtered{ short_wave=\"2.5 um\", long_wave=\"0.8 mm\" }"},
+        {.name = "write",
+         .body = write_surface,
+         .sentence = "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
+                     "(Gwyddion), .txt, "
+                     ".asc or .csv by the extension of the path. All read back bit for bit.",
+         .parameters = {{"path", "string", "under the run directory"}},
+         .returns = "string",
+         .example = "s:write \"specimen.x3p\"",
+         .heavy = true},
+        {.name = "picture",
+         .body = picture,
+         .sentence = "A picture of the heights as PNG, true to scale, with scale and colour bars.",
+         .parameters = {{"path", "string", "a .png under the run directory"}},
+         .options = &picture_block(),
+         .options_optional = true,
+         .returns = "string",
+         .example = "s:picture(\"surface.png\", { title=\"D = 2.5\" })",
+         .heavy = true},
+        {.name = "levelled",
+         .body = level,
+         .sentence = "Less the least-squares polynomial of a degree.",
+         .options = &level_block(),
+         .options_optional = true,
+         .returns = "Surface",
+         .example = "s:levelled{ degree=1 }"},
+    };
+    for (Function& operation : surface_operations()) c.methods.push_back(std::move(operation));
+    return c;
+  }();
+  return type;
+}
+
+}  // namespace asperity::lua
