@@ -16,6 +16,10 @@ import sys
 NUMERICS = "engine/core engine/surface"
 MECHANICS = NUMERICS + " engine/contact engine/friction engine/accuracy engine/specimen"
 ENGINE = MECHANICS + " engine/metrology engine/plot engine/recording engine/run engine/study"
+# Each sees those before it; the list of modules and the root of the language, bindings/lua itself, sees all.
+LUA_ROOMS = ("registry", "runtime", "run", "surface", "metrology", "contact", "friction", "specimen", "study", "ensemble",
+             "spread", "editor")
+IN_LUA = " ".join([ENGINE, *(f"bindings/lua/{room}" for room in LUA_ROOMS)])
 
 # Each room, with the rooms it sees.
 SEES = {
@@ -30,9 +34,11 @@ SEES = {
     "engine/recording": MECHANICS + " engine/plot",
     "engine/run": NUMERICS + " engine/plot engine/contact/plan.hpp engine/contact/effects/catalogue.hpp",
     "engine/study": ENGINE.removesuffix(" engine/study"),
-    "bindings/lua": ENGINE,
-    "bindings/cli": ENGINE + " bindings/lua bindings/web",
-    "bindings/web": ENGINE + " bindings/lua bindings/cli",
+} | {f"bindings/lua/{room}": " ".join([ENGINE, *(f"bindings/lua/{below}" for below in LUA_ROOMS[:k])])
+     for k, room in enumerate(LUA_ROOMS)} | {
+    "bindings/lua": IN_LUA,
+    "bindings/cli": IN_LUA + " bindings/lua bindings/web",
+    "bindings/web": IN_LUA + " bindings/lua bindings/cli",
 }
 LUA = re.compile(r"(^|/)(lua|luaconf|lualib|lauxlib)\.(h|hpp)$")
 INCLUDE = re.compile(r"^[ \t]*#[ \t]*include\s*(?:\"([^\"]*)\"|<([^>]*)>|(.*))", re.M)
