@@ -63,6 +63,7 @@ GROUPS = {
     "serve": ("(serve|confined run|plain streams): ", ("bindings/lua", "bindings/cli", "bindings/web", "scripts"), ("tests/web",)),
     "page": ("page:", ("bindings/web", "scripts/lessons"), ("tests/page",)),
     "package": ("package: ", STUDY, ("tests/package", "examples/library")),
+    "worked": ("worked examples: ?", CONTACT + ("docs/contributor.md",), ("tests/contributor",)),
     "checks": ("checks:", PROGRAM, ("tests/checks", "docs", "examples", "bench", "tests")),
 }
 

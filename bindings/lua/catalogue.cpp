@@ -41,7 +41,7 @@ const std::vector<const Class*>& classes() {
       &class_of<Material>(),        &class_of<Surface>(),
       &class_of<Profile>(),         &class_of<SpecimenPair>(),
       &class_of<asperity::State>(), &class_of<StateError>(),
-      &class_of<AlgebraicError>(),  &class_of<DiscretisationError>(),
+      &class_of<StateBounds>(),     &class_of<DiscretisationError>(),
       &class_of<StateField>(),      &class_of<Plan>(),
       &class_of<LedgerReport>(),    &class_of<Stylus>(),
       &class_of<Protocol>(),        &class_of<JunctionLaw>(),

@@ -15,6 +15,7 @@
 
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/accuracy/precision_choice.hpp"
+#include "engine/contact/quantities.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
@@ -108,26 +109,10 @@ Placed placed_on(const Scene& scene, const Pose& pose, int nx, int ny, Monitor& 
 // --- the error of a state
 
 // The bound on a quantity against the exact solution on the same grid; 0 where it has none.
-double algebraic_bound(const State& state, std::string_view quantity) {
-  const AlgebraicError& e = state.algebraic_error();
-  const std::pair<std::string_view, double> bounds[] = {
-      {"load", e.load.value_or(0)},
-      {"pressure", e.pressure.value_or(0)},
-      {"approach", e.approach},
-      {"indentation", e.indentation},
-      {"separation", e.separation},
-      {"mean_gap", e.mean_gap},
-      {"energy", e.energy},
-      {"peak_pressure", e.peak_pressure},
-      {"secant_stiffness", e.secant_stiffness.value_or(0)},
-      {"area", e.area},
-      {"area_fraction", e.area_fraction},
-      {"corrected_area_fraction", e.corrected_area_fraction},
-      {"plastic_volume", e.plastic_volume.value_or(0)},
-      {"plastic_fraction", e.plastic_fraction.value_or(0)}};
-  for (const auto& [name, bound] : bounds)
-    if (name == quantity) return bound;
-  return 0;
+double algebraic_bound(const State& state, std::string_view name) {
+  const StateQuantity* const quantity = find_quantity(name);
+  if (quantity == nullptr || quantity->bound == nullptr) return 0;
+  return quantity->bound(state).value_or(0);
 }
 
 struct Judged {

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The orders, and the share of the outline, are those with which the estimate was within a factor of three of
-// the true error most often over some 160 scenes (spheres, waves, self-affine, blasted; free, periodic,
-// capped) on 128² and 256² cells against 1024² and exact answers.
-// How much differences count beside the outline and the first touch (also of an approach that is prescribed),
-// margins, and growths and shares of a finer grid are those that were best on 150 such scenes of other seeds
-// than tests/accuracy.
+// Orders, margins and growths are rows of contact/quantities.cpp. How much differences count beside the
+// outline and the first touch (also of an approach that is prescribed), and shares of a finer grid, are those
+// that were best on the same scenes.
 #include "engine/accuracy/discretisation_error.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <span>
 #include <utility>
 
 #include "engine/accuracy/finer_heights.hpp"
+#include "engine/contact/quantities.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -24,46 +21,9 @@ namespace asperity {
 
 namespace {
 
-// --- what is estimated
+using Kind = CellError::Kind;
 
-enum class Kind {
-  grid,       // two differences, at the order of the quantity; their sign is chance, so nothing is taken off
-  steady,     // the same, with a sign that is kept from grid to grid: what remains is taken off
-  raw_area,   // nodes counted as whole cells: wrong by their outline
-  corrected,  // by what the correction of the outline leaves
-  approach,   // first touch between the nodes, and the rest as `separation`
-  peak,       // the peak between the nodes, and the rest as `grid`; at a corner or a step there is no limit
-};
-
-struct Estimated {
-  const char* name;
-  double (State::*value)() const;
-  double order;
-  double margin;  // times the estimate that covers the true error in 19 of 20 scenes, as measured
-  double
-      growth;  // of the step to a finer grid into the error: what is left below it has mostly the same sign
-  double finer_margin;  // as `margin`, of the estimate from a finer grid
-  Kind kind = Kind::grid;
-};
-
-constexpr Estimated estimated[] = {
-    {"load", &State::load, 1.5, 2, 1.2, 2},
-    {"pressure", &State::pressure, 1.5, 2, 1.2, 2},
-    {"approach", &State::approach, 2, 2.5, 1, 1.5, Kind::approach},
-    {"separation", &State::separation, 2, 3, 1.2, 1.6},
-    {"indentation", &State::indentation, 1, 2, 1.2, 2},
-    {"flatten", &State::flatten, 1, 2, 1.2, 2},
-    {"area", &State::area, 1.5, 1.25, 1, 1.25, Kind::raw_area},
-    {"area_fraction", &State::area_fraction, 1.5, 1.25, 1, 1.25, Kind::raw_area},
-    {"corrected_area_fraction", &State::corrected_area_fraction, 1.5, 2.25, 1, 1.5, Kind::corrected},
-    {"peak_pressure", &State::peak_pressure, 1, 3, 1.5, 3, Kind::peak},
-    {"mean_gap", &State::mean_gap, 2, 3.5, 1.2, 1.6},
-    {"stiffness", &State::stiffness, 1.5, 3, 0.95, 2.75},
-    {"secant_stiffness", &State::secant_stiffness, 1.5, 3, 0.95, 2.75},
-    {"energy", &State::energy, 2, 3, 1.2, 1.5},
-    {"plastic_volume", &State::plastic_volume, 1.5, 2, 1, 1.5},
-    {"plastic_fraction", &State::plastic_fraction, 1, 1.25, 1.2, 1.5, Kind::steady},
-};
+const StateQuantity& quantity_of(std::string_view name) { return *find_quantity(name); }
 
 // Share of the correction of the outline that is left wrong in a corrected area.
 constexpr double share_of_outline = 0.1;
@@ -74,25 +34,15 @@ constexpr double share_beside_outline = 0.5, share_beside_touch = 0.3;
 // The share that the true area is mostly above the corrected one, and how far that differs by chance.
 constexpr double share_of_finer_outline = 0.08, doubt_of_outline = 0.02;
 
-// What a value lacks because the first touch, from which a prescribed approach counts, is between the nodes
-// and higher: 0 of those that are not known to follow it.
-double lacks_by_touch(const State& state, double (State::*value)() const) {
-  const auto follows = [&](std::initializer_list<double (State::*)() const> values) {
-    return std::find(values.begin(), values.end(), value) != values.end();
-  };
-  if (!follows({&State::separation, &State::mean_gap, &State::energy, &State::load, &State::pressure}))
-    return 0;
+double lacks_by_touch(const State& state, const StateQuantity& quantity) {
+  if (quantity.cells->lacks == nullptr) return 0;
   const double rise =
       rise_between_nodes(state.geometry().combined(), state.geometry().boundary() == Boundary::periodic);
-  if (follows({&State::separation, &State::mean_gap})) return rise;
-  if (value == &State::energy) return -state.load() * rise;
-  const double stiffness = state.stiffness();  // infinite of a full contact
-  if (!std::isfinite(stiffness)) return 0;
-  return -stiffness * rise * (value == &State::load ? state.geometry().grid().area() : 1.0);
+  return quantity.cells->lacks(state, rise);
 }
 
-bool follows_touch(const State& state, double (State::*value)() const) {
-  return state.other_grids()->request().by == PressBy::approach && lacks_by_touch(state, value) != 0;
+bool follows_touch(const State& state, const StateQuantity& quantity) {
+  return state.other_grids()->request().by == PressBy::approach && lacks_by_touch(state, quantity) != 0;
 }
 
 struct Differences {
@@ -100,11 +50,11 @@ struct Differences {
   bool diverges = false;             // each grid moves further than the one before
 };
 
-Differences differences(const State& state, double (State::*value)() const, double order,
+Differences differences(const State& state, const StateQuantity& quantity, double order,
                         bool mended = false) {
   const auto levels = state.other_grids()->levels();
   const auto of = [&](const State& grid) {
-    return (grid.*value)() + (mended ? lacks_by_touch(grid, value) : 0.0);
+    return quantity.value(grid) + (mended ? lacks_by_touch(grid, quantity) : 0.0);
   };
   const double fine = of(state), half = of(levels[0].state);
   if (levels.size() == 1) {
@@ -130,27 +80,33 @@ bool is_prescribed(std::string_view quantity, PressBy by) {
   return quantity == name(by);
 }
 
+// Of a quantity in units of area, that of the tile; 1 of a fraction.
+double area_unit(const State& state, const StateQuantity& quantity) {
+  return quantity.dimension == dimension::area ? state.geometry().grid().area() : 1.0;
+}
+
 // By the finer grid, whose own error is a fraction of that of the state.
-void estimate_by_finer(const State& state, const Estimated& quantity, bool by_approach, bool wraps,
+void estimate_by_finer(const State& state, const StateQuantity& quantity, bool by_approach, bool wraps,
                        DiscretisationEstimate& result) {
+  const CellError& cells = *quantity.cells;
   const State& finer = state.other_grids()->levels().front().state;
   const double value = result.value;
-  result.margin = quantity.finer_margin;
-  double better = (finer.*quantity.value)();
-  const bool areas = quantity.kind == Kind::raw_area || quantity.kind == Kind::corrected;
+  result.margin = cells.finer_margin;
+  double better = quantity.value(finer);
+  const bool areas = cells.kind == Kind::raw_area || cells.kind == Kind::corrected;
   if (areas) {
     const double outline = finer.area_fraction() - finer.corrected_area_fraction();
-    better = (quantity.value == &State::area ? state.geometry().grid().area() : 1.0) *
-             (finer.corrected_area_fraction() + share_of_finer_outline * outline);
+    better =
+        area_unit(state, quantity) * (finer.corrected_area_fraction() + share_of_finer_outline * outline);
   }
-  if (quantity.kind == Kind::approach && !by_approach)
+  if (cells.kind == Kind::approach && !by_approach)
     better += rise_between_nodes(finer.geometry().combined(), wraps);
-  if (state.other_grids()->request().by == PressBy::approach) better += lacks_by_touch(finer, quantity.value);
+  if (state.other_grids()->request().by == PressBy::approach) better += lacks_by_touch(finer, quantity);
   if (better == value) return;  // infinite ones too
-  result.error = quantity.growth * std::abs(value - better);
-  if (quantity.kind == Kind::corrected)
+  result.error = cells.growth * std::abs(value - better);
+  if (cells.kind == Kind::corrected)
     result.error = elementary::hypot(result.error, doubt_of_outline * (state.area_fraction() - value));
-  if (quantity.kind == Kind::peak)
+  if (cells.kind == Kind::peak)
     result.error = std::max(result.error, rise_between_nodes(*state.field("pressure"), wraps));
   result.extrapolated = better;
 }
@@ -167,7 +123,8 @@ double DiscretisationEstimate::relative() const {
 std::span<const std::string> estimated_quantities() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Estimated& quantity : estimated) all.emplace_back(quantity.name);
+    for (const StateQuantity& quantity : state_quantities())
+      if (quantity.cells) all.emplace_back(quantity.name);
     return all;
   }();
   return names;
@@ -189,11 +146,11 @@ void check(const AskedError& asked, bool plastic) {
           ErrorCode::unknown_name,
           "`of` names " + quoted(quantity) + ", whose error is not estimated" + did_you_mean(quantity, known),
           "give one of " + joined(known, " and "));
-    if (quantity.starts_with("plastic_") && !plastic)
+    if (const std::string effect(quantity_of(quantity).effect); !effect.empty() && !plastic)
       throw Error(ErrorCode::bad_value,
-                  "`of` names " + quoted(quantity) +
-                      ", which needs the effect `plasticity`; this scene does not name it",
-                  "name `plasticity`, or ask for the error of another quantity");
+                  "`of` names " + quoted(quantity) + ", which needs the effect " + quoted(effect) +
+                      "; this scene does not name it",
+                  "name " + quoted(effect) + ", or ask for the error of another quantity");
   }
 }
 
@@ -211,28 +168,28 @@ void check_accuracy(const Scene& scene) {
   if (accuracy.asked) check(*accuracy.asked, scene.plasticity.has_value());
 }
 
-DiscretisationEstimate discretisation_estimate(const State& state, std::string_view quantity) {
-  const auto* found = std::find_if(std::begin(estimated), std::end(estimated),
-                                   [&](const Estimated& known) { return known.name == quantity; });
-  if (found == std::end(estimated))
+DiscretisationEstimate discretisation_estimate(const State& state, std::string_view name) {
+  const StateQuantity* const found = find_quantity(name);
+  if (found == nullptr || !found->cells)
     throw Error(ErrorCode::unknown_name,
-                "no discretisation error of " + quoted(quantity) + " is estimated" +
-                    did_you_mean(quantity, estimated_quantities()),
+                "no discretisation error of " + quoted(name) + " is estimated" +
+                    did_you_mean(name, estimated_quantities()),
                 "there is one of " + joined(estimated_quantities()));
+  const CellError& cells = *found->cells;
   if (!state.other_grids())
     throw Error(ErrorCode::bad_state,
-                "the discretisation error of " + quoted(quantity) + " was not estimated in this press",
+                "the discretisation error of " + quoted(name) + " was not estimated in this press",
                 "give lab.contact accuracy={ estimate=true }, which solves coarser grids as well");
-  if (is_prescribed(quantity, state.other_grids()->request().by) || state.load() == 0) {
-    const double value = (state.*found->value)();
-    return {value, 0, value, found->margin};
+  if (is_prescribed(name, state.other_grids()->request().by) || state.load() == 0) {
+    const double value = found->value(state);
+    return {value, 0, value, cells.margin};
   }
   const bool by_approach = prescribes_approach(state.other_grids()->request().by);
   const auto wraps = state.geometry().boundary() == Boundary::periodic;
   DiscretisationEstimate result;
-  if (found->value == &State::secant_stiffness && std::isinf(state.secant_stiffness()))
-    return {state.secant_stiffness(), 0, state.secant_stiffness(), found->margin};
-  if (found->value == &State::secant_stiffness && state.other_grids()->request().by != PressBy::flatten &&
+  if (found->name == "secant_stiffness" && std::isinf(state.secant_stiffness()))
+    return {state.secant_stiffness(), 0, state.secant_stiffness(), cells.margin};
+  if (found->name == "secant_stiffness" && state.other_grids()->request().by != PressBy::flatten &&
       state.other_grids()->request().by != PressBy::indentation) {
     // The error of what is not prescribed of its two.
     const auto part = discretisation_estimate(state, by_approach ? "pressure" : "approach");
@@ -243,24 +200,23 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
       result.extrapolated *= by_approach ? part.extrapolated / part.value : part.value / part.extrapolated;
     return result;
   }
-  result.margin = found->margin;
-  result.value = (state.*found->value)();
+  result.margin = cells.margin;
+  result.value = found->value(state);
   result.extrapolated = result.value;
   if (state.other_grids()->finer()) {
     estimate_by_finer(state, *found, by_approach, wraps, result);
     return result;
   }
-  if (follows_touch(state, found->value)) {
-    const double lacks = lacks_by_touch(state, found->value);
+  if (follows_touch(state, *found)) {
+    const double lacks = lacks_by_touch(state, *found);
     constexpr double order = 2;
-    result.error = std::abs(lacks) + share_beside_touch * differences(state, found->value, order, true).error;
+    result.error = std::abs(lacks) + share_beside_touch * differences(state, *found, order, true).error;
     result.extrapolated += lacks;
     return result;
   }
   // From the first touch on, errors of an approach that is prescribed follow those of the highest node.
-  const Differences d =
-      differences(state, found->value, by_approach ? std::min(found->order, 1.0) : found->order);
-  switch (found->kind) {
+  const Differences d = differences(state, *found, by_approach ? std::min(cells.order, 1.0) : cells.order);
+  switch (cells.kind) {
     case Kind::grid:
       result.error = d.error;
       break;
@@ -269,9 +225,9 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
       result.extrapolated += d.correction;
       break;
     case Kind::raw_area: {
-      const double area = found->value == &State::area ? state.geometry().grid().area() : 1.0;
+      const double area = area_unit(state, *found);
       const double corrected = area * state.corrected_area_fraction();
-      const double rest = differences(state, &State::corrected_area_fraction, found->order).error;
+      const double rest = differences(state, quantity_of("corrected_area_fraction"), cells.order).error;
       result.error = std::max(std::abs(result.value - corrected), area * rest);
       result.extrapolated = corrected;
       break;
@@ -285,7 +241,7 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
         result.error = d.error;
         break;
       }
-      const Differences rest = differences(state, &State::separation, found->order);
+      const Differences rest = differences(state, quantity_of("separation"), cells.order);
       const double rise = rise_between_nodes(state.geometry().combined(), wraps);
       result.error = rise + share_beside_touch * rest.error;
       result.extrapolated += rise;

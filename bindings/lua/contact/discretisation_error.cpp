@@ -5,6 +5,7 @@
 #include "bindings/lua/registry/record.hpp"
 #include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
+#include "engine/contact/quantities.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
@@ -29,23 +30,15 @@ std::string describe_error(const void* self) {
     const Grid& grid = level.state.geometry().grid();
     text += (&level == state.other_grids()->levels().data() ? " " : " and ") + cells_text(grid.nx, grid.ny);
   }
-  const auto add = [&](const char* name, Dimension dimension) {
+  for (const std::string_view name :
+       {"approach", "area_fraction", "corrected_area_fraction", "peak_pressure", "mean_gap", "energy"}) {
     const double error = discretisation_estimate(state, name).error;
+    const Dimension dimension = find_quantity(name)->dimension;
     const std::string shown =
         dimension == dimension::number ? format_short(error, 3) : format_quantity(error, dimension, 3);
-    text += "\n  " + std::string(name) + std::string(26 - std::string_view(name).size(), ' ') + shown;
-  };
-  add("approach", dimension::length);
-  add("area_fraction", dimension::number);
-  add("corrected_area_fraction", dimension::number);
-  add("peak_pressure", dimension::pressure);
-  add("mean_gap", dimension::length);
-  add("energy", dimension::energy);
+    text += "\n  " + std::string(name) + std::string(26 - name.size(), ' ') + shown;
+  }
   return text;
-}
-
-Getter quantity_field(const char* name, const char* sentence, Dimension dimension = {}) {
-  return {name, "number", sentence, dimension, estimate};
 }
 
 }  // namespace
@@ -62,26 +55,10 @@ const Class& class_of<DiscretisationError>() {
         "estimate=\"finer\"; math.huge where two coarser grids show that a value grows without end. Needs "
         "accuracy={ estimate=true } or \"finer\".";
     c.describe = describe_error;
-    c.fields = {
-        quantity_field("load", "of the load; 0 where it was prescribed", dimension::force),
-        quantity_field("pressure", "of the load over the nominal area", dimension::pressure),
-        quantity_field("approach", "of the approach; most of it is the highest peak between the nodes",
-                       dimension::length),
-        quantity_field("separation", "of the separation", dimension::length),
-        quantity_field("indentation", "of the indentation"),
-        quantity_field("flatten", "of the flattening"),
-        quantity_field("area", "of the real contact area", dimension::area),
-        quantity_field("area_fraction", "of the area fraction; most of it is its stepped outline"),
-        quantity_field("corrected_area_fraction", "of the corrected area fraction"),
-        quantity_field("peak_pressure", "of the greatest pressure", dimension::pressure),
-        quantity_field("mean_gap", "of the mean gap", dimension::length),
-        quantity_field("stiffness", "of the stiffness, which is solved for on each grid",
-                       dimension::stiffness),
-        quantity_field("secant_stiffness", "of pressure over approach", dimension::stiffness),
-        quantity_field("energy", "of the elastic energy", dimension::energy),
-        quantity_field("plastic_volume", "of the plastic volume; needs plasticity", dimension::volume),
-        quantity_field("plastic_fraction", "of the plastic fraction; needs plasticity"),
-    };
+    for (const StateQuantity& quantity : state_quantities())
+      if (quantity.cells)
+        c.fields.push_back({std::string(quantity.name), "number", estimate_sentence(quantity),
+                            quantity.dimension, estimate});
     c.methods = {
         {.name = "extrapolated",
          .body = extrapolated,

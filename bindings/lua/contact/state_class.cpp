@@ -15,6 +15,7 @@
 #include "engine/accuracy/doubts.hpp"
 #include "engine/accuracy/other_grids.hpp"
 #include "engine/contact/geometry.hpp"
+#include "engine/contact/quantities.hpp"
 #include "engine/contact/state_file.hpp"
 #include "engine/core/node_value.hpp"
 #include "engine/surface/io/xdmf.hpp"
@@ -29,6 +30,13 @@ using Contacting = asperity::State;
 template <auto member>
 Values read_state_number(Call& call) {
   return {Value((call.self<Contacting>().*member)())};
+}
+
+// A field is asked for by its own name.
+Values quantity_value(Call& call) {
+  const StateQuantity& quantity = *find_quantity(call.function_name());
+  const double value = quantity.value(call.self<Contacting>());
+  return {quantity.count ? Value(static_cast<std::int64_t>(value)) : Value(value)};
 }
 
 Values cost_of(Call& call) {
@@ -186,84 +194,18 @@ const Class& class_of<asperity::State>() {
       ledger.add_effects(static_cast<const Contacting*>(self)->cost().by_effect);
     };
     c.equal = equal_states;
-    c.fields = {
-        {"load", "number", "force on the whole tile", dimension::force, read_state_number<&S::load>},
-        {"pressure", "number", "load over the nominal area", dimension::pressure,
-         read_state_number<&S::pressure>},
-        {"attraction", "number",
-         "force by which the bodies attract each other; the contacts carry load and this", dimension::force,
-         read_state_number<&S::attraction>},
+    for (const StateQuantity& quantity : state_quantities())
+      c.fields.push_back({std::string(quantity.name), quantity.count ? "integer" : "number",
+                          std::string(quantity.sentence) +
+                              (quantity.effect.empty() ? "" : "; needs " + std::string(quantity.effect)),
+                          quantity.dimension, quantity_value});
+    const std::vector<Getter> others = {
         {"drawn_from",
          "number[]",
          "the branch of bodies that attract each other: values of the prescribed quantity gone to in turn "
          "before this one; empty where they were brought together from apart",
          {},
          [](Call& call) -> Values { return {state_numbers(call.self<S>().drawn_from())}; }},
-        {"approach", "number",
-         "from first touch of the bodies as they are now; after yielding that is the touch of the worn "
-         "faces, and "
-         "`separation` is what one event compares with the next",
-         dimension::length, read_state_number<&S::approach>},
-        {"indentation",
-         "number",
-         "approach over the peak-to-valley of the combined heights; flats have none: an error. The key "
-         "`flatten` "
-         "counts another thing, the share by which the peak-to-valley under load has fallen",
-         {},
-         read_state_number<&S::indentation>},
-        {"flatten",
-         "number",
-         "share of that peak-to-valley pressed away",
-         {},
-         read_state_number<&S::flatten>},
-        {"overlap_fraction",
-         "number",
-         "share of the tile on which the bodies face each other: 1 unless, on a free boundary, the upper "
-         "body "
-         "is turned so that it does not cover the lower one. `pressure` and fractions are of the whole tile",
-         {},
-         read_state_number<&S::overlap_fraction>},
-        {"area", "number", "real contact area", dimension::area, read_state_number<&S::area>},
-        {"area_fraction",
-         "number",
-         "nodes in contact over all nodes",
-         {},
-         read_state_number<&S::area_fraction>},
-        {"corrected_area_fraction",
-         "number",
-         "area fraction less the excess of its stepped outline",
-         {},
-         read_state_number<&S::corrected_area_fraction>},
-        {"contacts", "integer", "nodes in contact", {}, read_state_number<&S::contacts>},
-        {"spots", "integer", "regions of contact joined by an edge", {}, read_state_number<&S::spots>},
-        {"spots8",
-         "integer",
-         "regions of contact joined by an edge or a corner",
-         {},
-         read_state_number<&S::spots8>},
-        {"peak_pressure", "number", "greatest pressure", dimension::pressure,
-         read_state_number<&S::peak_pressure>},
-        {"separation", "number",
-         "of the mean planes of the bodies where they face each other, undeformed, as they stand under this "
-         "load",
-         dimension::length, read_state_number<&S::separation>},
-        {"mean_gap", "number",
-         "mean of the gap, 0 in contact, over the part of the tile where the bodies face each other",
-         dimension::length, read_state_number<&S::mean_gap>},
-        {"stiffness", "number",
-         "d pressure / d approach at this contact set; math.huge where all of a periodic tile touches",
-         dimension::stiffness, read_state_number<&S::stiffness>},
-        {"secant_stiffness", "number",
-         "pressure over approach; math.huge of flats that carry a load and come no nearer",
-         dimension::stiffness, read_state_number<&S::secant_stiffness>},
-        {"energy", "number", "elastic energy in the tile", dimension::energy, read_state_number<&S::energy>},
-        {"plastic_volume", "number", "volume this press took from both bodies; needs plasticity",
-         dimension::volume, read_state_number<&S::plastic_volume>},
-        {"plastic_fraction",
-         "number",
-         "share of the tile at the cap; needs plasticity",
-         {},
-         read_state_number<&S::plastic_fraction>},
         {"iterations",
          "integer",
          "of the solver; 0 for a closed form",
@@ -310,6 +252,7 @@ const Class& class_of<asperity::State>() {
         {"cost", "table", "seconds, transforms, bytes, and by effect", {}, cost_of},
         {"digest", "string", "of pressures and approach", {}, read_state_number<&S::digest>},
     };
+    c.fields.insert(c.fields.end(), others.begin(), others.end());
     c.methods = {
         {.name = "spot_areas",
          .body = spot_areas,

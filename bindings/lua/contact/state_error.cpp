@@ -4,10 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "bindings/lua/contact/discretisation_error.hpp"
 #include "bindings/lua/registry/record.hpp"
+#include "engine/contact/algebraic_error.hpp"
+#include "engine/contact/quantities.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -15,37 +21,31 @@ namespace asperity::lua {
 
 namespace {
 
-const AlgebraicError& bounds(Call& call) { return call.self<AlgebraicError>(); }
+const AlgebraicError& bounds(Call& call) { return call.self<StateBounds>().state.algebraic_error(); }
 
-template <auto member>
+[[noreturn]] void needs_effect(const std::string& field, std::string_view effect) {
+  throw Error(ErrorCode::bad_state,
+              quoted(field) + " needs the effect " + quoted(effect) + ", which this scene does not name");
+}
+
+// A field is asked for by its own name.
 Values bound(Call& call) {
-  return {Value(bounds(call).*member)};
+  const StateQuantity& quantity = *find_quantity(call.function_name());
+  const asperity::State& state = call.self<StateBounds>().state;
+  const std::optional<double> found = quantity.bound(state);
+  if (found) return {*found};
+  const auto& run = state.effects_run();
+  if (!quantity.effect.empty() && std::find(run.begin(), run.end(), quantity.effect) == run.end())
+    needs_effect(call.function_name(), quantity.effect);
+  throw Error(ErrorCode::bad_state,
+              quoted(call.function_name()) + " has no algebraic bound in a state pressed by `flatten`",
+              "the others are bounds at the load that was found; press by `pressure` or `approach`");
 }
 
-// Of a quantity whose value a press by `flatten` leaves to the solver.
-template <auto member>
-Values bound_of_load(Call& call) {
-  const auto& found = bounds(call).*member;
-  if (!found)
-    throw Error(ErrorCode::bad_state,
-                quoted(call.function_name()) + " has no algebraic bound in a state pressed by `flatten`",
-                "the others are bounds at the load that was found; press by `pressure` or `approach`");
-  return {Value(*found)};
-}
-
-// Of a quantity that only plasticity gives.
-template <auto member>
-const auto& plastic(Call& call) {
-  const auto& found = bounds(call).*member;
-  if (!found)
-    throw Error(ErrorCode::bad_state, quoted(call.function_name()) +
-                                          " needs the effect `plasticity`, which this scene does not name");
+const NodeBracket& yielded(Call& call) {
+  const auto& found = bounds(call).yielded_bracket;
+  if (!found) needs_effect(call.function_name(), "plasticity");
   return *found;
-}
-
-template <auto member>
-Values plastic_bound(Call& call) {
-  return {Value(plastic<member>(call))};
 }
 
 double share(const AlgebraicError& e, std::int64_t nodes) {
@@ -53,21 +53,14 @@ double share(const AlgebraicError& e, std::int64_t nodes) {
 }
 
 std::string describe_bounds(const void* self) {
-  const auto& e = *static_cast<const AlgebraicError*>(self);
+  const asperity::State& state = static_cast<const StateBounds*>(self)->state;
+  const AlgebraicError& e = state.algebraic_error();
   Record record;
-  const auto add = [&](const char* name, const Value& value, Dimension dimension = {}) {
-    if (!value.is_nil()) record.add(name, value, dimension);
-  };
-  add("load", e.load, dimension::force);
-  add("pressure", e.pressure, dimension::pressure);
-  add("approach", e.approach, dimension::length);
-  add("separation", e.separation, dimension::length);
-  add("mean_gap", e.mean_gap, dimension::length);
-  add("energy", e.energy, dimension::energy);
-  add("peak_pressure", e.peak_pressure, dimension::pressure);
-  add("area_fraction", e.area_fraction);
-  add("plastic_volume", e.plastic_volume, dimension::volume);
-  add("plastic_fraction", e.plastic_fraction);
+  for (const char* name : {"load", "pressure", "approach", "separation", "mean_gap", "energy",
+                           "peak_pressure", "area_fraction", "plastic_volume", "plastic_fraction"}) {
+    const StateQuantity& quantity = *find_quantity(name);
+    if (const auto bound = quantity.bound(state)) record.add(name, *bound, quantity.dimension);
+  }
   std::string text = "algebraic error, at most";
   for (const Record::Entry& entry : record.entries)
     text += "\n  " + entry.field + std::string(18 - entry.field.size(), ' ') + show(entry);
@@ -80,11 +73,14 @@ std::string describe_bounds(const void* self) {
 std::string describe_errors(const void* self) {
   const auto& state = static_cast<const StateError*>(self)->state;
   const DiscretisationError grid{state};
-  return describe_bounds(&state.algebraic_error()) + "\n" + class_of<DiscretisationError>().describe(&grid);
+  const StateBounds of_state{state};
+  return describe_bounds(&of_state) + "\n" + class_of<DiscretisationError>().describe(&grid);
 }
 
-const Class& make_bounds_class() {
-  using E = AlgebraicError;
+}  // namespace
+
+template <>
+const Class& class_of<StateBounds>() {
   static const Class type = [] {
     Class c;
     c.name = "AlgebraicError";
@@ -97,35 +93,11 @@ const Class& make_bounds_class() {
         "of "
         "the state.";
     c.describe = describe_bounds;
-    c.fields = {
-        {"load", "number", "0 but for rounding where the load was prescribed", dimension::force,
-         bound_of_load<&E::load>},
-        {"pressure", "number", "of the load over the nominal area", dimension::pressure,
-         bound_of_load<&E::pressure>},
-        {"approach", "number", "of the approach", dimension::length, bound<&E::approach>},
-        {"indentation", "number", "of the indentation", {}, bound<&E::indentation>},
-        {"separation", "number", "of the separation", dimension::length, bound<&E::separation>},
-        {"mean_gap", "number", "of the mean gap", dimension::length, bound<&E::mean_gap>},
-        {"energy", "number", "of the elastic energy", dimension::energy, bound<&E::energy>},
-        {"peak_pressure", "number", "of the greatest pressure", dimension::pressure,
-         bound<&E::peak_pressure>},
-        {"secant_stiffness", "number", "of pressure over approach", dimension::stiffness,
-         bound_of_load<&E::secant_stiffness>},
-        {"contacts", "number", "of the number of nodes in contact", {}, bound<&E::contacts>},
-        {"area", "number", "of the real contact area", dimension::area, bound<&E::area>},
-        {"area_fraction", "number", "of the area fraction", {}, bound<&E::area_fraction>},
-        {"corrected_area_fraction",
-         "number",
-         "of the corrected area fraction",
-         {},
-         bound<&E::corrected_area_fraction>},
-        {"plastic_volume", "number", "of the plastic volume; needs plasticity", dimension::volume,
-         plastic_bound<&E::plastic_volume>},
-        {"plastic_fraction",
-         "number",
-         "of the plastic fraction; needs plasticity",
-         {},
-         plastic_bound<&E::plastic_fraction>},
+    for (const StateQuantity& quantity : state_quantities())
+      if (quantity.bound != nullptr)
+        c.fields.push_back(
+            {std::string(quantity.name), "number", bound_sentence(quantity), quantity.dimension, bound});
+    const std::vector<Getter> brackets = {
         {"contacts_low",
          "integer",
          "nodes that are surely in contact",
@@ -158,28 +130,22 @@ const Class& make_bounds_class() {
          "number",
          "share of the nodes surely at the cap; needs plasticity",
          {},
-         [](Call& call) -> Values { return {share(bounds(call), plastic<&E::yielded_bracket>(call).low)}; }},
+         [](Call& call) -> Values { return {share(bounds(call), yielded(call).low)}; }},
         {"plastic_fraction_high",
          "number",
          "that and the share that may be; needs plasticity",
          {},
-         [](Call& call) -> Values { return {share(bounds(call), plastic<&E::yielded_bracket>(call).high)}; }},
+         [](Call& call) -> Values { return {share(bounds(call), yielded(call).high)}; }},
         {"cost",
          "table",
          "seconds, transforms and bytes of finding these bounds",
          {},
          [](Call& call) -> Values { return {cost_record(bounds(call).cost, "cost")}; }},
     };
+    c.fields.insert(c.fields.end(), brackets.begin(), brackets.end());
     return c;
   }();
   return type;
-}
-
-}  // namespace
-
-template <>
-const Class& class_of<AlgebraicError>() {
-  return make_bounds_class();
 }
 
 template <>
@@ -196,7 +162,11 @@ const Class& class_of<StateError>() {
          "AlgebraicError",
          "bounds against the exact solution on the same grid",
          {},
-         [](Call& call) -> Values { return {object(call.self<StateError>().state.algebraic_error())}; }},
+         [](Call& call) -> Values {
+           StateBounds found{call.self<StateError>().state};
+           found.state.algebraic_error();  // now, and not after the contact was closed
+           return {object(std::move(found))};
+         }},
         {"discretisation",
          "DiscretisationError",
          "estimates against an ever finer grid; needs accuracy={ estimate=true } or { error= }",

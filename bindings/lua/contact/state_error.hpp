@@ -4,7 +4,6 @@
 #pragma once
 
 #include "bindings/lua/registry/registry.hpp"
-#include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/core/cost.hpp"
 
@@ -15,10 +14,15 @@ struct StateError {
   asperity::State state;
 };
 
+// st.error.algebraic: bounds that are worked out.
+struct StateBounds {
+  asperity::State state;
+};
+
 template <>
 const Class& class_of<StateError>();
 template <>
-const Class& class_of<AlgebraicError>();
+const Class& class_of<StateBounds>();
 
 // Seconds, transforms and bytes as a result.
 
