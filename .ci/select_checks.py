@@ -85,8 +85,8 @@ SANITIZED = {
     "web": ("bindings/web",),
     "dignity": ("engine/contact", "engine/accuracy", "engine/specimen"),
 }
-SANITIZED_NAMES = {"bindings": "bindings(_c)?: shard", "dignity": "stability: shard"}
-SANITIZED_TARGETS = {"bindings": ("test_bindings", "test_bindings_c")}
+SANITIZED_NAMES = {"bindings": "bindings_c: shard", "dignity": "stability: shard"}
+SANITIZED_TARGETS = {"bindings": ("test_bindings_c",)}
 # What the thread sanitizer watches of them: the targets of the preset `thread`.
 THREADED = ("core", "surface", "metrology", "contact", "run", "bindings", "dignity")
 # Readers, by the room that reads.
@@ -243,7 +243,7 @@ class Selection:
 
         def threads(groups):
             groups = set(groups) & set(THREADED)
-            return {"thread": shards(groups).replace("(_c)?", ""), "thread_targets": targets(groups).replace(" test_bindings_c", "")}
+            return {"thread": shards(groups).replace("bindings_c", "bindings"), "thread_targets": targets(groups).replace("test_bindings_c", "test_bindings")}
 
         if self.everything:
             return {"release": ".", "sanitize": ".", "sanitize_targets": "all", **threads(THREADED), "fuzz": " ".join(FUZZED),
