@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <string>
 
+#include "engine/core/files/disk.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::cli {
@@ -22,16 +23,6 @@ struct PlainStream {
   std::string tail{};  // the begin of a character or a sequence whose rest is still to come
 };
 
-bool write_bytes(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
 // Bytes of "ESC [ 1 ; 31 m" at the front: 0 if it is something else, npos if its end is not there yet.
 std::size_t colour_sequence(std::string_view text) {
   constexpr std::size_t longest = 32;
@@ -42,17 +33,6 @@ std::size_t colour_sequence(std::string_view text) {
     if (k > 1 && c != ';' && std::isdigit(static_cast<unsigned char>(c)) == 0) return 0;
   }
   return text.size() < longest ? std::string_view::npos : 0;
-}
-
-// Bytes at the end that begin a character of UTF-8 and do not finish it.
-std::size_t begun_character(std::string_view text) {
-  for (std::size_t back = 1; back <= std::min<std::size_t>(3, text.size()); ++back) {
-    const auto byte = static_cast<unsigned char>(text[text.size() - back]);
-    if ((byte & 0xC0) == 0x80) continue;
-    const std::size_t length = byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : byte >= 0xC0 ? 2 : 1;
-    return length > back ? back : 0;
-  }
-  return 0;
 }
 
 // What of the text may be written now; the rest stays in it.
@@ -78,7 +58,7 @@ std::string shown_part(std::string& text, Keeps keeps) {
       shown.append(text, begin, kept);
       begin += kept;
     }
-  put_plain(text.size() - std::min(begun_character(text), text.size() - begin));
+  put_plain(text.size() - std::min(unfinished_bytes(text), text.size() - begin));
   text.erase(0, begin);
   return shown;
 }
@@ -86,7 +66,7 @@ std::string shown_part(std::string& text, Keeps keeps) {
 ssize_t write_plain(void* cookie, const char* bytes, std::size_t count) {
   auto& stream = *static_cast<PlainStream*>(cookie);
   stream.tail.append(bytes, count);
-  if (write_bytes(stream.descriptor, shown_part(stream.tail, stream.keeps)))
+  if (write_all(stream.descriptor, shown_part(stream.tail, stream.keeps)) == 0)
     return static_cast<ssize_t>(count);
   stream.tail.clear();
   return 0;
@@ -121,7 +101,7 @@ void make_output_plain(Keeps keeps) {
 
 void erase_shown_line() {
   std::fflush(stderr);
-  write_bytes(STDERR_FILENO, erase_line);
+  write_all(STDERR_FILENO, erase_line);
 }
 
 }  // namespace asperity::cli

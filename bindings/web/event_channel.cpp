@@ -13,6 +13,7 @@
 #include "bindings/web/views.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/quantity.hpp"
 
 namespace asperity::web {
@@ -71,7 +72,7 @@ void EventChannel::send(const std::string& type, Json fields) {
   Json event = Json::object({{"type", type}});
   for (const auto& [name, value] : fields.members()) event.set(name, value);
   const std::lock_guard lock(mutex_);
-  write_whole(descriptor_, event.text() + "\n");
+  write_all(descriptor_, event.text() + "\n");
 }
 
 void EventChannel::progress(std::string_view task, double done, double seconds_left) {

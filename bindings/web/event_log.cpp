@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bindings/web/frames.hpp"
+#include "engine/core/files/disk.hpp"
 
 namespace asperity::web {
 
@@ -20,7 +21,7 @@ bool EventLog::append(const std::string& type, const Json& fields) {
     if (name != "n" && name != "type") event.set(name, value);
   const std::string line = event.text() + "\n";
   const std::int64_t begin = ends_.empty() ? 0 : ends_.back();
-  if (writer_.get() < 0 || !write_whole(writer_.get(), line)) {
+  if (writer_.get() < 0 || write_all(writer_.get(), line) != 0) {
     if (writer_.get() >= 0 && ::ftruncate(writer_.get(), begin) != 0) finished_ = true;
     return false;
   }

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "engine/core/files/disk.hpp"
+
 namespace asperity::web {
 
 namespace {
@@ -24,16 +26,6 @@ bool get_number(int descriptor, std::uint64_t& number) {
 }
 
 }  // namespace
-
-bool write_whole(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
 
 bool read_whole(int descriptor, char* to, std::size_t bytes) {
   while (bytes > 0) {
@@ -57,7 +49,7 @@ std::string frame(std::span<const std::string_view> texts) {
 }
 
 bool send_frame(int descriptor, std::span<const std::string_view> texts) {
-  return write_whole(descriptor, frame(texts));
+  return write_all(descriptor, frame(texts)) == 0;
 }
 
 std::optional<std::vector<std::string>> receive_frame(int descriptor, std::size_t most_bytes) {

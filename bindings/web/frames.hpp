@@ -18,7 +18,6 @@ bool send_frame(int descriptor, std::span<const std::string_view> texts);
 std::optional<std::vector<std::string>> receive_frame(int descriptor, std::size_t most_bytes);
 
 // Everything, however often it is interrupted; false if the other end is gone.
-bool write_whole(int descriptor, std::string_view bytes);
 bool read_whole(int descriptor, char* to, std::size_t bytes);
 
 }  // namespace asperity::web

@@ -30,17 +30,6 @@ std::string mebibytes(std::int64_t bytes) {
   return format_short(static_cast<double>(bytes) / 0x1p20) + " MiB";
 }
 
-// Bytes at the end that begin a character of UTF-8 and do not finish it.
-std::size_t unfinished_bytes(const std::string& text) {
-  for (std::size_t back = 1; back <= std::min<std::size_t>(3, text.size()); ++back) {
-    const auto byte = static_cast<unsigned char>(text[text.size() - back]);
-    if ((byte & 0xC0) == 0x80) continue;
-    const std::size_t length = byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : byte >= 0xC0 ? 2 : 1;
-    return length > back ? back : 0;
-  }
-  return 0;
-}
-
 ConfinedRequest request_of(const PageRun& run, const RunLimits& limits,
                            const std::vector<std::string>& barriers) {
   ConfinedRequest request{.work = Work::run, .confinement = {}};

@@ -23,6 +23,7 @@
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
 
@@ -71,11 +72,11 @@ void open_in_browser(const std::string& url, const std::filesystem::path& folder
   const std::filesystem::path page = folder / open_page;
   const int file = ::open(page.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   const bool written =
-      file >= 0 && write_whole(file,
-                               "<!DOCTYPE html><meta charset=\"utf-8\"><title>Asperity</title><meta "
-                               "name=\"referrer\" content=\"no-referrer\"><meta http-equiv=\"refresh\" "
-                               "content=\"0; url=" +
-                                   url + "\"><p><a href=\"" + url + "\">Asperity</a></p>\n");
+      file >= 0 && write_all(file,
+                             "<!DOCTYPE html><meta charset=\"utf-8\"><title>Asperity</title><meta "
+                             "name=\"referrer\" content=\"no-referrer\"><meta http-equiv=\"refresh\" "
+                             "content=\"0; url=" +
+                                 url + "\"><p><a href=\"" + url + "\">Asperity</a></p>\n") == 0;
   if (file >= 0) ::close(file);
   if (!written) {
     std::fprintf(stderr, "asperity: %s cannot be written; open the address above\n", page.c_str());

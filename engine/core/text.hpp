@@ -26,6 +26,9 @@ inline std::string quoted(const char* name) { return quoted(std::string_view(nam
 // "a", "a or b", "a, b or c".
 std::string joined(std::span<const std::string> items, std::string_view last = " or ");
 
+// Bytes at the end that begin a character of UTF-8 and do not finish it, 0 to 3.
+std::size_t unfinished_bytes(std::string_view text);
+
 // The text as any terminal shows it: control characters other than tabs and line ends, and bytes that are
 // not UTF-8, become question marks. Linear in its length.
 std::string plain_text(std::string text);

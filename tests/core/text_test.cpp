@@ -90,5 +90,20 @@ TEST(Text, PlainTextKeepsWholeCharactersOnly) {
   EXPECT_EQ(plain_text("\xE2\x82z"), "??z");
 }
 
+TEST(UnfinishedBytes, AreThoseOfACharacterThatIsNotWhole) {
+  EXPECT_EQ(unfinished_bytes(""), 0U);
+  EXPECT_EQ(unfinished_bytes("a"), 0U);
+  EXPECT_EQ(unfinished_bytes("µ"), 0U);
+  EXPECT_EQ(unfinished_bytes("a\xC2"), 1U);
+  EXPECT_EQ(unfinished_bytes("\xE2\x88"), 2U);
+  EXPECT_EQ(unfinished_bytes("\xF0\x9D\x94"), 3U);
+  EXPECT_EQ(unfinished_bytes("\x88\x88\x88\x88"), 0U);  // no beginning within three bytes
+}
+
+TEST(WithoutTraceback, IsTheMessageAlone) {
+  EXPECT_EQ(without_traceback("a.lua:1: no\nstack traceback:\n\t[C]: in ?"), "a.lua:1: no");
+  EXPECT_EQ(without_traceback("no"), "no");
+}
+
 }  // namespace
 }  // namespace asperity::text_test

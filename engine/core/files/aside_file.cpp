@@ -10,23 +10,13 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/files/part_file.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
 
 namespace {
-
-// Whole writes only: a call may take less than asked. Returns 0 or the error number.
-int write_all(int descriptor, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t taken = ::write(descriptor, content.data(), content.size());
-    if (taken < 0 && errno == EINTR) continue;
-    if (taken < 0) return errno;
-    content.remove_prefix(static_cast<std::size_t>(taken));
-  }
-  return 0;
-}
 
 std::string advice(int reason) {
   switch (reason) {

@@ -12,6 +12,16 @@
 
 namespace asperity {
 
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t taken = ::write(descriptor, bytes.data(), bytes.size());
+    if (taken < 0 && errno == EINTR) continue;
+    if (taken <= 0) return taken < 0 ? errno : EIO;
+    bytes.remove_prefix(static_cast<std::size_t>(taken));
+  }
+  return 0;
+}
+
 void wait_for_disk(const std::filesystem::path& file_or_folder) {
   const int descriptor = ::open(file_or_folder.c_str(), O_RDONLY | O_CLOEXEC);
   int reason = descriptor < 0 ? errno : 0;
