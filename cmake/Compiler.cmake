@@ -33,7 +33,7 @@ target_link_options(asperity_options INTERFACE -Wl,--build-id=sha1)
 if(ASPERITY_WARNINGS_AS_ERRORS)
   target_compile_options(asperity_options INTERFACE -Werror)
 endif()
-# For what computes on grids: the floors up to friction, tests and benchmarks. What stands above them gains nothing, and
+# For what computes on grids: the floors up to friction and accuracy, tests and benchmarks. What stands above them gains nothing, and
 # is compiled once for a build of this processor and for packages.
 add_library(asperity_processor INTERFACE)
 if(ASPERITY_NATIVE)
