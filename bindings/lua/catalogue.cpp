@@ -22,8 +22,6 @@ namespace asperity::lua {
 // Each defined in the source of its name.
 const Module& lab_module();
 const Module& units_module();
-const Module& surface_module();
-const Module& profile_module();
 const Module& protocol_module();
 const Module& exact_module();
 const Module& spread_module();

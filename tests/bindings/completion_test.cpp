@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bindings/lua/surface/surface.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::completion_test {

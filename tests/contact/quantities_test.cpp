@@ -40,7 +40,9 @@ TEST(StateQuantities, ValuesAreThoseOfTheState) {
   EXPECT_EQ(find_quantity("contacts")->value(state), static_cast<double>(state.contacts()));
   EXPECT_EQ(find_quantity("energy")->value(state), state.energy());
   for (const StateQuantity& quantity : state_quantities())
-    if (quantity.effect.empty()) EXPECT_TRUE(std::isfinite(quantity.value(state))) << quantity.name;
+    if (quantity.effect.empty()) {
+      EXPECT_TRUE(std::isfinite(quantity.value(state))) << quantity.name;
+    }
 }
 
 TEST(StateQuantities, OnesOfAnEffectNeedIt) {

@@ -37,7 +37,7 @@ std::vector<std::string> result_types(const Function& function) {
 namespace {
 
 // A function as it is reached from a script.
-struct Entry {
+struct NamedFunction {
   const Function* function = nullptr;
   const Class* owner = nullptr;
   std::string name;
@@ -48,9 +48,9 @@ std::string lower_first(std::string text) {
   return text;
 }
 
-const std::unordered_map<const Function*, Entry>& entries() {
-  static const std::unordered_map<const Function*, Entry> all = [] {
-    std::unordered_map<const Function*, Entry> map;
+const std::unordered_map<const Function*, NamedFunction>& entries() {
+  static const std::unordered_map<const Function*, NamedFunction> all = [] {
+    std::unordered_map<const Function*, NamedFunction> map;
     for (const Module* module : modules()) {
       for (const Function& f : module->functions) map[&f] = {&f, nullptr, module->path + "." + f.name};
       if (module->call) map[&*module->call] = {&*module->call, nullptr, module->path};
@@ -111,7 +111,7 @@ bool makes_a_body(const Function& function) {
   return made != nullptr && made->known != nullptr;
 }
 
-Values call_function(lua_State* L, const Entry& entry) {
+Values call_function(lua_State* L, const NamedFunction& entry) {
   Call call(L, entry.name, entry.owner != nullptr);
   const Function& function = *entry.function;
   bool placeholder_self = false;
@@ -142,21 +142,21 @@ Values call_function(lua_State* L, const Entry& entry) {
   return results;
 }
 
-int guarded_function(lua_State* L, const Entry& entry) {
+int guarded_function(lua_State* L, const NamedFunction& entry) {
   return guarded(L, entry.name, [&]() -> Values {
     return with_collection(L, [&] { return call_function(L, entry); });  // a failed call changes nothing
   });
 }
 
 // A dry run goes on past a mistake with placeholders for the results.
-int after_failure(lua_State* L, const Entry& entry) {
+int after_failure(lua_State* L, const NamedFunction& entry) {
   if (!noted_as_mistake(L)) return -1;
   return guarded(L, entry.name, [&] { return placeholders_of(*entry.function); });
 }
 
 // The outer frame of every function: nothing here has a destructor.
 int outer_function(lua_State* L) {
-  const Entry& entry = *static_cast<const Entry*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const NamedFunction& entry = *static_cast<const NamedFunction*>(lua_touserdata(L, lua_upvalueindex(1)));
   int results = guarded_function(L, entry);
   if (results < 0) results = after_failure(L, entry);
   return results < 0 ? lua_error(L) : results;
@@ -196,7 +196,7 @@ const std::string* name_of_entry(const void* pointer) {
 }
 
 void push_function(lua_State* L, const Function& function) {
-  lua_pushlightuserdata(L, const_cast<Entry*>(&entries().at(&function)));
+  lua_pushlightuserdata(L, const_cast<NamedFunction*>(&entries().at(&function)));
   lua_pushcclosure(L, outer_function, 1);
 }
 

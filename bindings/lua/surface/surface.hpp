@@ -13,4 +13,7 @@ const Class& class_of<Surface>();
 template <>
 const Class& class_of<Profile>();
 
+const Module& surface_module();
+const Module& profile_module();
+
 }  // namespace asperity::lua
