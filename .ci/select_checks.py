@@ -31,7 +31,7 @@ RUN = CONTACT + ("engine/plot", "engine/run")
 RECORDING = SPECIMEN + ("engine/plot", "engine/recording")
 STUDY = RECORDING + ("engine/metrology", "engine/run", "engine/study")
 LUA = STUDY + ("bindings/lua", "scripts")
-PROGRAM = LUA + ("bindings/cli",)
+PROGRAM = LUA + ("bindings/cli", "bindings/main")
 WEB = PROGRAM + ("bindings/web",)
 
 # Tests of CTest: what their names begin with, the rooms they are made of, and where they stand.
@@ -54,13 +54,13 @@ GROUPS = {
     "stability": ("stability: ?", PROGRAM, ("tests/stability",)),
     "fuzz": ("fuzz: ", LUA, ("tests/fuzz",)),
     "scripts": ("(scripts|module): ", PROGRAM, ("tests/scripts",)),
-    "command_line": ("command line: ?(CommandLine|replay|prompt|completion|shard|resume|run directory|power cut|processors)", PROGRAM, ("tests/scripts/runner",)),
+    "command_line": ("command line: ?(CommandLine|replay|prompt|completion|shard|resume|run directory|power cut|processors)", PROGRAM + ("bindings/web/serve_command",), ("tests/scripts/runner",)),
     "ranks": ("command line: (ranks|spread)", (), ("tests/scripts/runner/ranks.sh", "tests/scripts/runner/spread.sh")),
     "reproductions": ("(reproductions|known to fail): ", WEB + ("docs", "examples/paper", "README.md"),
                       ("tests/reproductions", "tests/known_to_fail")),
     "examples": ("examples: ", PROGRAM, ("examples",)),
     "lessons": ("lessons: ", PROGRAM, ("scripts/lessons",)),
-    "serve": ("(serve|confined run|plain streams): ", ("bindings/lua", "bindings/cli", "bindings/web", "scripts"), ("tests/web",)),
+    "serve": ("(serve|confined run|plain streams): ", ("bindings/lua", "bindings/cli", "bindings/main", "bindings/web", "scripts"), ("tests/web",)),
     "page": ("page:", ("bindings/web", "scripts/lessons"), ("tests/page",)),
     "package": ("package: ", STUDY, ("tests/package", "examples/library")),
     "worked": ("worked examples: ?", CONTACT + ("docs/contributor.md",), ("tests/contributor",)),
@@ -101,7 +101,7 @@ SHARED_BY_REPRODUCTIONS = ("tests/reproductions/beginning.sh", "tests/reproducti
 USED_BY_REPRODUCTIONS = ("tests/scripts/runner/run_script", "tests/scripts/runner/process", "tests/scripts/runner/saying",
                          "tests/web/client", "tests/page/browser", "tests/page/mock_server", "tests/page/run")
 # What runs over the ranks of mpirun.
-RANKS = re.compile("slab|mpi|spread|ranks|ensemble|scheduler|parcel|^engine/core/|^bindings/cli/")
+RANKS = re.compile("slab|mpi|spread|ranks|ensemble|scheduler|parcel|^engine/core/|^bindings/(cli/|main)")
 # Files of the build: what differs there may change anything.
 BUILD = re.compile(r"\.ci/|cmake/|tests/support/|(?!examples/)(.*/)?CMakeLists\.txt$|.*\.cmake$|(CMakePresets\.json|lab|\.clang-format)$")
 # Says which commit was checked as a whole, and nothing else.

@@ -3,20 +3,26 @@
 
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "bindings/cli/muted.hpp"
+#include "bindings/cli/shared_options.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/refinement.hpp"
 #include "bindings/lua/study/study.hpp"
+#include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/study/study_chart.hpp"
@@ -190,7 +196,62 @@ StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor
   return request;
 }
 
+double exact_value(const std::string& text) {
+  try {
+    return parse_quantity(text).value;
+  } catch (const Error& error) {
+    throw Error(error.code(), "the truth is " + asperity::quoted(text) + ": " + error.sentence(),
+                "give a number, or a quantity such as \"0.1 um\"");
+  }
+}
+
+CommandReader declare_accuracy(CLI::App& options) {
+  struct Given {
+    AccuracyCommand accuracy;
+    std::string time, memory, at_most, truth;
+  };
+  const auto given = std::make_shared<Given>();
+  RunCommand& run = given->accuracy.run;
+  add_script_options(options, run, given->time);
+  add_run_options(options, run, given->memory);
+  add_trust(options, run.trust);
+  options.add_option("--at-most", given->at_most,
+                     "time for all runs together (default 5 min); quoted first and kept");
+  options.add_option("--repeats", given->accuracy.repeats, "timed runs of each setting (default 3)")
+      ->check(CLI::Range(1, 100000));
+  options.add_option("--truth", given->truth,
+                     "the exact value, a number or a quantity such as \"0.1 um\"; without it the finest grid "
+                     "is taken for it");
+  options.footer(
+      "The first run is the script as it is written: its output is shown and its files are kept. What the "
+      "repeated runs print and write is dropped. The table goes to standard output, accuracy.csv and "
+      "accuracy.svg to the run directory.");
+
+  return [given]() -> CommandWork {
+    AccuracyCommand& asked = given->accuracy;
+    asked.run.limit_time = seconds_of(given->time);
+    asked.at_most = seconds_of(given->at_most).value_or(asked.at_most);
+    if (!given->truth.empty()) asked.truth = exact_value(given->truth);
+    asked.run.limit_memory = bytes_of(given->memory);
+    return [given] { return cli::accuracy(given->accuracy); };
+  };
+}
+
 }  // namespace
+
+Command accuracy_command() {
+  return {
+      .name = "accuracy",
+      .sentence =
+          "what accuracy costs a script that returns a number: it is run again on coarser and finer grids "
+          "(every `cells` times 1/4, 1/2, 1, 2, rounded) and with looser and tighter contacts, and each is "
+          "timed",
+      .overview =
+          "asperity accuracy SCRIPT [options]              what accuracy costs a script that returns a "
+          "number\n",
+      .prints = Prints::of_script,
+      .declare = declare_accuracy};
+}
 
 int accuracy(const AccuracyCommand& command) {
   return in_run_directory(command.run, [&command](RunContext& context) -> std::string {

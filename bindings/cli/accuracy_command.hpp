@@ -17,6 +17,8 @@ struct AccuracyCommand {
   std::optional<double> truth;  // the exact value, SI; otherwise the finest grid gives it
 };
 
+Command accuracy_command();
+
 // Exit status as of cli::run; 1 also for a script that returns no number, or gives nothing to vary.
 int accuracy(const AccuracyCommand& command);
 

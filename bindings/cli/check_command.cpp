@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/check_command.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -11,6 +13,7 @@
 
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/run_observer.hpp"
+#include "bindings/cli/shared_options.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/registry/argument.hpp"
@@ -98,7 +101,50 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   return failed;
 }
 
+// What is given to either command.
+struct FollowedScript {
+  RunCommand run;
+  std::string time;
+  bool json = false;  // of `explain`
+};
+
+CommandReader declare_check(CLI::App& options) {
+  const auto given = std::make_shared<FollowedScript>();
+  add_script_options(options, given->run, given->time);
+  return [given]() -> CommandWork {
+    given->run.limit_time = seconds_of(given->time);
+    return [given] { return cli::check(given->run); };
+  };
+}
+
+CommandReader declare_explain(CLI::App& options) {
+  const auto given = std::make_shared<FollowedScript>();
+  add_script_options(options, given->run, given->time);
+  options.add_flag("--json", given->json, "as JSON");
+  return [given]() -> CommandWork {
+    given->run.limit_time = seconds_of(given->time);
+    return [given] { return cli::explain(given->run, given->json); };
+  };
+}
+
 }  // namespace
+
+Command check_command() {
+  return {.name = "check",
+          .sentence = "look for mistakes in a script without running it",
+          .overview = "asperity check SCRIPT                          look for mistakes without running it\n",
+          .declare = declare_check};
+}
+
+Command explain_command() {
+  return {
+      .name = "explain",
+      .sentence =
+          "what a script will compute, and at what cost: its surfaces are made and its contacts planned, "
+          "but nothing is pressed; a loop over a sweep turns once",
+      .overview = "asperity explain SCRIPT                        what it will compute, and at what cost\n",
+      .declare = declare_explain};
+}
 
 int check(const RunCommand& command) {
   TerminalMonitor monitor;

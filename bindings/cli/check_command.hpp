@@ -6,6 +6,9 @@
 
 namespace asperity::cli {
 
+Command check_command();
+Command explain_command();
+
 // Exit statuses are those of run().
 int check(const RunCommand& command);
 // What the script will compute and at what cost: surfaces are made, contacts planned, nothing is pressed.

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/lesson_command.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
+#include "bindings/cli/shared_options.hpp"
 #include "bindings/lua/editor/lessons.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -57,7 +61,36 @@ void copy(const lua::Lesson& lesson) {
               lesson.file.c_str());
 }
 
+CommandReader declare_lesson(CLI::App& options) {
+  struct Given {
+    LessonCommand lesson;
+    std::string memory;
+  };
+  const auto given = std::make_shared<Given>();
+  LessonCommand& asked = given->lesson;
+  options.add_option("name", asked.name, "a lesson, by name or number; without it they are listed");
+  CLI::Option* copied =
+      options.add_flag("--copy", asked.copy, "put its script into this folder, to be changed and run");
+  options.add_flag("--run", asked.run, "run it as it is")->excludes(copied);
+  add_run_options(options, asked.options, given->memory);
+
+  return [given]() -> CommandWork {
+    given->lesson.options.limit_memory = bytes_of(given->memory);
+    return [given] { return cli::lesson(given->lesson); };
+  };
+}
+
 }  // namespace
+
+Command lesson_command() {
+  return {.name = "lesson",
+          .sentence = "lessons that come with the program: lists them, shows one, copies or runs it",
+          .overview =
+              "asperity lesson [NAME]                         lessons: a question, a prediction, a run that "
+              "tells why\n",
+          .prints = Prints::of_script,
+          .declare = declare_lesson};
+}
 
 int lesson(const LessonCommand& command) {
   try {

@@ -15,6 +15,8 @@ struct LessonCommand {
   RunCommand options;  // of a run; its script is the lesson's
 };
 
+Command lesson_command();
+
 // Exit status: that of the run, 0 otherwise, 2 for a lesson that is not there or a file that is there
 // already.
 int lesson(const LessonCommand& command);

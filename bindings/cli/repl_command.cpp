@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/repl_command.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +11,7 @@
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/line_reader.hpp"
 #include "bindings/cli/run_command.hpp"
+#include "bindings/cli/shared_options.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/editor/prompt.hpp"
@@ -166,7 +169,42 @@ class Conversation {
   bool lines_failed_ = false, stopped_ = false;
 };
 
+CommandReader declare_repl(CLI::App& options) {
+  struct Given {
+    ReplCommand repl;
+    std::string time, memory;
+  };
+  const auto given = std::make_shared<Given>();
+  ReplCommand& asked = given->repl;
+  options.add_option("--out", asked.out,
+                     "the run directory (default runs/prompt-<n>); made when the first file is written");
+  add_machine_options(options, asked.threads, given->memory);
+  add_seed(options, asked.seed);
+  options.add_option("--limit-time", given->time, "end a line after this long, e.g. 60s or \"2 min\"");
+  options.add_flag("--no-history", asked.no_history,
+                   "neither read nor keep the lines of other sessions, which are in "
+                   "$XDG_STATE_HOME/asperity/history, or ~/.local/state");
+  add_trust(options, asked.trust);
+  options.footer(
+      "help() explains, Tab completes, show(surface) draws. Ctrl-C stops a line and not the session, Ctrl-D "
+      "ends it. From a pipe or a file the lines are read without prompts; exit status 1 where one failed.");
+
+  return [given]() -> CommandWork {
+    given->repl.limit_time = seconds_of(given->time);
+    given->repl.limit_memory = bytes_of(given->memory);
+    return [given] { return cli::repl(given->repl); };
+  };
+}
+
 }  // namespace
+
+Command repl_command() {
+  return {.name = "repl",
+          .sentence = "try things line by line, each value shown as it comes",
+          .overview = "asperity repl [options]                        try things line by line\n",
+          .prints = Prints::by_editor,
+          .declare = declare_repl};
+}
 
 int repl(const ReplCommand& command) {
   try {

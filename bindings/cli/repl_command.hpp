@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "bindings/cli/command.hpp"
+
 namespace asperity::cli {
 
 struct ReplCommand {
@@ -19,6 +21,8 @@ struct ReplCommand {
   bool trust = false;
   bool no_history = false;
 };
+
+Command repl_command();
 
 // Exit status: 0; what os.exit was given; without a terminal 1 where a line or an expectation failed; 130
 // where a signal ended it.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/cli/replay_command.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +15,7 @@
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/kept_results.hpp"
 #include "bindings/cli/muted.hpp"
+#include "bindings/cli/shared_options.hpp"
 #include "bindings/lua/registry/variation.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/error.hpp"
@@ -193,7 +196,55 @@ int compare(const RecordedRun& recorded, const std::filesystem::path& place, boo
   return different;
 }
 
+CommandReader declare_replay(CLI::App& options, BehindBarriers<ReplayCommand> barriers) {
+  struct Given {
+    ReplayCommand replay;
+    std::string time, memory, disk;
+  };
+  const auto given = std::make_shared<Given>();
+  ReplayCommand& asked = given->replay;
+  options.add_option("run", asked.recorded, "the directory of the run")->required();
+  options.add_option("--from", asked.from,
+                     "take the results of heavy calls before this line of its journal from its store, and "
+                     "compute from there on");
+  options
+      .add_option("--set", asked.settings,
+                  "key=value or call.key=value: another value where calls give this key (from --from "
+                  "on), e.g. --set press.pressure=\"200 MPa\"; may be given again")
+      ->allow_extra_args(false);
+  add_run_options(options, asked.run, given->memory);
+  add_trust(options, asked.run.trust);
+  add_confinement(options, asked.run, given->disk);
+  options.add_option("--limit-time", given->time, "end it after this long, e.g. 60s or \"2 min\"");
+  options.footer(
+      "Every call, row, expectation and file is compared by its digest; times and dates are not. "
+      "Of a run by an earlier version the laws that changed since are listed, and it is compared within "
+      "them: numbers to 1e-05, digests of what has other last digits not at all. "
+      "Exit status 1 where anything differs that no changed law explains. What the script prints is "
+      "dropped.");
+
+  return [given, barriers]() -> CommandWork {
+    RunCommand& run = given->replay.run;
+    run.limit_time = seconds_of(given->time);
+    run.limit_disk = bytes_of(given->disk);
+    run.confined = barriers.wanted(given->replay);
+    check_confinement(run);
+    run.limit_memory = bytes_of(given->memory);
+    return [given, barriers] {
+      return given->replay.run.confined ? barriers.carry_out(given->replay) : cli::replay(given->replay);
+    };
+  };
+}
+
 }  // namespace
+
+Command replay_command(BehindBarriers<ReplayCommand> barriers) {
+  return {.name = "replay",
+          .sentence =
+              "run the script of a recorded run again, with its arguments and seed, and compare every result",
+          .overview = "asperity replay RUN                            run a recorded run again and compare\n",
+          .declare = [barriers](CLI::App& options) { return declare_replay(options, barriers); }};
+}
 
 int replay(const ReplayCommand& command) {
   std::optional<RecordedRun> recorded;

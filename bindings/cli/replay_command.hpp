@@ -20,6 +20,8 @@ struct ReplayCommand {
   RunCommand run;  // limits and place of the new one; script, arguments and seed come from the record
 };
 
+Command replay_command(BehindBarriers<ReplayCommand> barriers);
+
 // A variation, which names settings, is no comparison: differences are shown, and the status is that of the
 // run. Exit status: 0 for equal results, also of a run that failed the same way; 1 where anything differs or
 // the record was altered; 2 where there is no record; 130 interrupted.

@@ -3,6 +3,8 @@
 
 #include <sys/resource.h>
 
+#include <CLI/CLI.hpp>
+
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -15,6 +17,8 @@
 #include "bindings/cli/kept_results.hpp"
 #include "bindings/cli/mpi_ranks.hpp"
 #include "bindings/cli/run_observer.hpp"
+#include "bindings/cli/shard.hpp"
+#include "bindings/cli/shared_options.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/unlinked_files.hpp"
 #include "bindings/cli/watchdog.hpp"
@@ -62,7 +66,77 @@ std::string reason_text(StopReason reason, const RunCommand& command) {
   return "";
 }
 
+void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, std::string& shard) {
+  CLI::Option* resume = options.add_option(
+      "--resume", run.resume,
+      "go on with the run in this directory where it was cut off; its script, arguments and seed are its own "
+      "(a directory that is not there yet is begun)");
+  resume->excludes(options.get_option("--out"));
+  options
+      .add_option("--reuse", run.reuse,
+                  "take the results of heavy calls that are the same from this run; may be given again")
+      ->allow_extra_args(false);  // one value each time: the next word may be the script
+  options.add_option("--store-limit", limit,
+                     "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
+  options.add_option(
+      "--store", run.store,
+      "keep results in this folder and find them there, instead of RUN/store; several runs, on "
+      "several machines, may share it at the same time (no limit unless --store-limit is given)");
+  options
+      .add_option(
+          "--shard", shard,
+          "i/n: compute the cases i, i+n, i+2n, ... of every ensemble and keep them in the folder given "
+          "by --store; slurm: i and n are those of this task of a job array. The script goes on past an "
+          "ensemble once all its cases are there, and else ends. A run without --shard puts all together")
+      ->needs(options.get_option("--store"))
+      ->excludes(options.get_option("--trust"));
+}
+
+CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers) {
+  struct Given {
+    RunCommand run;
+    std::string time, memory, store_limit, shard, disk;
+  };
+  const auto given = std::make_shared<Given>();
+  add_script_options(options, given->run, given->time)->required(false);
+  add_run_options(options, given->run, given->memory);
+  add_trust(options, given->run.trust);
+  add_store_options(options, given->run, given->store_limit, given->shard);
+  add_confinement(options, given->run, given->disk);
+
+  return [given, &options, barriers]() -> CommandWork {
+    RunCommand& run = given->run;
+    run.seed_given = options.count("--seed") > 0;
+    run.limit_time = seconds_of(given->time);
+    run.limit_memory = bytes_of(given->memory);
+    run.store_limit = given->store_limit == "0" ? 0 : bytes_of(given->store_limit);
+    if (!given->shard.empty()) run.shard = parse_shard(given->shard);
+    if (run.shard && run.store_limit == 0)
+      throw Error(ErrorCode::bad_value, "`--shard` keeps its cases, and `--store-limit 0` keeps nothing",
+                  "leave one of them out");
+    if (run.script.empty() && !run.resume)
+      throw Error(ErrorCode::bad_value, "no script was named",
+                  "give one, as in asperity run examples/quick_start.lua, or --resume RUN");
+    run.limit_disk = bytes_of(given->disk);
+    run.confined = barriers.wanted(run);
+    check_confinement(run);
+    return [given, barriers] {
+      return given->run.confined ? barriers.carry_out(given->run) : cli::run(given->run);
+    };
+  };
+}
+
 }  // namespace
+
+Command run_command(BehindBarriers<RunCommand> barriers) {
+  return {.name = "run",
+          .sentence = "run a script and keep what it finds",
+          .overview =
+              "asperity run SCRIPT [options] [-- arguments]   run a script and keep what it finds\n"
+              "asperity run --resume RUN                      go on with a run that was cut off\n",
+          .prints = Prints::of_script,
+          .declare = [barriers](CLI::App& options) { return declare_run(options, barriers); }};
+}
 
 Json version_json() {
   Json versions = Json::object();
@@ -132,28 +206,6 @@ lua::State make_state(lua::Session& session, const RunCommand& command) {
   lua::State state = lua::make_state(session, session.script.folder);
   if (command.limit_time || command.limit_memory) lua::watch_for_stops(state.get());
   return state;
-}
-
-std::int64_t parse_bytes(const std::string& text) {
-  std::size_t used = 0;
-  double value = -1;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  std::string unit = text.substr(used);
-  if (unit.ends_with("iB")) unit.resize(unit.size() - 2);
-  if (unit == "B") unit.clear();
-  double factor = unit.empty()                 ? 1
-                  : unit == "K" || unit == "k" ? 0x1p10
-                  : unit == "M"                ? 0x1p20
-                  : unit == "G"                ? 0x1p30
-                  : unit == "T"                ? 0x1p40
-                                               : 0;
-  if (used == 0 || factor == 0 || !(value * factor >= 1 && value * factor < 0x1p62))
-    throw Error(ErrorCode::bad_value, "a memory limit is " + quoted(text), "give bytes such as 512M or 4G");
-  return static_cast<std::int64_t>(value * factor);
 }
 
 int in_run_directory(const RunCommand& command, const std::function<std::string(RunContext&)>& work) {

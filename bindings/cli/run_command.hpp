@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bindings/cli/command.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/files/json.hpp"
@@ -64,6 +65,16 @@ struct RunCommand {
   bool terminal = false;
 };
 
+// The other way to carry a command out: behind barriers of the operating system, by a process that is
+// confined. bindings/main.cpp hands it down from bindings/web/confined_command.hpp, which stands above.
+template <class Asked>
+struct BehindBarriers {
+  bool (*wanted)(const Asked& asked);    // by its options, or by the record that it goes on with
+  int (*carry_out)(const Asked& asked);  // the exit status
+};
+
+Command run_command(BehindBarriers<RunCommand> barriers);
+
 // Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage or another process runs there, 130
 // interrupted, 143 asked to end (TERM), 129 the terminal was closed (HUP).
 int run(const RunCommand& command);
@@ -100,8 +111,5 @@ std::string read_script(const std::string& path);
 void limit_memory(std::int64_t bytes);
 // Versions of the program and what it is made of, for the manifest.
 Json version_json();
-
-// "4G", "512M", "64KiB", "1000000". Throws Error{bad_value}.
-std::int64_t parse_bytes(const std::string& text);
 
 }  // namespace asperity::cli

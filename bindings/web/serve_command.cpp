@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -16,6 +18,7 @@
 #include <thread>
 
 #include "bindings/cli/exit_status.hpp"
+#include "bindings/cli/shared_options.hpp"
 #include "bindings/web/api.hpp"
 #include "bindings/web/barrier_report.hpp"
 #include "bindings/web/frames.hpp"
@@ -191,7 +194,54 @@ int serve_until_stopped(const ServeCommand& command) {
   return 0;
 }
 
+cli::CommandReader declare_serve(CLI::App& options) {
+  struct Given {
+    ServeCommand serve;
+    std::string time, memory;
+  };
+  const auto given = std::make_shared<Given>();
+  ServeCommand& asked = given->serve;
+  options.add_option("--port", asked.port, "of the address (default 8137, or any where that is taken)")
+      ->check(CLI::Range(1, 65535));
+  options.add_flag("--open", asked.open, "open the page in this machine's browser");
+  options.add_option("--out", asked.out,
+                     "where its runs are kept (default runs/serve-<n>); must be new or empty");
+  options
+      .add_option("--runs", asked.runs, "scripts that run at once (default 2; in a room one per processor)")
+      ->check(CLI::Range(1, 256));
+  options.add_option("--limit-time", given->time, "of one run (default 10 min; in a room 60 s)");
+  options.add_option("--limit-memory", given->memory,
+                     "of one run (default: its share of half the machine's)");
+  CLI::Option* room = options.add_option("--classroom", asked.classroom,
+                                         "serve a room on this address of the machine, with a key for each "
+                                         "student; without it only this machine is");
+  CLI::Option* students =
+      options.add_option("--students", asked.students, "of the room")->check(CLI::Range(1, 400))->needs(room);
+  options.add_option("--names", asked.names, "a file of the students' names, one per line")
+      ->needs(room)
+      ->excludes(students);
+  options.footer(
+      "Each run is a process of its own that reaches no other file, process or network; what holds it on "
+      "this machine is tried and shown at the start.");
+
+  return [given]() -> cli::CommandWork {
+    given->serve.limit_time = cli::seconds_of(given->time);
+    given->serve.limit_memory = cli::bytes_of(given->memory);
+    return [given] { return web::serve(given->serve); };
+  };
+}
+
 }  // namespace
+
+cli::Command serve_command() {
+  return {
+      .name = "serve",
+      .sentence = "open the laboratory as a page: an editor, runs, charts and lessons in a browser",
+      .overview =
+          "asperity serve [options]                       open the laboratory as a page, for one or for a "
+          "room\n",
+      .declare = declare_serve};
+}
 
 int serve(const ServeCommand& command) {
   try {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "bindings/cli/command.hpp"
+
 namespace asperity::web {
 
 struct ServeCommand {
@@ -19,6 +21,8 @@ struct ServeCommand {
   std::optional<double> limit_time;          // seconds of one run
   std::optional<std::int64_t> limit_memory;  // bytes of one run
 };
+
+cli::Command serve_command();
 
 // Exit status: 0 after Ctrl-C, 2 where it could not be begun.
 int serve(const ServeCommand& command);

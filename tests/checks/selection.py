@@ -65,7 +65,8 @@ for path, name in {"examples/rough_on_rough.lua": "examples: rough_on_rough", "s
                    "tests/known_to_fail/B4_box_counting.lua": "known to fail: B4 box counting",
                    "tests/reproductions/beginning.sh": "reproductions: F3", "tests/page/browser.mjs": "known to fail: T2",
                    "tests/scripts/runner/run_script.cpp": "reproductions: B1", "docs/accuracy.md": "known to fail: N7",
-                   "bindings/web/http/server.cpp": "reproductions: F1"}.items():
+                   "bindings/web/http/server.cpp": "reproductions: F1", "bindings/main.cpp": "command line: CommandLine",
+                   "bindings/web/serve_command.cpp": "command line: completion"}.items():
     expect(re.search(chooser.select([path]).lines()["release"], name), f"{path} does not call for {name}")
 
 tests = subprocess.run(["ctest", "--test-dir", build, "-N"], capture_output=True, text=True, check=True).stdout

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A command of the program, as in `asperity run`: its name, what the pages of help say of it, its options,
+// and what carries it out. Each declares all of this in a file of its own, and main() (bindings/main.cpp)
+// walks a list of them, so that a command more is a file more and a line of that list.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace asperity::cli {
+
+// Carries a command out. Returns the exit status of the program.
+using CommandWork = std::function<int()>;
+
+// Called once, after a command line that names the command was parsed: reads what the parser left as text,
+// and returns what carries the command out. Throws Error where an option is wrong or does not go with
+// another; the program then says so, and its exit status is bad_usage.
+using CommandReader = std::function<CommandWork()>;
+
+// What a command writes to standard output, which decides what reaches a terminal of it (plain_streams.hpp).
+enum class Prints {
+  text,       // of the program, with what scripts and files hold: a terminal obeys none of that
+  of_script,  // what a script prints: a terminal obeys its colours alone, a program or a file gets all of it
+  by_editor,  // lines that libedit edits, which writes to the terminal by itself
+};
+
+struct Command {
+  std::string name;
+  std::string sentence;  // in --help and on the manual page, without its full stop
+  std::string overview;  // its lines of `asperity help`
+  Prints prints = Prints::text;
+  // Adds its options to its own part of the parser, which outlives what is returned.
+  std::function<CommandReader(CLI::App& options)> declare;
+};
+
+}  // namespace asperity::cli

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// asperity: the program. main() walks the list of commands below; each declares its options, reads them and
+// runs in a file of its own (cli/*_command.cpp and web/serve_command.cpp), by the interface of
+// cli/command.hpp. This file stands above the command line and the page, and hands the commands of the one
+// what carries them out behind the barriers of the other.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bindings/cli/accuracy_command.hpp"
+#include "bindings/cli/check_command.hpp"
+#include "bindings/cli/command.hpp"
+#include "bindings/cli/exit_status.hpp"
+#include "bindings/cli/information_commands.hpp"
+#include "bindings/cli/lesson_command.hpp"
+#include "bindings/cli/plain_streams.hpp"
+#include "bindings/cli/repl_command.hpp"
+#include "bindings/cli/replay_command.hpp"
+#include "bindings/cli/run_command.hpp"
+#include "bindings/lua/runtime/version.hpp"
+#include "bindings/web/confined.hpp"
+#include "bindings/web/confined_command.hpp"
+#include "bindings/web/serve_command.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace {
+
+using namespace asperity;
+
+// A command, and its place among the lines of `asperity help`: there the commands that follow a script stand
+// together.
+struct Listed {
+  int place;
+  cli::Command command;
+};
+
+std::string overview();
+
+// In the order of --help, of the manual page and of what a shell completes.
+const std::vector<Listed>& commands() {
+  static const std::vector<Listed> all{
+      {1, cli::run_command({web::to_be_confined, web::run_behind_barriers})},
+      {2, cli::replay_command({web::to_be_confined, web::replay_behind_barriers})},
+      {5, cli::accuracy_command()},
+      {7, web::serve_command()},
+      {3, cli::check_command()},
+      {4, cli::explain_command()},
+      {6, cli::repl_command()},
+      {8, cli::lesson_command()},
+      {9, cli::help_command(overview)},
+      {10, cli::materials_command()},
+      {11, cli::version_command()},
+  };
+  return all;
+}
+
+std::string overview() {
+  std::vector<Listed> in_place = commands();
+  std::ranges::sort(in_place, {}, &Listed::place);
+  std::string text;
+  for (const Listed& listed : in_place) text += listed.command.overview;
+  return text;
+}
+
+// A terminal shows what scripts and files hold and obeys none of it. Standard output of a script is its own,
+// and reaches a program or a file as it is; libedit, at the prompt, writes to the terminal by itself.
+void make_streams_plain(std::string_view word) {
+  const auto named = std::ranges::find(
+      commands(), word, [](const Listed& listed) -> std::string_view { return listed.command.name; });
+  const cli::Prints prints = named != commands().end() ? named->command.prints : cli::Prints::text;
+  const bool of_script = prints == cli::Prints::of_script;
+  cli::make_errors_plain();
+  if (prints == cli::Prints::by_editor || (of_script && ::isatty(STDOUT_FILENO) == 0)) return;
+  cli::make_output_plain(of_script ? cli::Keeps::colours : cli::Keeps::text);
+}
+
+// What the parser has to say of a command line, in streams that are plain.
+int parser_exit(const CLI::App& app, const CLI::Error& error) {
+  std::ostringstream out, err;
+  const int status = app.exit(error, out, err);
+  std::fputs(out.str().c_str(), stdout);
+  std::fputs(err.str().c_str(), stderr);
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // The child of `asperity serve` and of what runs behind barriers: nothing of the command line is for it.
+  if (argc == 2 && std::string_view(argv[1]) == "--confined") return web::confined_main();
+
+  make_streams_plain(argc > 1 ? argv[1] : "");
+
+  CLI::App app{"Asperity: a laboratory for rough surfaces, scripted in Lua."};
+  app.name("asperity");
+  app.require_subcommand(1);
+  app.set_help_flag("-h,--help", "show this help");
+  app.set_version_flag("--version", "asperity " + lua::version_text());
+  std::vector<std::string> names;
+  std::vector<std::pair<const CLI::App*, cli::CommandReader>> readers;
+  for (const auto& [place, command] : commands()) {
+    CLI::App& options = *app.add_subcommand(command.name, command.sentence);
+    names.push_back(command.name);
+    readers.emplace_back(&options, command.declare(options));
+  }
+
+  // A word that is no command is answered with the nearest one, which the parser does not know how to do.
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
+    std::fprintf(stderr, "asperity: there is no command %s%s; the commands are %s\n", quoted(argv[1]).c_str(),
+                 did_you_mean(argv[1], names).c_str(), joined(names, " and ").c_str());
+    return cli::bad_usage;
+  }
+
+  cli::CommandWork work;
+  try {
+    app.parse(argc, argv);
+    for (const auto& [options, read] : readers)
+      if (options->parsed()) work = read();
+  } catch (const CLI::Success& success) {
+    return parser_exit(app, success);
+  } catch (const CLI::ParseError& error) {
+    parser_exit(app, error);
+    return cli::bad_usage;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return cli::bad_usage;
+  }
+  return work();
+}
