@@ -37,8 +37,9 @@ SEES = {
 } | {f"bindings/lua/{room}": " ".join([ENGINE, *(f"bindings/lua/{below}" for below in LUA_ROOMS[:k])])
      for k, room in enumerate(LUA_ROOMS)} | {
     "bindings/lua": IN_LUA,
-    "bindings/cli": IN_LUA + " bindings/lua bindings/web",
+    "bindings/cli": IN_LUA + " bindings/lua",
     "bindings/web": IN_LUA + " bindings/lua bindings/cli",
+    "bindings": IN_LUA + " bindings/lua bindings/cli bindings/web",  # main.cpp, the list of commands
 }
 LUA = re.compile(r"(^|/)(lua|luaconf|lualib|lauxlib)\.(h|hpp)$")
 INCLUDE = re.compile(r"^[ \t]*#[ \t]*include\s*(?:\"([^\"]*)\"|<([^>]*)>|(.*))", re.M)
@@ -141,9 +142,8 @@ def main(arguments):
         page.write_text(before + begin + drawn(sources) + end + after, encoding="utf-8")
         return []
     found = [complaint for path, text in sources.items() for complaint in complaints_of(path, text)]
-    engine = {room: [seen for seen in listed.split() if seen in SEES and seen.startswith("engine/")]
-              for room, listed in SEES.items() if room.startswith("engine/")}
-    if rooms := circle(engine):
+    listed = {room: [seen for seen in sees.split() if seen in SEES] for room, sees in SEES.items()}
+    if rooms := circle(listed):
         found.append("rooms see each other in a circle: " + " -> ".join(rooms))
     headers = {path: [quoted for _, quoted, _ in includes(text) if quoted in sources]
                for path, text in sources.items()}
