@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -189,6 +190,28 @@ TEST_F(CommandLine, HelpMaterialsAndVersionAnswer) {
   }
   EXPECT_NE(call({"materials"}).output.find("Al-2011"), std::string::npos);
   EXPECT_NE(call({"help", "surfase"}).error.find("did you mean"), std::string::npos);
+}
+
+// The parser's list of commands, which a refusal names, is in another order than their lines of the overview.
+TEST_F(CommandLine, EveryCommandStandsInTheOverviewAndExplainsItself) {
+  std::istringstream overview(call({"help"}).output);
+  std::string told;
+  for (std::string program, command, rest;
+       overview >> program >> command && program == "asperity" && std::getline(overview, rest);)
+    told += command + " ";
+  EXPECT_EQ(told, "run run replay check explain accuracy repl serve lesson help materials version ");
+
+  const std::string refusal = call({"nocommand"}).error, before = "the commands are ";
+  ASSERT_NE(refusal.find(before), std::string::npos) << refusal;
+  std::istringstream listed(refusal.substr(refusal.find(before) + before.size()));
+  for (std::string name; listed >> name;) {
+    if (name == "and") continue;
+    if (name.back() == ',') name.pop_back();
+    EXPECT_NE((" " + told).find(" " + name + " "), std::string::npos) << name;
+    const Outcome help = call({name, "--help"});
+    EXPECT_EQ(help.status, 0) << name;
+    EXPECT_NE(help.output.find("Usage: asperity " + name), std::string::npos) << help.output;
+  }
 }
 
 TEST_F(CommandLine, LessonsAreListedShownCopiedAndRun) {
