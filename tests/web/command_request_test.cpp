@@ -21,7 +21,7 @@ TEST(CommandRequest, ArrivesAsItWas) {
   run.store_limit = (std::int64_t{1} << 62) - 1;
   run.limit_disk = 12345;
   run.limit_time = 0.1;
-  run.shard = lua::Shard{2, 3};
+  run.shard = Shard{2, 3};
   run.reuse = {"one", "two"};
   run.barriers = Json::object({{"read", Json::List()}});
   cli::ReplayCommand replay;

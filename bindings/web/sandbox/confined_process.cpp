@@ -20,6 +20,7 @@
 
 #include "bindings/web/frames.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/disk.hpp"
 
 namespace asperity::web {
 
@@ -65,7 +66,7 @@ Ends socket_to_child() {
 // A file in memory, so that neither side waits for the other.
 Descriptor content(const std::string& text) {
   Descriptor file = moved_up(::memfd_create("request", MFD_CLOEXEC));
-  if (!write_whole(file.get(), text)) throw_not_started(errno);
+  if (const int reason = write_all(file.get(), text); reason != 0) throw_not_started(reason);
   ::lseek(file.get(), 0, SEEK_SET);
   return file;
 }
