@@ -368,7 +368,6 @@ function Contact:close() end
 ---@field load number force on the whole tile
 ---@field pressure number load over the nominal area
 ---@field attraction number force by which the bodies attract each other; the contacts carry load and this
----@field drawn_from number[] the branch of bodies that attract each other: values of the prescribed quantity gone to in turn before this one; empty where they were brought together from apart
 ---@field approach number from first touch of the bodies as they are now; after yielding that is the touch of the worn faces, and `separation` is what one event compares with the next
 ---@field indentation number approach over the peak-to-valley of the combined heights; flats have none: an error. The key `flatten` counts another thing, the share by which the peak-to-valley under load has fallen
 ---@field flatten number share of that peak-to-valley pressed away
@@ -387,6 +386,7 @@ function Contact:close() end
 ---@field energy number elastic energy in the tile
 ---@field plastic_volume number volume this press took from both bodies; needs plasticity
 ---@field plastic_fraction number share of the tile at the cap; needs plasticity
+---@field drawn_from number[] the branch of bodies that attract each other: values of the prescribed quantity gone to in turn before this one; empty where they were brought together from apart
 ---@field iterations integer of the solver; 0 for a closed form
 ---@field residual number greatest entry of the certificate
 ---@field certificate table how far the contact conditions are from being met, each relative; with `adhesion` these bound tractions and not lengths: gaps and approaches may be off by more
@@ -434,19 +434,19 @@ local StateError = {}
 
 ---Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units of the quantities; math.huge where nothing can be said, as of bodies that attract each other. What they cost to find is no part of the cost of the state.
 ---@class asperity.AlgebraicError
----@field load number 0 but for rounding where the load was prescribed
+---@field load number of the load; 0 but for rounding where it was prescribed
 ---@field pressure number of the load over the nominal area
 ---@field approach number of the approach
 ---@field indentation number of the indentation
----@field separation number of the separation
----@field mean_gap number of the mean gap
----@field energy number of the elastic energy
----@field peak_pressure number of the greatest pressure
----@field secant_stiffness number of pressure over approach
----@field contacts number of the number of nodes in contact
 ---@field area number of the real contact area
 ---@field area_fraction number of the area fraction
 ---@field corrected_area_fraction number of the corrected area fraction
+---@field contacts number of the number of nodes in contact
+---@field peak_pressure number of the greatest pressure
+---@field separation number of the separation
+---@field mean_gap number of the mean gap
+---@field secant_stiffness number of pressure over approach
+---@field energy number of the elastic energy
 ---@field plastic_volume number of the plastic volume; needs plasticity
 ---@field plastic_fraction number of the plastic fraction; needs plasticity
 ---@field contacts_low integer nodes that are surely in contact
@@ -465,13 +465,13 @@ local AlgebraicError = {}
 ---@field load number of the load; 0 where it was prescribed
 ---@field pressure number of the load over the nominal area
 ---@field approach number of the approach; most of it is the highest peak between the nodes
----@field separation number of the separation
 ---@field indentation number of the indentation
 ---@field flatten number of the flattening
 ---@field area number of the real contact area
 ---@field area_fraction number of the area fraction; most of it is its stepped outline
 ---@field corrected_area_fraction number of the corrected area fraction
 ---@field peak_pressure number of the greatest pressure
+---@field separation number of the separation
 ---@field mean_gap number of the mean gap
 ---@field stiffness number of the stiffness, which is solved for on each grid
 ---@field secant_stiffness number of pressure over approach
