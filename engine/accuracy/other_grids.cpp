@@ -28,11 +28,6 @@ constexpr double loose_enough = 1e-5, close_enough = 1e-6;
 
 int halved(int cells) { return cells < 2 * fewest_cells ? cells : (cells + 1) / 2; }
 
-double transform_work(const Grid& grid) {
-  const auto n = static_cast<double>(grid.nodes());
-  return n * elementary::log2(std::max(n, 2.0));
-}
-
 Field on_cells(const Field& field, const Grid& from, const Grid& to, bool periodic) {
   return at_cells(Surface(from, field, {.material = {}, .periodic = periodic, .aliased_share = {}}), to.nx,
                   to.ny)
@@ -92,6 +87,8 @@ Field combined_on_cells(const ContactGeometry& geometry, const Grid& grid, bool 
   return heights;
 }
 
+}  // namespace
+
 State press_on(const Grid& grid, Field heights, double tolerance, const Scene& scene,
                const ContactGeometry& geometry, const Plan& given_plan, const PressRequest& request,
                Monitor& monitor) {
@@ -135,7 +132,18 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
   return state;
 }
 
-}  // namespace
+double transform_work(const Grid& grid) {
+  const auto n = static_cast<double>(grid.nodes());
+  return n * elementary::log2(std::max(n, 2.0));
+}
+
+double estimate_work(const Grid& grid, Accuracy::Estimate estimate) {
+  if (estimate == Accuracy::Estimate::none) return 0;
+  if (estimate == Accuracy::Estimate::finer) return transform_work(finer_grid(grid)) / transform_work(grid);
+  double work = 0;
+  for (const Grid& coarser : coarser_grids(grid)) work += transform_work(coarser) / transform_work(grid);
+  return work;
+}
 
 std::vector<Grid> coarser_grids(const Grid& grid) {
   std::vector<Grid> grids;
@@ -197,13 +205,13 @@ std::int64_t bytes_held_with_other_grids(const State& state) {
 void plan_estimate(const ContactGeometry& geometry, Plan& plan) {
   if (plan.accuracy.estimate == Accuracy::Estimate::none) return;
   const Grid& fine = geometry.grid();
-  double kept = 0, work = 0;
+  const double work = estimate_work(fine, plan.accuracy.estimate);
+  double kept = 0;
   if (plan.accuracy.estimate == Accuracy::Estimate::finer) {
     const Grid grid = finer_grid(fine);
     const auto held = static_cast<std::int64_t>(3 * static_cast<double>(grid.nodes()) * sizeof(double));
     const double solve = static_cast<double>(plan.bytes_grown()) * static_cast<double>(grid.nodes()) /
                          static_cast<double>(fine.nodes());
-    work = transform_work(grid) / transform_work(fine);
     plan.estimate = "the same press on " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +
                     " cells, with it about " + format_short(1 + work, 2) +
                     " times the cost of the press alone, by effect as `estimate`";
@@ -217,7 +225,6 @@ void plan_estimate(const ContactGeometry& geometry, Plan& plan) {
   std::vector<std::string> cells;
   for (const Grid& grid : coarser_grids(fine)) {
     kept += static_cast<double>(grid.nodes());
-    work += transform_work(grid) / transform_work(fine);
     cells.push_back(std::to_string(grid.nx) + " x " + std::to_string(grid.ny));
   }
   if (cells.empty()) return;

@@ -61,8 +61,20 @@ std::shared_ptr<const OtherGrids> solve_finer(const Scene& scene, const ContactG
 // Memory that a state's solution keeps, and those of the same press on other grids.
 std::int64_t bytes_held_with_other_grids(const State& state);
 
+// The same on `grid`, of these combined heights, missing (NaN) where nothing faces the lower body; to a
+// tolerance of `tolerance` or that of the scene, whichever is looser, or as well as can be. Transforms are
+// counted in those of the finest grid of `geometry`, by the state in those of `grid`.
+State press_on(const Grid& grid, Field heights, double tolerance, const Scene& scene,
+               const ContactGeometry& geometry, const Plan& plan, const PressRequest& request,
+               Monitor& monitor = Monitor::silent());
+
 // Throws Error{bad_value} naming `estimate` where the tile has too few cells for it.
 void check_estimate(const Grid& grid);
+
+// What the estimate adds to the work of a press, over that work.
+double estimate_work(const Grid& grid, Accuracy::Estimate estimate);
+// Of one transform of a grid, in any unit: n log n.
+double transform_work(const Grid& grid);
 
 // Adds to the plan of a press what the estimate that it asks for takes.
 void plan_estimate(const ContactGeometry& geometry, Plan& plan);

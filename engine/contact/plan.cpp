@@ -35,6 +35,13 @@ void line(std::string& text, std::string_view label, const std::string& content)
   text += content + "\n";
 }
 
+std::string of_which_press(const Plan& plan) {
+  if (!plan.press.empty()) return " of the press " + plan.press;
+  if (plan.transforms == 0) return {};
+  return " of a press by `pressure`, a rough guess; c:explain{ approach= }, with the keys of c:press, tells "
+         "more";
+}
+
 }  // namespace
 
 bool Plan::attracts() const {
@@ -69,7 +76,9 @@ std::string Plan::text() const {
   if (!choice.empty()) line(result, "accuracy", choice);
   line(result, "solver", solver + ", tolerance " + format_short(accuracy.tolerance));
   if (!estimate.empty()) line(result, "estimate", estimate);
-  line(result, "transforms", format_short(transforms) + " expected");
+  line(result, "transforms",
+       (press.empty() ? format_short(transforms) : format_short(transforms, 3)) + " expected" +
+           of_which_press(*this));
   for (const PlannedBuffer& buffer : buffers)
     line(result, "memory",
          format_bytes(buffer.bytes) + " " + buffer.name + (buffer.kept ? "" : ", for a moment"));

@@ -82,6 +82,7 @@ struct Plan {
   std::vector<PlannedBuffer> buffers;
   std::int64_t bytes_to_flatten = 0;  // beyond those, while a press by `flatten` seeks its approach
   double transforms = 0;              // expected for a press, equivalents of the finest grid
+  std::string press{};                // which press that is of and how it is known; empty: none was named
   double seconds = 0;                 // expected for the first press, a rough guess
   Accuracy accuracy;
   std::string choice;      // of cells, tolerance and precision for an error that was asked for; empty: none

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace asperity {
 
 namespace {
 thread_local double thread_transforms = 0;
+thread_local double thread_limit = std::numeric_limits<double>::infinity();
 thread_local std::int64_t thread_held = 0;
 thread_local std::int64_t thread_peak = 0;
 }  // namespace
@@ -17,6 +20,7 @@ namespace cost {
 void count_transforms(double weighted) {
   constexpr double steps = 1 << 24;
   thread_transforms += std::round(weighted * steps) / steps;
+  if (thread_transforms > thread_limit) throw TransformLimit::Spent();
 }
 void count_bytes(std::int64_t change) noexcept {
   thread_held += change;
@@ -31,6 +35,9 @@ Cost& Cost::operator+=(const Cost& other) {
   bytes = std::max(bytes, other.bytes);
   return *this;
 }
+
+TransformLimit::TransformLimit(double most) : outer_(std::exchange(thread_limit, thread_transforms + most)) {}
+TransformLimit::~TransformLimit() { thread_limit = outer_; }
 
 CostScope::CostScope()
     : start_(std::chrono::steady_clock::now()),

@@ -25,6 +25,20 @@ void count_bytes(std::int64_t change) noexcept;
 double transforms();
 }  // namespace cost
 
+// While it lives, this thread ends what it does by throwing Spent once it has counted more transforms
+// than so many. Unlike a clock it stops at the same place on every machine. The inner of two holds.
+class TransformLimit {
+ public:
+  struct Spent {};  // no Error: nobody but whoever set the limit is to catch it
+  explicit TransformLimit(double most);
+  ~TransformLimit();
+  TransformLimit(const TransformLimit&) = delete;
+  TransformLimit& operator=(const TransformLimit&) = delete;
+
+ private:
+  double outer_;
+};
+
 // Measures from construction to stop(). Scopes nest; an inner peak shows in the outer one too.
 class CostScope {
  public:

@@ -52,4 +52,16 @@ class LawsMet {
 // One for the process.
 LawsMet& laws_met();
 
+// While it lives, laws that this thread meets are not kept: what it does is tried and thrown away.
+class LawsUnheard {
+ public:
+  LawsUnheard();
+  ~LawsUnheard();
+  LawsUnheard(const LawsUnheard&) = delete;
+  LawsUnheard& operator=(const LawsUnheard&) = delete;
+
+ private:
+  bool outer_;
+};
+
 }  // namespace asperity

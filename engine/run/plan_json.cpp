@@ -16,6 +16,7 @@ Json to_json(const Plan& plan) {
                        {"tolerance", plan.accuracy.tolerance},
                        {"estimate", plan.estimate},
                        {"transforms", plan.transforms},
+                       {"press", plan.press},
                        {"buffers", buffers},
                        {"bytes_kept", plan.bytes_kept()},
                        {"bytes_peak", plan.bytes_peak()},

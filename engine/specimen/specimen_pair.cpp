@@ -8,6 +8,7 @@
 
 #include "engine/accuracy/accuracy_choice.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
+#include "engine/accuracy/expected_transforms.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/part_monitor.hpp"
@@ -111,6 +112,10 @@ SpecimenPair::SpecimenPair(const Scene& scene)
 std::shared_ptr<const Solver> SpecimenPair::solver() {
   if (!solver_) solver_ = make_solver(plan_, geometry_);
   return solver_;
+}
+
+Plan SpecimenPair::plan_of(const PressRequest& request) const {
+  return plan_of_press(scene_, *geometry_, plan_, request);
 }
 
 void SpecimenPair::warn(const PressRequest& request, Monitor& monitor) {

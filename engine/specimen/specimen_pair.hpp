@@ -93,6 +93,9 @@ class SpecimenPair {
   // What a press will compute, and at what cost; plan().text() prints it. Before an accuracy is chosen, of
   // the cells given.
   const Plan& plan() const { return plan_; }
+  // The same with the transforms and the time of this very press, which is tried on fewer cells
+  // (expected_transforms.hpp); nothing of the pair changes. Throws what a press throws for such a request.
+  Plan plan_of(const PressRequest& request) const;
   // The pair made ready to be pressed as it lies now; worked out once per placement.
   std::shared_ptr<const Solver> solver();
 

@@ -31,6 +31,20 @@ TEST(LawsMet, KeepsTheFirstLineWhileItIsFollowed) {
   EXPECT_EQ(met.first_line(Law::tilt_weight), 0);
 }
 
+TEST(LawsMet, WhatIsTriedAndThrownAwayMeetsNone) {
+  LawsMet met;
+  met.follow([] { return 5; });
+  {
+    const LawsUnheard unheard;
+    met.meet(Law::overlap);
+    std::thread([&] { met.meet(Law::tilt_weight); }).join();
+  }
+  EXPECT_EQ(met.first_line(Law::overlap), 0);
+  EXPECT_EQ(met.first_line(Law::tilt_weight), 5);  // another thread's work is its own
+  met.meet(Law::overlap);
+  EXPECT_EQ(met.first_line(Law::overlap), 5);
+}
+
 TEST(LawsMet, ThreadsMeetALawOnce) {
   LawsMet met;
   std::atomic<std::int64_t> asked{0};

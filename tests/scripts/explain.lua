@@ -3,13 +3,14 @@
 -- depends on one is not followed.
 --! command: explain
 --! output: contact of 64 x 64 cells
---! output: contact:press: 5 times
---! output: contact:sweep: 3 times
+--! output: contact:press: 5 times by `pressure`,
+--! output: transforms expected of each
+--! output: contact:sweep: 3 times by `pressure`,
 --! output: off           plasticity
 --! output: contact of 32 x 32 cells
 --! output: contact:press: 6 times
 --! output: together: 14 presses
---! output: explained to line 24
+--! output: explained to line 25
 --! not output: never printed
 local lab = require "asperity"
 local unit = lab.material{ young = 1, poisson = 0 }

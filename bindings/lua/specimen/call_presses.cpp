@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which contact a call of the language would press, and how often, as far as that is known before it is made.
 #include <algorithm>
+#include <map>
+#include <utility>
 #include <variant>
 
 #include "bindings/lua/specimen/contact.hpp"
@@ -51,11 +53,32 @@ std::int64_t presses_of(const Call& call) {
   return presses;
 }
 
+// The presses that it would make, each as often as it comes, as far as they are known before it.
+std::vector<Explanation::Asked> known_presses_of(const Call& call, const Function& function) {
+  const Object* self = Argument(call.L, 1).as_any_object();
+  if (self == nullptr || self->pointer == nullptr) return {};
+  std::vector<Explanation::Asked> asked;
+  if (self->type == &class_of<SpecimenPair>())
+    for (PressRequest& request : requests_of(call, function)) asked.push_back({std::move(request)});
+  if (self->type != &class_of<Protocol>()) return asked;
+  std::map<std::pair<PressBy, double>, std::size_t> known;
+  for (const Protocol::Event& event : static_cast<const Protocol*>(self->pointer.get())->events()) {
+    const auto* press = std::get_if<PressRequest>(&event.step);
+    if (press == nullptr) continue;
+    const auto [at, first] = known.try_emplace({press->by, press->value}, asked.size());
+    if (first)
+      asked.push_back({*press});
+    else
+      ++asked[at->second].times;
+  }
+  return asked;
+}
+
 }  // namespace
 
 void note_call(Explanation& explanation, const Call& call, const Function& function) {
   if (const SpecimenPair* pair = pressed_by(call, function))
-    explanation.note(pair->plan(), call.function_name(), presses_of(call));
+    explanation.note(*pair, call.function_name(), known_presses_of(call, function), presses_of(call));
   else if (function.returns.find("State") != std::string::npos)
     explanation.note_unplanned(call.function_name());
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/ledger.hpp"
 #include "bindings/lua/runtime/files.hpp"
@@ -94,11 +95,15 @@ const Block<PressKeys>& press_block() {
 
 namespace {
 
-Values press(Call& call) {
-  PressKeys keys = call.options(press_block());
+PressRequest request_of(PressKeys keys) {
   keys.request.dwell = keys.dwell;
-  keys.request.drawn_from = keys.drawn_from;
-  return {object(call.self<SpecimenPair>().press(keys.request, call.session().monitor()))};
+  keys.request.drawn_from = std::move(keys.drawn_from);
+  return std::move(keys.request);
+}
+
+Values press(Call& call) {
+  const PressRequest request = request_of(call.options(press_block()));
+  return {object(call.self<SpecimenPair>().press(request, call.session().monitor()))};
 }
 
 struct SweepKeys {
@@ -164,6 +169,24 @@ Values sweep(Call& call) {
                    },
                    call.function_name()}};
 }
+
+}  // namespace
+
+std::vector<PressRequest> requests_of(const Call& call, const Function& function) {
+  const Argument table = call.argument(1);
+  bool known = table.is_table() && !table.is_unknown();
+  const auto look = [&](const Argument&, const Argument& value) {
+    known = known && !holds_unknown(value, 1);
+  };
+  if (known) table.each(look);
+  if (!known) return {};
+  if (function.options == &press_block())
+    return {request_of(press_block().read(table, call.function_name()))};
+  if (function.options == &sweep_block()) return sweep_block().read(table, call.function_name()).requests;
+  return {};
+}
+
+namespace {
 
 // --- the bench
 
@@ -232,7 +255,11 @@ Values log(Call& call) {
   return {path};
 }
 Values copy(Call& call) { return {object(call.self<SpecimenPair>().copy())}; }
-Values explain(Call& call) { return {object(Plan(call.self<SpecimenPair>().plan()))}; }
+Values explain(Call& call) {
+  const auto& pair = call.self<SpecimenPair>();
+  if (!call.given(1)) return {object(Plan(pair.plan()))};
+  return {object(pair.plan_of(request_of(call.options(press_block()))))};
+}
 Values lower(Call& call) { return {object(Surface(call.self<SpecimenPair>().lower()))}; }
 Values upper(Call& call) { return {object(call.self<SpecimenPair>().upper())}; }
 
@@ -344,9 +371,17 @@ const Class& class_of<SpecimenPair>() {
          .example = "local before = c:copy()"},
         {.name = "explain",
          .body = explain,
-         .sentence = "What a press will compute, what is off, and the expected transforms, memory and time.",
+         .sentence = "What a press will compute, what is off, and the expected transforms, memory and time. "
+                     "Given the press, "
+                     "with the keys of contact:press, that press is tried on fewer cells and its transforms "
+                     "are told by "
+                     "that, mostly within a factor of two of what it takes; without, they are a rough guess "
+                     "for a press by "
+                     "pressure. Presses nothing.",
+         .options = &press_block(),
+         .options_optional = true,
          .returns = "Plan",
-         .example = "print(c:explain())"},
+         .example = "print(c:explain{ approach=\"20 nm\" })"},
         {.name = "lower",
          .body = lower,
          .sentence = "The lower body's surface as it is now, with all that yielded.",

@@ -25,6 +25,9 @@ struct PressKeys {
   std::vector<double> drawn_from;
 };
 const Block<PressKeys>& press_block();
+// What a call of c:press or c:sweep, which `function` is, asks for; none where a dry run does not know it,
+// and none of other calls. Throws as the call itself does.
+std::vector<PressRequest> requests_of(const Call& call, const Function& function);
 // Writes the journal's line of a press that an iterator made, as one made by hand stands there.
 void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& pair,
                   const PressRequest& request, const asperity::State& state);

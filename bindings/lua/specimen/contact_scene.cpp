@@ -302,8 +302,12 @@ const std::vector<Option<SceneKeys>>& effect_options() {
                  "hardness falls with the dwell of the load; needs plasticity; {} for its defaults"),
         table_of("capillarity", &K::capillarity, capillarity_block(),
                  "liquid in narrow gaps pulls the bodies together, and the junctions carry that too"),
-        table_of("adhesion", &K::adhesion, adhesion_block(),
-                 "the surfaces attract each other across the gap; loads and approaches may be below zero"),
+        table_of(
+            "adhesion", &K::adhesion, adhesion_block(),
+            "the surfaces attract each other across the gap; loads and approaches may be below zero. A press "
+            "takes many transforms: of 60 contacts, balls and rough ground on 64 x 64 cells, 55 to 3628 by "
+            "approach, 161 in the middle, and 73 to 1588 by pressure, 228 in the middle; contact:explain "
+            "tells those of one"),
         table_of("ageing", &K::ageing, ageing_block(),
                  "tau0 of the friction law grows with the time the junctions rest"),
         table_of("interlocking", &K::interlocking, interlocking_block(),

@@ -3,21 +3,73 @@
 
 #include <algorithm>
 
+#include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/plan_json.hpp"
 
 namespace asperity::lua {
 
-void Explanation::note(const Plan& plan, const std::string& what, std::int64_t solves) {
-  const std::string text = plan.text();
+namespace {
+std::string times_text(std::int64_t times) {
+  return std::to_string(times) + (times == 1 ? " time" : " times");
+}
+}  // namespace
+
+Explanation::Calls& Explanation::calls_of(Planned& planned, const std::string& what,
+                                          std::optional<PressBy> by) {
+  auto known = std::find_if(planned.calls.begin(), planned.calls.end(),
+                            [&](const Calls& calls) { return calls.what == what && calls.by == by; });
+  if (known == planned.calls.end()) known = planned.calls.insert(planned.calls.end(), {what, by, 0, {}});
+  return *known;
+}
+
+// Of so many values of one control each is tried; any other is taken for the mean of those.
+Explanation::Expected Explanation::expected(const SpecimenPair& pair, const PressRequest& request,
+                                            Calls& calls) {
+  constexpr std::size_t most_tried = 12;
+  const auto known = calls.tried.find(request.value);
+  if (known != calls.tried.end()) return known->second;
+  if (calls.tried.size() >= most_tried) {
+    Expected mean;
+    for (const auto& [value, one] : calls.tried) {
+      mean.transforms += one.transforms / static_cast<double>(calls.tried.size());
+      mean.seconds += one.seconds / static_cast<double>(calls.tried.size());
+    }
+    return mean;
+  }
+  Expected found{pair.plan().transforms, pair.plan().seconds};
+  try {
+    const Plan plan = pair.plan_of(request);
+    found = {plan.transforms, plan.seconds};
+  } catch (const Error& error) {  // the run will tell, unless the script is ready for it
+    if (error.code() != ErrorCode::bad_value && error.code() != ErrorCode::infeasible) throw;
+  }
+  calls.tried.emplace(request.value, found);
+  calls.least = std::min(calls.least, found.transforms);
+  calls.most = std::max(calls.most, found.transforms);
+  return found;
+}
+
+void Explanation::note(const SpecimenPair& pair, const std::string& what, std::span<const Asked> named,
+                       std::int64_t presses) {
+  std::string text = pair.plan().text();
   auto same =
-      std::find_if(planned_.begin(), planned_.end(), [&](const Planned& p) { return p.plan.text() == text; });
-  if (same == planned_.end()) same = planned_.insert(planned_.end(), {plan, {}});
-  auto known = std::find_if(same->calls.begin(), same->calls.end(),
-                            [&](const auto& call) { return call.first == what; });
-  if (known == same->calls.end()) known = same->calls.insert(same->calls.end(), {what, 0});
-  known->second += times_ * solves;
+      std::find_if(planned_.begin(), planned_.end(), [&](const Planned& p) { return p.text == text; });
+  if (same == planned_.end()) same = planned_.insert(planned_.end(), {pair.plan(), std::move(text)});
+  const auto add = [&](Calls& calls, const Expected& each, std::int64_t times) {
+    calls.times += times;
+    calls.all.transforms += static_cast<double>(times) * each.transforms;
+    calls.all.seconds += static_cast<double>(times) * each.seconds;
+  };
+  if (named.empty()) {
+    add(calls_of(*same, what, {}), {pair.plan().transforms, pair.plan().seconds}, times_ * presses);
+    return;
+  }
+  for (const Asked& asked : named) {
+    Calls& calls = calls_of(*same, what, asked.request.by);
+    add(calls, expected(pair, asked.request, calls), times_ * asked.times);
+  }
 }
 
 Explanation::Repeating::Repeating(Explanation* explanation, std::int64_t times) : explanation_(explanation) {
@@ -32,7 +84,16 @@ Explanation::Repeating::~Repeating() {
 
 std::int64_t Explanation::Planned::solves() const {
   std::int64_t sum = 0;
-  for (const auto& call : calls) sum += call.second;
+  for (const Calls& one : calls) sum += one.times;
+  return sum;
+}
+
+Explanation::Expected Explanation::Planned::together() const {
+  Expected sum;
+  for (const Calls& one : calls) {
+    sum.transforms += one.all.transforms;
+    sum.seconds += one.all.seconds;
+  }
   return sum;
 }
 
@@ -46,13 +107,19 @@ std::string Explanation::text() const {
   double transforms = 0, seconds = 0;
   std::int64_t bytes = 0, solves = 0;
   for (const Planned& planned : planned_) {
-    result += planned.plan.text();
-    for (const auto& [what, times] : planned.calls)
-      result += "  " + what + ": " + std::to_string(times) + (times == 1 ? " time\n" : " times\n");
+    result += planned.text;
+    for (const Calls& calls : planned.calls) {
+      result += "  " + calls.what + ": " + times_text(calls.times);
+      const std::string least = format_short(calls.least, 3), most = format_short(calls.most, 3);
+      if (calls.by && calls.most > 0)
+        result += " by " + quoted(name(*calls.by)) + ", " + (least == most ? most : least + " to " + most) +
+                  " transforms expected of each";
+      result += "\n";
+    }
     result += "\n";
-    const auto count = static_cast<double>(planned.solves());
-    transforms += count * planned.plan.transforms;
-    seconds += count * planned.plan.seconds;
+    const Expected expected = planned.together();
+    transforms += expected.transforms;
+    seconds += expected.seconds;
     bytes = std::max(bytes, planned.plan.bytes_peak());
     solves += planned.solves();
   }
@@ -65,9 +132,20 @@ std::string Explanation::text() const {
 Json Explanation::json() const {
   Json::List contacts;
   for (const Planned& planned : planned_) {
+    std::map<std::string, std::int64_t> times;
+    Json::List presses;
+    for (const Calls& one : planned.calls) {
+      times[one.what] += one.times;
+      presses.push_back(Json::object({{"call", one.what},
+                                      {"by", one.by ? std::string(name(*one.by)) : std::string()},
+                                      {"times", one.times},
+                                      {"transforms", one.all.transforms},
+                                      {"seconds", one.all.seconds}}));
+    }
     Json calls = Json::object();
-    for (const auto& [what, times] : planned.calls) calls.set(what, times);
-    contacts.push_back(Json::object({{"plan", to_json(planned.plan)}, {"calls", calls}}));
+    for (const auto& [what, count] : times) calls.set(what, count);
+    contacts.push_back(
+        Json::object({{"plan", to_json(planned.plan)}, {"calls", calls}, {"presses", presses}}));
   }
   Json unplanned = Json::object();
   for (const auto& [what, count] : unplanned_) unplanned.set(what, count);

@@ -22,8 +22,8 @@
 namespace asperity::stability {
 namespace {
 
-const Family* const families[] = {&conditions, &monotony,           &rescaling, &symmetry,
-                                  &events,     &events_of_elements, &threads,   &controls};
+const Family* const families[] = {&conditions,         &monotony, &rescaling, &symmetry, &events,
+                                  &events_of_elements, &threads,  &controls,  &explain};
 
 struct Settings {
   std::string family;

@@ -34,7 +34,8 @@ struct Family {
   Verdict (*after)() = nullptr;
 };
 
-extern const Family conditions, monotony, rescaling, symmetry, events, events_of_elements, threads, controls;
+extern const Family conditions, monotony, rescaling, symmetry, events, events_of_elements, threads, controls,
+    explain;
 
 // The contact of a trial, fresh, under its pressure.
 inline State pressed(const Scene& scene, double pressure) {

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a press is said to take before it is made: of each control, of tiles on which the press itself is
+// tried and of larger ones, and that nothing is counted, met or changed by it. How often it holds, over
+// random scenes, is in tests/stability/properties/explain.cpp.
+#include "engine/accuracy/expected_transforms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/accuracy/other_grids.hpp"
+#include "engine/core/cost.hpp"
+#include "engine/core/laws_met.hpp"
+#include "engine/surface/generators/self_affine.hpp"
+#include "tests/contact/contacts.hpp"
+
+namespace asperity::expected_transforms_test {
+namespace {
+
+using test::elastic;
+using test::error_of;
+using test::row_of;
+using test::scene_of;
+
+constexpr PressBy controls[] = {PressBy::pressure, PressBy::load, PressBy::approach, PressBy::indentation,
+                                PressBy::flatten};
+
+Scene rough(int nx, int ny, Boundary boundary = Boundary::periodic) {
+  SelfAffineOptions o;
+  o.grid = Grid{nx, ny, 1.0 * nx, 1.0 * ny};
+  o.hurst = 0.8;
+  o.rms_slope = 0.1;
+  o.short_wave = 8;
+  return {self_affine_surface(o).with_material(elastic(1e9)), rigid_material(), boundary, HalfSpaceOptions{},
+          Accuracy{}};
+}
+
+struct Contact {
+  explicit Contact(const Scene& of)
+      : scene(of),
+        geometry(scene, LatticeIsometry(of.lower.grid().nx, of.lower.grid().ny)),
+        plan(make_plan(scene, geometry)) {}
+  ExpectedTransforms expected(PressBy by, double value) const {
+    return expected_transforms(scene, geometry, plan, {by, value, {}});
+  }
+  Plan plan_of(PressBy by, double value) const {
+    return plan_of_press(scene, geometry, plan, {by, value, {}});
+  }
+  Scene scene;
+  ContactGeometry geometry;
+  Plan plan;
+};
+
+// The value of each control that brings one and the same state.
+double value_of(const State& state, PressBy by) {
+  switch (by) {
+    case PressBy::pressure:
+      return state.pressure();
+    case PressBy::load:
+      return state.load();
+    case PressBy::approach:
+      return state.approach();
+    case PressBy::indentation:
+      return state.indentation();
+    case PressBy::flatten:
+      return state.flatten();
+  }
+  return 0;
+}
+
+TEST(TrialGrid, KeepsShapeAndTakesNoMoreThanSomeNodes) {
+  const auto cells = [](int nx, int ny) {
+    const Grid grid = trial_grid(Grid{nx, ny, 3, 2});
+    EXPECT_EQ(grid.size_x, 3);
+    EXPECT_EQ(grid.size_y, 2);
+    return std::pair{grid.nx, grid.ny};
+  };
+  EXPECT_EQ(cells(96, 96), std::pair(96, 96));
+  EXPECT_EQ(cells(97, 96), std::pair(96, 92));
+  EXPECT_EQ(cells(512, 512), std::pair(96, 96));
+  EXPECT_EQ(cells(4096, 4096), std::pair(724, 724));
+  EXPECT_EQ(cells(1024, 256), std::pair(192, 48));
+  EXPECT_EQ(cells(9216, 1), std::pair(9216, 1));
+  for (const auto& [nx, ny] : {std::pair{4096, 4}, {1 << 20, 1}, {3, 9999}, {20, 100000}, {997, 991}}) {
+    const auto [fewer_x, fewer_y] = cells(nx, ny);
+    const double most = std::max(96.0 * 96, nx * (ny / 32.0));
+    EXPECT_LE(fewer_x * fewer_y, most) << nx << " x " << ny;
+    EXPECT_GE(fewer_x * fewer_y, most / 2) << nx << " x " << ny;
+    EXPECT_GE(fewer_x, std::min(nx, 8));
+    EXPECT_GE(fewer_y, std::min(ny, 8));
+  }
+}
+
+TEST(ExpectedTransforms, OfASmallTileAreThoseOfThePressByEachControl) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
+    const Contact contact(rough(48, 40, boundary));
+    const State state = test::press(contact.scene, PressBy::pressure, 2e7);
+    for (const PressBy by : controls) {
+      const double value = value_of(state, by);
+      const ExpectedTransforms expected = contact.expected(by, value);
+      const State again = test::press(contact.scene, by, value);
+      EXPECT_EQ(expected.transforms, again.cost().total.transforms) << name(by);
+      EXPECT_EQ(expected.tried_on, contact.scene.lower.grid());
+      EXPECT_TRUE(expected.ended && expected.refused.empty());
+      EXPECT_EQ(expected.halvings, 0);
+    }
+  }
+}
+
+TEST(ExpectedTransforms, OfALargerTileAreWithinAFactorOfTwoByEachControl) {
+  const Contact contact(rough(256, 192));
+  const State state = test::press(contact.scene, PressBy::pressure, 1e7);
+  for (const PressBy by : controls) {
+    const double value = value_of(state, by);
+    const ExpectedTransforms expected = contact.expected(by, value);
+    const double taken = test::press(contact.scene, by, value).cost().total.transforms;
+    EXPECT_LT(expected.transforms, 2 * taken) << name(by);
+    EXPECT_GT(expected.transforms, 0.5 * taken) << name(by);
+    EXPECT_EQ(expected.tried_on, (Grid{108, 80, 256, 192}));
+    EXPECT_NEAR(expected.halvings, std::log2(256 * 192 / (108 * 80.0)) / 2, 1e-12);
+  }
+}
+
+TEST(ExpectedTransforms, CostUnderATwentiethOfThePressOn512CellsASide) {
+  const Contact contact(rough(512, 512));
+  const ExpectedTransforms expected = contact.expected(PressBy::pressure, 1e7);
+  EXPECT_GT(expected.work, 0);
+  EXPECT_LT(expected.work, 0.05 * expected.transforms);
+}
+
+TEST(ExpectedTransforms, ThatAreTriedAreNotCountedAndMeetNoLaw) {
+  const Contact contact(rough(40, 40));
+  const double before = cost::transforms();
+  laws_met().follow([] { return 1; });
+  const ExpectedTransforms expected = contact.expected(PressBy::approach, 1e-2);
+  EXPECT_EQ(laws_met().first_line(Law::approach_control), 0);
+  laws_met().follow(nullptr);
+  EXPECT_GT(expected.work, 0);
+  EXPECT_EQ(cost::transforms(), before);
+}
+
+// A step closes under a load that goes as one over the cell: fewer cells under the same load are past it.
+TEST(ExpectedTransforms, NearFullContactAreNotThoseOfFullContact) {
+  Scene scene = rough(192, 192);
+  Field steps = scene.lower.heights();
+  for (int j = 0; j < 192; ++j)
+    for (int i = 0; i < 192; ++i) steps(i, j) = i < 100 ? 1 : 0;
+  SurfaceTraits traits;
+  traits.material = elastic(1e9);
+  traits.periodic = true;
+  scene.lower = Surface(scene.lower.grid(), std::move(steps), traits);
+  const Contact contact(scene);
+  // Between the load that closes the step on cells twice as wide, some 2e8 Pa, and that on these, 4e8 Pa.
+  const double pressure = 2.4e8;
+  const State state = test::press(scene, PressBy::pressure, pressure);
+  ASSERT_LT(state.area_fraction(), 1);
+  const double said = contact.expected(PressBy::pressure, pressure).transforms;
+  const double taken = state.cost().total.transforms;
+  EXPECT_LT(said, 2 * taken);
+  EXPECT_GT(said, 0.5 * taken);
+}
+
+TEST(PlanOfAPress, NamesTheControl) {
+  const Contact contact(rough(128, 128));
+  EXPECT_NE(contact.plan.text().find("  transforms    40 expected of a press by `pressure`, a rough guess; "),
+            std::string::npos)
+      << contact.plan.text();
+  for (const PressBy by : {PressBy::pressure, PressBy::approach, PressBy::flatten}) {
+    const Plan plan = contact.plan_of(by, by == PressBy::pressure ? 1e7 : 0.2);
+    EXPECT_NE(plan.text().find(" expected of the press by `" + std::string(name(by)) +
+                               "`, tried on 96 x 96 cells\n"),
+              std::string::npos)
+        << plan.text();
+    EXPECT_NEAR(plan.seconds / plan.transforms, contact.plan.seconds / contact.plan.transforms, 1e-12);
+    EXPECT_EQ(plan.bytes_peak(), contact.plan.bytes_peak());
+  }
+}
+
+TEST(PlanOfAPress, CountsWhatAnEstimateAdds) {
+  Scene scene = rough(64, 64);
+  const double alone = Contact(scene).plan_of(PressBy::pressure, 1e7).transforms;
+  scene.accuracy.estimate = Accuracy::Estimate::finer;
+  const double finer = Contact(scene).plan_of(PressBy::pressure, 1e7).transforms;
+  EXPECT_NEAR(finer / alone, 1 + estimate_work(scene.lower.grid(), Accuracy::Estimate::finer), 1e-12);
+  EXPECT_GT(finer, 9 * alone);
+}
+
+TEST(PlanOfAPress, OfBoxElementsTakesNoTransforms) {
+  const Contact contact(scene_of(row_of({0, 1, 3, 8}).with_material(elastic(16)), rigid_material()));
+  const Plan plan = contact.plan_of(PressBy::approach, 1);
+  EXPECT_EQ(plan.transforms, 0);
+  EXPECT_NE(plan.text().find("  transforms    0 expected of the press by `approach`\n"), std::string::npos);
+}
+
+TEST(PlanOfAPress, RefusesWhatAPressRefuses) {
+  const Contact contact(rough(40, 40));
+  EXPECT_EQ(error_of([&] { contact.plan_of(PressBy::pressure, -1); }),
+            error_of([&] { test::press(contact.scene, PressBy::pressure, -1); }));
+  EXPECT_NE(error_of([&] { contact.plan_of(PressBy::flatten, 2); }).find("`flatten` is 2"),
+            std::string::npos);
+  // What only the solve finds is told, and the number is the guess.
+  const Plan plan = contact.plan_of(PressBy::approach, 1e6);
+  EXPECT_EQ(plan.transforms, contact.plan.transforms);
+  EXPECT_NE(plan.text().find("cannot be reached"), std::string::npos) << plan.text();
+}
+
+}  // namespace
+}  // namespace asperity::expected_transforms_test
