@@ -18,7 +18,7 @@ State pressed_ball(bool yields) {
   Scene scene{sphere_surface({Grid{32, 32, 1e-3, 1e-3}, 1e-2, SphereShape::paraboloid})
                   .with_material(test::elastic(1e9)),
               rigid_material(), Boundary::free, HalfSpaceOptions{}, Accuracy{}};
-  if (yields) scene.plasticity = PlasticityOptions{.hardness = 1e7};
+  if (yields) scene.plasticity = PlasticityOptions{.hardness = 1e6};
   return test::press(scene, PressBy::load, 0.05);
 }
 
