@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Approach and flattening prescribed: Hertz, consistency with the load they were found at, the limits a
-// periodic tile and a cap set, and grids of any shape.
+// Approach prescribed: Hertz, consistency with the load it was found at, the limits a periodic tile and a cap
+// set, and grids of any shape.
 #include "engine/contact/elasticity/half_space/approach_solve.hpp"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "engine/contact/elasticity/half_space/flattening_solve.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "tests/contact/half_space_problems.hpp"
@@ -98,33 +99,6 @@ TEST(ApproachSolve, SaysThatACapCannotGoOn) {
       EXPECT_EQ(error.code(), ErrorCode::infeasible) << error.what();
     }
   }
-}
-
-TEST(FlatteningSolve, PressesTheShareAskedFor) {
-  for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
-    const HalfSpaceProblem problem = rough_problem(64, boundary, 2, 1e-6);
-    for (const double share : {.01, .3, .8}) {
-      const HalfSpaceAnswer answer = solve_at_flattening(problem, share, Monitor::silent());
-      EXPECT_NEAR(flattened(problem, answer), share, 1e-6 * share);
-      // h − u by its definition.
-      double low = 1e9, high = -1e9;
-      for (std::size_t k = 0; k < answer.gap.size(); ++k) {
-        low = std::min(low, -answer.gap[k] - answer.offset);
-        high = std::max(high, -answer.gap[k] - answer.offset);
-      }
-      EXPECT_NEAR(1 - (high - low) / range(problem.heights->values()).span(), share, 2e-6 * share);
-    }
-    EXPECT_EQ(solve_at_flattening(problem, 0, Monitor::silent()).contacts, 0);
-    EXPECT_THROW(solve_at_flattening(problem, 1.1, Monitor::silent()), Error);
-  }
-}
-
-TEST(FlatteningSolve, OneIsFullContactOfAPeriodicTile) {
-  const HalfSpaceProblem problem = problem_from(
-      make_grid(32, 32, 1, 1), Boundary::periodic,
-      [](double x, double y) { return .01 * std::cos(2 * pi * x) * std::cos(2 * pi * y); }, 1, 1e-6);
-  const HalfSpaceAnswer answer = solve_at_flattening(problem, 1, Monitor::silent());
-  EXPECT_NEAR(flattened(problem, answer), 1, 1e-6);
 }
 
 // Entry V1: ground so soft once it yields that next to no load lies between one approach and another, and

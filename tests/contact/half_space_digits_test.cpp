@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/contact/elasticity/half_space/approach_solve.hpp"
+#include "engine/contact/elasticity/half_space/flattening_solve.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/surface/generators/self_affine.hpp"

@@ -6,6 +6,7 @@
 
 #include "engine/contact/elastic_bodies.hpp"
 #include "engine/contact/elasticity/half_space/line_extension.hpp"
+#include "engine/contact/elasticity/half_space/line_loads.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier_lane_filter.hpp"
 #include "engine/core/laws_met.hpp"
@@ -57,9 +58,11 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   // The last two answers and what the next begins from, while the approach that flattens by so much is
   // sought.
   plan.bytes_to_flatten = grids(5.5);
-  if (LineExtension::serves(grid.hy() / grid.hx(), geometry.boundary())) {
+  const double aspect = grid.hy() / grid.hx();
+  if (keeps_line_loads(aspect)) {
     laws_met().meet(Law::long_cells);
-    plan.buffers.push_back({"lines of cells much longer than wide", grids(2.5), false});
+    const bool along_lines = LineExtension::serves(aspect, geometry.boundary());
+    plan.buffers.push_back({"lines of cells much longer than wide", grids(along_lines ? 3.5 : 1), false});
   }
   if (geometry.overhangs())
     plan.buffers.push_back({"heights, those that nothing faces out of reach", grids(1), false});

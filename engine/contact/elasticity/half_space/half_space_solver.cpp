@@ -11,6 +11,7 @@
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/approach_solve.hpp"
 #include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
+#include "engine/contact/elasticity/half_space/flattening_solve.hpp"
 #include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/half_space_error.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solve.hpp"

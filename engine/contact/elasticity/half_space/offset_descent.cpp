@@ -10,6 +10,7 @@
 #include "engine/contact/elasticity/half_space/descent_nodes.hpp"
 #include "engine/contact/elasticity/half_space/descent_rules.hpp"
 #include "engine/contact/elasticity/half_space/free_set.hpp"
+#include "engine/contact/elasticity/half_space/line_loads.hpp"
 #include "engine/contact/elasticity/half_space/set_preconditioner.hpp"
 #include "engine/core/constants.hpp"
 
@@ -62,8 +63,10 @@ class OffsetDescent {
     for_nodes(nodes(), [n = view()](std::size_t k) { n.pressure[k] = n.settled(k); });
   }
   void find_gap();
+  void settled_lines(std::span<double> target);
   void renew() {
-    settle();
+    settled_lines(work_);
+    std::copy(work_.begin(), work_.end(), f_.pressure.begin());
     find_gap();
   }
   void mark();
@@ -198,14 +201,27 @@ double OffsetDescent<Limit>::turn(double target) {
   })[0];
 }
 
+// Pressures within their bounds, on long cells with the loads of lines kept.
+template <class Limit>
+void OffsetDescent<Limit>::settled_lines(std::span<double> target) {
+  for_nodes(nodes(), [n = view(), to = target.data()](std::size_t k) { to[k] = n.settled(k); });
+  if (!keeps_line_loads(level_.shape.aspect)) return;
+  Array<std::uint8_t> where(nodes());
+  for_nodes(nodes(), [n = view(), to = target.data(), w = where.data()](std::size_t k) {
+    w[k] = n.shifts(k, to[k], true) ? 1 : 0;
+  });
+  keep_line_loads(level_.shape, f_.pressure, where, limit_.upper(), target);
+}
+
 // What settling changes, and a fixed step of the preconditioner where K is dear, at the cost of one
 // application.
 template <class Limit>
 void OffsetDescent<Limit>::settle_step() {
   const bool steps = dear_ && !all_free();
+  settled_lines(direction_);
   if (steps) turn(offset_);
   for_nodes(nodes(), [n = view(), steps, z = work_.data(), d = direction_.data()](std::size_t k) {
-    const double p = n.pressure[k], q = n.settled(k);
+    const double p = n.pressure[k], q = d[k];
     const double next = q + (steps && n.moves(k) ? descent_rules::richardson_step * z[k] : 0.0);
     d[k] = next - p;
     n.pressure[k] = next;
@@ -463,7 +479,7 @@ ChainEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double off
   ChainEnd end;
   end.name = "preconditioned descent at a given approach";
   end.stage = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
-  if (end.stage.converged || effort == ChainEffort::start) return end;
+  if (end.stage.converged || effort != ChainEffort::full) return end;
   end.name = "preconditioned descent at a given approach, downhill";
   end.stage = offset_descent(level, fields, offset, tolerance, careful, effort, true, false);
   return end;

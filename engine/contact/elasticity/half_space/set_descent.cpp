@@ -13,6 +13,7 @@
 #include "engine/contact/elasticity/half_space/descent_nodes.hpp"
 #include "engine/contact/elasticity/half_space/descent_rules.hpp"
 #include "engine/contact/elasticity/half_space/free_set.hpp"
+#include "engine/contact/elasticity/half_space/line_loads.hpp"
 #include "engine/contact/elasticity/half_space/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/set_preconditioner.hpp"
 
@@ -49,6 +50,7 @@ class Descent {
         most_(level.applications + most),
         exact_(exact),
         dear_(Limit::hardens || level.shape.boundary == Boundary::free),
+        keeps_line_loads_(keeps_line_loads(level.shape.aspect)),
         rounds_(
             HalfSpaceCompliance::single_possible(level.shape.nx, level.shape.ny, level.shape.boundary) &&
             (level.shape.single || (std::is_same_v<Stored, float> && level.shape.nodes() >= worth_rounding))),
@@ -88,7 +90,7 @@ class Descent {
   SetPreconditioner<Limit> preconditioner_;
   double tolerance_;
   int most_;
-  const bool exact_, dear_;
+  const bool exact_, dear_, keeps_line_loads_;
   const bool rounds_;  // images are computed in single precision
   const int steps_a_pass_;
   FreeSet set_;
@@ -116,11 +118,13 @@ template <class Limit, class Stored>
 void Descent<Limit, Stored>::project(const ContactQuality& at, std::span<double> target) {
   const double upper = limit_.upper();
   const bool any_interior = at.interior > 0;
+  if (keeps_line_loads_) work_.assign(f_.pressure.begin(), f_.pressure.end());
   for_nodes(nodes(), [n = view(), to = target.data(), any_interior](std::size_t k) {
     const double q = n.settled(k);
     n.free[k] = n.shifts(k, q, any_interior) ? 1 : 0;
     to[k] = q;
   });
+  if (keeps_line_loads_) keep_line_loads(level_.shape, work_, f_.free, upper, target);
   if (project_to_load(target, f_.free, upper, level_.total_load(), target)) return;
   const double elastic_stiffness = level_.short_wave_stiffness;
   const double yielding_stiffness = elastic_stiffness / (1 + elastic_stiffness * limit_.yielding_slope());
@@ -140,6 +144,7 @@ double first_shift(const ContactQuality& at, double load) {
 // small.
 template <class Limit, class Stored>
 std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality& at) const {
+  if (keeps_line_loads_) return {};
   const double load = level_.total_load(), found = set_.shifted_load;
   if (at.interior == 0 || !(std::abs(found - load) < 0.01 * load) || set_.shifted_count == 0) return {};
   return first_shift(at, load) - (found - load) / set_.shifted_count;
