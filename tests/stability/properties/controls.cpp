@@ -2,11 +2,11 @@
 // The same state by its pressure and by what it then reports: pressed again by that approach, indentation or
 // flattening, fresh bodies come to the load within the bounds, for about as many transforms. What no load
 // reaches (past full contact of a periodic tile, on a flat) is refused by name. Cells up to a thousand times
-// longer than wide or wider than long. Of 300 scenes of up to 256 cells a side a press took 1.24 times the
-// transforms by pressure in the middle (by approach 1.13, by flattening 2.4). More than ten times and sixty
-// took 2 of 281 by approach, both on cells over a hundred times longer than wide, and 15 of 280 by
-// flattening; 2 by approach and 4 by flattening were not solved, all on cells over fifteen times longer than
-// wide. The shares below leave room for other seeds.
+// longer than wide or wider than long. Of 1200 scenes, seeds 1 to 20, all were solved; more than ten times
+// and sixty transforms took 16 of 2243 presses by approach or indentation and 25 of 1113 by flattening,
+// nearly all on cells over ten times longer than wide and no more than four of a seed. Of 600 scenes of up to
+// 256 cells a side, seeds 1 and 2, it were 10 of 1120 and 7 of 570; not solved were two by approach and one
+// by flattening that take thousands of transforms by pressure, on cells over 300 times longer than wide.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -23,8 +23,8 @@ namespace {
 
 // Transforms of a press, beside those by pressure: of one that is dear, and in the middle of all.
 constexpr double most_times = 10, most_beside = 60, most_times_in_the_middle = 3;
-// Of the presses by approach or indentation, and of those by flattening: the dear, and those not solved.
-constexpr double most_dear[] = {0.03, 0.14}, most_lost[] = {0.02, 0.03};
+// Of the presses by approach or indentation, and of those by flattening: the dear.
+constexpr double most_dear[] = {0.03, 0.06};
 // What `explain` says of memory may be exceeded by so much, bytes.
 constexpr double most_beyond = 1 << 20;
 
@@ -116,7 +116,7 @@ Verdict after() {
     // One more or less means nothing.
     if (all.dear[flattens] > 1 + most_dear[flattens] * all.presses[flattens])
       return Broken{std::string("dear presses by ") + by, std::to_string(all.dear[flattens])};
-    if (all.lost[flattens] > 1 + most_lost[flattens] * all.presses[flattens])
+    if (all.lost[flattens] > 0)
       return Broken{std::string("presses not solved by ") + by, std::to_string(all.lost[flattens])};
   }
   return {};

@@ -479,7 +479,9 @@ ChainEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double off
   ChainEnd end;
   end.name = "preconditioned descent at a given approach";
   end.stage = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
-  if (end.stage.converged || effort != ChainEffort::full) return end;
+  if (end.stage.converged || effort == ChainEffort::start) return end;
+  // One of the solves of a search: on long cells the load is found sooner.
+  if (effort == ChainEffort::brief && keeps_line_loads(level.shape.aspect)) return end;
   end.name = "preconditioned descent at a given approach, downhill";
   end.stage = offset_descent(level, fields, offset, tolerance, careful, effort, true, false);
   return end;
