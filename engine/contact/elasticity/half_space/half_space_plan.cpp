@@ -66,7 +66,7 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   }
   if (geometry.overhangs())
     plan.buffers.push_back({"heights, those that nothing faces out of reach", grids(1), false});
-  plan.transforms = typical_transforms(geometry.boundary(), grid.hy() / grid.hx());
+  plan.transforms = typical_transforms(geometry.boundary(), aspect);
   // Measured on two threads: a transform of a million nodes takes some 3 ms with all that goes with it, one
   // of 67 million 430 ms.
   constexpr double seconds_per_node = 4e-9;
