@@ -298,6 +298,15 @@ function Profile:write(path) end
 ---@field x? number|string way along x, whole cells (a length, default 0)
 ---@field y? number|string way along y, whole cells (a length, default 0)
 
+---@class asperity.options.contact.explain
+---@field pressure? number|string mean pressure over the tile (a pressure)
+---@field load? number|string force on the whole tile (a force)
+---@field approach? number|string from first touch (a length)
+---@field indentation? number approach over the peak-to-valley of the combined heights (number)
+---@field flatten? number share of the peak-to-valley pressed away (number from 0 to 1)
+---@field dwell? number|string how long the load stays; read by creep alone (a time at least 0)
+---@field drawn_from? number|string|any|any[] of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from there; or a list of values gone to in turn (number|string|(number|string)[])
+
 ---Two specimens on the bench, how the upper lies on the lower, and what the scene computes: the one value that changes.
 ---@class asperity.Contact
 local Contact = {}
@@ -341,9 +350,10 @@ function Contact:log(path) end
 ---@return asperity.Contact
 function Contact:copy() end
 
----What a press will compute, what is off, and the expected transforms, memory and time.
+---What a press will compute, what is off, and the expected transforms, memory and time. Given the press, with the keys of contact:press, that press is tried on fewer cells and its transforms are told by that, mostly within a factor of two of what it takes; without, they are a rough guess for a press by pressure. Presses nothing.
+---@param options? asperity.options.contact.explain
 ---@return asperity.Plan
-function Contact:explain() end
+function Contact:explain(options) end
 
 ---The lower body's surface as it is now, with all that yielded.
 ---@return asperity.Surface
@@ -525,6 +535,7 @@ function Field:picture(path, options) end
 ---@field terms table[] the terms of the problem: effect and sentence
 ---@field buffers table[] what is held in memory: name, bytes, and whether it is kept
 ---@field transforms number Fourier transforms expected of a press, in equivalents of the finest grid
+---@field press string which press these are of and how that is known; empty where explain was told none
 ---@field bytes integer memory expected, at most
 ---@field seconds number expected for the first press, a rough guess
 ---@field effects_run string[] effects that the scene names
