@@ -5,6 +5,7 @@
 #include "bindings/lua/registry/mistakes.hpp"
 #include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/session.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {

@@ -7,6 +7,7 @@
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/session.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
