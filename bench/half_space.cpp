@@ -30,8 +30,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
-#include "engine/contact/elasticity/half_space/half_space_solve.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/surface/generators/self_affine.hpp"

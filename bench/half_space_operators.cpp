@@ -12,8 +12,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "engine/contact/elasticity/half_space/contact_preconditioner.hpp"
-#include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/fourier/fourier_filter.hpp"
 #include "engine/core/parallel.hpp"

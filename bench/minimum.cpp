@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
-#include "engine/contact/elasticity/half_space/half_space_solve.hpp"
+#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/friction/junction_law.hpp"
 #include "engine/specimen/specimen_pair.hpp"

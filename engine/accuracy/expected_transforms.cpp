@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/accuracy/other_grids.hpp"
-#include "engine/contact/elasticity/half_space/half_order_pyramid.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"

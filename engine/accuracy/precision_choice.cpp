@@ -3,7 +3,7 @@
 
 #include <variant>
 
-#include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 
 namespace asperity {
 

@@ -5,7 +5,7 @@
 
 #include "engine/contact/elasticity/box/box_solver.hpp"
 #include "engine/contact/elasticity/box/yielding_box_solver.hpp"
-#include "engine/contact/elasticity/half_space/adhesive_solver.hpp"
+#include "engine/contact/elasticity/half_space/adhesion/adhesive_solver.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solver.hpp"
 
 namespace asperity {

@@ -18,7 +18,7 @@ namespace asperity {
 // Relative, of two numbers that differ in last digits alone. Other last digits of the heights move the answer
 // of a solve within what its tolerance leaves open, 1e-6 unless a script says otherwise; of what is read of a
 // state that is up to ten times as much (a flattening met to 1e-8 says its pressure to 9e-8,
-// tests/contact/half_space_digits_test.cpp).
+// tests/contact/half_space/half_space_digits_test.cpp).
 inline constexpr double digits_kept = 1e-5;
 
 struct LawMet {

@@ -9,10 +9,10 @@
 #include <map>
 #include <thread>
 
-#include "engine/contact/elasticity/half_space/half_space_error.hpp"
+#include "engine/contact/elasticity/half_space/error/half_space_error.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
-#include "tests/contact/half_space_problems.hpp"
+#include "tests/contact/half_space/half_space_problems.hpp"
 
 namespace asperity::algebraic_error_test {
 namespace {

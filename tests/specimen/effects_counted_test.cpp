@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/contact/effects/catalogue.hpp"
-#include "engine/contact/elasticity/half_space/half_space_solve.hpp"
+#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/core/text.hpp"
 #include "engine/friction/junction_law.hpp"
 #include "engine/specimen/specimen_pair.hpp"

@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/contact/elasticity/half_space/contact_preconditioner.hpp"
-#include "engine/contact/elasticity/half_space/half_space_compliance.hpp"
-#include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 
 namespace asperity {
 

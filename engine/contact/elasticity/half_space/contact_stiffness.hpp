@@ -4,7 +4,7 @@
 // past their yield pressure give way by 1/K_h besides K.
 #pragma once
 
-#include "engine/contact/elasticity/half_space/half_space_solve.hpp"
+#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 
 namespace asperity {
 

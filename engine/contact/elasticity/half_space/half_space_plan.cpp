@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "engine/contact/elastic_bodies.hpp"
-#include "engine/contact/elasticity/half_space/line_extension.hpp"
-#include "engine/contact/elasticity/half_space/line_loads.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/line_extension.hpp"
+#include "engine/contact/elasticity/half_space/solver/line_loads.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier_lane_filter.hpp"
 #include "engine/core/laws_met.hpp"

@@ -7,8 +7,8 @@
 #include <functional>
 #include <string_view>
 
-#include "engine/contact/elasticity/half_space/adhesive_solve.hpp"
-#include "engine/contact/elasticity/half_space/half_space_solve.hpp"
+#include "engine/contact/elasticity/half_space/adhesion/adhesive_solve.hpp"
+#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/core/files/result_store.hpp"
 
 namespace asperity {

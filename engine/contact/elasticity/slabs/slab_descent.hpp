@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "engine/contact/elasticity/half_space/descent_chain.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent_chain.hpp"
 #include "engine/contact/elasticity/slabs/slab_level.hpp"
 
 namespace asperity {

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <span>
 
-#include "engine/contact/elasticity/half_space/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/core/slabs/row_exchange.hpp"
 #include "engine/core/slabs/team.hpp"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/contact/elasticity/half_space/pressure_limit.hpp"
+#include "engine/contact/elasticity/half_space/operator/pressure_limit.hpp"
 #include "engine/contact/elasticity/slabs/slab_quality.hpp"
 
 namespace asperity {

@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "engine/contact/elasticity/half_space/level_transfer.hpp"
+#include "engine/contact/elasticity/half_space/solver/level_transfer.hpp"
 #include "engine/core/slabs/team.hpp"
 
 namespace asperity {

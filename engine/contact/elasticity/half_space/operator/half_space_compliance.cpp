@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "engine/contact/elasticity/half_space/operator/love_kernel.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/cost.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/fourier/fourier_batch.hpp"
+#include "engine/core/fourier/fourier_filter.hpp"
+#include "engine/core/fourier/fourier_lane_filter.hpp"
+#include "engine/core/grid.hpp"
+#include "engine/core/parallel.hpp"
+
+namespace asperity {
+
+namespace {
+
+int period(int n, Boundary boundary) {
+  return boundary == Boundary::periodic ? n : good_fourier_length(2 * n - 1);
+}
+
+// 2/|q| of the waves (a, b), b = 0 … period/2; 0 for the mean.
+void periodic_multiplier(int nx, int ny, double aspect, int a, std::span<double> factors) {
+  const double qx = 2 * std::numbers::pi * static_cast<double>(a) / nx;
+  const double per_wave = 2 * std::numbers::pi / (ny * aspect);
+  for (std::size_t b = 0; b < factors.size(); ++b) {
+    const double qy = per_wave * static_cast<int>(b);
+    factors[b] = 2 / std::sqrt(qx * qx + qy * qy);
+  }
+  if (a == 0) factors[0] = 0;
+}
+
+// The transforms of even sequences, each given from 0 to period/2, are real; they replace them.
+constexpr int sequences_at_once = BatchFourier::rows;
+void transform_even(const BatchFourier& fourier, std::span<double* const> halves) {
+  const int period = fourier.length();
+  const auto count = static_cast<int>(halves.size());
+  const auto whole_length = static_cast<std::size_t>(period), bins = static_cast<std::size_t>(fourier.bins());
+  BatchFourier::Work work(fourier);
+  Array<double> wholes(whole_length * halves.size());
+  Array<std::complex<double>> spectra(bins * halves.size());
+  std::array<const double*, sequences_at_once> from;
+  std::array<std::complex<double>*, sequences_at_once> to;
+  for (std::size_t r = 0; r < halves.size(); ++r) {
+    double* const whole = wholes.data() + r * whole_length;
+    for (int k = 0; k < period; ++k) whole[k] = halves[r][std::min(k, period - k)];
+    from[r] = whole;
+    to[r] = spectra.data() + r * bins;
+  }
+  fourier.real_forward(work, from.data(), period, count, to.data());
+  for (std::size_t r = 0; r < halves.size(); ++r)
+    std::transform(to[r], to[r] + bins, halves[r], [](std::complex<double> bin) { return bin.real(); });
+}
+
+// Love's coefficients at all distances up to half the padded period, evenly continued, transformed. The
+// distances that no pair of nodes has are multiplied with zeros only.
+void free_multiplier(int period_x, int period_y, double aspect, std::span<double> multiplier) {
+  const LoveKernel love(aspect);
+  const BatchFourier along(period_x), across(period_y);
+  const int bins_x = period_x / 2 + 1, bins_y = period_y / 2 + 1;
+  const auto batches = [](int count) { return (count + sequences_at_once - 1) / sequences_at_once; };
+  parallel_for(batches(bins_y), [&](std::int64_t block) {
+    const int first = static_cast<int>(block) * sequences_at_once;
+    const int rows = std::min(sequences_at_once, bins_y - first);
+    const auto row_length = static_cast<std::size_t>(bins_x);
+    Array<double> values(row_length * sequences_at_once);
+    std::vector<double*> halves;
+    for (int j = 0; j < rows; ++j) {
+      double* const row = values.data() + static_cast<std::size_t>(j) * row_length;
+      for (int i = 0; i < bins_x; ++i) row[i] = love(i, first + j);
+      halves.push_back(row);
+    }
+    transform_even(along, halves);
+    for (std::size_t a = 0; a < row_length; ++a)
+      for (int j = 0; j < rows; ++j)
+        multiplier[a * static_cast<std::size_t>(bins_y) + static_cast<std::size_t>(first + j)] =
+            values[static_cast<std::size_t>(j) * row_length + a];
+  });
+  parallel_for(batches(bins_x), [&](std::int64_t block) {
+    const int first = static_cast<int>(block) * sequences_at_once;
+    std::vector<double*> halves;
+    for (int a = first; a < std::min(first + sequences_at_once, bins_x); ++a)
+      halves.push_back(multiplier.data() + static_cast<std::size_t>(a) * static_cast<std::size_t>(bins_y));
+    transform_even(across, halves);
+  });
+}
+
+}  // namespace
+
+// By lanes of rows where the period allows, else by transforms of any length. Of two precisions one rests:
+// what double alone would hold, and the multiplier in single.
+struct HalfSpaceCompliance::Parts {
+  int nx, ny, period_x, period_y;
+  double aspect;
+  Boundary boundary;
+  double weight;
+  std::optional<FourierLaneFilter<double>> lanes;
+  std::optional<FourierLaneFilter<float>> singles;
+  double scale = 1;  // of pressures, for `singles`
+  std::optional<FourierFilter> plain;
+  Array<double> multiplier;  // of `plain`; the y wave runs fastest
+  Array<double> field;       // where `plain` works if its result is kept nowhere
+
+  Parts(int nx_, int ny_, double aspect_, Boundary boundary_, double weight_, bool single)
+      : nx(nx_),
+        ny(ny_),
+        period_x(period(nx, boundary_)),
+        period_y(period(ny, boundary_)),
+        aspect(aspect_),
+        boundary(boundary_),
+        weight(weight_) {
+    const bool by_lanes = FourierLaneFilter<double>::possible(period_x, period_y);
+    if (!by_lanes || boundary == Boundary::free) {
+      multiplier.resize(bins_x() * bins_y());
+      if (boundary == Boundary::periodic)
+        parallel_for(period_x / 2 + 1, [&](std::int64_t a) {
+          periodic_multiplier(nx, ny, aspect, static_cast<int>(a), column(static_cast<int>(a)));
+        });
+      else
+        free_multiplier(period_x, period_y, aspect, multiplier);
+    }
+    if (!by_lanes) {
+      plain.emplace(nx, ny, period_x, period_y);
+      return;
+    }
+    const auto factors = [this](int a, std::span<double> to) {
+      if (boundary == Boundary::periodic)
+        periodic_multiplier(nx, ny, aspect, a, to);
+      else
+        std::copy_n(column(a).data(), to.size(), to.data());
+    };
+    if (single)
+      singles.emplace(nx, ny, period_x, period_y, factors);
+    else
+      lanes.emplace(nx, ny, period_x, period_y, factors);
+    multiplier = Array<double>();
+  }
+
+  FourierLaneFilter<double>& in_double() {
+    if (singles) singles->rest();
+    return *lanes;
+  }
+  FourierLaneFilter<float>& in_single() {
+    lanes->rest();
+    if (!singles)
+      singles.emplace(nx, ny, period_x, period_y, [this](int a, std::span<double> to) {
+        if (boundary == Boundary::periodic)
+          periodic_multiplier(nx, ny, aspect, a, to);
+        else
+          factors_of(a, to);
+      });
+    return *singles;
+  }
+
+  std::size_t bins_x() const { return static_cast<std::size_t>(period_x / 2 + 1); }
+  std::size_t bins_y() const { return static_cast<std::size_t>(period_y / 2 + 1); }
+  std::span<double> column(int a) {
+    return std::span(multiplier).subspan(static_cast<std::size_t>(a) * bins_y(), bins_y());
+  }
+  // filter(u) of what the source gives.
+  template <class Filter>
+  void by_field(const Source& source, const Sink& sink, std::span<double> u, const Filter& filter) {
+    const auto width = static_cast<std::size_t>(nx);
+    if (u.empty()) {
+      field.resize(width * static_cast<std::size_t>(ny));
+      u = field;
+    }
+    const auto row = [&](std::int64_t j) { return u.data() + static_cast<std::size_t>(j) * width; };
+    parallel_for(ny, [&](std::int64_t j) {
+      const double* const from = source(static_cast<int>(j), row(j));
+      if (from != row(j)) std::copy_n(from, width, row(j));
+    });
+    filter(u);
+    if (sink) parallel_for(ny, [&](std::int64_t j) { sink(static_cast<int>(j), row(j)); });
+  }
+  // The factors of the waves (a, b), b = 0 … period_y/2.
+  void factors_of(int a, std::span<double> factors) {
+    if (lanes)
+      for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = lanes->factor(a, static_cast<int>(b));
+    else if (singles && boundary == Boundary::periodic)
+      periodic_multiplier(nx, ny, aspect, a, factors);
+    else if (singles)
+      for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = singles->factor(a, static_cast<int>(b));
+    else
+      std::copy_n(column(a).data(), factors.size(), factors.data());
+  }
+};
+
+HalfSpaceCompliance::HalfSpaceCompliance(int nx, int ny, double aspect, Boundary boundary, double weight,
+                                         bool single)
+    : parts_(std::make_unique<Parts>(nx, ny, aspect, boundary, weight, single)) {}
+
+HalfSpaceCompliance::~HalfSpaceCompliance() = default;
+HalfSpaceCompliance::HalfSpaceCompliance(HalfSpaceCompliance&&) noexcept = default;
+HalfSpaceCompliance& HalfSpaceCompliance::operator=(HalfSpaceCompliance&&) noexcept = default;
+
+void HalfSpaceCompliance::apply(std::span<const double> p, std::span<double> u) {
+  if (single()) {
+    cost::count_transforms(2 * parts_->weight);
+    return parts_->singles->apply(p, u, parts_->scale);
+  }
+  const std::ptrdiff_t nx = parts_->nx;
+  apply([&](int j, double*) { return p.data() + j * nx; }, {}, u);
+}
+
+void HalfSpaceCompliance::apply(const Source& source, const Sink& sink, std::span<double> u) {
+  Parts& parts = *parts_;
+  cost::count_transforms(2 * parts.weight);
+  if (parts.lanes) return parts.in_double().apply(source, sink, u);
+  if (parts.singles) return parts.singles->apply(source, sink, u);
+  parts.by_field(source, sink, u, [&](std::span<double> field) {
+    parts.plain->apply(field, field, [&](int a, std::span<double> factors) { parts.factors_of(a, factors); });
+  });
+}
+
+void HalfSpaceCompliance::apply_rounded(const Source& source, const Sink& sink, std::span<double> u) {
+  if (!parts_->lanes) return apply(source, sink, u);
+  cost::count_transforms(2 * parts_->weight);
+  parts_->in_single().apply(source, sink, u);
+}
+
+bool HalfSpaceCompliance::single() const { return parts_->singles && !parts_->lanes; }
+
+bool HalfSpaceCompliance::single_possible(int nx, int ny, Boundary boundary) {
+  return FourierLaneFilter<double>::possible(period(nx, boundary), period(ny, boundary));
+}
+
+void HalfSpaceCompliance::count_pressures_in(double unit) {
+  if (unit > 0 && std::isfinite(unit))
+    parts_->scale = std::ldexp(1.0, std::clamp(-std::ilogb(unit), -1000, 1000));
+}
+
+void HalfSpaceCompliance::apply_in_double(const Source& source, const Sink& sink, std::span<double> u) {
+  Parts& parts = *parts_;
+  if (!single()) return apply(source, sink, u);
+  parts.singles->rest();
+  if (parts.boundary == Boundary::free) {
+    HalfSpaceCompliance exact(parts.nx, parts.ny, parts.aspect, parts.boundary, parts.weight);
+    return exact.apply(source, sink, u);
+  }
+  cost::count_transforms(2 * parts.weight);
+  parts.by_field(source, sink, u, [&](std::span<double> field) {
+    FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
+    filter.apply(field, field, [&](int a, std::span<double> factors) {
+      periodic_multiplier(parts.nx, parts.ny, parts.aspect, a, factors);
+    });
+  });
+}
+
+void HalfSpaceCompliance::apply_inverse(std::span<const double> u, std::span<double> p) {
+  if (parts_->boundary == Boundary::free)
+    throw Error(ErrorCode::internal, "a free half-space has no inverse filter");
+  apply_period_inverse(u, p);
+}
+
+void HalfSpaceCompliance::apply_period_inverse(std::span<const double> u, std::span<double> p) {
+  Parts& parts = *parts_;
+  FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
+  filter.apply(u, p, [&](int a, std::span<double> factors) {
+    parts.factors_of(a, factors);
+    for (double& factor : factors) factor = factor > 0 ? 1 / factor : 0;
+  });
+  cost::count_transforms(2 * parts.weight);
+}
+
+HalfSpaceCompliance::Spectrum HalfSpaceCompliance::spectrum() const {
+  const int period_x = parts_->period_x, period_y = parts_->period_y;
+  // Waves that one bin of the quarter of the spectrum stands for.
+  const auto waves = [](int bin, int period) { return bin == 0 || 2 * bin == period ? 1.0 : 2.0; };
+  Array<double> sums(static_cast<std::size_t>(period_x / 2 + 1)), inverse(sums.size());
+  Array<double> column(parts_->bins_y());
+  Spectrum found{std::numeric_limits<double>::infinity(), 0, 0, 0};
+  const bool mean_is_free = parts_->boundary == Boundary::periodic;
+  for (int a = 0; a <= period_x / 2; ++a) {
+    parts_->factors_of(a, column);
+    double sum = 0, inverse_sum = 0;
+    for (int b = 0; b <= period_y / 2; ++b) {
+      if (mean_is_free && a == 0 && b == 0) continue;
+      const double factor = column[static_cast<std::size_t>(b)];
+      found.least = std::min(found.least, factor);
+      found.greatest = std::max(found.greatest, factor);
+      sum += waves(b, period_y) * factor;
+      inverse_sum += waves(b, period_y) / factor;
+    }
+    sums[static_cast<std::size_t>(a)] = waves(a, period_x) * sum;
+    inverse[static_cast<std::size_t>(a)] = waves(a, period_x) * inverse_sum;
+  }
+  const double n = static_cast<double>(period_x) * period_y;
+  found.node = block_sum(sums) / n;
+  found.inverse_node = block_sum(inverse) / n;
+  return found;
+}
+
+double HalfSpaceCompliance::transform_work() const {
+  const double n = static_cast<double>(parts_->period_x) * parts_->period_y;
+  return n * elementary::log2(std::max(n, 2.0));
+}
+
+std::int64_t HalfSpaceCompliance::bytes(int nx, int ny, Boundary boundary, bool single) {
+  const int period_x = period(nx, boundary), period_y = period(ny, boundary);
+  if (FourierLaneFilter<double>::possible(period_x, period_y))
+    return single ? FourierLaneFilter<float>::bytes(nx, ny, period_x, period_y)
+                  : FourierLaneFilter<double>::bytes(nx, ny, period_x, period_y);
+  return FourierFilter::bytes(nx, ny, period_x, period_y) +
+         static_cast<std::int64_t>(sizeof(double)) * (period_x / 2 + 1) * (period_y / 2 + 1);
+}
+
+}  // namespace asperity

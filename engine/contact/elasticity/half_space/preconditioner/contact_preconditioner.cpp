@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sweeps are done tile by tile with a margin as wide as there are sweeps, so that a tile needs
+// nothing of its neighbours and stays in the cache, and in it only on the groups of eight nodes of one colour
+// that are near the edge of the free set. A sweep makes the nodes of one colour of a chessboard, off the free
+// set, the mean of their four neighbours, which all are of the other. Its transpose passes what a node holds
+// on to its neighbours, a quarter to each: what a node has passed on by then is v = D (y + N v), taken colour
+// by colour in the opposite order, where N adds up the four neighbours and D is 1/4 off the free set and 0
+// on it. On a line of nodes there are two neighbours, and halves.
+#include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/contact/elasticity/half_space/preconditioner/edge_rows.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/free_tiles.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/line_extension.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/smooth_extension.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/scratch_pool.hpp"
+
+namespace asperity {
+
+namespace {
+
+using namespace edge_rows;
+
+constexpr int tile_width = FreeTiles::width;
+
+// From value k on.
+void take(const ContactPreconditioner::Step& step, std::size_t k, std::size_t n) {
+  if (step.length != 0) add_times(step.length, step.more + k, n, step.values + k);
+}
+}  // namespace
+
+class ContactPreconditioner::Parts {
+ public:
+  Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps, double weight);
+  void set_free(std::span<const std::uint8_t> free);
+  double spread(const Residual& r, const Step& step);
+  void gather(const Keep& keep);
+  SmoothRow<double> smooth(int j, double factor) const { return rest_.row(j, 0, factor * grow_); }
+  double smooth_sum() const { return grow_ * rest_sum_; }
+  void add_smooth(std::span<double> z) const;
+  std::size_t tiles() const { return tiles_.count(); }
+  std::size_t nodes() const { return tiles_.nodes(); }
+
+ private:
+  // A tile with its margin, laid out as FreeTiles has it.
+  struct Patch {
+    Array<float> given, now;
+    float sums[2 * tile_width];
+    explicit Patch(std::size_t places) : given(places), now(places) {}
+  };
+  // Sums over the hats: of the free nodes, and of what is passed on.
+  struct Hats {
+    SmoothExtension::Sums free, passed;
+  };
+
+  std::size_t node(int i, int j) const { return tiles_.node(i, j); }
+  ScratchPool<Patch>::Loan borrow() {
+    return patches_.borrow([this] { return std::make_unique<Patch>(tiles_.patch_places()); });
+  }
+  template <class Put>
+  void load(Patch& patch, const FreeTile& tile, const Put& put) const;
+  void extend(const FreeTile& tile, const Residual& scaled);
+  void gather_back(std::size_t number, Patch& patch, std::span<const float> y, const Keep& keep);
+  // Of long cells.
+  double spread_along_lines(const Residual& scaled, const Step& step);
+  void gather_along_lines(const Keep& keep);
+  void no_smooth_field();
+  double greatest(const Residual& r, const Step& step) const;
+  template <class Add>
+  void add_up_hats(const Add& add, Array<double>& total);
+  // From the sums over hats to values at their points.
+  void divide(Array<double>& sums) const;
+
+  int nx_, ny_;
+  float share_;  // of a neighbour in the mean of them
+  HalfOrderPyramid pyramid_;
+  SmoothExtension smooth_;
+  Array<double> free_hats_, sums_;       // sums of hats over the free set, and of what is passed on
+  SmoothExtension::Field<float> level_;  // of the residual,
+  SmoothExtension::Field<double> rest_;  // and of what is gathered
+  double rest_sum_ = 0;                  // of the field of rest_ over the free set
+  std::span<const float> spread_;        // B Ext r/grow_; empty where r is 0
+  double grow_ = 1;                      // a power of two
+  FreeTiles tiles_;
+  std::optional<LineExtension> lines_;  // of long cells, in place of sweeps and smooth fields
+  UnsetArray<float> gathered_;          // by them
+  std::vector<Hats> hats_;              // of each tile
+  ScratchPool<Patch> patches_;
+};
+
+ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps,
+                                    double weight)
+    : nx_(nx),
+      ny_(ny),
+      share_(nx == 1 || ny == 1 ? 0.5f : 0.25f),
+      pyramid_(nx, ny, aspect, boundary, weight),
+      smooth_(nx, ny, boundary),
+      free_hats_(smooth_.size()),
+      sums_(smooth_.size()),
+      level_(smooth_),
+      rest_(smooth_),
+      tiles_(nx, ny, boundary, sweeps) {
+  if (LineExtension::serves(aspect, boundary)) {
+    lines_.emplace(nx, ny, boundary, aspect > 1);
+    gathered_.resize(tiles_.nodes());
+    no_smooth_field();
+    return;
+  }
+  for (std::size_t k = 0; k < tiles_.count(); ++k) {
+    const FreeTile& tile = tiles_[k];
+    const SmoothExtension::Sums sums(smooth_, tile.x, tile.y, tile.width, tile.height);
+    hats_.push_back({sums, sums});
+  }
+}
+
+// Calls put(place of the row, column, node, length) for the stretches of a patch that lie on the grid; what
+// lies beyond is 0. So are the rows on either side of the patch, which sweeping back just reaches: no tile
+// writes the first of them, but in the last a taller tile may have been before. What an earlier tile left
+// beside the patch is farther off than there are sweeps.
+template <class Put>
+void ContactPreconditioner::Parts::load(Patch& patch, const FreeTile& tile, const Put& put) const {
+  const int height = tiles_.patch_height(tile);
+  for (int j = 0; j < height; ++j) {
+    const std::size_t place = tiles_.patch_row(j);
+    if (tiles_.bounded()) std::fill_n(patch.now.data() + place, tiles_.row_places(), 0.0f);
+    tiles_.each_run(tile, j, [&](std::size_t column, std::size_t from, std::size_t length) {
+      put(place, column, from, length);
+    });
+  }
+  std::fill_n(patch.now.data() + tiles_.patch_row(height), tiles_.row_places(), 0.0f);
+}
+
+void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) {
+  if (lines_) {
+    tiles_.set(free, [](std::size_t) {});
+    lines_->set_free(free);
+    return;
+  }
+  tiles_.set(free, [&](std::size_t number) {
+    const FreeTile& tile = tiles_[number];
+    SmoothExtension::Sums& hats = hats_[number].free;
+    std::array<double, 2 * tile_width> sums;
+    hats.clear();
+    for (int j = tile.y; j < tile.y + tile.height && tile.holds_free; ++j)
+      add_marks(tiles_.marks(node(tile.x, j)), static_cast<std::size_t>(tile.width),
+                hats.row<double>(j, sums));
+    hats.finish<double>(sums);
+  });
+  std::fill(free_hats_.begin(), free_hats_.end(), 0.0);
+  for (const Hats& hats : hats_) hats.free.add_to(free_hats_);
+}
+
+// total = the sums over the hats of what add(tile, patch) gives to each tile's own.
+template <class Add>
+void ContactPreconditioner::Parts::add_up_hats(const Add& add, Array<double>& total) {
+  parallel_for(static_cast<std::int64_t>(tiles_.count()), [&](std::int64_t k) {
+    const auto number = static_cast<std::size_t>(k);
+    SmoothExtension::Sums& hats = hats_[number].passed;
+    const auto patch = borrow();
+    hats.clear();
+    add(number, *patch);
+    hats.finish<float>(patch->sums);
+  });
+  std::fill(total.begin(), total.end(), 0.0);
+  for (const Hats& hats : hats_) hats.passed.add_to(total);
+}
+
+void ContactPreconditioner::Parts::divide(Array<double>& sums) const {
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= smooth_.divisor(k, free_hats_[k]);
+}
+
+void ContactPreconditioner::Parts::extend(const FreeTile& tile, const Residual& r) {
+  const auto width = static_cast<std::size_t>(tile.width);
+  float* const extended = pyramid_.input().data();
+  if (tile.reaches_free && !tile.swept) {  // every node is free
+    for (int j = tile.y; j < tile.y + tile.height; ++j) {
+      const std::size_t k = node(tile.x, j);
+      convert(r.values + k, r.factor, r.offset, width, extended + k);
+    }
+    return;
+  }
+  if (!tile.reaches_free) {
+    for (int j = tile.y; j < tile.y + tile.height; ++j)
+      fill(level_.row(j, static_cast<std::size_t>(tile.x)), width, extended + node(tile.x, j));
+    return;
+  }
+  const auto patch = borrow();
+  const auto nx = static_cast<std::size_t>(nx_);
+  load(*patch, tile, [&](std::size_t row, std::size_t column, std::size_t from, std::size_t length) {
+    start_free(tiles_.marks(from), r.values + from, r.factor, r.offset,
+               level_.row(static_cast<int>(from / nx), from % nx), length, column,
+               static_cast<std::size_t>(tiles_.half()), patch->now.data() + row);
+  });
+  // Nothing is farther from the free set than there have been sweeps.
+  for (int s = 1; s <= tiles_.sweeps(); ++s)
+    for (const int odd : {0, 1})
+      sweep_groups(tile.groups[s % 2][odd].within(s), odd != 0, tiles_.half(), share_, patch->now.data());
+  for (int j = 0; j < tile.height; ++j) {
+    merge(patch->now.data() + tiles_.core_row(j), tiles_.half(),
+          level_.row(tile.y + j, static_cast<std::size_t>(tile.x)), width,
+          extended + node(tile.x, tile.y + j));
+  }
+}
+
+// z = (y + N v) on the free set, v being what has been passed on off it, less the smooth field that is yet to
+// come; what that is made from goes to the hats.
+void ContactPreconditioner::Parts::gather_back(std::size_t number, Patch& patch, std::span<const float> y,
+                                               const Keep& keep) {
+  const FreeTile& tile = tiles_[number];
+  SmoothExtension::Sums& hats = hats_[number].passed;
+  const auto width = static_cast<std::size_t>(tile.width);
+  if (!tile.holds_free) {
+    for (int j = tile.y; j < tile.y + tile.height; ++j) {
+      const std::size_t k = node(tile.x, j);
+      add_values(y.data() + k, width, hats.row<float>(j, patch.sums));
+      keep(number, k, width, nullptr, 0);
+    }
+    return;
+  }
+  if (tile.swept) {
+    load(patch, tile, [&](std::size_t row, std::size_t column, std::size_t from, std::size_t length) {
+      start_bound(y.data() + from, length, column, static_cast<std::size_t>(tiles_.half()),
+                  patch.given.data() + row, patch.now.data() + row);
+    });
+    // Nothing matters that is farther from the free set than there are sweeps to come.
+    for (int s = tiles_.sweeps(); s >= 1; --s)
+      for (const int odd : {0, 1})
+        sweep_back_groups(tile.groups[s % 2][odd].within(s), odd != 0, tiles_.half(), share_,
+                          patch.given.data(), patch.now.data());
+  }
+  float sum[tile_width];
+  for (int j = 0; j < tile.height; ++j) {
+    const std::size_t k = node(tile.x, tile.y + j);
+    if (tile.swept) {
+      add_neighbours(tiles_.marks(k), y.data() + k, patch.now.data() + tiles_.core_row(j), tiles_.half(),
+                     width, sum);
+    } else {
+      std::copy_n(y.data() + k, width, sum);
+    }
+    add_difference(y.data() + k, sum, width, hats.row<float>(tile.y + j, patch.sums));
+    keep(number, k, width, sum, grow_);
+  }
+}
+
+void ContactPreconditioner::Parts::no_smooth_field() {
+  std::fill(sums_.begin(), sums_.end(), 0.0);
+  rest_.set(sums_);
+  rest_sum_ = 0;
+}
+
+double ContactPreconditioner::Parts::spread_along_lines(const Residual& r, const Step& step) {
+  parallel_for(ny_, [&](std::int64_t j) {
+    const std::size_t begin = node(0, static_cast<int>(j));
+    take(step, begin, static_cast<std::size_t>(nx_));
+    const std::uint8_t* const free = tiles_.marks(begin);
+    float* const to = pyramid_.input().data() + begin;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(nx_); ++i)
+      to[i] = free[i] != 0 ? static_cast<float>(r.offset + r.factor * r.values[begin + i]) : 0.0f;
+  });
+  lines_->extend(pyramid_.input());
+  spread_ = pyramid_.apply();
+  return pyramid_.product() * grow_ * grow_;
+}
+
+void ContactPreconditioner::Parts::gather_along_lines(const Keep& keep) {
+  std::copy(spread_.begin(), spread_.end(), gathered_.begin());
+  lines_->gather(gathered_);
+  for (int j = 0; j < ny_; ++j)
+    keep(0, node(0, j), static_cast<std::size_t>(nx_), gathered_.data() + node(0, j), grow_);
+}
+
+// Roughly: of a few rows, and of all only if that finds nothing.
+double ContactPreconditioner::Parts::greatest(const Residual& r, const Step& step) const {
+  constexpr int few = 32;
+  const auto width = static_cast<std::size_t>(nx_);
+  for (const int stride : {std::max(1, ny_ / few), 1}) {
+    double most = 0;
+    for (int j = 0; j < ny_; j += stride) {
+      const std::uint8_t* const free = tiles_.marks(node(0, j));
+      const double* const values = r.values + node(0, j);
+      const double* const more = step.more ? step.more + node(0, j) : values;
+      for (std::size_t i = 0; i < width; ++i) {
+        const double stepped = values[i] + step.length * more[i];
+        const double value = std::abs(r.offset + r.factor * stepped), counted = free[i] != 0 ? value : 0.0;
+        most = counted > most ? counted : most;
+      }
+    }
+    if (most > 0) return most;
+  }
+  return 0;
+}
+
+double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step) {
+  // Single precision has little range: near 1, and by a power of two, which rounds nothing.
+  const double most = greatest(r, step);
+  spread_ = {};
+  if (!(most > 0)) {
+    parallel_for(ny_, [&](std::int64_t j) {
+      take(step, node(0, static_cast<int>(j)), static_cast<std::size_t>(nx_));
+    });
+    return 0;
+  }
+  const int exponent = std::clamp(std::ilogb(most), -1000, 1000);
+  const double shrink = std::ldexp(1.0, -exponent);
+  grow_ = std::ldexp(1.0, exponent);
+  const Residual near_one{r.values, r.factor * shrink, r.offset * shrink};
+  if (lines_) return spread_along_lines(near_one, step);
+  const auto pass_on_residual = [&](std::size_t number, Patch& patch) {
+    const FreeTile& tile = tiles_[number];
+    SmoothExtension::Sums& hats = hats_[number].passed;
+    const auto width = static_cast<std::size_t>(tile.width);
+    for (int j = tile.y; j < tile.y + tile.height; ++j) {
+      const std::size_t k = node(tile.x, j);
+      take(step, k, width);
+      if (!tile.holds_free) continue;
+      add_residual(tiles_.marks(k), near_one.values + k, near_one.factor, near_one.offset, width,
+                   hats.row<float>(j, patch.sums));
+    }
+  };
+  add_up_hats(pass_on_residual, sums_);
+  divide(sums_);
+  level_.set(sums_);
+  parallel_for(static_cast<std::int64_t>(tiles_.count()),
+               [&](std::int64_t k) { extend(tiles_[static_cast<std::size_t>(k)], near_one); });
+  spread_ = pyramid_.apply();
+  // Ext is the transpose of what gathers: r·z = Ext r·B Ext r.
+  return pyramid_.product() * grow_ * grow_;
+}
+
+void ContactPreconditioner::Parts::gather(const Keep& keep) {
+  if (spread_.empty()) {
+    for (int j = 0; j < ny_; ++j) keep(0, node(0, j), static_cast<std::size_t>(nx_), nullptr, 0);
+    no_smooth_field();
+    return;
+  }
+  if (lines_) {
+    gather_along_lines(keep);
+    return;
+  }
+  // With Ext = L (1 − C) + C, L being the sweeps and C the smooth field, Extᵀ y = Lᵀ y + Cᵀ (y − Lᵀ y).
+  add_up_hats([&](std::size_t number, Patch& patch) { gather_back(number, patch, spread_, keep); }, sums_);
+  divide(sums_);
+  rest_.set(sums_);
+  rest_sum_ = 0;
+  for (std::size_t k = 0; k < sums_.size(); ++k) rest_sum_ += sums_[k] * free_hats_[k];
+}
+
+void ContactPreconditioner::Parts::add_smooth(std::span<double> z) const {
+  parallel_for(ny_, [&](std::int64_t j) {
+    const std::size_t begin = node(0, static_cast<int>(j));
+    add_free(tiles_.marks(begin), smooth(static_cast<int>(j), 1), static_cast<std::size_t>(nx_),
+             z.data() + begin);
+  });
+}
+
+ContactPreconditioner::ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, double weight,
+                                             int sweeps)
+    : parts_(std::make_unique<Parts>(nx, ny, aspect, boundary, sweeps, weight)) {}
+
+ContactPreconditioner::~ContactPreconditioner() = default;
+ContactPreconditioner::ContactPreconditioner(ContactPreconditioner&&) noexcept = default;
+ContactPreconditioner& ContactPreconditioner::operator=(ContactPreconditioner&&) noexcept = default;
+
+void ContactPreconditioner::set_free(std::span<const std::uint8_t> free) { parts_->set_free(free); }
+
+void ContactPreconditioner::apply(std::span<const double> r, std::span<double> z) {
+  if (r.size() != parts_->nodes() || z.size() != parts_->nodes())
+    throw Error(ErrorCode::internal, "a preconditioner of another grid's values");
+  parts_->spread(Residual{r.data()}, {});
+  parts_->gather([&](std::size_t, std::size_t first, std::size_t n, const float* values, double factor) {
+    if (values)
+      convert(values, factor, n, z.data() + first);
+    else
+      std::fill_n(z.data() + first, n, 0.0);
+  });
+  parts_->add_smooth(z);
+}
+
+double ContactPreconditioner::spread(const Residual& r, const Step& step) { return parts_->spread(r, step); }
+SmoothRow<double> ContactPreconditioner::smooth(int j, double factor) const {
+  return parts_->smooth(j, factor);
+}
+double ContactPreconditioner::smooth_sum() const { return parts_->smooth_sum(); }
+void ContactPreconditioner::gather(const Keep& keep) { parts_->gather(keep); }
+
+std::size_t ContactPreconditioner::tiles() const { return parts_->tiles(); }
+
+std::int64_t ContactPreconditioner::bytes(int nx, int ny, double aspect, Boundary boundary) {
+  // The free set, the groups of eight nodes with their margins', the rows of smooth fields, and a patch a
+  // thread.
+  constexpr std::int64_t patch = 12 * (tile_width + 64) * (FreeTiles::height + 32);
+  return HalfOrderPyramid::bytes(nx, ny, aspect, boundary) + 2 * static_cast<std::int64_t>(nx) * ny +
+         SmoothExtension::field_bytes(nx, ny) + patch * thread_count() +
+         (LineExtension::serves(aspect, boundary)
+              ? LineExtension::bytes(nx, ny) + 4 * static_cast<std::int64_t>(nx) * ny
+              : 0);
+}
+
+}  // namespace asperity

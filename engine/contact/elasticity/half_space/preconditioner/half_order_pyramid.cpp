@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "engine/contact/elasticity/half_space/operator/lane_terms.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/cost.hpp"
+#include "engine/core/parallel.hpp"
+
+namespace asperity {
+
+namespace {
+
+// Factors of cos(iX) cos(jY) in the stencil: the fit of least greatest error of S(t) + w(t)² |alias|/2
+// to |t|/2 under S(0) = 0. Without the zero sum the long waves go wrong.
+constexpr float s00 = 1.13600f, s10 = -0.53897f, s11 = -0.25386f;
+constexpr float s20 = 0.06862f, s21 = 0.01861f, s22 = 0.02134f;
+
+// Where the cells are this near to square, the square cell's stencil serves.
+constexpr double squareness = 1.15;
+
+constexpr int coarsest = 16;
+constexpr int halo = 2;
+
+int rows_per_block(int nx) { return std::clamp(32768 / nx, 4, 64); }
+std::int64_t block_count(int items, int block) {
+  return (static_cast<std::int64_t>(items) + block - 1) / block;
+}
+
+// A row with a margin on both sides, beyond the rim 0 or the other end of the row.
+class MarginedRow {
+ public:
+  MarginedRow(int nx, bool wraps)
+      : nx_(nx), wraps_(wraps), values_(static_cast<std::size_t>(nx + 2 * halo)) {}
+  float* values() { return values_.data() + halo; }
+  void close() {
+    if (!wraps_) return;
+    for (int i = 1; i <= halo; ++i) {
+      values()[-i] = values()[((nx_ - i) % nx_ + nx_) % nx_];
+      values()[nx_ - 1 + i] = values()[(i - 1) % nx_];
+    }
+  }
+
+ private:
+  int nx_;
+  bool wraps_;
+  Array<float> values_;
+};
+
+int bottom_period(int n, Boundary boundary) {
+  return boundary == Boundary::periodic ? n : good_fourier_length(2 * n);
+}
+
+// to = 1/4 below + 1/2 here + 1/4 above.
+void weigh(const float* __restrict below, const float* __restrict here, const float* __restrict above, int n,
+           float* __restrict to) {
+  for (int i = 0; i < n; ++i) to[i] = 0.25f * (below[i] + above[i]) + 0.5f * here[i];
+}
+
+// to = (a + b)/4: 2 W up of one coarse row, a = b, or of the two beside a row.
+void add_quarters(const float* a, const float* b, int n, float* __restrict to) {
+  for (int i = 0; i < n; ++i) to[i] = 0.25f * (a[i] + b[i]);
+}
+
+void weigh_every_second(const float* __restrict from, int n, float* __restrict to) {
+  for (int i = 0; i < n; ++i) to[i] = 0.25f * (from[2 * i - 1] + from[2 * i + 1]) + 0.5f * from[2 * i];
+}
+
+typedef float Sixteen __attribute__((vector_size(64)));
+typedef float Eight __attribute__((vector_size(32)));
+typedef float SixteenAnywhere __attribute__((vector_size(64), aligned(4), may_alias));
+typedef float EightAnywhere __attribute__((vector_size(32), aligned(4), may_alias));
+constexpr int lanes = 16;
+
+inline __attribute__((always_inline)) void read(const float* from, Sixteen& to) {
+  to = *reinterpret_cast<const SixteenAnywhere*>(from);
+}
+inline __attribute__((always_inline)) void read(const float* from, float& to) { to = *from; }
+inline __attribute__((always_inline)) void put(const Sixteen& from, float* to) {
+  *reinterpret_cast<SixteenAnywhere*>(to) = from;
+}
+inline __attribute__((always_inline)) void put(const float& from, float* to) { *to = from; }
+// At node i of a row that has twice the nodes of `coarse`: its values, and between them their means.
+inline __attribute__((always_inline)) void interpolate(const float* coarse, int i, Sixteen& to) {
+  const Eight even = *reinterpret_cast<const EightAnywhere*>(coarse + i / 2);
+  const Eight next = *reinterpret_cast<const EightAnywhere*>(coarse + i / 2 + 1);
+  const Eight odd = 0.5f * (even + next);
+  to = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+inline __attribute__((always_inline)) void interpolate(const float* coarse, int i, float& to) {
+  to = i % 2 == 0 ? coarse[i / 2] : 0.5f * (coarse[i / 2] + coarse[i / 2 + 1]);
+}
+
+// Calls loop.operator()<Value>(i) for sixteen nodes at a time, and then for each that is left.
+template <class Loop>
+inline __attribute__((always_inline)) void each(int n, const Loop& loop) {
+  int i = 0;
+  for (; i + lanes <= n; i += lanes) loop.template operator()<Sixteen>(i);
+  for (; i < n; ++i) loop.template operator()<float>(i);
+}
+
+struct FiveRows {
+  const float *far_below, *below, *here, *above, *far_above;
+};
+
+// The sums over the rows of the stencil: what stays in its column, with what comes from the coarse grid, goes
+// one and goes two columns aside.
+void stencil_columns(const FiveRows& five, const float* coarse, int n, float* c0, float* c1, float* c2) {
+  each(n, [=, rows = five]<class Value>(int i) {
+    Value far_below, below, here, above, far_above, from_coarse;
+    read(rows.far_below + i, far_below);
+    read(rows.below + i, below);
+    read(rows.here + i, here);
+    read(rows.above + i, above);
+    read(rows.far_above + i, far_above);
+    interpolate(coarse, i, from_coarse);
+    const Value r1 = below + above, r2 = far_below + far_above;
+    put(from_coarse + (s00 * here + 0.5f * s10 * r1 + 0.5f * s20 * r2), c0 + i);
+    put(0.5f * s10 * here + 0.25f * s11 * r1 + 0.25f * s21 * r2, c1 + i);
+    put(0.5f * s20 * here + 0.25f * s21 * r1 + 0.25f * s22 * r2, c2 + i);
+  });
+}
+
+void stencil_rows(const float* c0, const float* c1, const float* c2, int n, float* to) {
+  each(n, [=]<class Value>(int i) {
+    Value centre, before, after, far_before, far_after;
+    read(c0 + i, centre);
+    read(c1 + i - 1, before);
+    read(c1 + i + 1, after);
+    read(c2 + i - 2, far_before);
+    read(c2 + i + 2, far_after);
+    put(centre + (before + after) + (far_before + far_after), to + i);
+  });
+}
+
+// a·b, added up in double precision but for 32 terms at a time.
+double product_of_rows(const float* a, const float* b, int n) {
+  constexpr int chunk = 32 * lanes;
+  double sum = 0;
+  int i = 0;
+  while (i + lanes <= n) {
+    Sixteen part = {};
+    for (const int end = std::min(i + chunk, n); i + lanes <= end; i += lanes) {
+      Sixteen x, y;
+      read(a + i, x);
+      read(b + i, y);
+      part += x * y;
+    }
+    for (int lane = 0; lane < lanes; ++lane) sum += static_cast<double>(part[lane]);
+  }
+  for (; i < n; ++i) sum += static_cast<double>(a[i] * b[i]);
+  return sum;
+}
+
+double work(double nodes) { return nodes * elementary::log2(std::max(nodes, 2.0)); }
+
+}  // namespace
+
+std::vector<HalfOrderPyramid::Level> HalfOrderPyramid::shape(int nx, int ny, double aspect,
+                                                             Boundary boundary) {
+  std::vector<Level> levels{{nx, ny, {}, {}}};
+  if (aspect > squareness || aspect * squareness < 1) return levels;
+  const bool wraps = boundary == Boundary::periodic;
+  while (std::min(levels.back().nx, levels.back().ny) > coarsest) {
+    const int fine_x = levels.back().nx, fine_y = levels.back().ny;
+    if (wraps && (fine_x % 2 != 0 || fine_y % 2 != 0)) break;
+    // Beyond a free rim, one coarse node may still feel the last fine one.
+    const int more = wraps ? 0 : 1;
+    levels.push_back({fine_x / 2 + more, fine_y / 2 + more, {}, {}});
+  }
+  return levels;
+}
+
+HalfOrderPyramid::HalfOrderPyramid(int nx, int ny, double aspect, Boundary boundary, double weight)
+    : wraps_(boundary == Boundary::periodic),
+      weight_(weight),
+      transform_share_(1),
+      levels_(shape(nx, ny, aspect, boundary)),
+      zeros_(static_cast<std::size_t>(nx), 0.0f),
+      filter_(levels_.back().nx, levels_.back().ny, bottom_period(levels_.back().nx, boundary),
+              bottom_period(levels_.back().ny, boundary)) {
+  for (Level& level : levels_) {
+    const auto nodes = static_cast<std::size_t>(level.nx) * static_cast<std::size_t>(level.ny);
+    level.in.resize(nodes);
+    level.out.resize(nodes);
+  }
+  const Level& last = levels_.back();
+  const int period_x = bottom_period(last.nx, boundary), period_y = bottom_period(last.ny, boundary);
+  transform_share_ = work(static_cast<double>(period_x) * period_y) /
+                     work(static_cast<double>(bottom_period(nx, boundary)) * bottom_period(ny, boundary));
+  const int bins_x = period_x / 2 + 1, bins_y = period_y / 2 + 1;
+  multiplier_.resize(static_cast<std::size_t>(bins_x) * static_cast<std::size_t>(bins_y));
+  for (int a = 0; a < bins_x; ++a)
+    for (int b = 0; b < bins_y; ++b)
+      multiplier_[static_cast<std::size_t>(a) * static_cast<std::size_t>(bins_y) +
+                  static_cast<std::size_t>(b)] =
+          std::numbers::pi * elementary::hypot(static_cast<double>(a) / period_x, b / (period_y * aspect));
+  work_.resize(last.in.size());
+}
+
+std::int64_t HalfOrderPyramid::bytes(int nx, int ny, double aspect, Boundary boundary) {
+  std::int64_t total = 0;
+  const auto levels = shape(nx, ny, aspect, boundary);
+  for (const Level& level : levels)
+    total += 2 * static_cast<std::int64_t>(sizeof(float)) * level.nx * level.ny;
+  const Level& last = levels.back();
+  const int period_x = bottom_period(last.nx, boundary), period_y = bottom_period(last.ny, boundary);
+  return total + FourierFilter::bytes(last.nx, last.ny, period_x, period_y) +
+         static_cast<std::int64_t>(sizeof(double)) *
+             (static_cast<std::int64_t>(last.nx) * last.ny +
+              static_cast<std::int64_t>(period_x / 2 + 1) * (period_y / 2 + 1));
+}
+
+const float* HalfOrderPyramid::row(const UnsetArray<float>& field, const Level& level, int j) const {
+  if (wraps_)
+    j = (j + level.ny) % level.ny;
+  else if (j < 0 || j >= level.ny)
+    return zeros_.data();
+  return field.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(level.nx);
+}
+
+// coarse.in = every second node of W fine.in.
+void HalfOrderPyramid::restrict_to(const Level& fine, Level& coarse) const {
+  const int rows = rows_per_block(fine.nx);
+  parallel_for(block_count(coarse.ny, rows), [&](std::int64_t block) {
+    MarginedRow weighted(fine.nx, wraps_);
+    const int first = static_cast<int>(block) * rows;
+    for (int j = first; j < std::min(first + rows, coarse.ny); ++j) {
+      weigh(row(fine.in, fine, 2 * j - 1), row(fine.in, fine, 2 * j), row(fine.in, fine, 2 * j + 1), fine.nx,
+            weighted.values());
+      weighted.close();
+      weigh_every_second(weighted.values(), coarse.nx, coarse.row_in(j));
+    }
+  });
+}
+
+// fine.out = S fine.in + 2 W up(coarse.out).
+void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
+  const int nx = fine.nx;
+  const int rows = rows_per_block(nx);
+  const std::int64_t blocks = block_count(fine.ny, rows);
+  const bool finest = &fine == &levels_.front();
+  Array<std::array<double, 1>> products(finest ? static_cast<std::size_t>(blocks) : 0);
+  parallel_for(blocks, [&](std::int64_t block) {
+    MarginedRow aside(nx, wraps_), far_aside(nx, wraps_), weighted(coarse.nx, wraps_);
+    UnsetArray<float> centre(static_cast<std::size_t>(nx));
+    const int first = static_cast<int>(block) * rows;
+    for (int j = first; j < std::min(first + rows, fine.ny); ++j) {
+      const float* const from = row(coarse.out, coarse, j / 2);
+      const float* const next = j % 2 == 0 ? from : row(coarse.out, coarse, j / 2 + 1);
+      add_quarters(from, next, coarse.nx, weighted.values());
+      weighted.close();
+      const FiveRows five{row(fine.in, fine, j - 2), row(fine.in, fine, j - 1), row(fine.in, fine, j),
+                          row(fine.in, fine, j + 1), row(fine.in, fine, j + 2)};
+      stencil_columns(five, weighted.values(), nx, centre.data(), aside.values(), far_aside.values());
+      aside.close();
+      far_aside.close();
+      stencil_rows(centre.data(), aside.values(), far_aside.values(), nx, fine.row_out(j));
+      if (finest)
+        products[static_cast<std::size_t>(block)][0] += product_of_rows(fine.row_in(j), fine.row_out(j), nx);
+    }
+  });
+  if (finest) product_ = added_up(products)[0];
+}
+
+void HalfOrderPyramid::transform_coarsest() {
+  Level& last = levels_.back();
+  std::copy(last.in.begin(), last.in.end(), work_.begin());
+  const auto bins_y = static_cast<std::size_t>(filter_.bins_y());
+  filter_.apply(work_, work_, [&](int a, std::span<double> factors) {
+    std::copy_n(multiplier_.data() + static_cast<std::size_t>(a) * bins_y, bins_y, factors.begin());
+  });
+  std::transform(work_.begin(), work_.end(), last.out.begin(),
+                 [](double v) { return static_cast<float>(v); });
+  constexpr double negligible = 1e-3;
+  if (transform_share_ > negligible) cost::count_transforms(2 * weight_ * transform_share_);
+}
+
+std::span<const float> HalfOrderPyramid::apply() {
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) restrict_to(levels_[l], levels_[l + 1]);
+  transform_coarsest();
+  for (std::size_t l = levels_.size() - 1; l-- > 0;) add_up(levels_[l], levels_[l + 1]);
+  if (levels_.size() == 1) {
+    Level& only = levels_.front();
+    product_ = 0;
+    for (int j = 0; j < only.ny; ++j) product_ += product_of_rows(only.row_in(j), only.row_out(j), only.nx);
+  }
+  return levels_.front().out;
+}
+
+}  // namespace asperity

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+// Of the preconditioner. With four, one random scene in 2000 of ground that hardens weakly stalled.
+int sweeps_under(const PressureLimit& limit) {
+  return std::holds_alternative<LinearHardening>(limit) ? 8 : 4;
+}
+}  // namespace
+
+ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double> raw_heights,
+                           double height_origin, double height_factor, PressureLimit pressure_limit,
+                           double mean)
+    : shape(level_shape),
+      limit(std::move(pressure_limit)),
+      mean_pressure(mean),
+      compliance(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, shape.single),
+      preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, sweeps_under(limit)),
+      short_wave_stiffness(std::numbers::pi / 4 / std::sqrt(shape.aspect)),
+      heights_(raw_heights),
+      origin_(height_origin),
+      factor_(height_factor),
+      unit_(mean > 0 && std::isfinite(mean) ? std::ldexp(1.0, std::ilogb(mean)) : 1) {
+  compliance.count_pressures_in(unit_);
+}
+
+void ContactLevel::unpressed_gap(std::size_t first, std::size_t n, double* g) const {
+  for_stretch(0, n, [=, h = heights_.data() + first, origin = origin_, factor = factor_](std::size_t k) {
+    g[k] = (origin - h[k]) * factor;
+  });
+}
+
+void ContactLevel::gap(std::span<const double> p, std::span<double> g) {
+  gap_beside(p, immobile_pressure(), g);
+}
+
+void ContactLevel::gap_beside_mean(std::span<const double> p, std::span<double> g) { gap_beside(p, 0, g); }
+
+void ContactLevel::gap_beside(std::span<const double> p, double mean, std::span<double> g) {
+  ++applications;
+  const auto nx = static_cast<std::size_t>(shape.nx);
+  const auto source = [=](int j, double* row) -> const double* {
+    const std::size_t begin = static_cast<std::size_t>(j) * nx;
+    for_stretch(0, nx, [=, from = p.data() + begin](std::size_t k) { row[k] = from[k] - mean; });
+    return row;
+  };
+  const auto sink = [=, h = heights_.data(), origin = origin_, factor = factor_](int j, const double* row) {
+    const std::size_t begin = static_cast<std::size_t>(j) * nx;
+    for_stretch(0, nx, [=, h = h + begin, to = g.data() + begin](std::size_t k) {
+      to[k] = row[k] - (h[k] - origin) * factor;
+    });
+  };
+  compliance.apply_in_double(source, sink, g);
+}
+
+}  // namespace asperity

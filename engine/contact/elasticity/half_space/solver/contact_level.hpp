@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contact problem on one of the nested grids, in its own cell units: hx = 1, hy = aspect, E* = 1,
+// heights divided by the rms of the finest grid, pressures by E*·rms/hx. Holds the operator and
+// its preconditioner on the free nodes; the descents read the heights from the caller's field, so that none
+// are copied.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "engine/contact/boundary.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/operator/pressure_limit.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
+
+namespace asperity {
+
+// What a level is made of; all plain data.
+struct LevelShape {
+  int nx = 0, ny = 0;
+  double aspect = 1;
+  Boundary boundary = Boundary::periodic;
+  double weight = 1;    // of one transform, in transforms of the finest grid
+  bool single = false;  // what steps change is computed in single precision, gaps of pressures in double
+
+  std::size_t nodes() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
+};
+
+class ContactLevel {
+ public:
+  // heights: any unit, `height_origin` is taken off and the rest multiplied by `height_factor`.
+  ContactLevel(const LevelShape& level_shape, std::span<const double> raw_heights, double height_origin,
+               double height_factor, PressureLimit pressure_limit, double mean_pressure);
+
+  const LevelShape shape;
+  const PressureLimit limit;
+  const double mean_pressure;
+  HalfSpaceCompliance compliance;
+  ContactPreconditioner preconditioner;
+  // Pressure per gap of a short wave: orders nodes that leave or enter the contact.
+  const double short_wave_stiffness;
+  // Told the residual after each pass; throws to stop the solve.
+  std::function<void(double)> report;
+  int applications = 0;  // of K so far
+  // What gaps are measured by: the rms of the finest grid, unless its heights are flat.
+  double length = 1;
+
+  std::size_t nodes() const { return shape.nodes(); }
+  double height(std::size_t k) const { return (heights_[k] - origin_) * factor_; }
+  // g = −h of n nodes from `first`, the gap where nothing presses.
+  void unpressed_gap(std::size_t first, std::size_t n, double* g) const;
+  // Heights, and with them gaps, are counted from `height_origin` from now on.
+  void count_from(double height_origin) { origin_ = height_origin; }
+  // A power of two, about the mean pressure.
+  double pressure_unit() const { return unit_; }
+  double total_load() const { return mean_pressure * static_cast<double>(nodes()); }
+
+  void apply(std::span<const double> p, std::span<double> u) {
+    ++applications;
+    compliance.apply(p, u);
+  }
+  // Row by row, as HalfSpaceCompliance::apply or apply_rounded, of pressures in pressure_unit().
+  void apply(const HalfSpaceCompliance::Source& source, const HalfSpaceCompliance::Sink& sink, bool rounded) {
+    ++applications;
+    if (rounded)
+      compliance.apply_rounded(source, sink, {});
+    else
+      compliance.apply(source, sink, {});
+  }
+  // In double precision always; `work`, of as many values as there are nodes, is overwritten.
+  void apply_in_double(const HalfSpaceCompliance::Source& source, const HalfSpaceCompliance::Sink& sink,
+                       std::span<double> work) {
+    ++applications;
+    compliance.apply_in_double(source, sink, work);
+  }
+  // On a periodic tile the mean pressure moves nothing, and may be so large that beside it p has lost digits.
+  double immobile_pressure() const { return shape.boundary == Boundary::free ? 0 : mean_pressure; }
+  // g = K p − h, in double precision always: …
+  void gap(std::span<const double> p, std::span<double> g);
+  // … the same of a p from which it has been taken already. g may be p.
+  void gap_beside_mean(std::span<const double> p, std::span<double> g);
+
+ private:
+  void gap_beside(std::span<const double> p, double mean, std::span<double> g);
+
+  std::span<const double> heights_;
+  double origin_, factor_, unit_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/solver/flattening_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/solver/full_contact.hpp"
+#include "engine/contact/elasticity/half_space/solver/level_transfer.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_search.hpp"
+#include "engine/core/arithmetic/bracketed_secant.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/constants.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+// What a node past its yield pressure has given way.
+double hardened(const YieldLaw& law, const HalfSpaceAnswer& answer, std::size_t k) {
+  return law.hardens()
+             ? std::max(0.0, answer.pressure[k] - (law.yield ? (*law.yield)[k] : law.cap)) / law.hardening
+             : 0.0;
+}
+
+// How far the highest point and the lowest of h − u − w lie below those of h, from u itself: sums of small
+// terms where a light load moves little. One application.
+double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Range span) {
+  const Field& h = *problem.heights;
+  const Grid& grid = problem.grid;
+  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight);
+  Array<double> u(h.size());
+  compliance.apply(answer.pressure.values(), u);
+  const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
+  const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
+    const double down = length * u[k] + hardened(problem.yield, answer, k);
+    const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
+    const double high = capped ? answer.approach : (span.max - h[k]) + down;
+    const double low = capped ? span.span() - answer.approach : (h[k] - span.min) - down;
+    v[0] = faces(problem, k) ? high : infinity;
+    v[1] = faces(problem, k) ? low : infinity;
+  });
+  return ends[0] + ends[1];
+}
+
+}  // namespace
+
+double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
+  const Field& h = *problem.heights;
+  const Field& g = answer.gap;
+  const Range span = known_range(h.values());
+  if (!(span.span() > 0) || answer.contacts == 0) return 0;
+  constexpr double few_digits = 1e-4;
+  if (answer.approach < few_digits * span.span()) return sunk_lightly(problem, answer, span) / span.span();
+  // h − u − w = −(g + w + δ), w what yielded; neither of them where nothing faces the ground.
+  const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
+    const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
+    const double low = capped ? std::max(0.0, g[k]) : g[k] + hardened(problem.yield, answer, k);
+    v[0] = faces(problem, k) ? low : infinity;
+    v[1] = faces(problem, k) ? -low : infinity;
+  });
+  return 1 - (-ends[1] - ends[0]) / span.span();
+}
+
+namespace {
+
+// Coarser grids find about where to begin; those of fewer nodes than this are not worth it.
+constexpr std::size_t coarse_nodes = 64 * 64;
+
+// The same contact on the next coarser grid.
+std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem) {
+  const Grid& grid = problem.grid;
+  if (grid.nodes() <= coarse_nodes) return {};
+  const LevelShape fine{grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, 1};
+  const auto next = coarser(fine);
+  if (!next) return {};
+  HalfSpaceProblem result = problem;
+  const int nx = next->shape.nx, ny = next->shape.ny;
+  result.grid = {nx, ny, nx * next->pitch_x * grid.hx(), ny * next->pitch_y * grid.hy()};
+  auto on_coarse = [&](const Field& field) {
+    Field values(nx, ny);
+    const Array<double> restricted = restrict_to(fine, *next, field.values());
+    std::copy(restricted.begin(), restricted.end(), values.values().begin());
+    return std::make_shared<const Field>(std::move(values));
+  };
+  result.heights = on_coarse(*problem.heights);
+  if (!(known_range(result.heights->values()).span() > 0)) return {};  // all that differs lies between
+  if (problem.yield.yield) result.yield.yield = on_coarse(*problem.yield.yield);
+  const auto work = [](const Grid& of) {
+    const auto n = static_cast<double>(of.nodes());
+    return n * elementary::log(n);
+  };
+  result.weight = problem.weight * work(result.grid) / work(grid);
+  return result;
+}
+
+// Pressures and gaps on the line through two answers, further along it by `steps` from the second to the
+// first; in place of the second. None where that is too far to mean anything.
+HalfSpaceAnswer further_along(const HalfSpaceAnswer& last, HalfSpaceAnswer before, double steps) {
+  constexpr double furthest_guess = 2;
+  if (before.pressure.size() != last.pressure.size() || !(std::abs(steps) <= furthest_guess)) {
+    before.pressure = last.pressure;
+    before.gap = last.gap;
+  } else {
+    for_nodes(last.pressure.size(), [=, apart = last.approach - before.approach, p = last.pressure.data(),
+                                     g = last.gap.data(), to_p = before.pressure.data(),
+                                     to_g = before.gap.data()](std::size_t k) {
+      to_p[k] = p[k] == to_p[k] ? p[k] : p[k] + steps * (p[k] - to_p[k]);
+      to_g[k] = g[k] + steps * ((g[k] - to_g[k]) + apart);  // of K p − h, from the approach of `last`
+    });
+  }
+  before.approach = last.approach;
+  return before;
+}
+
+// Whether a search had better go by the load: near full contact of a periodic tile, where an approach hardly
+// tells gaps apart, unless most of it yields, where a load does not.
+bool load_tells_more(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
+  return problem.boundary == Boundary::periodic && 2 * answer.yielded < answer.contacts &&
+         2 * answer.contacts > static_cast<std::int64_t>(problem.grid.nodes());
+}
+
+// The answer that flattens by a share, to `accuracy` of it, the search begun at an approach: what is pressed
+// away never falls as the approach grows, and nothing but the displacement of the lowest point keeps the two
+// apart. Where the load should be sought instead, an answer that did not converge.
+HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
+                                    std::optional<double> guess, double accuracy, Monitor& monitor) {
+  constexpr int most_solves = 60;
+  constexpr double loosest = 1e-2, near = 0.3, least_tolerance = 1e-13;
+  const auto heights = problem.heights->values();
+  const Range ends = known_range(heights);
+  const double span = ends.span();
+  // All of the height is pressed away from full contact on: just before it.
+  const double wanted = std::min(fraction, 1 - 0.4 * accuracy) * span;
+  double approach = guess.value_or(wanted), most = infinity;
+  BracketedSecant bracket(wanted);
+  if (problem.boundary == Boundary::periodic) {
+    const double full = approach_of_full_contact(problem);
+    if (!guess) approach = wanted * (1 - wanted / span * (1 - full / span));
+    if (!problem.yield.hardens()) {
+      most = problem.yield.caps() ? span : full;
+      bracket = BracketedSecant(wanted, {0, 0}, {most, span});
+      approach = std::min(approach, most * (1 - 1e-6));
+    }
+  }
+  BracketedSecant root = bracket;
+  HalfSpaceProblem now = problem;
+  now.tolerance = std::max(accuracy, loosest);
+  HalfSpaceAnswer answer, before;
+  double pressed = 0;
+  double gain = 1;  // of what is pressed away, or of an error in it, per approach; at least 1
+  bool afresh = false;
+  int applications = 0;
+  for (int solve = 0; solve < most_solves; ++solve) {
+    HalfSpaceAnswer start;
+    if (solve > 0 && std::abs(approach / answer.approach - 1) < near) {
+      const double steps = (approach - answer.approach) / (answer.approach - before.approach);
+      start = further_along(answer, std::move(before), steps);
+    }
+    before = std::move(answer);
+    const bool warm = !start.pressure.empty();
+    answer = solve_at_offset(now, approach, 0.5 * wanted, warm ? &start : nullptr, afresh, monitor);
+    applications += answer.iterations;
+    if (warm && !answer.converged && now.tolerance > accuracy) {  // it may have been too far off after all
+      answer = solve_at_offset(now, approach, 0.5 * wanted, nullptr, afresh, monitor);
+      applications += answer.iterations;
+    }
+    const double pressed_before = std::exchange(pressed, flattened(problem, answer) * span);
+    if (solve > 0 && approach != before.approach)
+      gain = std::max(1.0, std::abs((pressed - pressed_before) / (approach - before.approach)));
+    const double error = std::abs(pressed - wanted) / wanted;
+    if (load_tells_more(problem, answer)) break;
+    const double tightest = std::max(least_tolerance, accuracy / gain);
+    const bool loose = now.tolerance > tightest;
+    // Tighter than asked for, rounding may be in the way.
+    if (!answer.converged && (now.tolerance > accuracy || answer.certificate.worst() > accuracy)) break;
+    const bool near_enough = error <= 0.5 * accuracy;
+    const bool too_far = near_enough && most_at_the_cap(problem, answer);
+    if (too_far && now.tolerance > least_tolerance) {  // perhaps by what the tolerance left
+      now.tolerance = std::max(least_tolerance, 0.01 * now.tolerance);
+      continue;
+    }
+    if (near_enough && !loose && !too_far) {
+      if (afresh) break;
+      afresh = true;
+      continue;
+    }
+    const bool sure = error > now.tolerance * gain;
+    root.take({approach, too_far ? infinity : pressed}, sure || too_far);
+    now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? 0.05 * error : 0.02 * error) / gain));
+    if (near_enough && !too_far) continue;  // the same again, by a tighter solve
+    const std::optional<double> next = root.next();
+    if (!next && !loose) break;
+    if (!next) {  // a loose solve was put on the wrong side
+      now.tolerance = std::max(tightest, 0.01 * now.tolerance);
+      root = bracket;
+    }
+    approach = next.value_or(approach);
+  }
+  if (load_tells_more(problem, answer)) {
+    answer.converged = false;
+    answer.iterations = applications;
+    return answer;
+  }
+  if (!afresh) {
+    answer.gap = {};
+    HalfSpaceAnswer start = std::move(answer);
+    answer = solve_at_offset(now, approach, 0.5 * wanted, &start, true, monitor);
+    applications += answer.iterations;
+  }
+  answer.iterations = applications;
+  answer.certificate.load =
+      std::max(answer.certificate.load, std::abs(flattened(problem, answer) / fraction - 1));
+  answer.converged = answer.converged && answer.certificate.worst() <= problem.tolerance;
+  return answer;
+}
+
+// The same by its load, from what was `begun`.
+HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer begun,
+                                Monitor& monitor) {
+  SoughtByLoad sought;
+  sought.measure = [&](const HalfSpaceAnswer& found) { return flattened(problem, found); };
+  // All of the height is pressed away from full contact on: just before it.
+  sought.wanted = std::min(fraction, 1 - 0.4 * problem.tolerance);
+  sought.length = fraction * known_range(problem.heights->values()).span();
+  if (const auto full = pressure_of_full_contact(problem)) sought.above = {*full, 1};
+  return solve_by_load(problem, sought, std::move(begun), monitor);
+}
+
+// About where to begin.
+struct FlatteningGuess {
+  std::optional<double> approach;  // m
+  std::optional<double> pressure;  // Pa, where the load is to be sought
+};
+
+FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fraction) {
+  constexpr double about = 1e-2;
+  std::optional<HalfSpaceProblem> coarse;
+  for (auto next = coarser_problem(problem); next; next = coarser_problem(*coarse)) coarse = std::move(next);
+  if (!coarse) return {};
+  coarse->tolerance = about;
+  HalfSpaceAnswer there = flatten_by_approach(*coarse, fraction, {}, about, Monitor::silent());
+  const bool by_load = load_tells_more(*coarse, there);
+  if (by_load) there = flatten_by_load(*coarse, fraction, std::move(there), Monitor::silent());
+  if (by_load && there.converged) return {{}, there.mean_pressure};
+  // Coarser grids miss the highest node. Where that is much of the approach they say little.
+  const double higher =
+      known_range(problem.heights->values()).max - known_range(coarse->heights->values()).max;
+  if (!(there.approach > 2 * higher)) return {};
+  return {there.approach + higher, {}};
+}
+
+}  // namespace
+
+HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double fraction, Monitor& monitor) {
+  if (!(fraction >= 0 && fraction <= 1))
+    throw Error(ErrorCode::bad_value, "`flatten` is " + format_short(fraction), "it is a share from 0 to 1");
+  if (fraction == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
+  if (fraction >= 1 - 0.4 * problem.tolerance)
+    if (const auto pressure = pressure_of_full_contact(problem))
+      return solve_at_full_contact(problem, *pressure, 1 - fraction, monitor);
+  const FlatteningGuess guess = guess_on_coarser_grid(problem, fraction);
+  HalfSpaceAnswer answer;
+  if (guess.pressure)
+    answer.mean_pressure = *guess.pressure;
+  else
+    answer = flatten_by_approach(problem, fraction, guess.approach, problem.tolerance, monitor);
+  if (!answer.converged) answer = flatten_by_load(problem, fraction, std::move(answer), monitor);
+  return met(problem, std::move(answer), "a flattening of " + format_short(fraction));
+}
+
+}  // namespace asperity

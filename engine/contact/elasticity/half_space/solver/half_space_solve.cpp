@@ -1,0 +1,465 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
+#include "engine/contact/elasticity/half_space/solver/unconverged.hpp"
+#include "engine/core/arithmetic/bracketed_secant.hpp"
+#include "engine/core/constants.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+std::string pascals(double p) { return format_quantity(p, dimension::pressure); }
+
+// Of the nodes, those that something faces.
+double facing_share(const HalfSpaceProblem& problem) {
+  if (!problem.overhangs) return 1;
+  return static_cast<double>(known_count(problem.heights->values())) /
+         static_cast<double>(problem.grid.nodes());
+}
+
+void check_fields(const HalfSpaceProblem& problem) {
+  check(problem.yield, problem.grid.nx, problem.grid.ny);
+  if (!problem.heights || problem.heights->size() != problem.grid.nodes())
+    throw Error(ErrorCode::internal, "the heights are not on the grid of the contact");
+}
+
+void check(const HalfSpaceProblem& problem, double mean_pressure) {
+  check_fields(problem);
+  if (!(mean_pressure >= 0) || !std::isfinite(mean_pressure))
+    throw Error(ErrorCode::bad_value, "`pressure` is " + pascals(mean_pressure),
+                "a mean pressure is finite and not negative: nothing here pulls");
+  if (mean_pressure > 0 && mean_pressure < 1e-280 * problem.modulus)
+    throw Error(ErrorCode::bad_value,
+                "`pressure` is " + format_short(mean_pressure) +
+                    " Pa, less than 1e-280 of the contact modulus: no double holds its gaps",
+                "give a larger pressure, or none");
+  const YieldLaw& law = problem.yield;
+  const double facing = facing_share(problem);
+  if (law.caps() && mean_pressure >= law.cap * facing) {
+    // To the last digit where fewer would not tell the two apart.
+    const bool alike = mean_pressure != law.cap && pascals(mean_pressure) == pascals(law.cap);
+    const auto shown = [&](double p) { return alike ? format_exact(p) + " Pa" : pascals(p); };
+    if (facing < 1)
+      throw Error(ErrorCode::infeasible,
+                  "a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
+                      shown(law.cap) + ", and the bodies face each other on " +
+                      format_short(100 * facing, 3) + " % of the tile",
+                  "press with less than " + pascals(law.cap * facing) + ", or give `hardening`");
+    throw Error(ErrorCode::infeasible,
+                "a mean pressure of " + shown(mean_pressure) + " cannot be carried: `hardness` is " +
+                    shown(law.cap) + ", and every node would have to carry as much or more",
+                "press with less than the hardness, or give `hardening`");
+  }
+}
+
+// What gaps are measured by where heights say nothing: the displacement of the tile as one punch, about.
+double punch_length(const HalfSpaceProblem& problem, double mean_pressure) {
+  return mean_pressure / problem.modulus * std::sqrt(problem.grid.area());
+}
+
+// Whether the heights say more than rounding. On a free tile a punch whose heights differ by a millionth of
+// its approach is a flat one: no pressure can be so exact as to fill its roughness to the tolerance. On a
+// periodic one that is so only where rounding alone would be seen.
+bool rough(const HalfSpaceProblem& problem, double mean_pressure) {
+  const auto heights = problem.heights->values();
+  if (!(problem.rms > 0)) return false;
+  if (problem.overhangs) {
+    if (known_range(heights).span() == 0) return false;
+  } else {
+    const auto differs = [first = heights.front()](double h) { return h != first; };
+    if (std::none_of(heights.begin(), heights.end(), differs)) return false;
+  }
+  const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
+  return problem.rms > least * punch_length(problem, mean_pressure);
+}
+
+// The scale of heights and pressures that makes the problem one of cell units.
+struct CellUnits {
+  double height = 1;    // m
+  double pressure = 1;  // Pa
+  double origin = 0;    // m, the mean height
+};
+
+CellUnits cell_units(const HalfSpaceProblem& problem, double mean_pressure, bool flat) {
+  CellUnits units;
+  units.origin = problem.overhangs ? known_mean(problem.heights->values()) : mean(problem.heights->values());
+  units.height = flat ? mean_pressure / problem.modulus * problem.grid.hx() : problem.rms;
+  units.pressure = problem.modulus * (units.height / problem.grid.hx());
+  return units;
+}
+
+PressureLimit cell_limit(const YieldLaw& law, const CellUnits& units) {
+  if (!law.hardens()) return PressureCap{law.caps() ? law.cap / units.pressure : infinity};
+  LinearHardening limit;
+  limit.yield = law.yield ? law.yield->data() : nullptr;
+  limit.uniform = law.cap / units.pressure;
+  limit.factor = 1 / units.pressure;
+  limit.compliance = units.pressure / law.hardening / units.height;
+  return limit;
+}
+
+// √mean(slope²) by differences; a little less than the spectral slope.
+double rough_slope(const HalfSpaceProblem& problem) {
+  const Field& h = *problem.heights;
+  const auto nx = static_cast<std::size_t>(h.nx()), ny = static_cast<std::size_t>(h.ny());
+  const double per_x = 1 / problem.grid.hx(), per_y = 1 / problem.grid.hy();
+  Array<std::array<double, 1>> rows(ny);
+  parallel_for(h.ny(), [&](std::int64_t j) {
+    const auto number = static_cast<std::size_t>(j);
+    const double* const here = h.values().data() + number * nx;
+    const double* const above = h.values().data() + (number + 1) % ny * nx;
+    const auto term = [=](std::size_t i, std::size_t right) {
+      const double x = (here[right] - here[i]) * per_x, y = (above[i] - here[i]) * per_y;
+      return x * x + y * y;
+    };
+    rows[number] = over_stretch<1>(0, nx - 1, [=](std::size_t i, double* v) { v[0] = term(i, i + 1); });
+    rows[number][0] += term(nx - 1, 0);
+  });
+  return std::sqrt(added_up(rows)[0] / static_cast<double>(h.size()));
+}
+
+double peak_of(const HalfSpaceProblem& problem) {
+  return (problem.overhangs ? known_range : range)(problem.heights->values()).max;
+}
+
+// The heights, with those of ground that nothing faces at `there`, which follows from what was `asked`.
+Field with_missing_ground_at(const HalfSpaceProblem& problem, double there, const std::string& asked) {
+  Field heights = *problem.heights;
+  if (!std::isfinite(there))
+    throw Error(ErrorCode::bad_value,
+                asked + ", so large that the numbers of the solution leave the range of a double",
+                "check its unit");
+  for (double& h : heights.values())
+    if (std::isnan(h)) h = there;
+  return heights;
+}
+
+Field with_ground_out_of_reach(const HalfSpaceProblem& problem, double lowest, double mean_pressure) {
+  return with_missing_ground_at(problem, lowest - out_of_reach(problem, mean_pressure),
+                                "`pressure` is " + pascals(mean_pressure));
+}
+
+double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.yield)[k] : law.cap; }
+
+}  // namespace
+
+double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {
+  const Grid& grid = problem.grid;
+  // Love's kernel is greatest at the middle of its own cell, 2/(πE*) (hx asinh(hy/hx) + hy asinh(hx/hy)), and
+  // asinh x is below x.
+  const double own = 2 * (grid.hx() + grid.hy()) / (std::numbers::pi * problem.modulus);
+  const double give = problem.yield.hardens() ? 1 / problem.yield.hardening : 0.0;
+  const double most = mean_pressure * static_cast<double>(grid.nodes());
+  const double height = known_range(problem.heights->values()).span();
+  return 2 * (height + most * (own + give)) + problem.rms;
+}
+
+Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure) {
+  const Grid& grid = problem.grid;
+  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary);
+  Field u(grid.nx, grid.ny);
+  compliance.apply(pressure.values(), u.values());
+  const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
+  for (double& value : u.values()) value *= length;
+  return u;
+}
+
+void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
+  const YieldLaw& law = problem.yield;
+  const double cap = law.caps() ? law.cap : infinity;
+  const Field &p = answer.pressure, &g = answer.gap;
+  const double per_hardening = law.hardens() ? 1 / law.hardening : 0;
+  const bool finite = std::isfinite(cap);
+  const double most = finite ? cap : 0.0;
+  std::array<double, 9> found;
+  if (law.hardens())
+    found = over_nodes<5, 4>(p.size(), [&](std::size_t k, double* v) {
+      const double past = p[k] - yields_at(law, k), gap = g[k] + std::max(0.0, past) * per_hardening;
+      v[0] = p[k];
+      v[1] = p[k] > 0 ? 1.0 : 0.0;
+      v[2] = past > 0 ? 1.0 : 0.0;
+      v[3] = p[k] * gap;
+      v[4] = 0;
+      v[5] = v[6] = gap;
+      v[7] = p[k];
+      v[8] = -p[k];
+    });
+  else
+    found = over_nodes<5, 4>(
+        p.size(), [=, p = p.values().data(), g = g.values().data()](std::size_t k, double* v) {
+          const double pressure = p[k], gap = g[k];
+          v[0] = pressure;
+          v[1] = pressure > 0 ? 1.0 : 0.0;
+          v[2] = pressure >= cap ? 1.0 : 0.0;
+          v[3] = pressure * gap;
+          v[4] = (pressure - (gap > 0 ? 0.0 : most)) * gap;  // means something of a cap only
+          v[5] = gap;
+          v[6] = pressure < cap ? gap : infinity;
+          v[7] = pressure;
+          v[8] = -pressure;
+        });
+  answer.contacts = static_cast<std::int64_t>(found[1]);
+  answer.yielded = static_cast<std::int64_t>(found[2]);
+  answer.peak_pressure = -found[8];
+
+  Certificate& c = answer.certificate;
+  c = {};
+  const double total = found[0], n = static_cast<double>(p.size());
+  const double length =
+      rough(problem, answer.mean_pressure) ? problem.rms : punch_length(problem, answer.mean_pressure);
+  if (!(total > 0)) {
+    c.load = answer.mean_pressure > 0 ? 1 : 0;
+  } else {
+    c.complementarity = (std::isfinite(cap) ? found[4] : found[3] - found[5] * total) / total;
+    c.load = std::abs(total / n - answer.mean_pressure) / answer.mean_pressure;
+    c.tension = std::max(0.0, -found[7]) / answer.mean_pressure;
+    c.cap = std::isfinite(cap) ? std::max(0.0, answer.peak_pressure - cap) / cap : 0;
+  }
+  c.penetration = std::max(0.0, std::isfinite(found[6]) ? -found[6] : 0.0);
+  if (length > 0) {
+    c.complementarity = std::max(0.0, c.complementarity) / length;
+    c.penetration /= length;
+  }
+  answer.converged = c.worst() <= problem.tolerance;
+}
+
+namespace {
+
+HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
+  HalfSpaceAnswer answer;
+  answer.pressure = Field(problem.grid.nx, problem.grid.ny);
+  const double peak = peak_of(problem);
+  answer.gap = problem.overhangs
+                   ? with_ground_out_of_reach(problem, known_range(problem.heights->values()).min, 0)
+                   : *problem.heights;
+  for (double& g : answer.gap.values()) g = peak - g;
+  answer.offset = -peak;
+  answer.solver = "first touch";
+  certify(problem, answer);
+  return answer;
+}
+
+// Whether a flat lies on all of a periodic tile and nothing yields: every node then carries the mean
+// pressure, and a uniform pressure moves nothing.
+bool evenly_loaded(const HalfSpaceProblem& problem, double mean_pressure) {
+  return problem.boundary == Boundary::periodic && range(problem.heights->values()).span() == 0 &&
+         (!problem.yield.limits() || (!problem.yield.yield && mean_pressure < problem.yield.cap));
+}
+
+HalfSpaceAnswer even_load(const HalfSpaceProblem& problem, double mean_pressure) {
+  HalfSpaceAnswer answer;
+  answer.pressure = Field(problem.grid.nx, problem.grid.ny, mean_pressure);
+  answer.gap = Field(problem.grid.nx, problem.grid.ny);
+  answer.offset = -(*problem.heights)[0];
+  answer.mean_pressure = mean_pressure;
+  answer.solver = "even pressure of a flat";
+  certify(problem, answer);
+  return answer;
+}
+
+HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, double mean_pressure,
+                      CellAnswer cell) {
+  HalfSpaceAnswer answer;
+  const int nx = problem.grid.nx, ny = problem.grid.ny;
+  answer.pressure = Field(nx, ny, std::move(cell.pressure));
+  answer.gap = Field(nx, ny, std::move(cell.gap));
+  const double cap = problem.yield.caps() ? problem.yield.cap : infinity;
+  const double cell_cap = problem.yield.caps() ? cap / units.pressure : infinity;
+  for_nodes(answer.pressure.size(), [=, offset = cell.offset, pressure = answer.pressure.data(),
+                                     gap = answer.gap.data()](std::size_t k) {
+    const double p = pressure[k], scaled = p * units.pressure, within = scaled < cap ? scaled : cap;
+    pressure[k] = p >= cell_cap ? cap : within;
+    gap[k] = (gap[k] - offset) * units.height;
+  });
+  // What nothing faces is out of the contact already, but for what a pass may have left there by rounding.
+  if (problem.overhangs)
+    for (std::size_t k = 0; k < answer.pressure.size(); ++k)
+      if (std::isnan((*problem.heights)[k])) answer.pressure[k] = 0;
+  answer.mean_pressure = mean_pressure;
+  const double offset = cell.offset * units.height;
+  const double peak = peak_of(problem);
+  answer.approach = cell.from_peak ? offset : (peak - units.origin) + offset;
+  answer.offset = cell.from_peak ? offset - peak : offset - units.origin;
+  answer.iterations = cell.applications;
+  answer.solver = cell.stage;
+  if (cell.single) answer.solver += " in single precision";
+  if (cell.levels > 1) answer.solver += " on " + std::to_string(cell.levels) + " nested grids";
+  certify(problem, answer);
+  return answer;
+}
+
+// A warm start in cell units.
+struct Start {
+  Array<double> pressure, gap;
+};
+
+Start start_in_cells(const CellUnits& units, const HalfSpaceAnswer& from) {
+  Start start{Array<double>(from.pressure.size()), Array<double>(from.pressure.size())};
+  for_nodes(start.pressure.size(), [&](std::size_t k) {
+    start.pressure[k] = from.pressure[k] / units.pressure;
+    start.gap[k] = from.gap[k] / units.height;
+  });
+  return start;
+}
+
+}  // namespace
+
+HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
+                                HalfSpaceAnswer* start, bool afresh, Monitor& monitor) {
+  check_fields(problem);
+  const Grid& grid = problem.grid;
+  const Range ends = known_range(problem.heights->values());
+  CellUnits units;
+  units.origin = ends.max;
+  // On a free tile heights that differ by next to nothing of the approach are those of a flat.
+  const double least = problem.boundary == Boundary::periodic ? 1e-9 : 1e-6;
+  units.height = std::min(approach, length);
+  if (problem.rms > least * approach) units.height = std::min(units.height, problem.rms);
+  units.pressure = problem.modulus * (units.height / grid.hx());
+
+  CellProblem cell;
+  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight, problem.single};
+  Field out_of_the_way;
+  if (problem.overhangs) {
+    // Nothing on a free tile rises under pressure: what lies deeper than the approach is never reached.
+    cell.lowest = ends.min;
+    out_of_the_way =
+        with_missing_ground_at(problem, ends.min - 2 * (approach + ends.span()),
+                               "the approach is " + format_quantity(approach, dimension::length));
+  }
+  cell.heights = (problem.overhangs ? out_of_the_way : *problem.heights).values();
+  cell.origin = units.origin;
+  cell.factor = 1 / units.height;
+  cell.limit = cell_limit(problem.yield, units);
+  cell.offset = approach / units.height;
+  // Penetration and what is open add up in the certificate.
+  cell.tolerance = 0.49 * problem.tolerance;
+  const double longest = std::max(static_cast<double>(grid.nx), grid.ny * cell.shape.aspect);
+  cell.mean_pressure = std::min(*cell.offset / longest, greatest_pressure(cell.limit));
+  cell.afresh = afresh;
+  std::span<double> pressures, gaps;
+  if (start && start->pressure.size() == grid.nodes()) {
+    pressures = start->pressure.values();
+    gaps = start->gap.values();
+    for_nodes(pressures.size(), [=, p = pressures.data()](std::size_t k) { p[k] /= units.pressure; });
+    for_nodes(gaps.size(), [=, before = start->approach, g = gaps.data()](std::size_t k) {
+      g[k] = (g[k] + before) / units.height;
+    });
+  }
+  CellAnswer found = nested_descent(cell, pressures, gaps, monitor);
+  if (found.single && !found.converged) {  // as it might in double precision, too
+    const int before = found.applications;
+    cell.shape.single = false;
+    found = nested_descent(cell, {}, {}, monitor);
+    found.applications += before;
+  }
+  const bool converged = found.converged;
+  HalfSpaceAnswer answer = in_si(problem, units, 0, std::move(found));
+  answer.approach = approach;
+  answer.mean_pressure = block_sum(answer.pressure.values()) / static_cast<double>(grid.nodes());
+  certify(problem, answer);
+  answer.converged = answer.converged && converged;
+  return answer;
+}
+
+namespace {
+
+// Where ground is so soft once it yields that no descent balances the load: the approach that brings it,
+// which never falls as the load grows. None where that does not converge either. `begun`: an answer that did
+// not.
+std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& problem, double mean_pressure,
+                                                  const HalfSpaceAnswer& begun, Monitor& monitor) {
+  constexpr int most_solves = 80, most_applications = 2000;
+  BracketedSecant root(mean_pressure);
+  HalfSpaceAnswer answer = begun;
+  double approach = begun.approach;
+  for (int solve = 0; solve < most_solves && approach > 0; ++solve) {
+    const int before = answer.iterations;
+    if (before - begun.iterations > most_applications) break;
+    HalfSpaceAnswer start = std::move(answer);
+    answer = solve_at_offset(problem, approach, infinity, &start, true, monitor);
+    answer.iterations += before;
+    if (!answer.converged) break;
+    const double found = answer.mean_pressure;
+    if (std::abs(found - mean_pressure) <= 0.5 * problem.tolerance * mean_pressure) {
+      answer.mean_pressure = mean_pressure;
+      answer.solver += ", for the load";
+      certify(problem, answer);
+      if (answer.converged) return answer;
+    }
+    root.take({approach, found}, true);
+    const std::optional<double> next = root.next();
+    if (!next) break;
+    approach = *next;
+  }
+  return {};
+}
+
+}  // namespace
+
+HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,
+                                  const HalfSpaceAnswer* start, Monitor& monitor) {
+  check(problem, mean_pressure);
+  if (mean_pressure == 0) return first_touch(problem);
+  if (evenly_loaded(problem, mean_pressure)) return even_load(problem, mean_pressure);
+  const bool flat = !rough(problem, mean_pressure);
+  const CellUnits units = cell_units(problem, mean_pressure, flat);
+  const Grid& grid = problem.grid;
+
+  CellProblem cell;
+  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight, problem.single};
+  Field out_of_the_way;
+  if (problem.overhangs) {
+    cell.lowest = known_range(problem.heights->values()).min;
+    out_of_the_way = with_ground_out_of_reach(problem, cell.lowest, mean_pressure);
+  }
+  cell.heights = (problem.overhangs ? out_of_the_way : *problem.heights).values();
+  cell.origin = units.origin;
+  cell.factor = 1 / units.height;
+  cell.limit = cell_limit(problem.yield, units);
+  cell.mean_pressure = mean_pressure / units.pressure;
+  if (flat) cell.length = std::sqrt(static_cast<double>(cell.shape.nodes()) * cell.shape.aspect);
+  // A little less, so that what rounding adds on the way to pascals stays within it.
+  cell.tolerance = 0.99 * problem.tolerance;
+
+  CellAnswer found;
+  const bool may_be_full = problem.boundary == Boundary::periodic &&
+                           (flat || mean_pressure >= 0.5 * problem.modulus * rough_slope(problem));
+  if (may_be_full) found = full_contact(cell, monitor);
+  int before = found.applications;
+  if (!found.converged) {
+    Start warm;
+    if (start && start->pressure.size() == grid.nodes() && start->mean_pressure > 0)
+      warm = start_in_cells(units, *start);
+    found = nested_descent(cell, warm.pressure, warm.gap, monitor);
+    found.applications += before;
+    if (found.single && !found.converged) {  // as it might in double precision, too
+      before = found.applications;
+      cell.shape.single = false;
+      found = nested_descent(cell, {}, {}, monitor);
+      found.applications += before;
+    }
+  }
+  HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, std::move(found));
+  if (!answer.converged && problem.yield.hardens())
+    if (auto sought = sought_by_approach(problem, mean_pressure, answer, monitor)) return std::move(*sought);
+  if (!answer.converged && !problem.best_effort)
+    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations, grid);
+  return answer;
+}
+
+}  // namespace asperity

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
+#include "engine/core/constants.hpp"
+
+namespace asperity {
+
+namespace {
+// No sum of a grid is better than this.
+constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
+constexpr double noticed = 1e-13;  // of the load
+
+struct Carried {
+  double load;      // Σ clip(y + λ)
+  double interior;  // moved nodes strictly between the bounds
+  double values;    // Σ y over them
+  double bound;     // what the moved nodes at the upper bound carry
+};
+
+// Where the shift moves a node: everywhere, or where a mark is.
+struct Everywhere {
+  bool operator()(std::size_t) const { return true; }
+};
+struct Somewhere {
+  const std::uint8_t* marks;
+  bool operator()(std::size_t k) const { return marks[k] != 0; }
+};
+
+template <class Where>
+Carried carried(std::span<const double> y, Where where, double upper, double origin, double shift) {
+  const auto sums = over_nodes<4>(y.size(), [=, y = y.data()](std::size_t k, double* v) {
+    const bool here = where(k);
+    const double value = y[k] - (here ? origin : 0.0), x = value + (here ? shift : 0.0);
+    const bool inside = here & (x > 0) & (x < upper);
+    v[0] = std::min(std::max(x, 0.0), upper);
+    v[1] = inside ? 1.0 : 0.0;
+    v[2] = inside ? value : 0.0;
+    v[3] = (here & (x >= upper)) ? upper : 0.0;
+  });
+  return {sums[0], sums[1], sums[2], sums[3]};
+}
+
+template <class Where>
+bool project(std::span<const double> y, Where where, double upper, double load, std::span<double> target) {
+  constexpr bool all = std::is_same_v<Where, Everywhere>;
+  const auto moved = over_nodes<2, 2>(y.size(), [=, y = y.data()](std::size_t k, double* v) {
+    const bool here = where(k);
+    const double value = y[k], clipped = std::min(std::max(value, 0.0), upper);
+    v[0] = here ? 1.0 : 0.0;
+    v[1] = here ? 0.0 : clipped;
+    v[2] = here ? value : infinity;
+    v[3] = here ? -value : infinity;
+  });
+  const double movable = moved[0], fixed = moved[1];
+  if (movable == 0 || load < fixed || load > fixed + upper * movable) return false;
+  if (load == fixed + upper * movable) {
+    if (!all) return false;
+    std::fill(target.begin(), target.end(), upper);
+    return true;
+  }
+  if (!all && load == fixed) return false;
+
+  // At the one end all moved nodes are at 0, at the other all at the bound, or the least of them carries all.
+  // Where the load is small beside the values, shifts are counted from the greatest: the few nodes that carry
+  // it must not be what rounding leaves.
+  const double greatest = -moved[3], origin = load - fixed < 1e-6 * std::abs(greatest) ? greatest : 0.0;
+  double low = origin - greatest, high = std::min(upper, load) - (moved[2] - origin);
+  double shift = std::clamp(origin, low, std::max(low, high));
+  double best = infinity, best_shift = shift;
+  for (int step = 0; step < 200; ++step) {
+    const Carried at = carried(y, where, upper, origin, shift);
+    const double excess = at.load - load;
+    if (std::abs(excess) < best) {
+      best = std::abs(excess);
+      best_shift = shift;
+    }
+    if (std::abs(excess) <= round_off * load) break;
+    (excess > 0 ? high : low) = shift;
+    // Newton's step, with nothing cancelled; or by what the load is off, which tells shifts apart that the
+    // sums do not.
+    double next = (load - fixed - at.bound - at.values) / at.interior;
+    if (!(next > low && next < high)) next = shift - excess / at.interior;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (next == shift || !(next > low && next < high)) break;
+    shift = next;
+  }
+  const auto clipped = [=, y = y.data()](std::size_t k, double by) {
+    const bool here = where(k);
+    const double x = (y[k] - (here ? origin : 0.0)) + (here ? by : 0.0);
+    return std::min(std::max(x, 0.0), upper);
+  };
+  if (best <= noticed * load) {
+    for_nodes(y.size(), [=, target = target.data()](std::size_t k) { target[k] = clipped(k, best_shift); });
+    return true;
+  }
+  // Values so large beside the load that two neighbouring shifts carry too little and too much: between the
+  // two.
+  const double least = carried(y, where, upper, origin, low).load;
+  const double most = carried(y, where, upper, origin, high).load;
+  const double share = most > least ? std::clamp((load - least) / (most - least), 0.0, 1.0) : 0.0;
+  for_nodes(y.size(), [=, target = target.data()](std::size_t k) {
+    const double from = clipped(k, low);
+    target[k] = from + share * (clipped(k, high) - from);
+  });
+  return true;
+}
+}  // namespace
+
+bool project_to_load(std::span<const double> y, std::span<const std::uint8_t> where, double upper,
+                     double load, std::span<double> target) {
+  if (where.empty()) return project(y, Everywhere{}, upper, load, target);
+  return project(y, Somewhere{where.data()}, upper, load, target);
+}
+
+}  // namespace asperity

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent_chain.hpp"
+#include "engine/contact/elasticity/half_space/solver/level_transfer.hpp"
+#include "engine/contact/elasticity/half_space/solver/light_contact.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
+#include "engine/contact/elasticity/half_space/solver/offset_descent.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/error.hpp"
+
+namespace asperity {
+
+namespace {
+constexpr double coarse_tolerance = 5e-3;
+constexpr int most_snaps = 3;
+
+// Progress on a logarithmic scale of the residual, and the place where a stop is seen.
+class Progress {
+ public:
+  explicit Progress(Monitor& monitor) : task_(monitor, "contact", total) {}
+  void report(double begin, double end, double residual, double tolerance) {
+    double gained = 0;
+    if (residual > 0 && tolerance < 1)
+      gained = std::clamp(elementary::log(std::min(residual, 1.0)) / elementary::log(tolerance), 0.0, 1.0);
+    const auto now = static_cast<std::int64_t>(total * (begin + (end - begin) * gained));
+    task_.advance(std::max<std::int64_t>(0, now - done_));
+    done_ = std::max(done_, now);
+  }
+
+ private:
+  static constexpr std::int64_t total = 1000;
+  Task task_;
+  std::int64_t done_ = 0;
+};
+
+struct Step {                       // one grid of the nest
+  std::optional<CoarserGrid> from;  // how it came from the finer one
+  LevelShape shape;
+  Array<double> heights;  // empty on the finest, whose heights are the caller's
+  Array<double> yield;
+  double pitch = 1;          // hx in cells of the finest grid
+  double mean_pressure = 0;  // cell units of this grid
+};
+
+double work(const LevelShape& shape) {
+  const double n = static_cast<double>(shape.nodes());
+  return n * elementary::log(std::max(n, 2.0));
+}
+
+PressureLimit limit_on(const PressureLimit& finest, const Step& step) {
+  if (const auto* cap = std::get_if<PressureCap>(&finest)) return PressureCap{cap->cap * step.pitch};
+  LinearHardening limit = std::get<LinearHardening>(finest);
+  if (!step.yield.empty()) limit.yield = step.yield.data();
+  limit.uniform *= step.pitch;
+  limit.factor *= step.pitch;
+  limit.compliance /= step.pitch;
+  return limit;
+}
+
+// In place of pressures at their bounds, how far their gaps are from leaving them.
+void to_level_set(double upper, double stiffness, double offset, std::span<const double> gap,
+                  std::span<double> p) {
+  for_nodes(p.size(), [&](std::size_t k) {
+    const double apart = stiffness * (gap[k] - offset);
+    if (p[k] <= 0)
+      p[k] = std::min(0.0, -apart);
+    else if (p[k] >= upper)
+      p[k] = upper + std::max(0.0, -apart);
+  });
+}
+
+std::vector<Step> nest(const CellProblem& problem, bool alone) {
+  std::vector<Step> steps(1);
+  steps[0].shape = problem.shape;
+  steps[0].mean_pressure = problem.mean_pressure;
+  const auto* hardening = std::get_if<LinearHardening>(&problem.limit);
+  while (!alone) {
+    const Step& fine = steps.back();
+    const auto next = coarser(fine.shape);
+    if (!next) break;
+    Step step;
+    step.from = next;
+    step.shape = next->shape;
+    step.shape.weight = problem.shape.weight * (work(step.shape) / work(problem.shape));
+    step.pitch = fine.pitch * next->pitch_x;
+    const double cells = static_cast<double>(step.shape.nodes()) * next->pitch_x * next->pitch_y;
+    step.mean_pressure =
+        fine.mean_pressure * next->pitch_x * (static_cast<double>(fine.shape.nodes()) / cells);
+    step.heights = restrict_to(
+        fine.shape, *next, fine.heights.empty() ? problem.heights : std::span<const double>(fine.heights));
+    if (hardening && hardening->yield)
+      step.yield =
+          restrict_to(fine.shape, *next,
+                      fine.yield.empty() ? std::span<const double>(hardening->yield, problem.shape.nodes())
+                                         : std::span<const double>(fine.yield));
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+double greatest(std::span<const double> values) {
+  return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
+}
+
+// A pressure within rounding of a bound is at the bound: left off it, it would count as free ground, and
+// alone fix an offset that nothing else determines. Rounding is that of the sum of the pressures there are:
+// under a light load all of them are nothing beside the bound.
+void snap_to_bounds(double upper, std::span<double> p) {
+  const double rounding =
+      std::max(1e-14, static_cast<double>(p.size()) * std::numeric_limits<double>::epsilon());
+  const double least = rounding * std::min(upper, greatest(p));
+  for_nodes(p.size(), [&](std::size_t k) {
+    if (p[k] < least)
+      p[k] = 0;
+    else if (p[k] > upper * (1 - rounding))
+      p[k] = upper;
+  });
+}
+
+CellAnswer descend_nest(const CellProblem& problem, std::span<const double> start_pressure,
+                        std::span<const double> start_gap, Monitor& monitor) {
+  std::vector<Step> steps = nest(problem, !start_pressure.empty());
+  Progress progress(monitor);
+  CellAnswer answer;
+  answer.levels = static_cast<int>(steps.size());
+  UnsetArray<double> carried;  // the level-set field of the grid below
+  double all_work = 0, work_done = 0;
+  for (const Step& step : steps) all_work += step.shape.weight;
+
+  for (std::size_t l = steps.size(); l-- > 0;) {
+    Step& step = steps[l];
+    const bool finest = l == 0;
+    const std::size_t nodes = step.shape.nodes();
+    const PressureLimit limit = limit_on(problem.limit, step);
+    const double upper = greatest_pressure(limit);
+    const std::span<const double> raw = finest ? problem.heights : std::span<const double>(step.heights);
+    ContactLevel level(step.shape, raw, problem.origin, problem.factor, limit, step.mean_pressure);
+    level.length = problem.length;
+    const double tolerance = finest ? problem.tolerance : std::max(coarse_tolerance, problem.tolerance);
+    const double begin = work_done / all_work;
+    work_done += step.shape.weight;
+    level.report = [&](double residual) {
+      progress.report(begin, work_done / all_work, residual, tolerance);
+    };
+
+    DescentFields fields(nodes);
+    UnsetArray<double>& p = fields.pressure;
+    const double lowest = problem.lowest;
+    if (problem.offset) {
+      if (!start_pressure.empty()) {
+        std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
+      } else if (carried.empty()) {
+        std::fill(p.begin(), p.end(), 0.0);
+      } else {
+        const CoarserGrid& from = *steps[l + 1].from;
+        prolong(from, carried, 1 / from.pitch_x, step.shape, p);
+        carried = UnsetArray<double>();
+      }
+      const bool gap_known = !start_gap.empty();
+      if (gap_known)
+        std::copy(start_gap.begin(), start_gap.end(), fields.gap.begin());
+      else
+        for_nodes(nodes, [upper, lowest, h = raw.data(), p = p.data()](std::size_t k) {
+          p[k] = h[k] < lowest ? 0.0 : std::clamp(p[k], 0.0, upper);
+        });
+      const ChainEffort effort = !finest          ? ChainEffort::start
+                                 : problem.afresh ? ChainEffort::full
+                                                  : ChainEffort::brief;
+      const ChainEnd end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, gap_known);
+      if (!end.stage.converged) level.gap(p, fields.gap);
+      if (finest) {
+        answer.pressure = std::move(p);
+        answer.gap = std::move(fields.gap);
+        answer.offset = *problem.offset;
+        answer.from_peak = true;
+        answer.residual = end.stage.residual;
+        answer.converged = end.stage.converged;
+        answer.applications = level.applications;
+        answer.stage = end.name;
+        answer.single = level.compliance.single();
+      } else {
+        to_level_set(upper, level.short_wave_stiffness, *problem.offset, fields.gap, p);
+        carried = std::move(p);
+        step.heights = Array<double>();
+      }
+      continue;
+    }
+    if (!start_pressure.empty()) {
+      std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
+      if (!start_gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, start_gap, p);
+    } else if (carried.empty()) {
+      std::fill(p.begin(), p.end(), step.mean_pressure);
+    } else {
+      const CoarserGrid& from = *steps[l + 1].from;
+      prolong(from, carried, 1 / from.pitch_x, step.shape, p);
+      carried = UnsetArray<double>();
+    }
+    if (std::isfinite(lowest)) {
+      // Less than any shift to the load can make up for.
+      for (std::size_t k = 0; k < nodes; ++k)
+        if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
+    }
+    project_to_load(p, {}, upper, level.total_load(), p);
+
+    ChainEnd end = run_chain(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
+    if (!end.stage.converged) level.gap(p, fields.gap);
+    answer.from_peak =
+        finest && refine_light_contact(level, fields, {problem.heights, problem.origin, problem.factor},
+                                       tolerance, end);
+    ContactQuality at;
+    for (int round = 0;; ++round) {
+      if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
+      at = contact_quality(level, p, fields.gap);
+      if (!finest || answer.from_peak || !end.stage.converged || at.residual <= tolerance) break;
+      // Nodes that were snapped to the limit no longer balance the load.
+      end.stage.converged = round < most_snaps;
+      if (!end.stage.converged) break;
+      end = run_chain(level, fields, tolerance, ChainEffort::full);
+      if (!end.stage.converged) level.gap(p, fields.gap);
+    }
+    if (finest) {
+      answer.pressure = std::move(p);
+      answer.gap = std::move(fields.gap);
+      answer.offset = at.offset;
+      answer.residual = at.residual;
+      answer.converged = end.stage.converged;
+      answer.applications = level.applications;
+      answer.stage = end.name;
+      answer.single = level.compliance.single();
+    } else {
+      to_level_set(upper, level.short_wave_stiffness, at.interior_gap, fields.gap, p);
+      carried = std::move(p);
+      step.heights = Array<double>();
+    }
+  }
+  return answer;
+}
+
+// The least load of all, or the softest ground: products of pressures and displacements, and their squares,
+// must stay within the range of a double. The power of two to multiply heights and pressures by; rounds
+// nothing.
+int power_within_range(const CellProblem& problem) {
+  constexpr double least = 1e-100;
+  const double load = problem.mean_pressure * static_cast<double>(problem.shape.nodes());
+  const double pressure = std::min(load, greatest_pressure(problem.limit));
+  return pressure > 0 && pressure < least ? -std::ilogb(pressure) / 2 : 0;
+}
+
+CellProblem times_power_of_two(const CellProblem& problem, int power) {
+  CellProblem result = problem;
+  for (double* value : {&result.factor, &result.mean_pressure, &result.length})
+    *value = std::ldexp(*value, power);
+  if (auto* cap = std::get_if<PressureCap>(&result.limit)) {
+    cap->cap = std::ldexp(cap->cap, power);
+  } else {
+    auto& hardening = std::get<LinearHardening>(result.limit);
+    hardening.uniform = std::ldexp(hardening.uniform, power);
+    hardening.factor = std::ldexp(hardening.factor, power);
+  }
+  return result;
+}
+
+UnsetArray<double> times_power_of_two(std::span<const double> values, int power) {
+  UnsetArray<double> result(values.begin(), values.end());
+  for (double& value : result) value = std::ldexp(value, power);
+  return result;
+}
+
+}  // namespace
+
+CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
+                          std::span<const double> start_gap, Monitor& monitor) {
+  // A given offset is near 1, and so are the pressures.
+  const int power = problem.offset ? 0 : power_within_range(problem);
+  if (power == 0) return descend_nest(problem, start_pressure, start_gap, monitor);
+  CellAnswer answer =
+      descend_nest(times_power_of_two(problem, power), times_power_of_two(start_pressure, power),
+                   times_power_of_two(start_gap, power), monitor);
+  answer.pressure = times_power_of_two(answer.pressure, -power);
+  answer.gap = times_power_of_two(answer.gap, -power);
+  answer.offset = std::ldexp(answer.offset, -power);
+  return answer;
+}
+
+CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
+  Progress progress(monitor);
+  const std::size_t nodes = problem.shape.nodes();
+  ContactLevel level(problem.shape, problem.heights, problem.origin, problem.factor, problem.limit,
+                     problem.mean_pressure);
+  level.length = problem.length;
+  CellAnswer answer;
+  answer.stage = "exact filter (full contact)";
+  answer.pressure.resize(nodes);
+  UnsetArray<double>& p = answer.pressure;
+  for_nodes(nodes, [&](std::size_t k) { p[k] = level.height(k); });
+  level.compliance.apply_inverse(p, p);
+  answer.applications = 1;
+  // The mean moves nothing, and may be so large that beside it pressures lose their digits: gaps come from
+  // what they differ by.
+  answer.gap = p;
+  const auto found = over_nodes<1, 1>(nodes, [&](std::size_t k, double* v) {
+    p[k] += problem.mean_pressure;
+    v[0] = std::visit(
+        [&](const auto& law) { return p[k] >= law.upper() || law.opening(k, p[k]) > 0 ? 1.0 : 0.0; },
+        problem.limit);
+    v[1] = p[k];
+  });
+  progress.report(0, 1, 1, 0.5);
+  if (!(found[0] == 0 && found[1] > 0)) return answer;
+  level.gap_beside_mean(answer.gap, answer.gap);
+  answer.applications = 2;
+  const ContactQuality at = contact_quality(level, p, answer.gap);
+  answer.offset = at.offset;
+  answer.residual = at.residual;
+  answer.converged = at.residual <= problem.tolerance;
+  return answer;
+}
+
+}  // namespace asperity

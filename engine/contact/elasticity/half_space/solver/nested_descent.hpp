@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contact problem on nested grids: solved roughly on the coarsest, carried up as a field whose level
+// sets are the edges of contact and of the capped ground, and finished on the finest by a chain of stages,
+// each starting from the feasible pressures of the one before. Cell units of the finest grid throughout its
+// interface.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/monitor.hpp"
+
+namespace asperity {
+
+struct CellProblem {
+  LevelShape shape;
+  std::span<const double> heights;  // any unit; (height − origin)·factor is in cell units
+  double origin = 0, factor = 1;
+  // Ground that lies lower has nothing over it: it begins without pressure, and whoever states the problem
+  // put it where nothing comes. In the unit of the heights, on a free tile only, whose coarser grids are
+  // nodes of the finer ones.
+  double lowest = -std::numeric_limits<double>::infinity();
+  PressureLimit limit;
+  double mean_pressure = 0;
+  // Given in place of the load, of which `mean_pressure` is then a guess, within twenty powers of ten.
+  std::optional<double> offset;
+  bool afresh = true;  // at a given offset: the gap that is handed out comes from an application of its own
+  double length = 1;   // what gaps are measured by
+  double tolerance = 1e-6;
+};
+
+struct CellAnswer {
+  UnsetArray<double> pressure;  // feasible, bounds exact
+  UnsetArray<double> gap;       // K p − h, without offset, from an application to `pressure`
+  double offset = 0;
+  // A light contact, where h + offset is a small difference of large heights: gap and offset are counted
+  // from the highest node, and the offset is the approach.
+  bool from_peak = false;
+  double residual = 0;
+  bool converged = false;
+  int applications = 0;  // on the finest grid
+  int levels = 1;
+  bool single = false;  // steps were computed in single precision
+  std::string stage;
+};
+
+// `start`: pressures and gaps (the offset taken off) of a nearby state in cell units, or empty for nested
+// grids. At a given offset, where gaps are given, the pressures may be outside their bounds. Does not throw
+// for lack of convergence.
+CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
+                          std::span<const double> start_gap, Monitor& monitor);
+
+// The answer where all of a periodic tile touches and nothing is limited, p = p̄ + (|q|/2) h; converged is
+// false where that solution is not feasible. Two applications.
+CellAnswer full_contact(const CellProblem& problem, Monitor& monitor);
+
+}  // namespace asperity

@@ -1,0 +1,490 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/solver/offset_descent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+#include <variant>
+
+#include "engine/contact/elasticity/half_space/solver/descent_nodes.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent_rules.hpp"
+#include "engine/contact/elasticity/half_space/solver/free_set.hpp"
+#include "engine/contact/elasticity/half_space/solver/line_loads.hpp"
+#include "engine/contact/elasticity/half_space/solver/set_preconditioner.hpp"
+#include "engine/core/constants.hpp"
+
+namespace asperity {
+
+namespace {
+
+// Of conjugate gradients: of a pass that settles, whose settling carries a step of the preconditioner where K
+// is dear, and of the careful stage, whose passes all lower the energy.
+constexpr int quick_steps = 3, quick_steps_if_dear = 2, careful_steps = 24;
+constexpr double careful_gain = 0.03;  // of a residual, that ends its steps
+constexpr int careful_patience = 40;   // passes; they lower the energy, which the residual need not follow
+// The opening of a single node in contact, as in contact_quality.cpp.
+constexpr double touching_weight = 0.125;
+
+struct OffsetQuality {
+  double residual = 0;
+  bool within = true;  // nothing had to be settled
+};
+
+template <class Limit>
+class OffsetDescent {
+ public:
+  OffsetDescent(ContactLevel& level, const Limit& limit, DescentFields& fields, double offset,
+                double tolerance, int most, ChainEffort effort, bool careful)
+      : level_(level),
+        limit_(limit),
+        f_(fields),
+        preconditioner_(level, limit),
+        offset_(offset),
+        tolerance_(tolerance),
+        most_(level.applications + most),
+        effort_(effort),
+        careful_(careful),
+        periodic_(level.shape.boundary == Boundary::periodic),
+        dear_(Limit::hardens || !periodic_),
+        work_(fields.pressure.size()),
+        direction_(fields.pressure.size()) {}
+
+  StageEnd run(bool gap_known);
+
+ private:
+  std::size_t nodes() const { return f_.pressure.size(); }
+  DescentNodes<Limit> view() const {
+    return {f_.pressure.data(), f_.gap.data(), f_.free.data(), limit_, offset_};
+  }
+  OffsetQuality quality() const;
+  // Pressures within their bounds.
+  void settle() {
+    for_nodes(nodes(), [n = view()](std::size_t k) { n.pressure[k] = n.settled(k); });
+  }
+  void find_gap();
+  void settled_lines(std::span<double> target);
+  void renew() {
+    settled_lines(work_);
+    std::copy(work_.begin(), work_.end(), f_.pressure.begin());
+    find_gap();
+  }
+  void mark();
+  double turn(double target);
+  void settle_step();
+  bool all_free() const {
+    return periodic_ && elastic_ == static_cast<double>(nodes()) && yielding_ == 0 && settling_ == 0;
+  }
+  void shift_all();
+  bool descend(int steps);
+  bool go_downhill();
+  struct Change {
+    double slope = 0, energy = 0;  // of the energy to the first order, and in all
+    bool enough() const { return slope < 0 && energy <= 0.1 * slope; }
+  };
+  Change change_since() const;
+
+  ContactLevel& level_;
+  const Limit& limit_;
+  DescentFields& f_;
+  SetPreconditioner<Limit> preconditioner_;
+  double offset_, tolerance_;
+  int most_;
+  const ChainEffort effort_;
+  const bool careful_, periodic_, dear_;
+  Array<double> work_, direction_;
+  double elastic_ = 0, yielding_ = 0, settling_ = 0;  // nodes
+  bool changed_ = true, fresh_ = false, have_direction_ = false;
+  double direction_rz_ = 0;
+  double residual_ = infinity;
+};
+
+// The gap of the pressures there are. On a periodic tile their mean moves nothing, and may be so
+// large that beside it they lose the digits of what differs.
+template <class Limit>
+void OffsetDescent<Limit>::find_gap() {
+  double mean = 0;
+  if (periodic_)
+    mean = over_nodes<1>(nodes(), [p = f_.pressure.data()](std::size_t k, double* v) { v[0] = p[k]; })[0] /
+           static_cast<double>(nodes());
+  for_nodes(nodes(),
+            [mean, p = f_.pressure.data(), to = f_.image.data()](std::size_t k) { to[k] = p[k] - mean; });
+  level_.gap_beside_mean(f_.image, f_.gap);
+  fresh_ = true;
+  have_direction_ = false;
+}
+
+template <class Limit>
+OffsetQuality OffsetDescent<Limit>::quality() const {
+  const double upper = limit_.upper(), most = std::isfinite(upper) ? upper : 0.0;
+  const auto found =
+      over_nodes<3, 2>(nodes(), [n = view(), offset = offset_, upper, most](std::size_t k, double* v) {
+        const double q = n.settled(k), gap = n.gap[k] - offset + n.limit.opening(k, q);
+        v[0] = q;
+        v[1] = (q - (gap > 0 ? 0.0 : most)) * gap;
+        v[2] = q != n.pressure[k] ? 1.0 : 0.0;
+        v[3] = q < upper ? gap : infinity;
+        v[4] = q > 0 ? -gap : infinity;
+      });
+  OffsetQuality at;
+  at.within = found[2] == 0;
+  const double overlap = std::isfinite(found[3]) ? std::max(0.0, -found[3]) : 0.0;
+  const double open = std::isfinite(found[4]) ? std::max(0.0, -found[4]) : 0.0;
+  const double weighted = found[0] > 0 ? std::abs(found[1]) / found[0] : 0.0;
+  at.residual = std::max({overlap, weighted, touching_weight * open}) / level_.length;
+  if (!(overlap + weighted + open < infinity)) at.residual = infinity;
+  return at;
+}
+
+template <class Limit>
+void OffsetDescent<Limit>::mark() {
+  const auto sums = over_nodes<4>(
+      nodes(), [n = view(), offset = offset_, before = f_.old_free.data()](std::size_t k, double* v) {
+        const double p = n.pressure[k], gap = n.gap[k];
+        std::uint8_t kind = fixed;
+        if constexpr (Limit::hardens) {
+          const double q = n.settled(k);
+          kind = q > 0 || (gap < offset && p >= 0) ? elastic : fixed;
+          if (p > n.limit.yields_at(k)) kind = q != p ? settling : yielding;
+        } else {
+          const double upper = n.limit.upper();
+          const bool leaves = p <= upper && gap > offset, enters = p >= 0 && gap < offset;
+          kind = (p > 0 ? (p < upper || leaves) : enters) ? elastic : fixed;
+        }
+        n.free[k] = kind;
+        v[0] = kind == elastic ? 1.0 : 0.0;
+        v[1] = kind == yielding ? 1.0 : 0.0;
+        v[2] = kind == settling ? 1.0 : 0.0;
+        v[3] = kind == before[k] ? 0.0 : 1.0;
+      });
+  elastic_ = sums[0];
+  yielding_ = sums[1];
+  settling_ = sums[2];
+  changed_ = sums[3] != 0;
+}
+
+// work_ = M r, r what the gaps of the free nodes lack of `target`. Returns r·M r.
+template <class Limit>
+double OffsetDescent<Limit>::turn(double target) {
+  const auto lack = [n = view(), target](std::size_t k) {
+    return n.moves(k) ? target - n.total_gap(k) : 0.0;
+  };
+  // Whose constant the preconditioner does not see.
+  const bool full = elastic_ + yielding_ == static_cast<double>(nodes());
+  const bool all_that_moves = full || (Limit::hardens && !preconditioner_.apart());
+  const auto counts = [n = view(), all_that_moves](std::size_t k) {
+    return n.free[k] == elastic || (all_that_moves && n.moves(k));
+  };
+  const auto sums = over_nodes<2>(nodes(), [lack, counts, to = work_.data()](std::size_t k, double* v) {
+    const double r = lack(k);
+    to[k] = r;
+    v[0] = counts(k) ? r : 0.0;
+    v[1] = counts(k) ? 1.0 : 0.0;
+  });
+  preconditioner_.apply(f_.free, work_);
+  // On a periodic tile the preconditioner sees nothing of a constant; the longest wave does for it, and what
+  // yields. Where all nodes are free a constant moves the gap of those alone, if there are any.
+  double level = 0;
+  if (periodic_ && sums[1] > 0) {
+    const double longest =
+        std::max(static_cast<double>(level_.shape.nx), level_.shape.ny * level_.shape.aspect);
+    const double others = static_cast<double>(nodes()) - sums[1];
+    // A constant on nearly all nodes is what the few others lack of it.
+    const double lacking = LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * others;
+    const double elastically = std::min(longest / std::numbers::pi * sums[1], lacking);
+    const double yields = all_that_moves ? limit_.yielding_slope() * yielding_ : 0.0;
+    if (elastically + yields > 0) level = sums[0] / (elastically + yields);
+  }
+  return over_nodes<1>(nodes(), [lack, counts, z = work_.data(), level](std::size_t k, double* v) {
+    if (counts(k)) z[k] += level;
+    v[0] = lack(k) * z[k];
+  })[0];
+}
+
+// Pressures within their bounds, on long cells with the loads of lines kept.
+template <class Limit>
+void OffsetDescent<Limit>::settled_lines(std::span<double> target) {
+  for_nodes(nodes(), [n = view(), to = target.data()](std::size_t k) { to[k] = n.settled(k); });
+  if (!keeps_line_loads(level_.shape.aspect)) return;
+  Array<std::uint8_t> where(nodes());
+  for_nodes(nodes(), [n = view(), to = target.data(), w = where.data()](std::size_t k) {
+    w[k] = n.shifts(k, to[k], true) ? 1 : 0;
+  });
+  keep_line_loads(level_.shape, f_.pressure, where, limit_.upper(), target);
+}
+
+// What settling changes, and a fixed step of the preconditioner where K is dear, at the cost of one
+// application.
+template <class Limit>
+void OffsetDescent<Limit>::settle_step() {
+  const bool steps = dear_ && !all_free();
+  settled_lines(direction_);
+  if (steps) turn(offset_);
+  for_nodes(nodes(), [n = view(), steps, z = work_.data(), d = direction_.data()](std::size_t k) {
+    const double p = n.pressure[k], q = d[k];
+    const double next = q + (steps && n.moves(k) ? descent_rules::richardson_step * z[k] : 0.0);
+    d[k] = next - p;
+    n.pressure[k] = next;
+  });
+  level_.apply(direction_, f_.image);
+  for_nodes(nodes(), [n = view(), image = f_.image.data()](std::size_t k) {
+    n.gap[k] += image[k];
+    if (n.free[k] == settling) n.free[k] = yielding;
+  });
+  if (settling_ > 0) {
+    yielding_ += settling_;
+    settling_ = 0;
+    preconditioner_.set_free(f_.free);
+  }
+}
+
+// Where all of a periodic tile touches, the same pressure everywhere moves nothing: it goes down until the
+// first node opens, or up until the first yields, and a little further.
+template <class Limit>
+void OffsetDescent<Limit>::shift_all() {
+  const double upper = limit_.upper();
+  const auto found = over_nodes<1, 3>(nodes(), [n = view(), upper](std::size_t k, double* v) {
+    double bound = upper;
+    if constexpr (Limit::hardens) bound = n.limit.yields_at(k);
+    v[0] = n.gap[k];
+    v[1] = n.pressure[k];
+    v[2] = bound - n.pressure[k];
+    v[3] = -n.pressure[k];
+  });
+  const double lack = offset_ - found[0] / static_cast<double>(nodes()),
+               further = level_.short_wave_stiffness * lack;
+  const double by = lack > 0 ? found[2] + further : further - found[1];
+  if (!std::isfinite(by)) return;
+  for_nodes(nodes(), [p = f_.pressure.data(), by](std::size_t k) { p[k] += by; });
+}
+
+template <class Limit>
+bool OffsetDescent<Limit>::descend(int steps) {
+  const int enough = careful_ ? careful_steps : dear_ ? quick_steps_if_dear : steps > 0 ? quick_steps : 1;
+  double target = offset_, first = 0;
+  if (all_free())
+    target = over_nodes<1>(nodes(), [g = f_.gap.data()](std::size_t k, double* v) { v[0] = g[k]; })[0] /
+             static_cast<double>(nodes());
+  bool any = steps > 0;
+  while (steps < enough) {
+    if (careful_ && level_.report) level_.report(residual_);  // where a stop is seen
+    const double rz = turn(target);
+    if (!(rz > 0)) break;
+    if (first == 0) first = rz;
+    if (careful_ && rz < careful_gain * careful_gain * first) break;
+    const double kept = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
+    for_nodes(nodes(), [n = view(), kept, z = work_.data(), d = direction_.data()](std::size_t k) {
+      const double old = kept != 0 ? kept * d[k] : 0.0;
+      d[k] = n.moves(k) ? z[k] + old : 0.0;
+    });
+    level_.apply(direction_, f_.image);
+    const auto sums = over_nodes<2>(nodes(), [n = view(), target, d = direction_.data(),
+                                              image = f_.image.data()](std::size_t k, double* v) {
+      const double bent = image[k] + (n.free[k] == yielding ? n.limit.yielding_slope() * d[k] : 0.0);
+      v[0] = d[k] * bent;
+      v[1] = d[k] != 0 ? d[k] * (target - n.total_gap(k)) : 0.0;
+    });
+    if (!(sums[0] > 0)) {
+      have_direction_ = false;
+      break;
+    }
+    const double length = sums[1] / sums[0];
+    for_nodes(nodes(), [n = view(), length, d = direction_.data(), image = f_.image.data()](std::size_t k) {
+      n.pressure[k] += length * d[k];
+      n.gap[k] += length * image[k];
+    });
+    direction_rz_ = rz;
+    have_direction_ = true;
+    any = true;
+    ++steps;
+    if (level_.applications > most_) break;
+  }
+  if (all_free()) {
+    const auto apart = over_nodes<0, 1>(
+        nodes(), [g = f_.gap.data(), target](std::size_t k, double* v) { v[0] = -std::abs(g[k] - target); });
+    if (-apart[0] < 0.5 * std::abs(offset_ - target)) {
+      shift_all();
+      have_direction_ = false;
+      any = true;
+    }
+  }
+  return any;
+}
+
+// Of the energy ½ p·Kp − (h + δ)·p, and what yields, from the old pressures and gaps to those there are.
+template <class Limit>
+typename OffsetDescent<Limit>::Change OffsetDescent<Limit>::change_since() const {
+  const auto sums = over_nodes<2>(nodes(), [n = view(), offset = offset_, p0 = f_.old_pressure.data(),
+                                            g0 = f_.old_gap.data()](std::size_t k, double* v) {
+    const double step = n.pressure[k] - p0[k];
+    const double before = n.limit.opening(k, p0[k]), after = n.limit.opening(k, n.pressure[k]);
+    const double slope = step * (g0[k] - offset + before);
+    const double bend = 0.5 * step * (n.gap[k] - g0[k]);
+    double yields = 0;
+    if constexpr (Limit::hardens)
+      yields = n.limit.compliance > 0
+                   ? 0.5 * (after - before) * (after + before) / n.limit.compliance - step * before
+                   : 0.0;
+    v[0] = slope;
+    v[1] = slope + bend + yields;
+  });
+  return {sums[0], sums[1]};
+}
+
+// A pass that lowers the energy: steps on the free set, and where they leave the bounds their projection as
+// far as that lowers it, or else that of a step against the gaps.
+template <class Limit>
+bool OffsetDescent<Limit>::go_downhill() {
+  const double upper = limit_.upper();
+  f_.old_pressure = f_.pressure;
+  f_.old_gap = f_.gap;
+  have_direction_ = false;
+  const bool moved = descend(0);
+  const auto out = over_nodes<1>(nodes(), [n = view(), upper](std::size_t k, double* v) {
+    v[0] = n.pressure[k] < 0 || n.pressure[k] > upper ? 1.0 : 0.0;
+  });
+  if (moved && out[0] == 0 && change_since().energy < 0) return true;
+  // Along `direction_`, from the old pressures.
+  const auto step_to = [&](double share) {
+    for_nodes(nodes(), [n = view(), upper, share, x = direction_.data(), p0 = f_.old_pressure.data(),
+                        s = work_.data()](std::size_t k) {
+      const double next = std::clamp(p0[k] + share * x[k], 0.0, upper);
+      s[k] = next - p0[k];
+      n.pressure[k] = next;
+    });
+    level_.apply(work_, f_.image);
+    for_nodes(nodes(), [n = view(), image = f_.image.data(), g0 = f_.old_gap.data()](std::size_t k) {
+      n.gap[k] = g0[k] + image[k];
+    });
+  };
+  if (moved) {
+    for_nodes(nodes(), [n = view(), x = direction_.data(), p0 = f_.old_pressure.data()](std::size_t k) {
+      x[k] = n.pressure[k] - p0[k];
+    });
+    for (double share = 1; share > 0.05; share *= 0.25) {
+      step_to(share);
+      if (change_since().enough()) return true;
+    }
+  }
+  for_nodes(nodes(),
+            [n = view(), offset = offset_, upper, x = direction_.data(), stiff = level_.short_wave_stiffness,
+             p0 = f_.old_pressure.data(), g0 = f_.old_gap.data()](std::size_t k) {
+              const double against = -stiff * (g0[k] - offset + n.limit.opening(k, p0[k]));
+              x[k] = std::clamp(p0[k] + against, 0.0, upper) - p0[k];
+            });
+  // Any share of this step stays within the bounds.
+  double share = 1;
+  for (int tries = 0; tries < 4; ++tries) {
+    step_to(share);
+    const Change change = change_since();
+    if (change.enough()) return true;
+    if (!(change.slope < 0)) return false;
+    const double bend = change.energy - change.slope;
+    share *= bend > 0 ? std::min(0.5, -0.5 * change.slope / bend) : 0.5;
+  }
+  return change_since().energy < 0;
+}
+
+template <class Limit>
+StageEnd OffsetDescent<Limit>::run(bool gap_known) {
+  using namespace descent_rules;
+  if (!gap_known) find_gap();
+  StageEnd end;
+  double least = end.best, before = end.best;
+  int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
+  bool have_old = false;
+  f_.old_free.assign(nodes(), 255);
+  for (;;) {
+    OffsetQuality at = quality();
+    end.residual = residual_ = at.residual;
+    if (level_.report) level_.report(at.residual);
+    if (at.residual < tolerance_) {
+      end.best = std::min(end.best, at.residual);
+      if (effort_ == ChainEffort::start || (at.within && (fresh_ || effort_ == ChainEffort::brief))) {
+        settle();
+        end.converged = true;
+        return end;
+      }
+      if (++renewals > most_renewals) {
+        settle();
+        return end;
+      }
+      renew();
+      continue;
+    }
+    if (at.residual < 0.9 * end.best) {
+      end.best = at.residual;
+      without_gain = 0;
+    } else {
+      ++without_gain;
+    }
+    slow_ones = at.residual > slow * least ? slow_ones + 1 : 0;
+    least = std::min(least, at.residual);
+    if (at.residual > jump * before) ++jumps;
+    before = at.residual;
+    const int patience = careful_ ? careful_patience : passes_without_gain;
+    if (without_gain > patience || level_.applications > most_ || !std::isfinite(at.residual)) {
+      settle();
+      return end;
+    }
+    if (!careful_ && (slow_ones >= slow_passes || jumps >= jumps_in_a_cycle) && have_old) {
+      for_nodes(nodes(), [n = view(), p = f_.old_pressure.data(), g = f_.old_gap.data()](std::size_t k) {
+        n.pressure[k] = 0.5 * (n.pressure[k] + p[k]);
+        n.gap[k] = 0.5 * (n.gap[k] + g[k]);
+      });
+      have_direction_ = have_old = false;
+      slow_ones = jumps = 0;
+      at = quality();
+    } else if ((have_old = slow_ones + 1 >= slow_passes || jumps + 1 >= jumps_in_a_cycle)) {
+      f_.old_pressure = f_.pressure;
+      f_.old_gap = f_.gap;
+    }
+    mark();
+    if (changed_) preconditioner_.set_free(f_.free);
+    if (!at.within || changed_) have_direction_ = false;
+    fresh_ = false;
+    if (careful_) {
+      if (!go_downhill()) {
+        settle();
+        return end;
+      }
+      std::swap(f_.free, f_.old_free);
+      continue;
+    }
+    if (!at.within) settle_step();
+    if (!descend(at.within ? 0 : 1)) {
+      settle();
+      return end;
+    }
+    std::swap(f_.free, f_.old_free);
+  }
+}
+
+StageEnd offset_descent(ContactLevel& level, DescentFields& fields, double offset, double tolerance, int most,
+                        ChainEffort effort, bool careful, bool gap_known) {
+  return std::visit(
+      [&](const auto& limit) {
+        return OffsetDescent<std::remove_cvref_t<decltype(limit)>>(level, limit, fields, offset, tolerance,
+                                                                   most, effort, careful)
+            .run(gap_known);
+      },
+      level.limit);
+}
+
+}  // namespace
+
+ChainEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double offset, double tolerance,
+                          ChainEffort effort, bool gap_known) {
+  constexpr int quick = 150, careful = 80;
+  ChainEnd end;
+  end.name = "preconditioned descent at a given approach";
+  end.stage = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
+  if (end.stage.converged || effort == ChainEffort::start) return end;
+  // One of the solves of a search: on long cells the load is found sooner.
+  if (effort == ChainEffort::brief && keeps_line_loads(level.shape.aspect)) return end;
+  end.name = "preconditioned descent at a given approach, downhill";
+  end.stage = offset_descent(level, fields, offset, tolerance, careful, effort, true, false);
+  return end;
+}
+
+}  // namespace asperity

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/elasticity/half_space/solver/set_descent.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent_directions.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent_nodes.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent_rules.hpp"
+#include "engine/contact/elasticity/half_space/solver/free_set.hpp"
+#include "engine/contact/elasticity/half_space/solver/line_loads.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
+#include "engine/contact/elasticity/half_space/solver/set_preconditioner.hpp"
+
+namespace asperity {
+
+namespace {
+using namespace descent_rules;
+
+// Applications of K in a pass that settles. Where one costs several times as much as the preconditioner, or
+// ground hardens, that of settling also carries a fixed step of the preconditioner. A pass without settling
+// takes one: more, on a free set that is not the last, took up to two thirds more in all. Not where ground
+// hardens: there three times as many random scenes stalled with one, six of 20 000.
+constexpr int steps_a_pass = 3, steps_of_dear_pass = 2;
+// With a tolerance no less than this, single precision serves for what steps change. Directions take half the
+// memory to move; they leave pressures of mirrored contacts some 1e-9 of the greatest apart.
+constexpr double single_enough = 5e-9;
+constexpr std::size_t worth_rounding = std::size_t{256} * 256;  // nodes; images of fewer save no time
+// What the image of a pass leaves in the gaps, of its residual: all passes of a solve on 2048² had
+// left 1.3e-6 of the first residual. It adds up until gaps are computed afresh, as a pass that settles may do
+// at no cost.
+constexpr double rounding_of_steps = 2e-6, rounding_share = 0.1;  // of the tolerance, without harm
+constexpr double load_slack = 1e-6;  // of the load, that a pass leaves to a later one
+
+template <class Limit, class Stored>
+class Descent {
+ public:
+  Descent(ContactLevel& level, const Limit& limit, DescentFields& fields, double tolerance, int most,
+          bool exact)
+      : level_(level),
+        limit_(limit),
+        f_(fields),
+        preconditioner_(level, limit),
+        tolerance_(tolerance),
+        most_(level.applications + most),
+        exact_(exact),
+        dear_(Limit::hardens || level.shape.boundary == Boundary::free),
+        keeps_line_loads_(keeps_line_loads(level.shape.aspect)),
+        rounds_(
+            HalfSpaceCompliance::single_possible(level.shape.nx, level.shape.ny, level.shape.boundary) &&
+            (level.shape.single || (std::is_same_v<Stored, float> && level.shape.nodes() >= worth_rounding))),
+        steps_a_pass_(dear_ ? steps_of_dear_pass : steps_a_pass),
+        no_field_(Limit::hardens ? static_cast<std::size_t>(level.shape.nx) : 0) {}
+
+  StageEnd run();
+
+ private:
+  std::size_t nodes() const { return f_.pressure.size(); }
+  DescentNodes<Limit> view() const {
+    return {f_.pressure.data(), f_.gap.data(), f_.free.data(), limit_, balance_};
+  }
+
+  ContactQuality quality();
+  // What the pressures lack of feasible ones: each settled, those of the elastic interior shifted to the
+  // load.
+  void project(const ContactQuality& at, std::span<double> target);
+  std::optional<double> shift_to_load(const ContactQuality& at) const;
+  // Feasible pressures and their gap.
+  void renew(const ContactQuality& at) {
+    project(at, f_.pressure);
+    level_.gap(f_.pressure, f_.gap);
+    fresh_ = true;
+    drift_ = 0;
+    balance_ = std::numeric_limits<double>::quiet_NaN();
+  }
+  double turn();
+  // Of row j, on the free set.
+  Along<Stored> along(int j) const;
+  void settle_step(const ContactQuality& at, bool afresh);
+  bool descend(int steps);
+
+  ContactLevel& level_;
+  const Limit& limit_;
+  DescentFields& f_;
+  SetPreconditioner<Limit> preconditioner_;
+  double tolerance_;
+  int most_;
+  const bool exact_, dear_, keeps_line_loads_;
+  const bool rounds_;  // images are computed in single precision
+  const int steps_a_pass_;
+  FreeSet set_;
+  DescentDirections<Stored> directions_;
+  double mean_gap_ = 0;  // of the balancing nodes
+  double surplus_ = 0;   // of load in `direction`, a balancing node
+  double balance_ = std::numeric_limits<double>::quiet_NaN();
+  double kept_ = 0;   // of the direction before, in the present one
+  double drift_ = 0;  // of the gaps, at most, by images in single precision; as a residual
+  bool fresh_ = false;
+  bool have_direction_ = false;
+  double direction_rz_ = 0;
+  Array<double> work_, no_field_;  // of ground that hardens
+};
+
+// Takes the last steps on the way.
+template <class Limit, class Stored>
+ContactQuality Descent<Limit, Stored>::quality() {
+  return contact_quality(level_, f_.pressure, f_.gap, directions_.hand_over(), balance_);
+}
+
+// target = the settled pressures, those of the elastic interior shifted to the load; where it cannot carry
+// the load all nodes move, in the order of their gaps.
+template <class Limit, class Stored>
+void Descent<Limit, Stored>::project(const ContactQuality& at, std::span<double> target) {
+  const double upper = limit_.upper();
+  const bool any_interior = at.interior > 0;
+  if (keeps_line_loads_) work_.assign(f_.pressure.begin(), f_.pressure.end());
+  for_nodes(nodes(), [n = view(), to = target.data(), any_interior](std::size_t k) {
+    const double q = n.settled(k);
+    n.free[k] = n.shifts(k, q, any_interior) ? 1 : 0;
+    to[k] = q;
+  });
+  if (keeps_line_loads_) keep_line_loads(level_.shape, work_, f_.free, upper, target);
+  if (project_to_load(target, f_.free, upper, level_.total_load(), target)) return;
+  const double elastic_stiffness = level_.short_wave_stiffness;
+  const double yielding_stiffness = elastic_stiffness / (1 + elastic_stiffness * limit_.yielding_slope());
+  for_nodes(nodes(), [=, n = view(), to = target.data(), middle = at.interior_gap](std::size_t k) {
+    const double q = to[k], opening = n.limit.opening(k, q), apart = n.gap[k] + opening - middle;
+    to[k] = q - (opening > 0 ? yielding_stiffness : elastic_stiffness) * apart;
+  });
+  project_to_load(target, {}, upper, level_.total_load(), target);
+}
+
+// The first of two Newton steps, from none, to the shift of project().
+double first_shift(const ContactQuality& at, double load) {
+  return at.interior > 0 ? (load - at.load) / at.interior : 0.0;
+}
+
+// That shift, but for what it misses of the load, which the next pass makes good. Nothing where that is not
+// small.
+template <class Limit, class Stored>
+std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality& at) const {
+  if (keeps_line_loads_) return {};
+  const double load = level_.total_load(), found = set_.shifted_load;
+  if (at.interior == 0 || !(std::abs(found - load) < 0.01 * load) || set_.shifted_count == 0) return {};
+  return first_shift(at, load) - (found - load) / set_.shifted_count;
+}
+
+// The direction becomes M r, r what the gaps of the free nodes lack of their mean, kept conjugate to the one
+// before if there is one. Returns r·(M r with the load kept).
+template <class Limit, class Stored>
+double Descent<Limit, Stored>::turn() {
+  const double shrink = 1 / level_.pressure_unit();
+  Stored* const direction = directions_.next(f_.pressure);
+  // r carries no load, so that r·(M r) is the same whether or not M r does; nor does the direction before.
+  double rz = 0, load = 0;
+  if constexpr (Limit::hardens) {
+    work_.resize(nodes());
+    for_marked_nodes(f_.free, [n = view(), to = work_.data(), mean = mean_gap_](std::size_t k) {
+      const double all = mean - n.total_gap(k);
+      to[k] = n.moves(k) ? all : 0.0;
+    });
+    preconditioner_.apply(f_.free, work_);
+    const auto sums = over_nodes<2>(nodes(), [n = view(), z = work_.data(), d = direction, shrink,
+                                              mean = mean_gap_](std::size_t k, double* v) {
+      const double all = z[k] * (mean - n.total_gap(k)), along = z[k] * shrink;
+      d[k] = static_cast<Stored>(along);
+      v[0] = n.moves(k) ? all : 0.0;
+      v[1] = n.moves(k) ? along : 0.0;
+    });
+    rz = sums[0];
+    load = sums[1];
+  } else {
+    rz = level_.preconditioner.spread({f_.gap.data(), -1, mean_gap_}, directions_.hand_over_gaps(f_.gap));
+    Array<std::array<double, 1>> parts(level_.preconditioner.tiles());
+    const auto put = [&](std::size_t tile, std::size_t first, std::size_t n, const float* values,
+                         double factor) {
+      if (!values) {
+        std::fill_n(direction + first, n, Stored{});
+        return;
+      }
+      const auto part = over_lanes_of_stretch<1>(
+          first, first + n,
+          [z = values - first, d = direction, times = factor * shrink]<class Value>(std::size_t k, Value* v) {
+            Value value;
+            lane_terms::read(z + k, value);
+            value *= times;
+            lane_terms::put(value, d + k);
+            v[0] = value;  // 0 off the free set
+          });
+      parts[tile][0] += part[0];
+    };
+    std::fill(parts.begin(), parts.end(), std::array<double, 1>{});
+    level_.preconditioner.gather(put);
+    load = added_up(parts)[0] + level_.preconditioner.smooth_sum() * shrink;
+  }
+  rz *= shrink;
+  kept_ = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
+  surplus_ = load / set_.balancing_count();
+  direction_rz_ = rz;
+  return rz;
+}
+
+template <class Limit, class Stored>
+Along<Stored> Descent<Limit, Stored>::along(int j) const {
+  SmoothRow<double> smooth{no_field_.data(), no_field_.data(), 0, 0};
+  if constexpr (!Limit::hardens) smooth = level_.preconditioner.smooth(j, 1 / level_.pressure_unit());
+  return directions_.row(j, level_.shape.nx, kept_, smooth);
+}
+
+// What settling changes, and a fixed step of the preconditioner if K is dear, at the cost of one application,
+// which moves the gaps, or computes them afresh, in double precision.
+template <class Limit, class Stored>
+void Descent<Limit, Stored>::settle_step(const ContactQuality& at, bool afresh) {
+  const std::optional<double> shift = shift_to_load(at);
+  if (!shift) {                       // the image of the last step is done with
+    std::swap(f_.free, f_.old_free);  // project() needs marks of its own
+    project(at, f_.image);
+    std::swap(f_.free, f_.old_free);
+  }
+  if (dear_) turn();
+  const auto nx = static_cast<std::size_t>(level_.shape.nx);
+  const double unit = level_.pressure_unit(), shrink = 1 / unit, immobile = level_.immobile_pressure();
+  const auto advance = [=, n = view(), balancing = set_.balancing(), surplus = surplus_](
+                           std::size_t k, double along, double target) {
+    const double p = n.pressure[k], z = along - (n.free[k] == balancing ? surplus : 0.0);
+    const double descent = richardson_step * unit * z, next = target + (n.moves(k) ? descent : 0.0);
+    n.pressure[k] = next;  // at a bound to the last bit if it does not move
+    return (next - (afresh ? immobile : p)) * shrink;
+  };
+  const auto move = [&](int j, double* to, const auto& target) {
+    const std::size_t begin = static_cast<std::size_t>(j) * nx;
+    if (dear_)
+      for_stretch(begin, begin + nx, [=, along = along(j)](std::size_t k) {
+        double z;
+        along.read(k, z);
+        to[k] = advance(k, z, target(k));
+      });
+    else
+      for_stretch(begin, begin + nx, [=, p = f_.pressure.data()](std::size_t k) {
+        const double next = target(k);
+        to[k] = (next - (afresh ? immobile : p[k])) * shrink;
+        p[k] = next;
+      });
+  };
+  const auto source = [&](int j, double* step) -> const double* {
+    double* const to = step - static_cast<std::ptrdiff_t>(static_cast<std::size_t>(j) * nx);
+    if (shift)
+      move(j, to, [n = view(), by = *shift, upper = limit_.upper()](std::size_t k) {
+        const double q = n.settled(k), moved = q + by, positive = moved > 0 ? moved : 0.0;
+        const double shifted = moved < upper ? positive : upper;
+        return n.shifts(k, q, true) ? shifted : q;
+      });
+    else
+      move(j, to, [from = f_.image.data()](std::size_t k) { return from[k]; });
+    return step;
+  };
+  // Ground that goes on yielding once it has settled is not among what balances here.
+  const Freedom balances = set_.balancing();
+  Array<std::array<double, 1>> rows(static_cast<std::size_t>(level_.shape.ny));
+  const auto sink = [&](int j, const double* image) {
+    const std::size_t begin = static_cast<std::size_t>(j) * nx;
+    if (afresh) level_.unpressed_gap(begin, nx, f_.gap.data() + begin);
+    rows[static_cast<std::size_t>(j)] = take_image(view(), begin, begin + nx, image, unit, balances);
+  };
+  if (afresh)
+    level_.apply_in_double(source, sink, f_.image);  // row by row: where `from` is, it has been read
+  else
+    level_.apply(source, sink, rounds_);
+  auto sums = added_up(rows);
+  if (set_.settling_count > 0) {
+    for (std::uint8_t& kind : f_.free)
+      if (kind == settling) kind = yielding;
+    set_.yielding_count += set_.settling_count;
+    set_.settling_count = 0;
+    preconditioner_.set_free(f_.free);
+    sums = over_nodes<1>(nodes(), [n = view(), now = set_.balancing()](std::size_t k, double* v) {
+      const double gap = n.total_gap(k);
+      v[0] = n.free[k] == now ? gap : 0.0;
+    });
+  }
+  mean_gap_ = sums[0] / set_.balancing_count();
+}
+
+// Conjugate gradients on the free set, `steps` of the pass being taken already; false where no step could be.
+template <class Limit, class Stored>
+bool Descent<Limit, Stored>::descend(int steps) {
+  const auto nx = static_cast<std::size_t>(level_.shape.nx);
+  const int enough = steps > 0 || Limit::hardens ? steps_a_pass_ : 1;
+  while (steps < enough) {
+    if constexpr (Limit::hardens) directions_.take(f_.pressure, f_.gap);
+    const double rz = turn();
+    have_direction_ = true;
+    const Freedom balancing = set_.balancing();
+    const auto source = [&](int j, double* row) -> const double* {
+      const std::size_t begin = static_cast<std::size_t>(j) * nx;
+      for_lanes_of_stretch(begin, begin + nx,
+                           [along = along(j), balancing, surplus = surplus_, marks = f_.free.data(),
+                            d = directions_.last(), to = row - begin]<class Value>(std::size_t k) {
+                             Value value, mark;
+                             along.read(k, value);
+                             lane_terms::read(marks + k, mark);
+                             const Value none = {}, at = none + static_cast<double>(balancing);
+                             const Value balanced = mark == at ? value - surplus : value;
+                             const Value next = mark > none ? balanced : none;
+                             lane_terms::put(next, d + k);
+                             lane_terms::read(d + k, value);
+                             lane_terms::put(value, to + k);
+                           });
+      return row;
+    };
+    Array<std::array<double, 3>> rows(static_cast<std::size_t>(level_.shape.ny));
+    const auto sink = [&](int j, const double* image) {
+      const std::size_t begin = static_cast<std::size_t>(j) * nx;
+      rows[static_cast<std::size_t>(j)] = weigh_image(view(), begin, begin + nx, balancing, mean_gap_,
+                                                      directions_.last(), image, f_.image.data());
+    };
+    level_.apply(source, sink, rounds_);
+    const auto sums = added_up(rows);
+    if (!(sums[0] > 0) || !(rz > 0)) {
+      have_direction_ = false;
+      directions_.drop_last(f_.gap);
+      break;
+    }
+    // r·M r is known to single precision only, unless it was summed up.
+    const double length = (Limit::hardens ? rz : sums[2]) / sums[0];
+    mean_gap_ += length * (sums[1] / set_.balancing_count());
+    directions_.go(length, f_.image.data());
+    ++steps;
+  }
+  return steps > 0;
+}
+
+template <class Limit, class Stored>
+StageEnd Descent<Limit, Stored>::run() {
+  level_.gap(f_.pressure, f_.gap);
+  fresh_ = true;
+  StageEnd end;
+  double least = end.best;
+  int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
+  double before = end.best;
+  bool have_old = false;
+  f_.old_free.assign(nodes(), 255);
+  for (;;) {
+    ContactQuality at = quality();
+    end.residual = at.residual;
+    if (level_.report) level_.report(at.residual);
+    if (at.residual < tolerance_) {
+      const bool loaded = std::abs(at.load - level_.total_load()) < tolerance_ * level_.total_load();
+      if (!exact_ || (at.within && fresh_ && loaded)) {
+        end.converged = true;
+        end.best = at.residual;
+        return end;
+      }
+      if (++renewals > most_renewals) {  // feasible pressures are worse again each time
+        project(at, f_.pressure);
+        return end;
+      }
+      renew(at);
+      have_direction_ = false;
+      continue;
+    }
+    if (at.residual < 0.9 * end.best) {
+      end.best = at.residual;
+      without_gain = 0;
+    } else {
+      ++without_gain;
+    }
+    slow_ones = at.residual > slow * least ? slow_ones + 1 : 0;
+    least = std::min(least, at.residual);
+    if (at.residual > jump * before) ++jumps;
+    before = at.residual;
+    if (without_gain > passes_without_gain || level_.applications > most_ || !std::isfinite(at.residual)) {
+      project(at, f_.pressure);
+      return end;
+    }
+    if ((slow_ones >= slow_passes || jumps >= jumps_in_a_cycle) && have_old) {
+      for_nodes(nodes(), [n = view(), p = f_.old_pressure.data(), g = f_.old_gap.data()](std::size_t k) {
+        n.pressure[k] = 0.5 * (n.pressure[k] + p[k]);
+        n.gap[k] = 0.5 * (n.gap[k] + g[k]);
+      });
+      have_direction_ = have_old = fresh_ = false;
+      slow_ones = jumps = 0;
+      at = quality();
+    } else if ((have_old = slow_ones + 1 >= slow_passes || jumps + 1 >= jumps_in_a_cycle)) {
+      f_.old_pressure = f_.pressure;
+      f_.old_gap = f_.gap;
+    }
+
+    set_ = mark_free_set(limit_, at, balance_, first_shift(at, level_.total_load()), f_.pressure, f_.gap,
+                         f_.old_free, f_.free);
+    if (set_.changed) preconditioner_.set_free(f_.free);
+    const bool settles =
+        !at.within || std::abs(at.load - level_.total_load()) > load_slack * level_.total_load();
+    if (settles || set_.changed) have_direction_ = false;
+    fresh_ = false;
+    mean_gap_ = set_.count() > 0 ? set_.balancing_gap() / set_.balancing_count() : at.interior_gap;
+    const double rounding = rounding_of_steps * at.residual, harmless = rounding_share * tolerance_;
+    const bool afresh = settles && drift_ > harmless && (rounding <= harmless || rounding < 0.01 * drift_);
+    if (afresh) drift_ = 0;
+    if (rounds_) drift_ += rounding;
+    if (settles) settle_step(at, afresh);
+    if (!descend(settles ? 1 : 0)) {  // the free nodes are in balance to the last bit
+      project(at, f_.pressure);
+      return end;
+    }
+    balance_ = mean_gap_;
+    std::swap(f_.free, f_.old_free);
+  }
+}
+}  // namespace
+
+StageEnd set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications,
+                     bool exact) {
+  const auto run = [&]<class Stored>(const auto& limit, Stored) {
+    return Descent<std::remove_cvref_t<decltype(limit)>, Stored>(level, limit, fields, tolerance,
+                                                                 most_applications, exact)
+        .run();
+  };
+  if (const auto* hardening = std::get_if<LinearHardening>(&level.limit)) return run(*hardening, double{});
+  const PressureCap& cap = std::get<PressureCap>(level.limit);
+  return tolerance >= single_enough ? run(cap, float{}) : run(cap, double{});
+}
+
+}  // namespace asperity

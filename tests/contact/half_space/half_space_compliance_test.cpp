@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The operator against dense sums (cases V1 and V7), on sizes no fast algorithm likes.
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <tuple>
+
+#include "engine/contact/elasticity/half_space/operator/love_kernel.hpp"
+#include "engine/core/arithmetic/random.hpp"
+#include "engine/core/cost.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/grid.hpp"
+#include "engine/core/parallel.hpp"
+
+namespace asperity::half_space_compliance_test {
+namespace {
+
+Field noise(int nx, int ny, std::uint64_t seed) {
+  const Stream stream(seed, "compliance test");
+  Field field(nx, ny);
+  for (std::size_t k = 0; k < field.size(); ++k) field[k] = stream.normal(k);
+  return field;
+}
+
+Field applied(HalfSpaceCompliance& compliance, const Field& p) {
+  Field u(p.nx(), p.ny());
+  compliance.apply(p.values(), u.values());
+  return u;
+}
+
+double dot(const Field& a, const Field& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+// Influence of node (0, 0) on node (i, j), from the definition.
+Field influences(int nx, int ny, double aspect, Boundary boundary) {
+  Field k(nx, ny);
+  const LoveKernel love(aspect);
+  const double turn = 2 * std::numbers::pi;
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) {
+      if (boundary == Boundary::free) {
+        k(i, j) = love(i, j);
+        continue;
+      }
+      double sum = 0;
+      for (int b = 0; b < ny; ++b)
+        for (int a = 0; a < nx; ++a) {
+          if (a == 0 && b == 0) continue;
+          const double qx = turn * std::min(a, nx - a) / nx, qy = turn * std::min(b, ny - b) / (ny * aspect);
+          sum += 2 / std::hypot(qx, qy) * std::cos(turn * ((a * i) % nx) / nx) *
+                 std::cos(turn * ((b * j) % ny) / ny);
+        }
+      k(i, j) = sum / (nx * ny);
+    }
+  return k;
+}
+
+Field dense(const Field& p, double aspect, Boundary boundary) {
+  const int nx = p.nx(), ny = p.ny();
+  const Field k = influences(nx, ny, aspect, boundary);
+  const auto across = [&](int d, int n) {
+    d = std::abs(d);
+    return boundary == Boundary::periodic ? std::min(d, n - d) : d;
+  };
+  Field u(nx, ny);
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+      for (int b = 0; b < ny; ++b)
+        for (int a = 0; a < nx; ++a) u(i, j) += k(across(i - a, nx), across(j - b, ny)) * p(a, b);
+  return u;
+}
+
+double relative_distance(const Field& a, const Field& b) {
+  double difference = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) difference += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(difference / dot(b, b));
+}
+
+struct Case {
+  int nx, ny;
+  double aspect;
+};
+constexpr Case cases[] = {{64, 64, 1}, {16, 8, 2},  {15, 9, 1},     {13, 17, 0.3}, {1, 12, 1},
+                          {12, 1, 4},  {2, 3, 100}, {31, 32, 0.01}, {40, 24, 1},   {8, 6, 1}};
+
+class Compliance : public ::testing::TestWithParam<std::tuple<Boundary, Case>> {
+ protected:
+  Boundary boundary = std::get<0>(GetParam());
+  Case grid = std::get<1>(GetParam());
+  HalfSpaceCompliance compliance{grid.nx, grid.ny, grid.aspect, boundary};
+};
+
+TEST_P(Compliance, IsTheDenseProduct) {
+  const Field p = noise(grid.nx, grid.ny, 1);
+  EXPECT_LT(relative_distance(applied(compliance, p), dense(p, grid.aspect, boundary)), 1e-13);
+}
+
+TEST_P(Compliance, IsSymmetricAndPositive) {
+  const Field a = noise(grid.nx, grid.ny, 1), b = noise(grid.nx, grid.ny, 2);
+  const Field ka = applied(compliance, a), kb = applied(compliance, b);
+  EXPECT_NEAR(dot(a, kb), dot(b, ka), 1e-13 * std::sqrt(dot(a, a) * dot(kb, kb)));
+  EXPECT_GT(dot(a, ka), 0);
+}
+
+TEST_P(Compliance, WorksInPlace) {
+  const Field p = noise(grid.nx, grid.ny, 1);
+  const Field u = applied(compliance, p);
+  Field same = p;
+  compliance.apply(same.values(), same.values());
+  for (std::size_t k = 0; k < u.size(); ++k) ASSERT_EQ(same[k], u[k]) << k;
+}
+
+TEST_P(Compliance, PowersOfTwoChangeNoBit) {
+  const Field p = noise(grid.nx, grid.ny, 1);
+  Field scaled = p;
+  for (double& value : scaled.values()) value = std::ldexp(value, -37);
+  const Field u = applied(compliance, p), v = applied(compliance, scaled);
+  for (std::size_t k = 0; k < u.size(); ++k) ASSERT_EQ(v[k], std::ldexp(u[k], -37)) << k;
+}
+
+std::string title(const ::testing::TestParamInfo<Compliance::ParamType>& tested) {
+  const Case grid = std::get<1>(tested.param);
+  return std::string(name(std::get<0>(tested.param))) + "_" + std::to_string(grid.nx) + "x" +
+         std::to_string(grid.ny);
+}
+
+INSTANTIATE_TEST_SUITE_P(Grids, Compliance,
+                         ::testing::Combine(::testing::Values(Boundary::periodic, Boundary::free),
+                                            ::testing::ValuesIn(cases)),
+                         title);
+
+class Threads : public ::testing::TestWithParam<Boundary> {
+ protected:
+  void TearDown() override { set_thread_count(0); }
+};
+
+TEST_P(Threads, DoNotChangeABit) {
+  for (const auto& [nx, ny] : {std::pair(96, 160), std::pair(101, 75)}) {
+    const Field p = noise(nx, ny, 1);
+    set_thread_count(1);
+    HalfSpaceCompliance alone(nx, ny, 1.25, GetParam());
+    const Field u = applied(alone, p);
+    for (const int threads : {2, 3}) {
+      set_thread_count(threads);
+      HalfSpaceCompliance shared(nx, ny, 1.25, GetParam());
+      const Field v = applied(shared, p);
+      for (std::size_t k = 0; k < u.size(); ++k) ASSERT_EQ(u[k], v[k]) << threads << " threads, " << k;
+    }
+  }
+}
+
+TEST_P(Threads, AnUnalignedResultIsTheSame) {
+  const int nx = 64, ny = 40;
+  HalfSpaceCompliance compliance(nx, ny, 1, GetParam());
+  const Field p = noise(nx, ny, 1);
+  const Field u = applied(compliance, p);
+  Array<double> shifted(u.size() + 1);
+  compliance.apply(p.values(), std::span(shifted).subspan(1));
+  for (std::size_t k = 0; k < u.size(); ++k) ASSERT_EQ(shifted[k + 1], u[k]) << k;
+}
+
+TEST_P(Threads, AnApplicationIsTwoWeightedTransforms) {
+  HalfSpaceCompliance compliance(32, 20, 1, GetParam(), 0.25);
+  const CostScope scope;
+  applied(compliance, noise(32, 20, 1));
+  EXPECT_DOUBLE_EQ(scope.so_far().transforms, 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Boundaries, Threads, ::testing::Values(Boundary::periodic, Boundary::free));
+
+TEST(PeriodicCompliance, AWaveIsMultipliedByTwoOverItsNumber) {
+  const int nx = 48, ny = 30;
+  const double aspect = 1.5, qx = 2 * std::numbers::pi * 5 / nx,
+               qy = 2 * std::numbers::pi * 3 / (ny * aspect);
+  HalfSpaceCompliance compliance(nx, ny, aspect, Boundary::periodic);
+  Field p(nx, ny);
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) p(i, j) = std::cos(qx * i + qy * aspect * j);
+  const Field u = applied(compliance, p);
+  for (std::size_t k = 0; k < p.size(); ++k) ASSERT_NEAR(u[k], 2 / std::hypot(qx, qy) * p[k], 1e-13);
+}
+
+TEST(PeriodicCompliance, AConstantMovesNothing) {
+  HalfSpaceCompliance compliance(20, 20, 1, Boundary::periodic);
+  const Field u = applied(compliance, Field(20, 20, 3.0));
+  for (const double value : u.values()) EXPECT_NEAR(value, 0, 1e-14);
+}
+
+TEST(PeriodicCompliance, PressureToDisplacementToPressure) {  // case V7
+  for (const auto& [nx, ny] : {std::pair(64, 64), std::pair(37, 50)}) {
+    HalfSpaceCompliance compliance(nx, ny, 0.7, Boundary::periodic);
+    Field p = noise(nx, ny, 1);
+    const double average = mean(p.values());
+    for (double& value : p.values()) value -= average;
+    const Field u = applied(compliance, p);
+    Field back(nx, ny);
+    compliance.apply_inverse(u.values(), back.values());
+    EXPECT_LT(relative_distance(back, p), 1e-12);
+    EXPECT_NEAR(mean(back.values()), 0, 1e-14);
+  }
+}
+
+// Case V7: ½ p·u against ½ Σ |p̂|² · 2/|q| / n by the sum that defines p̂.
+TEST(PeriodicCompliance, EnergyInFourierSpaceIsThatInRealSpace) {
+  const int n = 16;
+  const Field p = noise(n, n, 1);
+  HalfSpaceCompliance compliance(n, n, 1, Boundary::periodic);
+  const double turn = 2 * std::numbers::pi / n;
+  double energy = 0;
+  for (int b = 0; b < n; ++b)
+    for (int a = 0; a < n; ++a) {
+      if (a == 0 && b == 0) continue;
+      double re = 0, im = 0;
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+          re += p(i, j) * std::cos(turn * (a * i + b * j));
+          im += p(i, j) * std::sin(turn * (a * i + b * j));
+        }
+      energy += (re * re + im * im) / (turn * std::hypot(std::min(a, n - a), std::min(b, n - b))) / (n * n);
+    }
+  EXPECT_NEAR(0.5 * dot(p, applied(compliance, p)) / energy, 1, 1e-12);
+}
+
+TEST(FreeCompliance, HasNoInverse) {
+  HalfSpaceCompliance compliance(8, 8, 1, Boundary::free);
+  Field u(8, 8);
+  try {
+    compliance.apply_inverse(u.values(), u.values());
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::internal);
+    EXPECT_STREQ(error.what(), "a free half-space has no inverse filter");
+  }
+}
+
+// A pressed node far from another moves it by the coefficient itself: nothing comes round the rim.
+TEST(FreeCompliance, DoesNotWrap) {
+  const int n = 50;
+  HalfSpaceCompliance compliance(n, n, 1, Boundary::free);
+  Field p(n, n);
+  p(0, 0) = 1;
+  const Field u = applied(compliance, p);
+  EXPECT_NEAR(u(n - 1, 0), LoveKernel(1)(n - 1, 0), 1e-15);
+  EXPECT_NEAR(u(n - 1, n - 1), LoveKernel(1)(n - 1, n - 1), 1e-15);
+  EXPECT_NEAR(u(0, 0), LoveKernel(1)(0, 0), 1e-14);
+}
+
+TEST(HalfSpaceCompliance, StatesWhatItHolds) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+    for (const auto& [nx, ny] : {std::pair(256, 128), std::pair(101, 90)}) {
+      set_thread_count(1);
+      const std::int64_t before = memory::held();
+      HalfSpaceCompliance compliance(nx, ny, 1, boundary);
+      Field p(nx, ny, 1.0);
+      compliance.apply(p.values(), p.values());
+      const std::int64_t held =
+          memory::held() - before - static_cast<std::int64_t>(p.size() * sizeof(double));
+      EXPECT_LE(held, HalfSpaceCompliance::bytes(nx, ny, boundary) + 32 * (nx + ny) + 4096);
+      EXPECT_GE(held, HalfSpaceCompliance::bytes(nx, ny, boundary) / 2);
+      set_thread_count(0);
+    }
+}
+
+TEST(HalfSpaceCompliance, SaysBeforehandWhereItCanBeSingle) {
+  int possible = 0;
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+    for (const int nx : {1, 2, 15, 16, 22, 28, 101})
+      for (const int ny : {1, 2, 15, 16, 22, 28, 101}) {
+        const bool said = HalfSpaceCompliance::single_possible(nx, ny, boundary);
+        EXPECT_EQ(said, HalfSpaceCompliance(nx, ny, 1, boundary, 1, true).single()) << nx << " " << ny;
+        EXPECT_FALSE(HalfSpaceCompliance(nx, ny, 1, boundary).single());
+        possible += said ? 1 : 0;
+      }
+  EXPECT_GT(possible, 0);
+  EXPECT_LT(possible, 98);
+}
+
+TEST(HalfSpaceCompliance, MovesWithItsWorkSpace) {
+  HalfSpaceCompliance first(16, 16, 1, Boundary::periodic);
+  const Field p = noise(16, 16, 1);
+  const Field u = applied(first, p);
+  HalfSpaceCompliance second = std::move(first);
+  const Field v = applied(second, p);
+  for (std::size_t k = 0; k < u.size(); ++k) ASSERT_EQ(u[k], v[k]);
+  EXPECT_DOUBLE_EQ(second.transform_work(), 256 * 8);
+}
+
+}  // namespace
+}  // namespace asperity::half_space_compliance_test

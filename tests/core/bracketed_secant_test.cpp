@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bracketed secant on functions that are kind and unkind to secants.
+#include "engine/core/arithmetic/bracketed_secant.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace asperity::bracketed_secant_test {
+namespace {
+
+int evaluations(const std::function<double(double)>& f, double wanted, double begin) {
+  BracketedSecant root(wanted);
+  double at = begin;
+  for (int n = 1; n < 200; ++n) {
+    const double value = f(at);
+    if (std::abs(value - wanted) <= 1e-10 * wanted) return n;
+    root.take({at, value}, true);
+    const auto next = root.next();
+    if (!next) return n;
+    at = *next;
+  }
+  return 200;
+}
+
+TEST(BracketedSecant, FindsRootsOfMonotoneFunctions) {
+  EXPECT_LE(evaluations([](double x) { return x; }, 3, 1), 3);
+  EXPECT_LE(evaluations([](double x) { return x * std::sqrt(x); }, 3, 1e-3), 12);
+  EXPECT_LE(evaluations([](double x) { return 1 - std::exp(-x); }, .999, 1e-2), 20);
+  // Terraces, and cliffs between them.
+  EXPECT_LE(evaluations([](double x) { return std::floor(x) + std::pow(x - std::floor(x), 20); }, 5.5, 1),
+            60);
+  // No double is near enough: halved in every second step down to the last of 52 digits.
+  EXPECT_LE(evaluations([](double x) { return x < 2 ? 1e-9 * x : 2e-9 + 1e9 * (x - 2); }, 1, 1), 110);
+}
+
+TEST(BracketedSecant, ADoubtfulValueLeavesTheBracket) {
+  BracketedSecant root(1);
+  root.take({1, .5}, true);
+  root.take({4, 2}, true);
+  root.take({2, 3}, false);
+  for (int k = 0; k < 20; ++k) {
+    const auto next = root.next();
+    ASSERT_TRUE(next);
+    EXPECT_GT(*next, 1);
+    EXPECT_LT(*next, 4);
+    root.take({*next, 3}, false);
+  }
+}
+
+}  // namespace
+}  // namespace asperity::bracketed_secant_test
