@@ -8,7 +8,7 @@
 
 #include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 

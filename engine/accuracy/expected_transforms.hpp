@@ -12,7 +12,7 @@
 
 #include <string>
 
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/press_request.hpp"
 #include "engine/contact/scene.hpp"

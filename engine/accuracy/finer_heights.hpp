@@ -6,7 +6,7 @@
 // the rim of an upper body that does not wrap, where half a cell has no node left, its last heights go on.
 #pragma once
 
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/core/monitor.hpp"
 
 namespace asperity {

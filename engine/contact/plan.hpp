@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/carried_load.hpp"
-#include "engine/contact/geometry.hpp"
 #include "engine/contact/scene.hpp"
 
 namespace asperity {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/core/constants.hpp"
 
 namespace asperity {

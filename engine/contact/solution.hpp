@@ -13,9 +13,9 @@
 #include <string_view>
 
 #include "engine/contact/algebraic_error.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/carried_load.hpp"
 #include "engine/contact/certificate.hpp"
-#include "engine/contact/geometry.hpp"
 
 namespace asperity {
 

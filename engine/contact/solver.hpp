@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/press_request.hpp"
 #include "engine/contact/state.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Combined heights of two bodies as they lie over each other.
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 
 #include "tests/contact/contacts.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The turned-over, turned and shifted lattice: known nodes, exact inverses, composition.
-#include "engine/contact/lattice_isometry.hpp"
+#include "engine/contact/bodies/lattice_isometry.hpp"
 
 #include <cstring>
 #include <set>

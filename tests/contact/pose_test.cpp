@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the upper body lies: exact on the lattice, interpolated between, angles that add up.
-#include "engine/contact/pose.hpp"
+#include "engine/contact/bodies/pose.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -14,7 +14,7 @@
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/accuracy/doubts.hpp"
 #include "engine/accuracy/other_grids.hpp"
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/quantities.hpp"
 #include "engine/contact/state_file.hpp"
 #include "engine/core/node_value.hpp"

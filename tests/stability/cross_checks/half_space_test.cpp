@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "engine/contact/elastic_bodies.hpp"
+#include "engine/contact/bodies/elastic_bodies.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "tests/stability/cross_checks/dense_contact.hpp"
 #include "tests/stability/properties/scene.hpp"

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/contact/elastic_bodies.hpp"
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/elastic_bodies.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/surface/generators/self_affine.hpp"

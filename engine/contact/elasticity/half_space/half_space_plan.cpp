@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/contact/elastic_bodies.hpp"
+#include "engine/contact/bodies/elastic_bodies.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/line_extension.hpp"
 #include "engine/contact/elasticity/half_space/solver/line_loads.hpp"
 #include "engine/core/error.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/contact/deformed_bodies.hpp"
+#include "engine/contact/bodies/deformed_bodies.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
 #include "engine/contact/elasticity/half_space/error/half_space_error.hpp"

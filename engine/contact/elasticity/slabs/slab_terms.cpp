@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "engine/contact/bodies/elastic_bodies.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/effects/plasticity.hpp"
-#include "engine/contact/elastic_bodies.hpp"
-#include "engine/contact/geometry.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 

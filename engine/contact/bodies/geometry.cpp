@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <memory>
 #include <span>
 
-#include "engine/contact/pose.hpp"
+#include "engine/contact/bodies/pose.hpp"
 #include "engine/contact/scene.hpp"
 
 namespace asperity {

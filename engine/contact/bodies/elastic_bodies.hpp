@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 
 namespace asperity {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/deformed_bodies.hpp"
+#include "engine/contact/bodies/deformed_bodies.hpp"
 
 #include "engine/contact/effects/plasticity.hpp"
 

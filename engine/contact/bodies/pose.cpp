@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/pose.hpp"
+#include "engine/contact/bodies/pose.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/lattice_isometry.hpp"
+#include "engine/contact/bodies/lattice_isometry.hpp"
 
 #include <string>
 

@@ -6,7 +6,7 @@
 // from heights that were turned before. An interpolated turn needs a free boundary.
 #pragma once
 
-#include "engine/contact/lattice_isometry.hpp"
+#include "engine/contact/bodies/lattice_isometry.hpp"
 
 namespace asperity {
 

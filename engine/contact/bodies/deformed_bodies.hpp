@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "engine/contact/geometry.hpp"
+#include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/solution.hpp"
 
