@@ -11,7 +11,7 @@
 #include "engine/core/files/disk.hpp"
 #include "engine/core/files/part_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/io/hdf5_file.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
 namespace asperity {
 

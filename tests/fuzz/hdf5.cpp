@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // HDF5 files as any program writes them, and as none should: addresses, sizes and trees that lie. Deflate
 // makes up to 1032 bytes of one, and a byte becomes an integer and then a height.
-#include "engine/surface/io/hdf5_file.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
-#include "engine/surface/io/hdf5_objects.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_hdf5(const std::uint8_t* data, std::size_t size) {

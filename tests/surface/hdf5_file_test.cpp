@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that this program writes, whole and damaged. That other programs read them is tested in
 // tests/scripts.
-#include "engine/surface/io/hdf5_file.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
 #include <gtest/gtest.h>
 

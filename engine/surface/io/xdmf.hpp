@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/core/grid.hpp"
-#include "engine/surface/io/hdf5_file.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
 namespace asperity {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The digest of an array is over its shape and the bytes of its values, so that neither can change unseen.
-#include "engine/surface/io/hdf5_file.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5/write_call.hpp"
-#include "engine/surface/io/hdf5_data.hpp"
-#include "engine/surface/io/hdf5_objects.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_data.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 #include "engine/surface/io/source_file.hpp"
 #include "engine/surface/io/staged_file.hpp"
 

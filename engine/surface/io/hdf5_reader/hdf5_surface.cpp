@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/surface/io/hdf5_surface.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
 
 #include <array>
 #include <limits>
@@ -7,7 +7,7 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/hdf5_objects.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 #include "engine/surface/io/xdmf.hpp"
 
 namespace asperity {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/surface/io/hdf5_bytes.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_bytes.hpp"
 
 namespace asperity {
 

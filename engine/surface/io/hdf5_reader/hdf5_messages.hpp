@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/surface/io/hdf5_objects.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 
 namespace asperity {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/core/monitor.hpp"
-#include "engine/surface/io/hdf5_file.hpp"
-#include "engine/surface/io/hdf5_messages.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_messages.hpp"
 
 namespace asperity {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every walk is bounded by the file's size: a structure takes bytes of it, and no more structures are
 // followed than bytes can hold.
-#include "engine/surface/io/hdf5_objects.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 // values.
 #pragma once
 
-#include "engine/surface/io/hdf5_data.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_data.hpp"
 
 namespace asperity {
 

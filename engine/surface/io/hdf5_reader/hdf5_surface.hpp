@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "engine/surface/io/hdf5_file.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
