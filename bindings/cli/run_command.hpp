@@ -53,7 +53,7 @@ struct RunCommand {
   RunObserver* observer = nullptr;            // hears what is otherwise said on standard error; may be null
   MpiRanks* ranks = nullptr;                  // the processes of the run; null where it is the only one
 
-  // Behind the barriers of the page's runs (bindings/web/confined_command.hpp).
+  // Behind the barriers of the page's runs (bindings/web/confined/confined_command.hpp).
   bool confined = false;
   std::vector<std::string> read;  // folders that it reads besides the script's own
   std::string without_barriers;   // which need not stand: "files,network"
@@ -66,7 +66,8 @@ struct RunCommand {
 };
 
 // The other way to carry a command out: behind barriers of the operating system, by a process that is
-// confined. bindings/main.cpp hands it down from bindings/web/confined_command.hpp, which stands above.
+// confined. bindings/main.cpp hands it down from bindings/web/confined/confined_command.hpp, which stands
+// above.
 template <class Asked>
 struct BehindBarriers {
   bool (*wanted)(const Asked& asked);    // by its options, or by the record that it goes on with

@@ -19,9 +19,9 @@
 
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/shared_options.hpp"
-#include "bindings/web/api.hpp"
-#include "bindings/web/barrier_report.hpp"
-#include "bindings/web/frames.hpp"
+#include "bindings/web/api/api.hpp"
+#include "bindings/web/confined/barrier_report.hpp"
+#include "bindings/web/confined/frames.hpp"
 #include "bindings/web/places.hpp"
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"

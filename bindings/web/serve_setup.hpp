@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bindings/web/access.hpp"
-#include "bindings/web/run_queue.hpp"
+#include "bindings/web/api/access.hpp"
+#include "bindings/web/runs/run_queue.hpp"
 #include "bindings/web/serve_command.hpp"
 
 namespace asperity::web {

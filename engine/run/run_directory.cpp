@@ -30,7 +30,8 @@ constexpr std::string_view script_file = "script.lua";
 constexpr std::string_view manifest_file = "manifest.json";
 constexpr std::string_view journal_file = "journal.jsonl";
 constexpr std::string_view store_folder = "store";
-constexpr std::string_view views_folder = ".views";  // what the page draws of a run (bindings/web/views.hpp)
+constexpr std::string_view views_folder =
+    ".views";  // what the page draws of a run (bindings/web/api/views.hpp)
 constexpr std::string_view earlier_folder = "before-";
 
 constexpr std::string_view mending = "recorded_outputs";  // of the manifest, until a run is mended

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // S2: what a run leaves beyond its limit is removed, its record last, and no link is followed.
-#include "bindings/web/disk_bound.hpp"
+#include "bindings/web/confined/disk_bound.hpp"
 
 #include <gtest/gtest.h>
 

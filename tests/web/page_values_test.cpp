@@ -10,12 +10,12 @@
 #include <string>
 #include <thread>
 
-#include "bindings/web/event_log.hpp"
-#include "bindings/web/frames.hpp"
-#include "bindings/web/page_run.hpp"
-#include "bindings/web/plain_files.hpp"
-#include "bindings/web/positions.hpp"
-#include "bindings/web/views.hpp"
+#include "bindings/web/api/positions.hpp"
+#include "bindings/web/api/views.hpp"
+#include "bindings/web/confined/frames.hpp"
+#include "bindings/web/runs/event_log.hpp"
+#include "bindings/web/runs/page_run.hpp"
+#include "bindings/web/runs/plain_files.hpp"
 
 namespace asperity::web::page_values_test {
 namespace {

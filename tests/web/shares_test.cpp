@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/shares.hpp"
+#include "bindings/web/runs/shares.hpp"
 
 #include <gtest/gtest.h>
 

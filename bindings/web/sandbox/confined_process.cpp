@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/web/frames.hpp"
+#include "bindings/web/confined/frames.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "bindings/web/confined.hpp"
+#include "bindings/web/confined/confined.hpp"
 
 namespace asperity::web {
 

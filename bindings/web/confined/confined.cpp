@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/confined.hpp"
+#include "bindings/web/confined/confined.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -14,10 +14,10 @@
 
 #include "bindings/cli/check_command.hpp"
 #include "bindings/cli/run_command.hpp"
-#include "bindings/web/command_request.hpp"
-#include "bindings/web/confined_command.hpp"
-#include "bindings/web/drawing.hpp"
-#include "bindings/web/event_channel.hpp"
+#include "bindings/web/confined/command_request.hpp"
+#include "bindings/web/confined/confined_command.hpp"
+#include "bindings/web/confined/drawing.hpp"
+#include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/sandbox/system_calls.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/part_file.hpp"

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "bindings/web/access.hpp"
+#include "bindings/web/api/access.hpp"
+#include "bindings/web/api/page_files.hpp"
 #include "bindings/web/http.hpp"
-#include "bindings/web/page_files.hpp"
-#include "bindings/web/run_queue.hpp"
-#include "bindings/web/shares.hpp"
+#include "bindings/web/runs/run_queue.hpp"
+#include "bindings/web/runs/shares.hpp"
 
 namespace asperity::web {
 

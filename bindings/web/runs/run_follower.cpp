@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/run_follower.hpp"
+#include "bindings/web/runs/run_follower.hpp"
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -11,8 +11,8 @@
 #include <csignal>
 #include <cstring>
 
-#include "bindings/web/disk_bound.hpp"
-#include "bindings/web/drawing.hpp"
+#include "bindings/web/confined/disk_bound.hpp"
+#include "bindings/web/confined/drawing.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/barrier_report.hpp"
+#include "bindings/web/confined/barrier_report.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/command_request.hpp"
+#include "bindings/web/confined/command_request.hpp"
 
 #include <cstdint>
 #include <cstdlib>

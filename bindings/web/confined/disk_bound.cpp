@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/disk_bound.hpp"
+#include "bindings/web/confined/disk_bound.hpp"
 
 #include <sys/stat.h>
 

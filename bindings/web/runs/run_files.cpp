@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/run_files.hpp"
+#include "bindings/web/runs/run_files.hpp"
 
 #include <unistd.h>
 
@@ -8,8 +8,8 @@
 #include <chrono>
 #include <utility>
 
-#include "bindings/web/answers.hpp"
-#include "bindings/web/plain_files.hpp"
+#include "bindings/web/api/answers.hpp"
+#include "bindings/web/runs/plain_files.hpp"
 
 namespace asperity::web {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/positions.hpp"
+#include "bindings/web/api/positions.hpp"
 
 #include <algorithm>
 

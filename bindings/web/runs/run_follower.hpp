@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "bindings/web/page_run.hpp"
+#include "bindings/web/runs/page_run.hpp"
 #include "bindings/web/sandbox/confined_process.hpp"
 
 namespace asperity::web {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/access.hpp"
+#include "bindings/web/api/access.hpp"
 
 #include <sys/random.h>
 

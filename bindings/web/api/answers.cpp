@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/answers.hpp"
+#include "bindings/web/api/answers.hpp"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/script_completion.hpp"
+#include "bindings/web/api/script_completion.hpp"
 
 #include <algorithm>
 
 #include "bindings/lua/editor/completion.hpp"
-#include "bindings/web/positions.hpp"
+#include "bindings/web/api/positions.hpp"
 
 namespace asperity::web {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bindings/web/confined.hpp"
+#include "bindings/web/confined/confined.hpp"
 #include "engine/plot/gnuplot.hpp"
 
 namespace asperity::web {

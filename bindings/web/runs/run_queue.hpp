@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "bindings/web/page_run.hpp"
-#include "bindings/web/turns.hpp"
+#include "bindings/web/runs/page_run.hpp"
+#include "bindings/web/runs/turns.hpp"
 
 namespace asperity::web {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/script_check.hpp"
+#include "bindings/web/api/script_check.hpp"
 
 #include <cerrno>
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/command_follower.hpp"
+#include "bindings/web/confined/command_follower.hpp"
 
 #include <poll.h>
 #include <sys/signalfd.h>
@@ -16,8 +16,8 @@
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/plain_streams.hpp"
 #include "bindings/cli/watchdog.hpp"
-#include "bindings/web/disk_bound.hpp"
-#include "bindings/web/drawing.hpp"
+#include "bindings/web/confined/disk_bound.hpp"
+#include "bindings/web/confined/drawing.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 

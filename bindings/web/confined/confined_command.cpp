@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/confined_command.hpp"
+#include "bindings/web/confined/confined_command.hpp"
 
 #include <pwd.h>
 #include <unistd.h>
@@ -15,10 +15,10 @@
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/mpi_ranks.hpp"
 #include "bindings/cli/plain_streams.hpp"
-#include "bindings/web/barrier_report.hpp"
-#include "bindings/web/command_follower.hpp"
-#include "bindings/web/command_request.hpp"
-#include "bindings/web/plain_files.hpp"
+#include "bindings/web/confined/barrier_report.hpp"
+#include "bindings/web/confined/command_follower.hpp"
+#include "bindings/web/confined/command_request.hpp"
+#include "bindings/web/runs/plain_files.hpp"
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/aside_file.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bindings/web/http.hpp"
-#include "bindings/web/page_run.hpp"
+#include "bindings/web/runs/page_run.hpp"
 
 namespace asperity::web {
 

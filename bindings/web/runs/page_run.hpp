@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/web/confined.hpp"
-#include "bindings/web/event_log.hpp"
+#include "bindings/web/confined/confined.hpp"
+#include "bindings/web/runs/event_log.hpp"
 
 namespace asperity::web {
 

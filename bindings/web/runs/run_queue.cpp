@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/run_queue.hpp"
+#include "bindings/web/runs/run_queue.hpp"
 
 #include <algorithm>
 #include <utility>

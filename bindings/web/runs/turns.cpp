@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/turns.hpp"
+#include "bindings/web/runs/turns.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/event_channel.hpp"
+#include "bindings/web/confined/event_channel.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -9,8 +9,8 @@
 #include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "bindings/web/frames.hpp"
-#include "bindings/web/views.hpp"
+#include "bindings/web/api/views.hpp"
+#include "bindings/web/confined/frames.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/aside_file.hpp"
 #include "engine/core/files/disk.hpp"

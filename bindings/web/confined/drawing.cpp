@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/drawing.hpp"
+#include "bindings/web/confined/drawing.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <mutex>
 
-#include "bindings/web/frames.hpp"
-#include "bindings/web/plain_files.hpp"
+#include "bindings/web/confined/frames.hpp"
+#include "bindings/web/runs/plain_files.hpp"
 #include "bindings/web/sandbox/confined_process.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/aside_file.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/page_run.hpp"
+#include "bindings/web/runs/page_run.hpp"
 
 #include <sys/stat.h>
 
 #include <cerrno>
 
-#include "bindings/web/disk_bound.hpp"
-#include "bindings/web/plain_files.hpp"
-#include "bindings/web/run_follower.hpp"
+#include "bindings/web/confined/disk_bound.hpp"
+#include "bindings/web/runs/plain_files.hpp"
+#include "bindings/web/runs/run_follower.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/aside_file.hpp"
 

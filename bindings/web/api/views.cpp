@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/views.hpp"
+#include "bindings/web/api/views.hpp"
 
 #include <algorithm>
 #include <bit>

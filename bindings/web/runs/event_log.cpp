@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/event_log.hpp"
+#include "bindings/web/runs/event_log.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bindings/web/frames.hpp"
+#include "bindings/web/confined/frames.hpp"
 #include "engine/core/files/disk.hpp"
 
 namespace asperity::web {

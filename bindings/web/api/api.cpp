@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/api.hpp"
+#include "bindings/web/api/api.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -8,11 +8,11 @@
 
 #include "bindings/lua/editor/lessons.hpp"
 #include "bindings/lua/runtime/version.hpp"
-#include "bindings/web/answers.hpp"
-#include "bindings/web/plain_files.hpp"
-#include "bindings/web/run_files.hpp"
-#include "bindings/web/script_check.hpp"
-#include "bindings/web/script_completion.hpp"
+#include "bindings/web/api/answers.hpp"
+#include "bindings/web/api/script_check.hpp"
+#include "bindings/web/api/script_completion.hpp"
+#include "bindings/web/runs/plain_files.hpp"
+#include "bindings/web/runs/run_files.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::web {
