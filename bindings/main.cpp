@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // asperity: the program. main() walks the list of commands below; each declares its options, reads them and
 // runs in a file of its own (cli/*_command.cpp and web/serve_command.cpp), by the interface of
-// cli/command.hpp. This file stands above the command line and the page, and hands the commands of the one
-// what carries them out behind the barriers of the other.
+// cli/commands/command.hpp. This file stands above the command line and the page, and hands the commands of
+// the one what carries them out behind the barriers of the other.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -15,16 +15,16 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/cli/accuracy_command.hpp"
-#include "bindings/cli/check_command.hpp"
-#include "bindings/cli/command.hpp"
+#include "bindings/cli/commands/accuracy_command.hpp"
+#include "bindings/cli/commands/check_command.hpp"
+#include "bindings/cli/commands/command.hpp"
+#include "bindings/cli/commands/information_commands.hpp"
+#include "bindings/cli/commands/lesson_command.hpp"
+#include "bindings/cli/commands/repl_command.hpp"
+#include "bindings/cli/commands/replay_command.hpp"
+#include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/exit_status.hpp"
-#include "bindings/cli/information_commands.hpp"
-#include "bindings/cli/lesson_command.hpp"
 #include "bindings/cli/plain_streams.hpp"
-#include "bindings/cli/repl_command.hpp"
-#include "bindings/cli/replay_command.hpp"
-#include "bindings/cli/run_command.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "bindings/web/confined/confined.hpp"
 #include "bindings/web/confined/confined_command.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "bindings/cli/run_command.hpp"
+#include "bindings/cli/commands/run_command.hpp"
 #include "engine/run/journal.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/result_files.hpp"

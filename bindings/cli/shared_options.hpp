@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "bindings/cli/run_command.hpp"
+#include "bindings/cli/commands/run_command.hpp"
 
 namespace CLI {
 class App;

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "bindings/cli/replay_command.hpp"
-#include "bindings/cli/run_command.hpp"
+#include "bindings/cli/commands/replay_command.hpp"
+#include "bindings/cli/commands/run_command.hpp"
 #include "engine/core/files/json.hpp"
 
 namespace asperity::web {

@@ -7,8 +7,8 @@
 // is resumed and replayed so.
 #pragma once
 
-#include "bindings/cli/replay_command.hpp"
-#include "bindings/cli/run_command.hpp"
+#include "bindings/cli/commands/replay_command.hpp"
+#include "bindings/cli/commands/run_command.hpp"
 #include "engine/core/files/json.hpp"
 
 namespace asperity::web {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/repl_command.hpp"
+#include "bindings/cli/commands/repl_command.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <memory>
 
+#include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/line_reader.hpp"
-#include "bindings/cli/run_command.hpp"
 #include "bindings/cli/shared_options.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
 #include "bindings/cli/watchdog.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/check_command.hpp"
+#include "bindings/cli/commands/check_command.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/lesson_command.hpp"
+#include "bindings/cli/commands/lesson_command.hpp"
 
 #include <CLI/CLI.hpp>
 

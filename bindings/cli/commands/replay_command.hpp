@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bindings/cli/run_command.hpp"
+#include "bindings/cli/commands/run_command.hpp"
 
 namespace asperity::cli {
 

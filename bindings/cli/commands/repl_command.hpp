@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "bindings/cli/command.hpp"
+#include "bindings/cli/commands/command.hpp"
 
 namespace asperity::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/information_commands.hpp"
+#include "bindings/cli/commands/information_commands.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "bindings/cli/command_pages.hpp"
+#include "bindings/cli/commands/command_pages.hpp"
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/lua/editor/help.hpp"
 #include "bindings/lua/editor/lessons.hpp"

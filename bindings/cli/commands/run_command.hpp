@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bindings/cli/command.hpp"
+#include "bindings/cli/commands/command.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/files/json.hpp"

@@ -2,7 +2,7 @@
 // `asperity check` and `asperity explain`: a script followed without its heavy calls.
 #pragma once
 
-#include "bindings/cli/run_command.hpp"
+#include "bindings/cli/commands/run_command.hpp"
 
 namespace asperity::cli {
 

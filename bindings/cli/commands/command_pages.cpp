@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/command_pages.hpp"
+#include "bindings/cli/commands/command_pages.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "bindings/cli/run_command.hpp"
+#include "bindings/cli/commands/run_command.hpp"
 
 namespace asperity::cli {
 

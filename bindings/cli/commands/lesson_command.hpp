@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bindings/cli/run_command.hpp"
+#include "bindings/cli/commands/run_command.hpp"
 
 namespace asperity::cli {
 

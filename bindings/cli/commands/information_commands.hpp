@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "bindings/cli/command.hpp"
+#include "bindings/cli/commands/command.hpp"
 
 namespace asperity::cli {
 

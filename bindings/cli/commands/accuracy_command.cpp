@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/accuracy_command.hpp"
+#include "bindings/cli/commands/accuracy_command.hpp"
 
 #include <unistd.h>
 
