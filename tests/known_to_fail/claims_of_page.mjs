@@ -23,10 +23,18 @@ export async function visit(options, act) {
   }
 }
 
-/** Runs a script for the stand-in and shows what it charts. */
+/** Runs a script for the stand-in and shows what it charts, once that stays as it is. */
 export async function charted(page, script) {
   await on.run(page, script);
   await on.finished(page);
   await page.click('#tab-chart');
   await page.waitForSelector('.chart svg path');
+  // Rows come a few at a time, and each time the chart is drawn anew.
+  let drawn = '';
+  for (let still = 0; still < 5; ) {
+    await new Promise((resolve) => setTimeout(resolve, 100));
+    const now = await page.$eval('.chart svg', (chart) => chart.outerHTML).catch(() => '');
+    still = now !== '' && now === drawn ? still + 1 : 0;
+    drawn = now;
+  }
 }
