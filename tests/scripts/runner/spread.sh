@@ -35,7 +35,7 @@ s:write "heights.npy"
 st:write("pressure", "pressure.npy")
 st:write("gap", "gap.npy")
 print(s.ranks, st.ranks, st.converged)
-local big = lab.spread.self_affine{ cells = 512, size = 1e-4, hurst = 0.7, rms_height = 1e-6, short_wave = 2e-6,
+local big = lab.spread.self_affine{ cells = 256, size = 1e-4, hurst = 0.7, rms_height = 1e-6, short_wave = 2e-6,
   material = al }
 local at = lab.spread.contact{ lower = big, upper = lab.rigid, boundary = "periodic",
   effects = { elasticity = "half_space" }, accuracy = { tolerance = 1e-3 } }:press{ pressure = "300 MPa" }
@@ -126,7 +126,7 @@ ends memory "memory" --limit-memory 1G
 # A run taken up again does not repeat a press; fields that a script then writes are solved for again.
 cat > again.lua <<'LUA'
 local lab = require "asperity"
-local s = lab.spread.self_affine{ cells = 512, size = 1e-4, hurst = 0.7, rms_height = 1e-6, short_wave = 2e-6,
+local s = lab.spread.self_affine{ cells = 256, size = 1e-4, hurst = 0.7, rms_height = 1e-6, short_wave = 2e-6,
   material = lab.material{ young = "70 GPa", poisson = 0.33 } }
 local st = lab.spread.contact{ lower = s, upper = lab.rigid, boundary = "periodic",
   effects = { elasticity = "half_space" } }:press{ pressure = "300 MPa" }
