@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/core/parallel.hpp"
@@ -131,7 +132,7 @@ Scenario elastic_half_space(int cells) {
 Scenario capped_event(int cells) {
   const Surface lower = rough(cells, 1), upper = rough(cells, 2);
   Scene scene{lower, upper, Boundary::periodic, HalfSpaceOptions{}, Accuracy{tolerance}};
-  scene.plasticity = PlasticityOptions{};
+  scene.effects.set(PlasticityOptions{});
   return {"capped event", cells,
           [scene]() -> Numbers {
             SpecimenPair pair(scene);

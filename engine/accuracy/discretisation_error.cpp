@@ -54,7 +54,7 @@ Differences differences(const State& state, const StateQuantity& quantity, doubl
                         bool mended = false) {
   const auto levels = state.other_grids()->levels();
   const auto of = [&](const State& grid) {
-    return quantity.value(grid) + (mended ? lacks_by_touch(grid, quantity) : 0.0);
+    return quantity.of(grid) + (mended ? lacks_by_touch(grid, quantity) : 0.0);
   };
   const double fine = of(state), half = of(levels[0].state);
   if (levels.size() == 1) {
@@ -92,7 +92,7 @@ void estimate_by_finer(const State& state, const StateQuantity& quantity, bool b
   const State& finer = state.other_grids()->levels().front().state;
   const double value = result.value;
   result.margin = cells.finer_margin;
-  double better = quantity.value(finer);
+  double better = quantity.of(finer);
   const bool areas = cells.kind == Kind::raw_area || cells.kind == Kind::corrected;
   if (areas) {
     const double outline = finer.area_fraction() - finer.corrected_area_fraction();
@@ -132,7 +132,7 @@ std::span<const std::string> estimated_quantities() {
 
 namespace {
 
-void check(const AskedError& asked, bool plastic) {
+void check(const AskedError& asked, const Effects& named) {
   if (!(asked.error >= 1e-6 && asked.error < 1))
     throw Error(ErrorCode::bad_value, "`error` is " + format_short(asked.error),
                 "it is relative: give a number from 1e-6 to below 1, such as 0.01 for 1 %");
@@ -146,7 +146,7 @@ void check(const AskedError& asked, bool plastic) {
           ErrorCode::unknown_name,
           "`of` names " + quoted(quantity) + ", whose error is not estimated" + did_you_mean(quantity, known),
           "give one of " + joined(known, " and "));
-    if (const std::string effect(quantity_of(quantity).effect); !effect.empty() && !plastic)
+    if (const std::string effect(quantity_of(quantity).effect); !effect.empty() && !named.names(effect))
       throw Error(ErrorCode::bad_value,
                   "`of` names " + quoted(quantity) + ", which needs the effect " + quoted(effect) +
                       "; this scene does not name it",
@@ -165,7 +165,7 @@ void check_accuracy(const Scene& scene) {
                 "both out");
   if (accuracy.estimate == Accuracy::Estimate::finer) finer_grid(grid);
   if (accuracy.estimate == Accuracy::Estimate::coarser || accuracy.asked) check_estimate(grid);
-  if (accuracy.asked) check(*accuracy.asked, scene.plasticity.has_value());
+  if (accuracy.asked) check(*accuracy.asked, scene.effects);
 }
 
 DiscretisationEstimate discretisation_estimate(const State& state, std::string_view name) {
@@ -181,7 +181,7 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
                 "the discretisation error of " + quoted(name) + " was not estimated in this press",
                 "give lab.contact accuracy={ estimate=true }, which solves coarser grids as well");
   if (is_prescribed(name, state.other_grids()->request().by) || state.load() == 0) {
-    const double value = found->value(state);
+    const double value = found->of(state);
     return {value, 0, value, cells.margin};
   }
   const bool by_approach = prescribes_approach(state.other_grids()->request().by);
@@ -201,7 +201,7 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
     return result;
   }
   result.margin = cells.margin;
-  result.value = found->value(state);
+  result.value = found->of(state);
   result.extrapolated = result.value;
   if (state.other_grids()->finer()) {
     estimate_by_finer(state, *found, by_approach, wraps, result);
@@ -264,8 +264,7 @@ std::string discretisation_text(const State& state) {
                      format_short(error("area_fraction"), 2) + " (corrected " +
                      format_short(error("corrected_area_fraction"), 2) + "), energy " +
                      format_quantity(error("energy"), dimension::energy, 2);
-  const auto& run = state.effects_run();
-  if (std::find(run.begin(), run.end(), "plasticity") != run.end())
+  if (state.yields())
     text += ", plastic volume " + format_quantity(error("plastic_volume"), dimension::volume, 2);
   return text;
 }

@@ -75,8 +75,7 @@ std::vector<std::string> doubts(const State& state) {
     if (const double times = state.pressure() * *compliance; times > large)
       sentences.push_back("the mean pressure is " + format_short(times, 3) +
                           " times the contact modulus, and the theory is of small strains");
-  const auto& run = state.effects_run();
-  if (std::ranges::find(run, "plasticity") == run.end()) {
+  if (!state.yields()) {
     const SofterBody softer = softer_body(geometry);
     constexpr double rounding = 1e-9;
     if (const double times = state.peak_pressure() / softer.hardness; times > 1 + rounding)

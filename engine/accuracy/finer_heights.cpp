@@ -126,7 +126,7 @@ Field finer_heights(const Scene& scene, const ContactGeometry& geometry, Monitor
   if (!pose.on_lattice()) seen = turned_about(seen, given, fine, pose.rest());
   for (std::size_t k = 0; k < h.size(); ++k) h[k] += seen[k];
   if (pose.on_lattice()) return h;
-  if (scene.plasticity) add_what_mapping_lost(scene, geometry, fine, h);
+  if (scene.effects.any_that(Effect::Acts::bounds_pressure)) add_what_mapping_lost(scene, geometry, fine, h);
   return h;
 }
 

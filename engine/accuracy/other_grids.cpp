@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "engine/accuracy/finer_heights.hpp"
-#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/planned_yield.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
@@ -106,17 +106,17 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
   there.accuracy.on_failure = Accuracy::OnFailure::best;
   there.accuracy.estimate = Accuracy::Estimate::none;
   there.accuracy.asked.reset();
-  there.sliding = {};
+  there.effects = scene.effects.of_solve();
 
   const LatticeIsometry flat_pose(grid.nx, grid.ny);
-  HardnessMemory memory;
-  if (const HardnessMemory& known = geometry.hardness(); known.lower || known.upper || known.upper_here) {
-    const LocalHardness local =
-        given_plan.yield ? local_hardness(geometry, *given_plan.yield) : LocalHardness{};
+  BodyMemory memory;
+  if (given_plan.yield && !geometry.kept(hardness_memory).empty()) {
+    const MetMemory local = local_hardness(geometry, *given_plan.yield);
+    NodeMemory& hardness = memory[std::string(hardness_memory)];
     if (local.lower)
-      memory.lower = std::make_shared<const Field>(hardness_on_cells(*local.lower, given, grid));
+      hardness.lower = std::make_shared<const Field>(hardness_on_cells(*local.lower, given, grid));
     if (local.upper)
-      memory.upper =
+      hardness.upper =
           std::make_shared<const Field>(flat_pose.to_upper(hardness_on_cells(*local.upper, given, grid)));
   }
   auto geometry_there =

@@ -3,14 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/contact/effects/adhesion.hpp"
-#include "engine/contact/effects/ageing.hpp"
-#include "engine/contact/effects/capillarity.hpp"
-#include "engine/contact/effects/catalogue.hpp"
-#include "engine/contact/effects/creep.hpp"
-#include "engine/contact/effects/interlocking.hpp"
-#include "engine/contact/effects/plasticity.hpp"
-#include "engine/contact/effects/tangential.hpp"
+#include "engine/contact/effects/list.hpp"
 #include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/laws_met.hpp"
@@ -106,14 +99,10 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
     plan_rigid(geometry, plan);
   else
     plan_half_space(geometry, plan);
-  if (scene.plasticity) plan_plasticity(*scene.plasticity, geometry, plan);
+  plan.effects = scene.effects;
+  for (const Effect* effect : known_effects())
+    if (const std::any* options = scene.effects.options_of(*effect)) effect->plan(*options, geometry, plan);
   if (std::holds_alternative<BoxOperator>(plan.elasticity)) plan_yield_of_boxes(geometry, plan);
-  if (scene.creep) plan_creep(*scene.creep, plan);
-  if (scene.capillarity) plan_capillarity(*scene.capillarity, geometry, plan);
-  if (scene.adhesion) plan_adhesion(*scene.adhesion, geometry, plan);
-  if (scene.sliding.ageing) plan_ageing(*scene.sliding.ageing, plan);
-  if (scene.sliding.interlocking) plan_interlocking(*scene.sliding.interlocking, geometry, plan);
-  if (scene.sliding.tangential) plan_tangential(*scene.sliding.tangential, geometry, plan);
   for (const PlannedTerm& term : plan.terms)
     if (std::find(plan.effects_run.begin(), plan.effects_run.end(), term.effect) == plan.effects_run.end())
       plan.effects_run.push_back(term.effect);
@@ -128,7 +117,7 @@ Plan make_plan_like(const Plan& before, const Scene& scene, const ContactGeometr
     same.elasticity = BoxOptions{box->stiffness};
   Plan plan = make_plan(same, geometry);
   plan.elasticity = before.elasticity;
-  const auto of_elasticity = [](const PlannedTerm& term) { return term.effect == "elasticity"; };
+  const auto of_elasticity = [](const PlannedTerm& term) { return term.effect == elasticity_effect; };
   const auto known = std::find_if(before.terms.begin(), before.terms.end(), of_elasticity);
   if (known != before.terms.end())
     std::replace_if(plan.terms.begin(), plan.terms.end(), of_elasticity, *known);

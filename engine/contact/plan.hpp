@@ -4,8 +4,6 @@
 // no effect by name. The plan explains itself: explain() and any table made of it render this struct.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,7 +11,8 @@
 #include <vector>
 
 #include "engine/contact/bodies/geometry.hpp"
-#include "engine/contact/carried_load.hpp"
+#include "engine/contact/gap_term.hpp"
+#include "engine/contact/planned_yield.hpp"
 #include "engine/contact/scene.hpp"
 
 namespace asperity {
@@ -46,36 +45,12 @@ struct HalfSpaceOperator {
 
 using PlannedOperator = std::variant<BoxOperator, HalfSpaceOperator>;
 
-// What limits the pressure and who gives way. A body that takes no share of what yields has infinite
-// hardness here.
-struct PlannedYield {
-  double lower_hardness = 0, upper_hardness = 0;  // Pa, at the reference dwell, before any event
-  double hardening = 0;                           // K_h, Pa/m; infinite: the pressure is capped
-  // E of the lower body over that of the upper one; 1 where one of them is not known or nothing is elastic.
-  double modulus_ratio = 1;
-  std::optional<CreepOptions> creep{};
-  // By the bodies as they lie now: of none of it does anything yield again.
-  std::vector<CarriedLoad> carried{};
-
-  double hardness() const { return std::min(lower_hardness, upper_hardness); }
-  bool limits() const { return std::isfinite(hardness()); }  // whether anything can yield
-  bool hardens() const { return limits() && std::isfinite(hardening); }
-};
-
-// The share of the plastic approach that the lower of two bodies takes,
-//   s = 1/(1 + exp(1.5 (ρ² − ρ⁻²)) E_lower/E_upper),  ρ = H_lower/H_upper:
-// ½ each of like bodies, .25 of a body 1.2 times as hard as the other, .06 of one 1.5 times and .004 of one
-// twice as hard, which hardly yields at the pressure that the softer one limits. What J2 plasticity below the
-// surface gives, within .03 between loads, of bodies of one Poisson's ratio; of equal hardness and unlike E
-// it is exact: the strains go as 1/E. All or nothing where the other body's hardness is infinite.
-double lower_plastic_share(double lower_hardness, double upper_hardness, double modulus_ratio = 1);
-
 struct Plan {
   std::string title;   // tile and boundary
   double overlap = 1;  // share of the tile on which the bodies face each other
   std::string solver;
   PlannedOperator elasticity;
-  std::optional<PlannedYield> yield;  // none without the effect `plasticity`
+  std::optional<PlannedYield> yield;  // none where no effect limits the pressure
   std::vector<GapTerm> attraction;    // of the gap; a term of no work is left out of the solve
   std::vector<PlannedTerm> terms;
   std::vector<std::string> warnings;  // of a grid that is too coarse for a term
@@ -85,9 +60,9 @@ struct Plan {
   std::string press{};                // which press that is of and how it is known; empty: none was named
   double seconds = 0;                 // expected for the first press, a rough guess
   Accuracy accuracy;
-  std::string choice;      // of cells, tolerance and precision for an error that was asked for; empty: none
-  std::string estimate;    // what is solved beside it for the discretisation error; empty: nothing
-  SlidingEffects sliding;  // of a contact pulled sideways, their defaults filled in
+  std::string choice;    // of cells, tolerance and precision for an error that was asked for; empty: none
+  std::string estimate;  // what is solved beside it for the discretisation error; empty: nothing
+  Effects effects;       // of the scene, with what their defaults come to here
   std::vector<std::string> effects_run;
   std::vector<std::string> effects_off;
 

@@ -8,22 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "engine/contact/bodies/geometry.hpp"
+#include "engine/contact/effects/list.hpp"
 #include "engine/core/constants.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity {
 
 namespace {
-
-template <auto member>
-double value(const State& state) {
-  return static_cast<double>((state.*member)());
-}
-template <auto member>
-std::optional<double> bound(const State& state) {
-  return state.algebraic_error().*member;
-}
 
 double by_rise(const State&, double rise) { return rise; }
 // Of a load for the approach: d pressure / d approach, per area of the tile or in all.
@@ -40,33 +35,33 @@ using S = State;
 using E = AlgebraicError;
 using Kind = CellError::Kind;
 
-const StateQuantity quantities[] = {
+const StateQuantity of_every_state[] = {
     {.name = "load",
      .called = "the load",
      .sentence = "force on the whole tile",
      .dimension = dimension::force,
-     .value = value<&S::load>,
-     .bound = bound<&E::load>,
+     .value = quantity_value<&S::load>,
+     .bound = quantity_bound<&E::load>,
      .bound_remark = "; 0 but for rounding where it was prescribed",
      .cells = CellError{1.5, 2, 1.2, 2, Kind::grid, load_by_rise, "; 0 where it was prescribed"}},
     {.name = "pressure",
      .called = "the load over the nominal area",
      .sentence = "load over the nominal area",
      .dimension = dimension::pressure,
-     .value = value<&S::pressure>,
-     .bound = bound<&E::pressure>,
+     .value = quantity_value<&S::pressure>,
+     .bound = quantity_bound<&E::pressure>,
      .cells = CellError{1.5, 2, 1.2, 2, Kind::grid, pressure_by_rise}},
     {.name = "attraction",
      .sentence = "force by which the bodies attract each other; the contacts carry load and this",
      .dimension = dimension::force,
-     .value = value<&S::attraction>},
+     .value = quantity_value<&S::attraction>},
     {.name = "approach",
      .called = "the approach",
      .sentence = "from first touch of the bodies as they are now; after yielding that is the touch of the "
                  "worn faces, and `separation` is what one event compares with the next",
      .dimension = dimension::length,
-     .value = value<&S::approach>,
-     .bound = bound<&E::approach>,
+     .value = quantity_value<&S::approach>,
+     .bound = quantity_bound<&E::approach>,
      .cells = CellError{2, 2.5, 1, 1.5, Kind::approach, nullptr,
                         "; most of it is the highest peak between the nodes"}},
     {.name = "indentation",
@@ -74,110 +69,95 @@ const StateQuantity quantities[] = {
      .sentence = "approach over the peak-to-valley of the combined heights; flats have none: an error. The "
                  "key `flatten` counts another thing, the share by which the peak-to-valley under load has "
                  "fallen",
-     .value = value<&S::indentation>,
-     .bound = bound<&E::indentation>,
+     .value = quantity_value<&S::indentation>,
+     .bound = quantity_bound<&E::indentation>,
      .cells = CellError{1, 2, 1.2, 2}},
     {.name = "flatten",
      .called = "the flattening",
      .sentence = "share of that peak-to-valley pressed away",
-     .value = value<&S::flatten>,
+     .value = quantity_value<&S::flatten>,
      .cells = CellError{1, 2, 1.2, 2}},
     {.name = "overlap_fraction",
      .sentence = "share of the tile on which the bodies face each other: 1 unless, on a free boundary, the "
                  "upper body is turned so that it does not cover the lower one. `pressure` and fractions are "
                  "of the whole tile",
-     .value = value<&S::overlap_fraction>},
+     .value = quantity_value<&S::overlap_fraction>},
     {.name = "area",
      .called = "the real contact area",
      .sentence = "real contact area",
      .dimension = dimension::area,
-     .value = value<&S::area>,
-     .bound = bound<&E::area>,
+     .value = quantity_value<&S::area>,
+     .bound = quantity_bound<&E::area>,
      .cells = CellError{1.5, 1.25, 1, 1.25, Kind::raw_area}},
     {.name = "area_fraction",
      .called = "the area fraction",
      .sentence = "nodes in contact over all nodes",
-     .value = value<&S::area_fraction>,
-     .bound = bound<&E::area_fraction>,
+     .value = quantity_value<&S::area_fraction>,
+     .bound = quantity_bound<&E::area_fraction>,
      .cells = CellError{1.5, 1.25, 1, 1.25, Kind::raw_area, nullptr, "; most of it is its stepped outline"}},
     {.name = "corrected_area_fraction",
      .called = "the corrected area fraction",
      .sentence = "area fraction less the excess of its stepped outline",
-     .value = value<&S::corrected_area_fraction>,
-     .bound = bound<&E::corrected_area_fraction>,
+     .value = quantity_value<&S::corrected_area_fraction>,
+     .bound = quantity_bound<&E::corrected_area_fraction>,
      .cells = CellError{1.5, 2.25, 1, 1.5, Kind::corrected}},
     {.name = "contacts",
      .called = "the number of nodes in contact",
      .sentence = "nodes in contact",
-     .value = value<&S::contacts>,
+     .value = quantity_value<&S::contacts>,
      .count = true,
-     .bound = bound<&E::contacts>},
+     .bound = quantity_bound<&E::contacts>},
     {.name = "spots",
      .sentence = "regions of contact joined by an edge",
-     .value = value<&S::spots>,
+     .value = quantity_value<&S::spots>,
      .count = true},
     {.name = "spots8",
      .sentence = "regions of contact joined by an edge or a corner",
-     .value = value<&S::spots8>,
+     .value = quantity_value<&S::spots8>,
      .count = true},
     {.name = "peak_pressure",
      .called = "the greatest pressure",
      .sentence = "greatest pressure",
      .dimension = dimension::pressure,
-     .value = value<&S::peak_pressure>,
-     .bound = bound<&E::peak_pressure>,
+     .value = quantity_value<&S::peak_pressure>,
+     .bound = quantity_bound<&E::peak_pressure>,
      .cells = CellError{1, 3, 1.5, 3, Kind::peak}},
     {.name = "separation",
      .called = "the separation",
      .sentence = "of the mean planes of the bodies where they face each other, undeformed, as they stand "
                  "under this load",
      .dimension = dimension::length,
-     .value = value<&S::separation>,
-     .bound = bound<&E::separation>,
+     .value = quantity_value<&S::separation>,
+     .bound = quantity_bound<&E::separation>,
      .cells = CellError{2, 3, 1.2, 1.6, Kind::grid, by_rise}},
     {.name = "mean_gap",
      .called = "the mean gap",
      .sentence = "mean of the gap, 0 in contact, over the part of the tile where the bodies face each other",
      .dimension = dimension::length,
-     .value = value<&S::mean_gap>,
-     .bound = bound<&E::mean_gap>,
+     .value = quantity_value<&S::mean_gap>,
+     .bound = quantity_bound<&E::mean_gap>,
      .cells = CellError{2, 3.5, 1.2, 1.6, Kind::grid, by_rise}},
     {.name = "stiffness",
      .called = "the stiffness",
      .sentence =
          "d pressure / d approach at this contact set; math.huge where all of a periodic tile touches",
      .dimension = dimension::stiffness,
-     .value = value<&S::stiffness>,
+     .value = quantity_value<&S::stiffness>,
      .cells = CellError{1.5, 3, 0.95, 2.75, Kind::grid, nullptr, ", which is solved for on each grid"}},
     {.name = "secant_stiffness",
      .called = "pressure over approach",
      .sentence = "pressure over approach; math.huge of flats that carry a load and come no nearer",
      .dimension = dimension::stiffness,
-     .value = value<&S::secant_stiffness>,
-     .bound = bound<&E::secant_stiffness>,
+     .value = quantity_value<&S::secant_stiffness>,
+     .bound = quantity_bound<&E::secant_stiffness>,
      .cells = CellError{1.5, 3, 0.95, 2.75}},
     {.name = "energy",
      .called = "the elastic energy",
      .sentence = "elastic energy in the tile",
      .dimension = dimension::energy,
-     .value = value<&S::energy>,
-     .bound = bound<&E::energy>,
+     .value = quantity_value<&S::energy>,
+     .bound = quantity_bound<&E::energy>,
      .cells = CellError{2, 3, 1.2, 1.5, Kind::grid, energy_by_rise}},
-    {.name = "plastic_volume",
-     .called = "the plastic volume",
-     .sentence = "volume this press took from both bodies",
-     .dimension = dimension::volume,
-     .value = value<&S::plastic_volume>,
-     .effect = "plasticity",
-     .bound = bound<&E::plastic_volume>,
-     .cells = CellError{1.5, 2, 1, 1.5}},
-    {.name = "plastic_fraction",
-     .called = "the plastic fraction",
-     .sentence = "share of the tile at the cap",
-     .value = value<&S::plastic_fraction>,
-     .effect = "plasticity",
-     .bound = bound<&E::plastic_fraction>,
-     .cells = CellError{1, 1.25, 1.2, 1.5, Kind::steady}},
 };
 
 std::string error_sentence(const StateQuantity& quantity, std::string_view remark) {
@@ -188,11 +168,32 @@ std::string error_sentence(const StateQuantity& quantity, std::string_view remar
 
 }  // namespace
 
-std::span<const StateQuantity> state_quantities() { return quantities; }
+double StateQuantity::of(const State& state) const {
+  if (!effect.empty() && !state.effects().names(effect))
+    throw Error(ErrorCode::bad_state,
+                quoted(name) + " needs the effect " + quoted(effect) + ", which this scene does not name");
+  return value(state);
+}
+
+std::span<const StateQuantity> state_quantities() {
+  static const std::vector<StateQuantity> quantities = [] {
+    std::vector<StateQuantity> all(std::begin(of_every_state), std::end(of_every_state));
+    for (const Effect* effect : known_effects()) {
+      if (effect->quantities == nullptr) continue;
+      for (StateQuantity quantity : effect->quantities()) {
+        quantity.effect = effect->name;
+        all.push_back(quantity);
+      }
+    }
+    return all;
+  }();
+  return quantities;
+}
 
 const StateQuantity* find_quantity(std::string_view name) {
-  const auto* found = std::ranges::find(quantities, name, &StateQuantity::name);
-  return found == std::end(quantities) ? nullptr : found;
+  const auto all = state_quantities();
+  const auto found = std::ranges::find(all, name, &StateQuantity::name);
+  return found == all.end() ? nullptr : &*found;
 }
 
 std::string bound_sentence(const StateQuantity& quantity) {

@@ -2,7 +2,7 @@
 // The quantities of a state, each told once: name, dimension and sentence, its value, the effect it needs,
 // its algebraic bound, and how the error of the cells goes with the width of a cell. The fields of states and
 // of their errors in the language, the reference, the estimates and the choice of an accuracy read these rows
-// and know no quantity beside them. A new one is a row here, and a test.
+// and know no quantity beside them. A new one is a row, here or with the effect that gives it, and a test.
 #pragma once
 
 #include <optional>
@@ -43,19 +43,31 @@ struct StateQuantity {
   std::string_view called{};  // in the sentences of its errors: "the elastic energy"
   std::string_view sentence;  // what it is
   Dimension dimension{};
-  // Throws Error{bad_state} where the state has none: of a state that was closed, of flats, without the
-  // effect.
+  // Throws Error{bad_state} where the state has none: of a state that was closed, of flats.
   double (*value)(const State& state);
-  std::string_view effect{};  // that it needs; empty: none
+  std::string_view effect{};  // that gives it (Effect::quantities); empty: every state has it
   bool count = false;         // a whole number
   // Against the exact solution on the same grid; none of a state whose load is left to the solver, or without
   // the effect. Null: no bound is known of any state.
   std::optional<double> (*bound)(const State& state) = nullptr;
   std::string_view bound_remark{};   // at the end of the bound's sentence
   std::optional<CellError> cells{};  // none: not estimated
+
+  // The value; throws Error{bad_state} where it has none, naming the effect that the scene does not name.
+  double of(const State& state) const;
 };
 
-// In the order of the reference.
+// A row's value and bound of members.
+template <auto member>
+double quantity_value(const State& state) {
+  return static_cast<double>((state.*member)());
+}
+template <auto member>
+std::optional<double> quantity_bound(const State& state) {
+  return state.algebraic_error().*member;
+}
+
+// In the order of the reference, those of effects last.
 std::span<const StateQuantity> state_quantities();
 // Null where there is none of the name.
 const StateQuantity* find_quantity(std::string_view name);

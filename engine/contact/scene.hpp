@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a script asked of a contact: two bodies, the boundary, the elastic model and the accuracy.
 // A scene is plain data; plan.hpp turns it into the terms, operators and buffers it needs. Nothing
-// is switched on silently: an effect that is not a member of the scene is not computed.
+// is switched on silently: an effect that the scene does not name is not computed.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "engine/contact/boundary.hpp"
-#include "engine/contact/gap_term.hpp"
-#include "engine/contact/sliding.hpp"
+#include "engine/contact/effect.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
@@ -34,44 +32,6 @@ struct HalfSpaceOptions {};
 struct RigidOptions {};
 
 using Elasticity = std::variant<BoxOptions, HalfSpaceOptions, RigidOptions>;
-
-// Pressure is limited by hardness, and what yields stays flattened. The volume that yields is removed,
-// not redistributed.
-struct PlasticityOptions {
-  // Pa, of both bodies; by default each body's own. Infinite: never yields.
-  std::optional<double> hardness;
-  // K_h, Pa/m: a node that yields by w carries its hardness and K_h·w, and is as hard afterwards. Infinite:
-  // none named, the pressure never passes the hardness.
-  double hardening = std::numeric_limits<double>::infinity();
-};
-
-// The hardness falls as the load dwells: H(t) = H (1 + b ln(1 + t_ref/t_c)) / (1 + b ln(1 + t/t_c)).
-struct CreepOptions {
-  double rate = 0.02;      // b
-  double onset = 1;        // t_c, s
-  double reference = 600;  // t_ref, s: the dwell at which the hardness is the stated one
-};
-// The surfaces attract each other across the gap: w/ρ e^(−g/ρ), or Dugdale's constant w/ρ up to a gap of ρ.
-struct AdhesionOptions {
-  double work = 0;   // w, J/m²
-  double range = 0;  // ρ, m
-  GapLaw model = GapLaw::exponential;
-};
-
-// Liquid bridges gaps up to the height 2 r cos θ of a meniscus and pulls with the constant pressure p = γ/r.
-// Either the pressure is given, or the humidity, which sets the radius r = γ V_m/(R T |ln humidity|)
-// (Kelvin).
-struct CapillarityOptions {
-  std::optional<double> pressure{};  // Pa
-  std::optional<double> humidity{};  // relative, 0 … 1
-  double surface_tension = 0.0728;   // γ, N/m; water at 20 °C
-  double contact_angle = 0;          // θ, rad
-  double temperature = 293.15;       // T, K
-  double molar_volume = 1.8e-5;      // V_m, m³/mol
-};
-
-// H(t)/H; a press that names no dwell lasts t_ref.
-double softening(const CreepOptions& creep, std::optional<double> dwell);
 
 // The relative error that a script asks for instead of cells and a tolerance.
 struct AskedError {
@@ -101,11 +61,7 @@ struct Scene {
   Boundary boundary = Boundary::free;
   Elasticity elasticity = BoxOptions{};
   Accuracy accuracy{};
-  std::optional<PlasticityOptions> plasticity{};
-  std::optional<CreepOptions> creep{};
-  std::optional<AdhesionOptions> adhesion{};
-  std::optional<CapillarityOptions> capillarity{};
-  SlidingEffects sliding{};
+  Effects effects{};
 };
 
 // Throws Error{bad_value} that names both where bodies of these grids differ in cells or size.

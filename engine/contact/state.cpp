@@ -42,7 +42,7 @@ const std::array<std::string, 5> names_of_fields = {"pressure", "gap", "contact"
 
 }  // namespace
 
-StateCost elasticity_alone(const Cost& cost) { return {cost, {{"elasticity", cost}}}; }
+StateCost elasticity_alone(const Cost& cost) { return {cost, {{std::string(elasticity_effect), cost}}}; }
 
 StateCost& StateCost::operator+=(const StateCost& other) {
   total += other.total;
@@ -63,7 +63,8 @@ struct State::Shared {
   double overlap = 1;
   double tolerance;
   std::vector<std::string> effects_run, effects_off;
-  SlidingEffects sliding;
+  Effects effects;
+  bool yields = false;  // whether anything limits the pressure
 
   Lazy<double> mean_gap, separation, energy, corrected, flatten, stiffness, plastic_volume;
   Lazy<Certificate> certificate;
@@ -80,11 +81,8 @@ struct State::Shared {
   const Grid& grid() const { return tile; }
   bool wraps() const { return periodic; }
 
-  bool runs(std::string_view effect) const {
-    return std::find(effects_run.begin(), effects_run.end(), effect) != effects_run.end();
-  }
   void need_plasticity(const char* what) const {
-    if (!runs("plasticity"))
+    if (!yields)
       throw Error(ErrorCode::bad_state,
                   quoted(what) + " needs the effect `plasticity`, which this scene does not name");
   }
@@ -127,7 +125,8 @@ State::State(std::shared_ptr<const Solution> solution, const Plan& plan, StateCo
   shared_->tolerance = plan.accuracy.tolerance;
   shared_->effects_run = plan.effects_run;
   shared_->effects_off = plan.effects_off;
-  shared_->sliding = plan.sliding;
+  shared_->effects = plan.effects;
+  shared_->yields = plan.yield.has_value();
 }
 
 State State::costing_also(const StateCost& more) const {
@@ -188,7 +187,8 @@ std::int64_t State::bytes_held() const { return shared_->now()->bytes(); }
 PressureSplit State::split(double threshold) const { return shared_->now()->split(threshold); }
 const std::vector<std::string>& State::effects_run() const { return shared_->effects_run; }
 const std::vector<std::string>& State::effects_off() const { return shared_->effects_off; }
-const SlidingEffects& State::sliding() const { return shared_->sliding; }
+const Effects& State::effects() const { return shared_->effects; }
+bool State::yields() const { return shared_->yields; }
 const StateCost& State::cost() const { return *cost_; }
 bool State::converged() const { return residual() <= shared_->tolerance; }
 
@@ -236,8 +236,7 @@ double State::energy() const {
 const Certificate& State::certificate() const { return shared_->find_certificate(); }
 
 const AlgebraicError& State::algebraic_error() const {
-  return shared_->algebraic_error.get(
-      [&] { return find_algebraic_error(*shared_->now(), shared_->runs("plasticity")); });
+  return shared_->algebraic_error.get([&] { return find_algebraic_error(*shared_->now(), shared_->yields); });
 }
 
 double State::corrected_area_fraction() const {
@@ -279,7 +278,7 @@ std::shared_ptr<const Field> State::field(std::string_view name) const {
     throw Error(ErrorCode::unknown_name,
                 "a state has no field " + quoted(name) + did_you_mean(name, names_of_fields),
                 "fields are " + joined(names_of_fields, " and "));
-  if (name == "plastic" && !shared_->runs("plasticity"))
+  if (name == "plastic" && !shared_->yields)
     throw Error(ErrorCode::bad_state,
                 "the field `plastic` needs the effect `plasticity`, which this scene does not name",
                 "there is no plastic change without it");

@@ -14,7 +14,7 @@
 
 #include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/distribution.hpp"
-#include "engine/contact/sliding.hpp"
+#include "engine/contact/effect.hpp"
 #include "engine/contact/solution.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/surface/surface.hpp"
@@ -80,8 +80,9 @@ class State {
   std::string solver() const;
   const std::vector<std::string>& effects_run() const;
   const std::vector<std::string>& effects_off() const;
-  // What the scene names of a contact that is pulled sideways; read by friction.
-  const SlidingEffects& sliding() const;
+  // Those of the scene, with what their defaults come to here.
+  const Effects& effects() const;
+  bool yields() const;            // whether an effect limits the pressure, so that there is something plastic
   const StateCost& cost() const;  // of the press, not of what was asked afterwards
   // The same state, its cost increased by what was done for it beforehand or afterwards.
   State costing_also(const StateCost& more) const;

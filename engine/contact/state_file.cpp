@@ -32,8 +32,7 @@ Hdf5Array field_array(const State& state, const std::string& name) {
 std::vector<std::string> fields_of(const State& state) {
   const auto names = State::field_names();
   std::vector<std::string> fields(names.begin(), names.end());
-  const auto& run = state.effects_run();
-  if (std::find(run.begin(), run.end(), "plasticity") == run.end()) std::erase(fields, "plastic");
+  if (!state.yields()) std::erase(fields, "plastic");
   return fields;
 }
 

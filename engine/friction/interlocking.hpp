@@ -18,6 +18,7 @@
 // left then grows with α and the mean square of the slopes.
 #pragma once
 
+#include "engine/contact/effects/interlocking.hpp"
 #include "engine/friction/junction_law.hpp"
 
 namespace asperity {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/contact/effects/ageing.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -27,13 +28,18 @@ void require_positive(const std::optional<double>& value, std::string_view key) 
 
 }  // namespace
 
-void check_rest(std::optional<double> rest, const SlidingEffects& effects) {
+void check_rest(std::optional<double> rest, const Effects& effects) {
   if (!rest) return;
   if (!(*rest >= 0 && std::isfinite(*rest)))
     throw Error(ErrorCode::bad_value, "`rest` is " + format_short(*rest) + " s", "give a time from zero up");
-  if (!effects.ageing)
+  if (!effects.has<AgeingOptions>())
     throw Error(ErrorCode::bad_state, "`rest` needs the effect `ageing`, which this scene does not name",
                 "name ageing={ rate=, onset= } in the effects of the contact, or leave `rest` out");
+}
+
+double strengthening(const Effects& effects, std::optional<double> rest) {
+  const auto* ageing = effects.find<AgeingOptions>();
+  return ageing == nullptr ? 1.0 : strengthening(*ageing, rest);
 }
 
 JunctionLaw::JunctionLaw(const FrictionOptions& options) : tau0_(options.tau0), alpha_(options.alpha) {
@@ -62,10 +68,10 @@ JunctionLaw JunctionLaw::rested(double strengthening) const {
 }
 
 FrictionResult JunctionLaw::on(const State& state, std::optional<double> rest) const {
-  const SlidingEffects& effects = state.sliding();
-  check_rest(rest, effects);
-  if (!effects.ageing) return fresh(state);
-  const double factor = strengthening(*effects.ageing, rest);
+  check_rest(rest, state.effects());
+  const auto* ageing = state.effects().find<AgeingOptions>();
+  if (ageing == nullptr) return fresh(state);
+  const double factor = strengthening(*ageing, rest);
   FrictionResult result = rested(factor).fresh(state);
   result.strengthening = factor;
   return result;
@@ -89,7 +95,7 @@ FrictionResult JunctionLaw::fresh(const State& state) const {
     }
   }
   result.force = result.adhesive_force + result.load_force;
-  if (const auto& interlocking = state.sliding().interlocking) {
+  if (const auto* interlocking = state.effects().find<InterlockingOptions>()) {
     const InterlockedJunctions junctions = interlock(*this, state, *interlocking);
     result.interlocking_force = junctions.extra_force;
     result.capped_fraction = junctions.capped_fraction;

@@ -36,7 +36,9 @@ struct FrictionResult {
 
 // Throws Error{bad_value} for a rest that is negative or not finite, and Error{bad_state} for one without
 // the effect `ageing`.
-void check_rest(std::optional<double> rest, const SlidingEffects& effects);
+void check_rest(std::optional<double> rest, const Effects& effects);
+// τ0 after the rest over τ0 without one; 1 where junctions do not age.
+double strengthening(const Effects& effects, std::optional<double> rest);
 
 class JunctionLaw {
  public:

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/contact/effects/tangential.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -46,20 +47,23 @@ double ratio_of(const ShearRequest& request, double load) {
 
 }  // namespace
 
-void require_tangential(const SlidingEffects& effects) {
-  if (!effects.tangential)
+bool has_tangential(const Effects& effects) { return effects.has<TangentialOptions>(); }
+
+void require_tangential(const Effects& effects) {
+  if (!has_tangential(effects))
     throw Error(ErrorCode::bad_state,
                 "partial slip needs the effect `tangential`, which this scene does not name",
                 "name tangential={} in the effects of the contact");
 }
 
 PartialSlip shear(const Solver& contact, const State& normal, const ShearRequest& request, Monitor& monitor) {
-  require_tangential(normal.sliding());
+  require_tangential(normal.effects());
   if (!(normal.load() > 0))
     throw Error(ErrorCode::bad_state, "the contact carries no load, so nothing resists shear",
                 "press it first");
   const double ratio = ratio_of(request, normal.load());
-  PartialSlip result(normal, request.friction, ratio, *normal.sliding().tangential->compliance_ratio);
+  PartialSlip result(normal, request.friction, ratio,
+                     *normal.effects().find<TangentialOptions>()->compliance_ratio);
   if (ratio == 0)
     result.stuck_ = normal;
   else if (const double rest = normal.load() * (1 - ratio); rest > 0) {

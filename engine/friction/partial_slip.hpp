@@ -65,8 +65,10 @@ class PartialSlip {
   StateCost cost_;
 };
 
-// Throws Error{bad_state} naming the effect `tangential` where the scene does not name it.
-void require_tangential(const SlidingEffects& effects);
+// Whether a scene computes partial slip; require_tangential throws Error{bad_state} naming the effect where
+// it does not.
+bool has_tangential(const Effects& effects);
+void require_tangential(const Effects& effects);
 
 // `normal` must be a state of `contact`. Throws Error{bad_state} without the effect `tangential` or without
 // load, Error{bad_value} naming `force`, `ratio` or `friction` out of range, Error{infeasible} where Q > f P:

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <new>
 
-#include "engine/contact/effects/catalogue.hpp"
+#include "engine/contact/effects/list.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 

@@ -29,7 +29,7 @@ SlipShare share_at(const Solver& contact, const State& state, double friction, d
 
 std::vector<SlipShare> slip_growth(const SpecimenPair& pair, const JunctionLaw& law,
                                    const TiltTrialOptions& options, int steps, Monitor& monitor) {
-  require_tangential(pair.scene().sliding);
+  require_tangential(pair.scene().effects);
   if (steps < 1 || steps > 10000)
     throw Error(ErrorCode::bad_value, "`steps` is " + std::to_string(steps),
                 "give a whole number from 1 to 10000");

@@ -9,7 +9,8 @@
 #include "engine/accuracy/accuracy_choice.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/accuracy/expected_transforms.hpp"
-#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/bodies/after_event.hpp"
+#include "engine/contact/effects/list.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/part_monitor.hpp"
 #include "engine/core/quantity.hpp"
@@ -123,7 +124,7 @@ void SpecimenPair::warn(const PressRequest& request, Monitor& monitor) {
     for (const std::string& warning : plan_.warnings) monitor.warn(warning);
   warn_of_an_overhang(monitor);
   warn_of_a_step_at_the_rim(monitor);
-  if (request.dwell && !scene_.creep && !std::exchange(warned_of_dwell_, true))
+  if (request.dwell && !(plan_.yield && plan_.yield->softening) && !std::exchange(warned_of_dwell_, true))
     monitor.warn(
         "`dwell` does nothing without creep: this scene does not name the effect `creep`, so no press "
         "depends "
@@ -153,7 +154,7 @@ State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
   }
   State state = *std::move(solved);
   if (first) state = state.costing_also(ready->preparation());
-  if (plan_.yield) state = state.costing_also(flatten_for_good(state, monitor));
+  state = state.costing_also(leave_on_bodies(state, monitor));
   state = showing_what_costs_nothing(plan_, std::move(state));
   carry(state, request);
   return state;
@@ -168,41 +169,57 @@ State SpecimenPair::choose_and_press(const PressRequest& request, Monitor& monit
   after.solver_ = std::move(choice.solver);
   after.chosen_ = choice.state.chosen();
   State state = std::move(choice.state);
-  if (after.plan_.yield) state = state.costing_also(after.flatten_for_good(state, monitor));
+  state = state.costing_also(after.leave_on_bodies(state, monitor));
   state = showing_what_costs_nothing(plan_, std::move(state));
   after.carry(state, request);
   *this = std::move(after);
   return state;
 }
 
-StateCost SpecimenPair::flatten_for_good(const State& state, Monitor& monitor) {
-  const CostScope scope;
-  if (const std::optional<PlasticChange> change = state.plastic_change()) {
-    YieldedBodies after = yielded_bodies(*geometry_, *plan_.yield, *change);
-    Scene scene = scene_;
-    scene.lower = std::move(after.lower);
-    scene.upper = std::move(after.upper);
-    auto geometry =
-        std::make_shared<const ContactGeometry>(scene, *geometry_, after.hardness, change->approach);
-    Plan plan = make_plan_like(plan_, scene, *geometry);
-    plan_estimate(*geometry, plan);
-    plan.choice = plan_.choice;
-    plan.yield->carried = plan_.yield->carried;
-    if (change->carried) asperity::carry(plan.yield->carried, *change->carried);
-    constexpr double noticeable = 0.05;
-    if (std::abs(after.mapped_volume - 1) > noticeable && !std::exchange(warned_of_mapping_, true))
-      monitor.warn("at this angle the nodes of the bodies map " + format_short(100 * after.mapped_volume, 3) +
-                   " % of the volume that yielded onto the upper body; it was scaled to all of it, so "
-                   "finer cells would tell more");
-    // Nothing throws from here on.
-    std::swap(scene_, scene);
-    std::swap(plan_, plan);
-    hardness_ = std::move(after.hardness);
-    geometry_ = std::move(geometry);
-    solver_.reset();
+StateCost SpecimenPair::leave_on_bodies(const State& state, Monitor& monitor) {
+  StateCost cost;
+  const auto counted = [&](const Effect& effect, const CostScope& scope) {
+    const Cost its = scope.so_far();
+    cost += {its, {{std::string(effect.name), its}}};
+  };
+  const Effect* last = nullptr;
+  AfterEvent after(*geometry_);
+  for (const Effect* effect : known_effects()) {
+    if (effect->leave == nullptr || scene_.effects.options_of(*effect) == nullptr) continue;
+    const CostScope scope;
+    const bool before = std::exchange(after.changed, false);
+    effect->leave(state, plan_, after);
+    if (after.changed) last = effect;
+    after.changed |= before;
+    counted(*effect, scope);
   }
-  const Cost cost = scope.so_far();
-  return {cost, {{"plasticity", cost}}};
+  if (!after.changed) return cost;
+
+  const CostScope scope;
+  Scene scene = scene_;
+  scene.lower = std::move(after.lower);
+  scene.upper = std::move(after.upper);
+  auto geometry =
+      std::make_shared<const ContactGeometry>(scene, *geometry_, std::move(after.memory), after.yielded);
+  Plan plan = make_plan_like(plan_, scene, *geometry);
+  plan_estimate(*geometry, plan);
+  plan.choice = plan_.choice;
+  if (plan.yield) {
+    plan.yield->carried = plan_.yield->carried;
+    if (after.carried) asperity::carry(plan.yield->carried, *after.carried);
+  }
+  constexpr double noticeable = 0.05;
+  if (std::abs(after.mapped_volume - 1) > noticeable && !std::exchange(warned_of_mapping_, true))
+    monitor.warn("at this angle the nodes of the bodies map " + format_short(100 * after.mapped_volume, 3) +
+                 " % of the volume that yielded onto the upper body; it was scaled to all of it, so "
+                 "finer cells would tell more");
+  // Nothing throws from here on.
+  std::swap(scene_, scene);
+  std::swap(plan_, plan);
+  geometry_ = std::move(geometry);
+  solver_.reset();
+  counted(*last, scope);
+  return cost;
 }
 
 void SpecimenPair::warn_of_an_overhang(Monitor& monitor) {
@@ -240,11 +257,11 @@ void SpecimenPair::carry(const State& state, const PressRequest& request) {
   states_.push_back(state.watch());
   under_load_ = state.load() > 0 || state.contacts() > 0;
   pressed_.reset();
-  if (under_load_ && scene_.sliding.tangential) pressed_ = state;
+  if (under_load_ && has_tangential(scene_.effects)) pressed_ = state;
 }
 
 PartialSlip SpecimenPair::shear(const ShearRequest& request, Monitor& monitor) {
-  require_tangential(scene_.sliding);
+  require_tangential(scene_.effects);
   if (pressed() == nullptr)
     throw Error(ErrorCode::bad_state, "the contact carries no load, so nothing resists shear",
                 "press it first");
@@ -270,12 +287,11 @@ void SpecimenPair::lay(const Pose& pose) {
     unload();
     return;
   }
-  auto geometry = std::make_shared<const ContactGeometry>(scene_, pose, hardness_);
+  auto geometry = std::make_shared<const ContactGeometry>(scene_, pose, geometry_->memory());
   Plan plan = planned(scene_, *geometry);
   // Under a rigid flat every placement is the same contact, and what was prepared for it stays good.
   const Material* flat = std::get_if<Material>(&scene_.upper);
   if (flat == nullptr || !flat->rigid) solver_.reset();
-  hardness_ = geometry->hardness();
   geometry_ = std::move(geometry);
   plan_ = std::move(plan);
   unload();

@@ -62,7 +62,8 @@ class SpecimenPair {
   // The contact under its present load, pulled sideways; nothing of the pair changes. Throws what shear()
   // throws, and Error{bad_state} without load.
   PartialSlip shear(const ShearRequest& request, Monitor& monitor = Monitor::silent());
-  // The state of the last press while its load is on; kept for `tangential` alone, null without it.
+  // The state of the last press while its load is on; kept for partial slip alone (has_tangential), null
+  // without it.
   const State* pressed() const { return under_load_ && pressed_ ? &*pressed_ : nullptr; }
 
   // Lifts the upper specimen and puts it down as draw_placement(seed) says, whatever came before.
@@ -89,7 +90,8 @@ class SpecimenPair {
   const Pose& pose() const { return geometry_->pose(); }
   // The part of the pose that is on the lattice.
   const LatticeIsometry& placement() const { return pose().lattice(); }
-  const HardnessMemory& hardness() const { return hardness_; }
+  // What events have left on the bodies beside their shapes.
+  const BodyMemory& memory() const { return geometry_->memory(); }
   // What a press will compute, and at what cost; plan().text() prints it. Before an accuracy is chosen, of
   // the cells given.
   const Plan& plan() const { return plan_; }
@@ -105,13 +107,12 @@ class SpecimenPair {
   void unload();
   void warn(const PressRequest& request, Monitor& monitor);
   State choose_and_press(const PressRequest& request, Monitor& monitor);
-  // Takes from the bodies what yielded in `state`; what it cost.
-  StateCost flatten_for_good(const State& state, Monitor& monitor);
+  // What `state` leaves on the bodies, by the effects of the scene; what it cost.
+  StateCost leave_on_bodies(const State& state, Monitor& monitor);
   void warn_of_an_overhang(Monitor& monitor);
   void warn_of_a_step_at_the_rim(Monitor& monitor);
 
   Scene scene_;  // with the bodies as they are now
-  HardnessMemory hardness_;
   std::shared_ptr<const ContactGeometry> geometry_;
   Plan plan_;
   std::shared_ptr<const Solver> solver_;          // none until the first press after a placement

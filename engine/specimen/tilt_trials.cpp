@@ -217,7 +217,7 @@ std::uint64_t tilt_placement(const TiltTrialOptions& options, int trial) {
 TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTrialOptions& options,
                  Monitor& monitor) {
   check_trials(options);
-  check_rest(options.rest, pair.scene().sliding);
+  check_rest(options.rest, pair.scene().effects);
   SpecimenPair bench = pair;
   const bool flat = bench.upper_is_flat();
   const double tile_share =
@@ -309,7 +309,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
   if (options.rest)
     add_sentence(result.note, "at rest for " + format_quantity(*options.rest, dimension::time) +
                                   ", tau0 grew by a factor of " +
-                                  format_short(strengthening(*pair.scene().sliding.ageing, options.rest)));
+                                  format_short(strengthening(pair.scene().effects, options.rest)));
   return result;
 }
 

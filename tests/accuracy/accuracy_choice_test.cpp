@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "engine/accuracy/discretisation_error.hpp"
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
@@ -305,7 +306,7 @@ TEST(SpecimenPair, APressWhoseFinerGridFailsLeavesThePair) {
   };
   Scene scene{rough(128, 1, 8), rigid_material(), Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
   scene.accuracy.estimate = Accuracy::Estimate::finer;
-  scene.plasticity = PlasticityOptions{};
+  scene.effects.set(PlasticityOptions{});
   SpecimenPair pair(scene);
   const std::string digest = pair.lower().digest();
   StopLater monitor;
@@ -345,7 +346,7 @@ TEST(AccuracyChoice, CopiesChooseForThemselves) {
 
 TEST(AccuracyChoice, PlasticBodiesYieldOnTheCellsChosen) {
   Scene scene = asking(rough(256), rigid_material(), Boundary::periodic, 0.1, {"plastic_volume"});
-  scene.plasticity = PlasticityOptions{};
+  scene.effects.set(PlasticityOptions{});
   SpecimenPair pair(scene);
   const State state = pair.press({PressBy::pressure, 1e7, {}});
   ASSERT_GT(state.plastic_volume(), 0);

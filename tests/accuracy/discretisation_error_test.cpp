@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/sine.hpp"
@@ -175,7 +176,7 @@ TEST(DiscretisationEstimate, BodiesAsTheyLie) {
 
 TEST(DiscretisationEstimate, PlasticBodiesRememberOnCoarserGrids) {
   Scene scene = half_space(rough(64), Boundary::periodic);
-  scene.plasticity = PlasticityOptions{.hardness = 5e7, .hardening = 1e12};
+  scene.effects.set(PlasticityOptions{.hardness = 5e7, .hardening = 1e12});
   const State state = pressed(scene, {PressBy::pressure, 1e7, {}});
   for (const char* name : {"plastic_volume", "plastic_fraction"}) {
     const DiscretisationEstimate estimate = discretisation_estimate(state, name);
@@ -184,9 +185,9 @@ TEST(DiscretisationEstimate, PlasticBodiesRememberOnCoarserGrids) {
     EXPECT_LT(estimate.relative(), 1);
   }
   // All nodes already harder than any pressure: nothing yields on any grid.
-  HardnessMemory memory;
+  NodeMemory memory;
   memory.lower = std::make_shared<const Field>(64, 64, 1e12);
-  const ContactGeometry hard(scene, LatticeIsometry(64, 64), memory);
+  const ContactGeometry hard(scene, LatticeIsometry(64, 64), {{std::string(hardness_memory), memory}});
   const auto coarser = solve_coarser(scene, hard, make_plan(scene, hard), {PressBy::pressure, 1e7, {}});
   EXPECT_EQ(coarser->levels()[0].state.plastic_volume(), 0);
   EXPECT_EQ(coarser->levels()[1].state.plastic_volume(), 0);
@@ -314,15 +315,15 @@ TEST(EstimateFromAFinerGrid, CostsAboutElevenTimesThePress) {
 
 TEST(EstimateFromAFinerGrid, PlasticBodiesRemember) {
   Scene scene = half_space(rough(64), Boundary::periodic);
-  scene.plasticity = PlasticityOptions{.hardness = 5e7, .hardening = 1e12};
+  scene.effects.set(PlasticityOptions{.hardness = 5e7, .hardening = 1e12});
   const PressRequest request{PressBy::pressure, 1e7, {}};
   const State state = pressed_beside_finer(scene, request);
   const DiscretisationEstimate estimate = discretisation_estimate(state, "plastic_volume");
   EXPECT_GT(estimate.error, 0);
   EXPECT_LT(estimate.relative(), 0.5);
-  HardnessMemory memory;
+  NodeMemory memory;
   memory.lower = std::make_shared<const Field>(64, 64, 1e12);
-  const ContactGeometry hard(scene, LatticeIsometry(64, 64), memory);
+  const ContactGeometry hard(scene, LatticeIsometry(64, 64), {{std::string(hardness_memory), memory}});
   const auto finer = solve_finer(scene, hard, make_plan(scene, hard), request);
   EXPECT_EQ(finer->levels()[0].state.plastic_volume(), 0);
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bindings/lua/registry/registry.hpp"
-#include "engine/contact/effects/catalogue.hpp"
+#include "engine/contact/effects/list.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::needs_effect_test {
@@ -20,8 +20,8 @@ using NeedsEffect = LuaTest;
 std::set<std::string> names_in_need() {
   std::set<std::string> names;
   const auto look = [&](const std::string& name, const std::string& sentence) {
-    for (const EffectEntry& effect : known_effects())
-      if (sentence.find("needs " + std::string(effect.name)) != std::string::npos) names.insert(name);
+    for (const Effect* effect : known_effects())
+      if (sentence.find("needs " + std::string(effect->name)) != std::string::npos) names.insert(name);
   };
   const auto look_at = [&](const std::vector<Function>& functions) {
     for (const Function& function : functions) {

@@ -9,6 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/contact/effects/capillarity.hpp"
+#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/effects/tangential.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::adhesion_test {
@@ -35,7 +38,7 @@ Scene paraboloid(int n = 32) {
 }
 Scene adhering(double work, double range = 0.05, GapLaw model = GapLaw::exponential) {
   Scene scene = paraboloid();
-  scene.adhesion = AdhesionOptions{work, range, model};
+  scene.effects.set(AdhesionOptions{work, range, model});
   return scene;
 }
 
@@ -135,7 +138,7 @@ TEST(Adhesion, ErrorsAreInfiniteWhereNothingIsBounded) {
 
 TEST(Adhesion, CapillarityBesideItHasACostOfItsOwn) {
   Scene scene = adhering(0.01, 0.02);
-  scene.capillarity = CapillarityOptions{.pressure = 0.1, .surface_tension = 0.005};
+  scene.effects.set(CapillarityOptions{.pressure = 0.1, .surface_tension = 0.005});
   const State state = press(scene, PressBy::load, 0.01);
   std::vector<std::string> effects;
   double transforms = 0;
@@ -169,17 +172,17 @@ TEST(Adhesion, WarnsWhereTheZoneThatPullsIsUnderFourCells) {
 TEST(Adhesion, WhatItIsNotComputedWithIsRefusedByName) {
   const auto refused = [](const Scene& scene) { return error_of([&] { check(scene); }); };
   EXPECT_EQ(refused(adhering(0.01)), "");
-  EXPECT_NE(refused(adhering(-1)).find("`work` of the adhesion is -1 J/m^2"), std::string::npos);
+  EXPECT_NE(refused(adhering(-1)).find("`work` of the effect `adhesion` is -1 J/m^2"), std::string::npos);
   EXPECT_NE(refused(adhering(std::numeric_limits<double>::infinity())).find("`work`"), std::string::npos);
-  EXPECT_NE(refused(adhering(1, 0)).find("`range` is 0 m"), std::string::npos);
+  EXPECT_NE(refused(adhering(1, 0)).find("`range` of the effect `adhesion` is 0 m"), std::string::npos);
   Scene scene = adhering(1);
   scene.elasticity = BoxOptions{1.0};
   EXPECT_NE(refused(scene).find("`adhesion` is not computed on box elements"), std::string::npos);
   scene = adhering(1);
-  scene.plasticity = PlasticityOptions{1.0};
+  scene.effects.set(PlasticityOptions{1.0});
   EXPECT_NE(refused(scene).find("together with `plasticity`"), std::string::npos);
   scene = adhering(1);
-  scene.sliding.tangential = TangentialOptions{};
+  scene.effects.set(TangentialOptions{});
   EXPECT_NE(refused(scene).find("together with `tangential`"), std::string::npos);
   scene = adhering(1);
   scene.accuracy.precision = Accuracy::Precision::single;
@@ -187,8 +190,8 @@ TEST(Adhesion, WhatItIsNotComputedWithIsRefusedByName) {
   scene = adhering(1);
   scene.accuracy.estimate = Accuracy::Estimate::coarser;
   EXPECT_NE(refused(scene).find("estimate"), std::string::npos);
-  scene.adhesion->work = 0;  // then there is nothing to compute
-  scene.plasticity = PlasticityOptions{1.0};
+  scene.effects.find<AdhesionOptions>()->work = 0;  // then there is nothing to compute
+  scene.effects.set(PlasticityOptions{1.0});
   EXPECT_EQ(refused(scene), "");
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <thread>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/error/half_space_error.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
@@ -94,9 +95,10 @@ Trial trial_of(std::uint64_t scene) {
   if (kind == box) trial.scene.elasticity = BoxOptions{};
   if (kind == capped || kind == capped_free || kind == hardening || kind == hardening_free ||
       kind == deep_plastic)
-    trial.scene.plasticity = PlasticityOptions{};
+    trial.scene.effects.set(PlasticityOptions{});
   if (kind == hardening || kind == hardening_free || (kind == deep_plastic && draw.below(2) == 0))
-    trial.scene.plasticity->hardening = *material.hardness / height * draw.log_uniform(0.1, 10);
+    trial.scene.effects.find<PlasticityOptions>()->hardening =
+        *material.hardness / height * draw.log_uniform(0.1, 10);
   if (kind >= deep) trial.request = {PressBy::indentation, draw.uniform(0.02, 0.35), {}};
   return trial;
 }
@@ -252,7 +254,7 @@ TEST(AlgebraicError, AnApproachThatTheLoadDoesNotFixIsBracketed) {
   material.hardness = 1e6;
   Scene scene{steps.with_material(material), rigid_material(), Boundary::periodic, HalfSpaceOptions{},
               Accuracy{}};
-  scene.plasticity = PlasticityOptions{};
+  scene.effects.set(PlasticityOptions{});
   const auto solver = ready(scene);
   const State half = solver->press({PressBy::approach, 2.5e-6, {}});
   ASSERT_EQ(half.contacts(), 16);

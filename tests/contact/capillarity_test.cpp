@@ -26,7 +26,7 @@ Scene rough(std::optional<CapillarityOptions> capillarity) {
   Scene scene{Surface(body.grid(), body.heights(), traits), rigid_material(), Boundary::periodic,
               HalfSpaceOptions{}, Accuracy{}};
   scene.accuracy.tolerance = 1e-5;
-  scene.capillarity = capillarity;
+  scene.effects.set(capillarity);
   return scene;
 }
 
@@ -82,9 +82,9 @@ TEST(Capillarity, HoldsASphereWithTheForceOfItsMeniscus) {
               HalfSpaceOptions{}, Accuracy{}};
   scene.accuracy.tolerance = 1e-4;
   const double work = 2 * tension * std::cos(angle);
-  scene.capillarity =
-      CapillarityOptions{.pressure = work / 0.95, .surface_tension = tension, .contact_angle = angle};
-  ASSERT_NEAR(meniscus(*scene.capillarity).height, 0.95, 1e-12);
+  scene.effects.set(
+      CapillarityOptions{.pressure = work / 0.95, .surface_tension = tension, .contact_angle = angle});
+  ASSERT_NEAR(meniscus(*scene.effects.find<CapillarityOptions>()).height, 0.95, 1e-12);
   const double held = 4 * std::numbers::pi * tension * std::cos(angle);
   const auto contact = test::ready(scene);
   EXPECT_GT(contact->press({PressBy::load, -0.97 * held, {}}).contacts(), 0);
@@ -101,8 +101,10 @@ TEST(Capillarity, OptionsOutOfRangeAreRefused) {
   EXPECT_NE(refused({}).find("neither `pressure` nor `humidity`"), std::string::npos);
   EXPECT_NE(refused({.pressure = 1.0, .humidity = 0.5}).find("both `pressure` and `humidity`"),
             std::string::npos);
-  EXPECT_NE(refused({.pressure = -1.0}).find("`pressure` of the liquid is -1 Pa"), std::string::npos);
-  EXPECT_NE(refused({.humidity = 1.0}).find("`humidity` is 1"), std::string::npos);
+  EXPECT_NE(refused({.pressure = -1.0}).find("`pressure` of the effect `capillarity` is -1 Pa"),
+            std::string::npos);
+  EXPECT_NE(refused({.humidity = 1.0}).find("`humidity` of the effect `capillarity` is 1"),
+            std::string::npos);
   EXPECT_NE(
       refused({.humidity = 0.5, .contact_angle = std::numbers::pi / 2}).find("`contact_angle` is 90 deg"),
       std::string::npos);

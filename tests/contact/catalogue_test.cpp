@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The effects a scene can name, and how the others are refused.
-#include "engine/contact/effects/catalogue.hpp"
+#include "engine/contact/effects/list.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,14 +12,22 @@ namespace {
 
 using test::error_of;
 
-TEST(Catalogue, EveryEntryHasANameOfItsOwnAndASentence) {
-  for (const auto entries : {known_effects(), elasticity_models()})
-    for (const EffectEntry& entry : entries) {
-      EXPECT_FALSE(entry.sentence.empty());
-      EXPECT_EQ(std::count_if(entries.begin(), entries.end(),
-                              [&](const EffectEntry& e) { return e.name == entry.name; }),
-                1);
+TEST(Catalogue, EveryEffectHasANameOfItsOwnAndASentence) {
+  std::vector<std::string_view> names;
+  for (const Effect* effect : known_effects()) {
+    EXPECT_FALSE(effect->sentence.empty());
+    EXPECT_NE(effect->plan, nullptr);
+    names.push_back(effect->name);
+    for (const OptionRow& row : effect->options) {
+      EXPECT_FALSE(row.sentence.empty()) << row.name;
+      EXPECT_NO_THROW((void)row.get(effect->defaults)) << row.name;
     }
+  }
+  for (const ElasticityModel& model : elasticity_models()) {
+    EXPECT_FALSE(model.sentence.empty());
+    names.push_back(model.name);
+  }
+  for (const std::string_view name : names) EXPECT_EQ(std::ranges::count(names, name), 1) << name;
 }
 
 TEST(Catalogue, ComputedEffectsAreAccepted) {
@@ -37,13 +45,9 @@ TEST(Catalogue, AnUnknownEffectIsRefusedWithTheNearestName) {
 }
 
 TEST(Catalogue, EffectsThatAreNotComputedAreRefusedByName) {
-  for (const EffectEntry& entry : known_effects()) {
-    const std::string text = error_of([&] { require_effect(entry.name); });
-    EXPECT_EQ(text.empty(), entry.availability == Availability::computed) << entry.name;
-    if (!text.empty()) {
-      EXPECT_NE(text.find("the effect `" + std::string(entry.name) + "` ("), std::string::npos) << text;
-    }
-  }
+  for (const Effect* effect : known_effects()) EXPECT_EQ(require_effect(effect->name), effect);
+  const std::string text = error_of([] { require_effect("oxide"); });
+  EXPECT_NE(text.find("the effect `oxide` (a brittle film between the metals)"), std::string::npos) << text;
   EXPECT_NE(error_of([] { require_effect("breakage"); }).find("is not modelled by this program"),
             std::string::npos);
 }

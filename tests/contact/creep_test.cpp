@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::creep_test {
@@ -17,7 +18,7 @@ Scene plastic_scene() {
   metal.hardness = 1e9;
   Scene scene{test::random_surface(6, 6, 1).with_material(metal), rigid_material(), Boundary::periodic,
               HalfSpaceOptions{}, Accuracy{}};
-  scene.plasticity = PlasticityOptions{};
+  scene.effects.set(PlasticityOptions{});
   return scene;
 }
 
@@ -32,9 +33,9 @@ TEST(Creep, SoftensByTheLogarithmOfTheDwell) {
 
 TEST(Creep, NeedsPlasticity) {
   Scene scene = plastic_scene();
-  scene.creep = CreepOptions{};
+  scene.effects.set(CreepOptions{});
   EXPECT_EQ(error_of([&] { check(scene); }), "");
-  scene.plasticity.reset();
+  scene.effects.remove<PlasticityOptions>();
   EXPECT_NE(error_of([&] { check(scene); }).find("name `plasticity` beside it"), std::string::npos);
 }
 
@@ -43,7 +44,7 @@ TEST(Creep, OptionsOutOfRangeAreNamed) {
   for (const auto& [creep, key] :
        {std::pair{CreepOptions{-1, 1, 600}, "`rate`"}, std::pair{CreepOptions{0.02, 0, 600}, "`onset`"},
         std::pair{CreepOptions{0.02, 1, std::numeric_limits<double>::infinity()}, "`reference`"}}) {
-    scene.creep = creep;
+    scene.effects.set(creep);
     EXPECT_NE(error_of([&] { check(scene); }).find(key), std::string::npos) << key;
   }
 }

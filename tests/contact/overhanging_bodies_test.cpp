@@ -7,6 +7,7 @@
 
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/accuracy/other_grids.hpp"
+#include "engine/contact/effects/adhesion.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/surface/generators/self_affine.hpp"
@@ -113,8 +114,8 @@ TEST(OverhangingBodies, NothingPressesWhereNothingFacesInAnyControl) {
       for (int model = 0; model < 5; ++model) {
         Scene scene = two_domes(grid, BoxOptions{});
         if (model >= 3) scene.elasticity = HalfSpaceOptions{};
-        if (model == 1) scene.plasticity = capped;
-        if (model == 2 || model == 4) scene.plasticity = hardening;
+        if (model == 1) scene.effects.set(capped);
+        if (model == 2 || model == 4) scene.effects.set(hardening);
         if (grid.nx == grid.ny && angle == 90) continue;  // on the lattice: it covers
         const Turned turned(scene, angle * degree);
         const std::string what = std::to_string(grid.nx) + " x " + std::to_string(grid.ny) + " at " +
@@ -164,7 +165,7 @@ TEST_P(CrossedBars, CarryAsTheirCommonSquareDoes) {
   Scene scene{lower, upper, Boundary::free, HalfSpaceOptions{}, Accuracy{}};
   scene.accuracy.tolerance = 1e-12;
   if (GetParam() < 2) scene.elasticity = BoxOptions{1e14};
-  if (GetParam() % 2 == 1) scene.plasticity = PlasticityOptions{{}, GetParam() == 1 ? never : 5e13};
+  if (GetParam() % 2 == 1) scene.effects.set(PlasticityOptions{{}, GetParam() == 1 ? never : 5e13});
   Scene cropped = scene;
   cropped.lower = middle(lower);
   cropped.upper = middle(upper);
@@ -186,7 +187,7 @@ TEST_P(CrossedBars, CarryAsTheirCommonSquareDoes) {
       EXPECT_NEAR(all.area(), part.area(), 1e-9 * part.area());
       EXPECT_NEAR(all.pressure(), part.pressure() / 4, 1e-9 * part.pressure());
       EXPECT_NEAR(all.stiffness(), part.stiffness() / 4, 1e-7 * part.stiffness());
-      if (scene.plasticity) {
+      if (scene.effects.find<PlasticityOptions>()) {
         EXPECT_NEAR(all.plastic_volume(), part.plastic_volume(), 1e-8 * part.plastic_volume() + 1e-30);
       }
       const auto p = all.field("pressure"), q = part.field("pressure");
@@ -204,7 +205,7 @@ INSTANTIATE_TEST_SUITE_P(Models, CrossedBars, ::testing::Range(0, 4));
 TEST(OverhangingBodies, TheHardnessIsThatOfTheOverlap) {
   const Grid bar{8, 32, 1e-3, 4e-3};
   Scene scene{dome(bar, 3), dome(bar, 4), Boundary::free, HalfSpaceOptions{}, Accuracy{}};
-  scene.plasticity = PlasticityOptions{};
+  scene.effects.set(PlasticityOptions{});
   for (const bool boxes : {false, true}) {
     if (boxes) scene.elasticity = BoxOptions{};
     const Turned turned(scene, 90 * degree);
@@ -222,7 +223,7 @@ TEST(OverhangingBodies, WhatYieldsIsTakenWhereTheBodiesFaceEachOther) {
     for (const double hardening : {never, 5e13}) {
       Scene scene = two_domes(grid, BoxOptions{});
       if (half_space) scene.elasticity = HalfSpaceOptions{};
-      scene.plasticity = PlasticityOptions{4e8, hardening};
+      scene.effects.set(PlasticityOptions{4e8, hardening});
       const Turned turned(scene, 40 * degree);
       const State state = turned.press(PressBy::pressure, 1e8);
       const auto plastic = state.field("plastic");
@@ -237,8 +238,9 @@ TEST(OverhangingBodies, WhatYieldsIsTakenWhereTheBodiesFaceEachOther) {
       const YieldedBodies after = yielded_bodies(*turned.geometry, *turned.plan.yield, *change);
       scene.lower = after.lower;
       scene.upper = after.upper;
-      auto geometry =
-          std::make_shared<const ContactGeometry>(scene, *turned.geometry, after.hardness, change->approach);
+      auto geometry = std::make_shared<const ContactGeometry>(
+          scene, *turned.geometry, BodyMemory{{std::string(hardness_memory), after.hardness}},
+          change->approach);
       EXPECT_EQ(geometry->facing(), turned.geometry->facing());
       EXPECT_TRUE(std::isfinite(geometry->peak_to_valley()));
       Plan plan = make_plan_like(turned.plan, scene, *geometry);
@@ -301,7 +303,7 @@ TEST(OverhangingBodies, AnAttractionPullsOnlyWhereTheBodiesFaceEachOther) {
   for (const GapLaw law : {GapLaw::exponential, GapLaw::dugdale}) {
     Scene scene{dome_of(bar), dome_of(bar), Boundary::free, HalfSpaceOptions{}, Accuracy{}};
     scene.accuracy.tolerance = 1e-8;
-    scene.adhesion = AdhesionOptions{0.05, 2e-5, law};
+    scene.effects.set(AdhesionOptions{0.05, 2e-5, law});
     Scene cropped = scene;
     cropped.lower = dome_of(square);
     cropped.upper = dome_of(square);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "tests/contact/contacts.hpp"
 
@@ -130,7 +131,7 @@ TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
         metal.hardness = 5e9;
         Scene scene = scene_of(rough.with_material(metal), rigid_material(), {}, boundary);
         scene.elasticity = HalfSpaceOptions{};
-        if (hardens) scene.plasticity = PlasticityOptions{{}, 1e11};
+        if (hardens) scene.effects.set(PlasticityOptions{{}, 1e11});
         const Plan plan = plan_of(scene);
         const State state = test::press(scene, PressBy::pressure, 1e8);
         const std::int64_t taken = state.cost().total.bytes;

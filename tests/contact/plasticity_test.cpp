@@ -27,7 +27,7 @@ Material metal(double hardness) {
 Scene scene_of(Surface lower, UpperBody upper, PlasticityOptions plasticity = {},
                Boundary boundary = Boundary::periodic) {
   Scene scene{std::move(lower), std::move(upper), boundary, HalfSpaceOptions{}, Accuracy{}};
-  scene.plasticity = plasticity;
+  scene.effects.set(plasticity);
   return scene;
 }
 
@@ -229,6 +229,8 @@ TEST(Plasticity, ATurnOffTheLatticeKeepsTheVolume) {
   EXPECT_NEAR(after.mapped_volume, 1, 0.02);
 }
 
+BodyMemory kept(const NodeMemory& hardness) { return {{std::string(hardness_memory), hardness}}; }
+
 TEST(Plasticity, HardeningIsRememberedInEachBodysFrame) {
   const Surface body = rough.with_material(metal(1e9));
   const Scene scene = scene_of(body, body, {{}, 5e13});
@@ -242,8 +244,8 @@ TEST(Plasticity, HardeningIsRememberedInEachBodysFrame) {
   const auto above = pose.lattice().to_upper(LatticeIsometry::Node{3, 3});
   EXPECT_EQ((*after.hardness.upper)(above.i, above.j), 1.5e9);
   // Put down elsewhere, the hard node of each meets soft ground of the other.
-  const ContactGeometry elsewhere(scene, LatticeIsometry(6, 6).shifted(2, 2), after.hardness);
-  const LocalHardness local = local_hardness(elsewhere, yield_of(scene));
+  const ContactGeometry elsewhere(scene, LatticeIsometry(6, 6).shifted(2, 2), kept(after.hardness));
+  const MetMemory local = local_hardness(elsewhere, yield_of(scene));
   int both = 0;
   for (std::size_t k = 0; k < 36; ++k) both += (*local.lower)[k] > 1e9 && (*local.upper)[k] > 1e9;
   EXPECT_EQ(both, 0);
@@ -254,11 +256,11 @@ TEST(Plasticity, SharesGoByWhatEachNodeHasHardenedTo) {
   const Surface body = rough.with_material(metal(1e9));
   const Scene scene = scene_of(body, body, {{}, 5e13});
   const LatticeIsometry lattice(6, 6);
-  HardnessMemory memory;
+  NodeMemory memory;
   Field hardened(6, 6, 1e9);
   hardened(2, 2) = 1.5e9;
   memory.lower = std::make_shared<const Field>(std::move(hardened));
-  const ContactGeometry geometry(scene, lattice, memory);
+  const ContactGeometry geometry(scene, lattice, kept(memory));
   PlasticChange change{Field(6, 6), Field(6, 6)};
   for (const int i : {2, 4}) {
     change.approach(i, 2) = 1;

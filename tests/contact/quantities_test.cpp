@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/surface/generators/sphere.hpp"
 #include "tests/contact/contacts.hpp"
 
@@ -18,7 +19,7 @@ State pressed_ball(bool yields) {
   Scene scene{sphere_surface({Grid{32, 32, 1e-3, 1e-3}, 1e-2, SphereShape::paraboloid})
                   .with_material(test::elastic(1e9)),
               rigid_material(), Boundary::free, HalfSpaceOptions{}, Accuracy{}};
-  if (yields) scene.plasticity = PlasticityOptions{.hardness = 1e6};
+  if (yields) scene.effects.set(PlasticityOptions{.hardness = 1e6});
   return test::press(scene, PressBy::load, 0.05);
 }
 
@@ -41,7 +42,7 @@ TEST(StateQuantities, ValuesAreThoseOfTheState) {
   EXPECT_EQ(find_quantity("energy")->value(state), state.energy());
   for (const StateQuantity& quantity : state_quantities())
     if (quantity.effect.empty()) {
-      EXPECT_TRUE(std::isfinite(quantity.value(state))) << quantity.name;
+      EXPECT_TRUE(std::isfinite(quantity.of(state))) << quantity.name;
     }
 }
 
@@ -51,9 +52,9 @@ TEST(StateQuantities, OnesOfAnEffectNeedIt) {
   for (const StateQuantity& quantity : state_quantities()) {
     if (quantity.effect.empty()) continue;
     ++of_effects;
-    EXPECT_THROW(quantity.value(elastic), Error) << quantity.name;
+    EXPECT_THROW(quantity.of(elastic), Error) << quantity.name;
     EXPECT_FALSE(quantity.bound(elastic)) << quantity.name;
-    EXPECT_GT(quantity.value(yielding), 0) << quantity.name;
+    EXPECT_GT(quantity.of(yielding), 0) << quantity.name;
     EXPECT_TRUE(quantity.bound(yielding)) << quantity.name;
   }
   EXPECT_EQ(of_effects, 2);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The effects of a contact pulled sideways as a scene names them: their options, what a plan says of them,
 // and that no press knows them.
-#include "engine/contact/sliding.hpp"
+#include "engine/contact/plan.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "engine/contact/effects/ageing.hpp"
+#include "engine/contact/effects/interlocking.hpp"
+#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/effects/tangential.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::sliding_test {
@@ -20,11 +24,11 @@ using test::scene_of;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-Scene two_rough(SlidingEffects effects) {
+Scene two_rough(Effects effects) {
   Scene scene{random_surface(32, 32, 1).with_material(elastic(1)),
               random_surface(32, 32, 2).with_material(elastic(1)), Boundary::periodic, HalfSpaceOptions{},
               Accuracy{}};
-  scene.sliding = effects;
+  scene.effects = effects;
   return scene;
 }
 
@@ -53,9 +57,10 @@ TEST(Sliding, PressesKnowNothingOfIt) {
   EXPECT_NEAR(with.cost().total.transforms, without.cost().total.transforms, 1e-9);
   EXPECT_EQ(with.cost().total.bytes, without.cost().total.bytes);
   ASSERT_EQ(with.cost().by_effect.size(), 1U);
-  EXPECT_EQ(with.sliding().interlocking->direction, 1.0);
-  EXPECT_EQ(with.sliding().ageing->onset, 2);
-  EXPECT_FALSE(without.sliding().interlocking || without.sliding().ageing || without.sliding().tangential);
+  EXPECT_EQ(with.effects().find<InterlockingOptions>()->direction, 1.0);
+  EXPECT_EQ(with.effects().find<AgeingOptions>()->onset, 2);
+  EXPECT_FALSE(without.effects().find<InterlockingOptions>() || without.effects().find<AgeingOptions>() ||
+               without.effects().find<TangentialOptions>());
 }
 
 TEST(Sliding, APlanListsWhatIsNamedAndPlansNothingForIt) {
@@ -79,39 +84,38 @@ TEST(Sliding, APlanListsWhatIsNamedAndPlansNothingForIt) {
 }
 
 TEST(Sliding, ShearThatMovesUnlikeBodiesNormallyIsTold) {
-  Scene scene = two_rough({{}, {}, TangentialOptions{}});
+  Scene scene = two_rough({TangentialOptions{}});
   scene.upper = rigid_material();
   EXPECT_NE(plan_of(scene).text().find("; Dundurs' beta is 0.5: that shear and pressure mix is left out"),
             std::string::npos);
 }
 
 TEST(Sliding, OptionsOutOfRangeAreNamed) {
-  const auto asked = [](SlidingEffects effects) { return error_of([&] { check(two_rough(effects)); }); };
-  EXPECT_EQ(asked({InterlockingOptions{infinite}, {}, {}}),
-            "`direction` is inf rad; give a finite angle, such as \"0 deg\" for along x");
-  EXPECT_EQ(asked({{}, AgeingOptions{-1, 1}, {}}),
-            "`rate` is -1; give a finite number from zero up; 0.02 is usual");
-  EXPECT_EQ(asked({{}, AgeingOptions{0.1, 0}, {}}),
-            "`onset` is 0 s; give a time above zero, such as \"1 s\"");
-  EXPECT_EQ(asked({{}, {}, TangentialOptions{0.0}}),
-            "`compliance_ratio` is 0; give a finite number above zero; 1 for a Poisson's ratio of zero");
+  const auto asked = [](Effects effects) { return error_of([&] { check(two_rough(effects)); }); };
+  EXPECT_EQ(asked({InterlockingOptions{infinite}}),
+            "`direction` of the effect `interlocking` is inf rad; give a finite angle, e.g. \"37 deg\"");
+  EXPECT_EQ(asked({AgeingOptions{-1, 1}}), "`rate` of the effect `ageing` is -1; give a number at least 0");
+  EXPECT_EQ(asked({AgeingOptions{0.1, 0}}),
+            "`onset` of the effect `ageing` is 0 s; give a time above 0, e.g. \"10 min\"");
+  EXPECT_EQ(asked({TangentialOptions{0.0}}),
+            "`compliance_ratio` of the effect `tangential` is 0; give a number above 0");
   EXPECT_EQ(asked({InterlockingOptions{}, AgeingOptions{0, 1}, TangentialOptions{1e-300}}), "");
 }
 
 TEST(Sliding, WhatAnEffectNeedsIsNamed) {
-  Scene flat = two_rough({InterlockingOptions{}, {}, {}});
+  Scene flat = two_rough({InterlockingOptions{}});
   flat.upper = rigid_material();
   EXPECT_EQ(error_of([&] { plan_of(flat); }),
             "the effect `interlocking` is of two rough bodies, and the upper body is a flat; give a surface "
             "as `upper`, or leave the effect out");
   Scene boxes = test::boxes(random_surface(8, 8, 1), 1);
-  boxes.sliding.tangential = TangentialOptions{};
+  boxes.effects.set(TangentialOptions{});
   EXPECT_NE(error_of([&] { plan_of(boxes); }).find("`compliance_ratio` of the effect `tangential` is not"),
             std::string::npos);
-  boxes.sliding.tangential->compliance_ratio = 2;
+  boxes.effects.find<TangentialOptions>()->compliance_ratio = 2;
   EXPECT_EQ(error_of([&] { plan_of(boxes); }), "");
-  Scene plastic = two_rough({{}, {}, TangentialOptions{}});
-  plastic.plasticity = PlasticityOptions{1.0, infinite};
+  Scene plastic = two_rough({TangentialOptions{}});
+  plastic.effects.set(PlasticityOptions{1.0, infinite});
   EXPECT_NE(error_of([&] { check(plastic); }).find("`tangential` is the difference of two elastic contacts"),
             std::string::npos);
 }

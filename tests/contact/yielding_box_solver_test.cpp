@@ -28,7 +28,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 Scene yielding(Surface lower, Elasticity elasticity, PlasticityOptions plasticity) {
   Scene scene{std::move(lower), rigid_material(), Boundary::free, elasticity, Accuracy{}};
-  scene.plasticity = plasticity;
+  scene.effects.set(plasticity);
   return scene;
 }
 State press(const Scene& scene, double pressure) {
@@ -160,7 +160,7 @@ TEST(YieldingBoxSolver, InfiniteHardnessIsNoEffectToTheBit) {
   const Surface rough = random_surface(33, 20, 5);
   Scene scene = boxes(rough, 7);
   const State without = press(scene, 0.4);
-  scene.plasticity = PlasticityOptions{.hardness = never};
+  scene.effects.set(PlasticityOptions{.hardness = never});
   const State with = press(scene, 0.4);
   EXPECT_EQ(with.digest(), without.digest());
   EXPECT_EQ(with.energy(), without.energy());
@@ -172,7 +172,7 @@ TEST(YieldingBoxSolver, AHardnessNeverReachedIsTheElasticAnswer) {
   Scene scene = boxes(rough, 7);
   const State elastic_state = press(scene, 0.4);
   for (const double hardening : {never, 1e3}) {
-    scene.plasticity = PlasticityOptions{.hardness = 100, .hardening = hardening};
+    scene.effects.set(PlasticityOptions{.hardness = 100, .hardening = hardening});
     const State st = press(scene, 0.4);
     EXPECT_NEAR(st.approach(), elastic_state.approach(), 4e-16 * st.approach());
     EXPECT_EQ(st.contacts(), elastic_state.contacts());
@@ -240,9 +240,9 @@ TEST(YieldingBoxSolver, RefusesWhatHasNoSolution) {
       std::string::npos);
   Scene bare{four, rigid_material(), Boundary::free, RigidOptions{}, Accuracy{}};
   EXPECT_NE(error_of([&] { check(bare); }).find("does not name `plasticity`"), std::string::npos);
-  bare.plasticity = PlasticityOptions{.hardness = never};
+  bare.effects.set(PlasticityOptions{.hardness = never});
   EXPECT_NE(error_of([&] { ready(bare); }).find("their `hardness` is infinite"), std::string::npos);
-  bare.plasticity = PlasticityOptions{.hardness = 1e9};
+  bare.effects.set(PlasticityOptions{.hardness = 1e9});
   EXPECT_NE(error_of([&] { press(bare, 1e-280); }).find("too small to mean anything"), std::string::npos);
   EXPECT_NE(error_of([&] {
               ready(bare)->press({PressBy::approach, 1e200, {}});

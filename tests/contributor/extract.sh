@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The worked examples of docs/contributor.md as files: a block of C++ under `<!-- file: PATH -->` becomes that file below
-# FOLDER, and one under `<!-- row: PATH -->` a row at the end of the first table of that source.
+# FOLDER, and one under `<!-- row: PATH -->` a row at the end of the first table or list of that source.
 # usage: extract.sh FOLDER [the project's folder]
 set -eu
 folder=$1
@@ -24,7 +24,7 @@ find "$folder" -name '*.row' | while read -r row; do
   path=${row#"$folder"/}
   path=${path%.row}
   awk -v row="$row" '
-    /^};$/ && !done { while ((getline line < row) > 0) print line; done = 1 }
+    /^};$|end of the list/ && !done { while ((getline line < row) > 0) print line; done = 1 }
     { print }' "$path" > "$folder/$path"
   rm "$row"
 done

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/contact/effects/capillarity.hpp"
 #include "engine/friction/junction_law.hpp"
 #include "tests/contact/contacts.hpp"
 
@@ -19,8 +20,8 @@ TEST(CapillaryFriction, TheJunctionsRubWithWhatTheyCarryAndTheAppliedLoadDivides
   traits.material = test::elastic(1e9);
   Scene scene{Surface(body.grid(), body.heights(), traits), rigid_material(), Boundary::periodic,
               HalfSpaceOptions{}, Accuracy{}};
-  scene.capillarity = CapillarityOptions{};
-  scene.capillarity->pressure = 1e6;
+  scene.effects.set(CapillarityOptions{});
+  scene.effects.find<CapillarityOptions>()->pressure = 1e6;
   const State state = test::press(scene, PressBy::pressure, 1e5);
   const double carried = state.load() + state.attraction();
   ASSERT_GT(state.attraction(), 0);

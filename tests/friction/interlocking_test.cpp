@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "engine/contact/effects/interlocking.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::interlocking_test {
@@ -19,7 +20,7 @@ using test::scene_of;
 using test::surface_of;
 
 Scene interlocking(Scene scene, double direction = 0) {
-  scene.sliding.interlocking = InterlockingOptions{direction};
+  scene.effects.set(InterlockingOptions{direction});
   return scene;
 }
 
@@ -223,7 +224,7 @@ TEST(Interlocking, WithoutFrictionTheSlopesResistWhatTheEnergyGains) {
                 upper = wave(1.1, 2.0, 0.01).with_material(test::elastic(3));
   const auto moved = [&](int cells) {
     Scene scene{lower, upper, Boundary::periodic, HalfSpaceOptions{}, Accuracy{1e-9}};
-    scene.sliding.interlocking = InterlockingOptions{};
+    scene.effects.set(InterlockingOptions{});
     check(scene);
     auto geometry = std::make_shared<const ContactGeometry>(scene, LatticeIsometry(n, n).shifted(cells, 0));
     // Between the same mean planes, as bodies that move level do.

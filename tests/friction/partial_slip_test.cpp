@@ -27,7 +27,7 @@ Surface paraboloid(int n, double size) {
 }
 
 Scene tangential(Scene scene, std::optional<double> compliance_ratio = {}) {
-  scene.sliding.tangential = TangentialOptions{compliance_ratio};
+  scene.effects.set(TangentialOptions{compliance_ratio});
   return scene;
 }
 
@@ -82,7 +82,7 @@ TEST(PartialSlip, PoissonsRatioScalesTheShiftByMindlinsFactor) {
     const double factor = (2 - nu) / (2 * (1 - nu)), a = std::cbrt(0.75e-3);
     EXPECT_NEAR(pulled.by(0.5).displacement() / (0.3 * a * a * (1 - std::pow(0.5, 2.0 / 3))), factor,
                 3e-3 * factor);
-    EXPECT_NEAR(*pulled.normal.sliding().tangential->compliance_ratio, factor, 1e-14);
+    EXPECT_NEAR(*pulled.normal.effects().find<TangentialOptions>()->compliance_ratio, factor, 1e-14);
   }
 }
 
@@ -193,7 +193,7 @@ TEST(PartialSlip, AnUlpBelowCoulombsForceIsSolved) {
 TEST(PartialSlip, NamingItChangesNoPress) {
   Scene scene = sphere(64);
   const State with = test::press(scene, PressBy::load, 1e-3);
-  scene.sliding = {};
+  scene.effects = {};
   const State without = test::press(scene, PressBy::load, 1e-3);
   EXPECT_EQ(with.digest(), without.digest());
   EXPECT_NEAR(with.cost().total.transforms, without.cost().total.transforms, 1e-9);
@@ -223,7 +223,7 @@ TEST(PartialSlip, WhatMakesNoSenseIsRefusedByName) {
             }).find("carries no load"),
             std::string::npos);
   Scene plain = sphere(32);
-  plain.sliding = {};
+  plain.effects = {};
   const Pulled unnamed(plain);
   EXPECT_EQ(error_of([&] { unnamed.by(0.5); }),
             "partial slip needs the effect `tangential`, which this scene does not name; name tangential={} "

@@ -11,6 +11,7 @@
 #include <map>
 #include <vector>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/metrology/fractal_dimension.hpp"
 #include "engine/metrology/line_fit.hpp"
 #include "engine/metrology/roughness.hpp"
@@ -51,7 +52,7 @@ SpecimenPair bench(Kind kind, int pair, int cells = 256) {
   const auto seed = static_cast<std::uint64_t>(2 * pair);
   Scene scene{specimen(kind, seed + 1, cells), specimen(kind, seed + 2, cells), Boundary::periodic,
               HalfSpaceOptions{}, Accuracy{}};
-  scene.plasticity = PlasticityOptions{};
+  scene.effects.set(PlasticityOptions{});
   return SpecimenPair(scene);
 }
 
@@ -73,7 +74,7 @@ double excess(const Surface& surface) {
 
 double area_per_load(const Surface& surface, bool yielding = false) {
   Scene scene{surface, named_material("quartz"), Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
-  if (yielding) scene.plasticity = PlasticityOptions{};
+  if (yielding) scene.effects.set(PlasticityOptions{});
   const State state = SpecimenPair(scene).press({PressBy::pressure, 3 * megapascal, {}});
   return state.corrected_area_fraction() / state.pressure();
 }

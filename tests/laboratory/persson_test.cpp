@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
@@ -33,7 +34,7 @@ Surface surface(std::uint64_t seed) {
 
 State pressed(std::uint64_t seed, double pressure, std::optional<double> hardness = {}) {
   Scene scene{surface(seed), rigid_material(), Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
-  if (hardness) scene.plasticity = PlasticityOptions{*hardness};
+  if (hardness) scene.effects.set(PlasticityOptions{*hardness});
   return SpecimenPair(scene).press({PressBy::pressure, pressure, {}});
 }
 

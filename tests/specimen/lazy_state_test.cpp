@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
@@ -62,7 +63,7 @@ Scene plastic_scene() {
     return self_affine_surface(options).with_material(test::elastic(1, 0.3));
   };
   Scene scene{rough(1), rough(2), Boundary::periodic, HalfSpaceOptions{}, Accuracy{1e-8}};
-  scene.plasticity = PlasticityOptions{0.05};
+  scene.effects.set(PlasticityOptions{0.05});
   return scene;
 }
 const PressRequest under = {PressBy::pressure, 0.01, {}};

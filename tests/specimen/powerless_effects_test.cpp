@@ -6,6 +6,13 @@
 #include <functional>
 #include <optional>
 
+#include "engine/contact/effects/adhesion.hpp"
+#include "engine/contact/effects/ageing.hpp"
+#include "engine/contact/effects/capillarity.hpp"
+#include "engine/contact/effects/creep.hpp"
+#include "engine/contact/effects/interlocking.hpp"
+#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/effects/tangential.hpp"
 #include "engine/friction/junction_law.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "tests/specimen/counted_scenes.hpp"
@@ -27,74 +34,74 @@ struct Powerless {
 const std::vector<Powerless> powerless = {
     {.name = "plasticity of infinite hardness",
      .without = [](Scene&) {},
-     .with = [](Scene& s) { s.plasticity = PlasticityOptions{never}; },
+     .with = [](Scene& s) { s.effects.set(PlasticityOptions{never}); },
      .term = "plasticity",
      .line = "plasticity"},
     {.name = "plasticity of infinite hardness that hardens",
      .without = [](Scene&) {},
      .with =
          [](Scene& s) {
-           s.plasticity = PlasticityOptions{never, 1.0};
+           s.effects.set(PlasticityOptions{never, 1.0});
          },
      .term = "plasticity",
      .line = "plasticity"},
     {.name = "infinite hardening",
-     .without = [](Scene& s) { s.plasticity = PlasticityOptions{hardness}; },
+     .without = [](Scene& s) { s.effects.set(PlasticityOptions{hardness}); },
      .with =
          [](Scene& s) {
-           s.plasticity = PlasticityOptions{hardness, never};
+           s.effects.set(PlasticityOptions{hardness, never});
          },
      .term = "plasticity",
      .line = "plasticity"},
     {.name = "creep of rate zero",
-     .without = [](Scene& s) { s.plasticity = PlasticityOptions{hardness}; },
+     .without = [](Scene& s) { s.effects.set(PlasticityOptions{hardness}); },
      .with =
          [](Scene& s) {
-           s.creep = CreepOptions{0, 1, 600};
+           s.effects.set(CreepOptions{0, 1, 600});
          },
      .dwell = 86400,
      .term = "creep"},
     {.name = "creep of infinite hardness",
-     .without = [](Scene& s) { s.plasticity = PlasticityOptions{never}; },
-     .with = [](Scene& s) { s.creep = CreepOptions{}; },
+     .without = [](Scene& s) { s.effects.set(PlasticityOptions{never}); },
+     .with = [](Scene& s) { s.effects.set(CreepOptions{}); },
      .dwell = 86400,
      .term = "creep"},
     {.name = "ageing of rate zero",
      .without = [](Scene&) {},
      .with =
          [](Scene& s) {
-           s.sliding.ageing = AgeingOptions{0, 1};
+           s.effects.set(AgeingOptions{0, 1});
          },
      .term = "ageing"},
     {.name = "interlocking that nobody asks friction of",
      .without = [](Scene&) {},
-     .with = [](Scene& s) { s.sliding.interlocking = InterlockingOptions{}; },
+     .with = [](Scene& s) { s.effects.set(InterlockingOptions{}); },
      .term = "interlocking"},
     {.name = "adhesion of work zero",
      .without = [](Scene&) {},
      .with =
          [](Scene& s) {
-           s.adhesion = AdhesionOptions{0, 0.01};
+           s.effects.set(AdhesionOptions{0, 0.01});
          },
      .term = "adhesion",
      .line = "adhesion"},
     {.name = "capillarity of pressure zero",
      .without = [](Scene&) {},
-     .with = [](Scene& s) { s.capillarity = CapillarityOptions{.pressure = 0.0}; },
+     .with = [](Scene& s) { s.effects.set(CapillarityOptions{.pressure = 0.0}); },
      .term = "capillarity",
      .line = "capillarity"},
     {.name = "capillarity in dry air, and adhesion of work zero, of bodies that yield",
-     .without = [](Scene& s) { s.plasticity = PlasticityOptions{hardness}; },
+     .without = [](Scene& s) { s.effects.set(PlasticityOptions{hardness}); },
      .with =
          [](Scene& s) {
-           s.capillarity = CapillarityOptions{.humidity = 0.0};
-           s.adhesion = AdhesionOptions{0, 0.01};
+           s.effects.set(CapillarityOptions{.humidity = 0.0});
+           s.effects.set(AdhesionOptions{0, 0.01});
          },
      .term = "capillarity",
      .line = "capillarity"},
     {.name = "tangential that nobody pulls",
      .without = [](Scene&) {},
-     .with = [](Scene& s) { s.sliding.tangential = TangentialOptions{1.2}; },
+     .with = [](Scene& s) { s.effects.set(TangentialOptions{1.2}); },
      .term = "tangential"},
 };
 
@@ -140,7 +147,7 @@ TEST_F(PowerlessEffects, ACapOutOfReachChangesNothingBeyondTheTolerance) {
     if (std::holds_alternative<BoxOptions>(bench.elasticity)) continue;
     for (const double hardening : {never, 1.0}) {
       Scene capped = bare_scene(bench);
-      capped.plasticity = PlasticityOptions{1e6, hardening};
+      capped.effects.set(PlasticityOptions{1e6, hardening});
       SpecimenPair one(bare_scene(bench)), other(capped);
       const State a = one.press({PressBy::pressure, pressed, {}}),
                   b = other.press({PressBy::pressure, pressed, {}});
@@ -167,8 +174,8 @@ TEST_F(PowerlessEffects, OfNoStrengthAnEffectLeavesFrictionAsItIs) {
         Surface(make_grid(24, 24, 1, 1), Field(24, 24)).with_material(test::elastic(1, 0.3));
     Scene plain{level, level, bench.boundary, bench.elasticity, Accuracy{tolerance}};
     Scene with = plain;
-    with.sliding.interlocking = InterlockingOptions{};
-    with.sliding.ageing = AgeingOptions{0, 1};
+    with.effects.set(InterlockingOptions{});
+    with.effects.set(AgeingOptions{0, 1});
     if (std::holds_alternative<HalfSpaceOptions>(bench.elasticity) && bench.boundary == Boundary::free)
       continue;  // a punch: it sinks in at its rim, and its junctions are not level
     SpecimenPair one(plain), other(with);

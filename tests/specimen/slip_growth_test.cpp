@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/contact/effects/ageing.hpp"
+#include "engine/contact/effects/interlocking.hpp"
+#include "engine/contact/effects/tangential.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 
@@ -22,13 +25,13 @@ TiltTrialOptions light() {
   return options;
 }
 
-Scene boxes_on_rough(SlidingEffects effects) {
+Scene boxes_on_rough(Effects effects) {
   Scene scene = scene_of(random_surface(40, 40, 1), random_surface(40, 40, 2), 3.0, Boundary::periodic);
-  scene.sliding = effects;
+  scene.effects = effects;
   return scene;
 }
 
-Scene half_space(SlidingEffects effects) {
+Scene half_space(Effects effects) {
   SelfAffineOptions options;
   options.grid = make_grid(64, 64, 250e-6, 250e-6);
   options.hurst = 0.8;
@@ -37,11 +40,11 @@ Scene half_space(SlidingEffects effects) {
   options.seed = 7;
   Scene scene{self_affine_surface(options).with_material(named_material("Al-2011")), named_material("quartz"),
               Boundary::periodic, HalfSpaceOptions{}, Accuracy{}};
-  scene.sliding = effects;
+  scene.effects = effects;
   return scene;
 }
 
-const SlidingEffects partial{{}, {}, TangentialOptions{2.0}};
+const Effects partial{TangentialOptions{2.0}};
 
 // --- shear of a pair
 
@@ -81,7 +84,7 @@ TEST(SpecimenPairShear, WithoutTheEffectNoStateIsKept) {
 // --- growth of slip
 
 TEST(SlipGrowth, GrowsToAllOfTheContactWhereTheSpecimenSlides) {
-  for (const Scene& scene : {boxes_on_rough(partial), half_space({{}, {}, TangentialOptions{}})}) {
+  for (const Scene& scene : {boxes_on_rough(partial), half_space({TangentialOptions{}})}) {
     const SpecimenPair pair(scene);
     const bool boxes = std::holds_alternative<BoxOptions>(scene.elasticity);
     const JunctionLaw law({.tau0 = boxes ? 0.02 : 5e8, .alpha = 0.2});
@@ -105,7 +108,7 @@ TEST(SlipGrowth, GrowsToAllOfTheContactWhereTheSpecimenSlides) {
 // With alpha alone the pull over the one that slides is tan θ / α, and each share that of the load left.
 TEST(SlipGrowth, IsThatOfAContactAtTheLoadOfTheAngle) {
   Scene scene = test::boxes(random_surface(40, 40, 1), 3.0);
-  scene.sliding = partial;
+  scene.effects = partial;
   SpecimenPair pair(scene);
   const std::vector<SlipShare> growth = slip_growth(pair, JunctionLaw({.tau0 = 0, .alpha = 0.5}), light(), 4);
   for (const SlipShare& at : growth) {
@@ -141,7 +144,7 @@ TEST(TiltRest, RaisesTheAngleByWhatTau0Grew) {
       stronger({.tau0 = 0.02 * (1 + rate * std::log1p(rest / 2)), .alpha = 0.2});
   TiltTrialOptions rested = light();
   rested.rest = rest;
-  const SpecimenPair ageing(boxes_on_rough({{}, AgeingOptions{rate, 2}, {}})), plain(boxes_on_rough({}));
+  const SpecimenPair ageing(boxes_on_rough({AgeingOptions{rate, 2}})), plain(boxes_on_rough({}));
   const TiltResult after = raise(ageing, law, rested);
   EXPECT_EQ(after.angle, raise(plain, stronger, light()).angle);
   EXPECT_GT(after.angle, raise(plain, law, light()).angle);
@@ -155,7 +158,7 @@ TEST(TiltRest, AnEffectOfRateZeroChangesNoBit) {
   TiltTrialOptions rested = light();
   rested.rest = 1e9;
   const JunctionLaw law({.tau0 = 0.02, .alpha = 0.2, .tau_max = 0.5});
-  const TiltResult with = raise(SpecimenPair(boxes_on_rough({{}, AgeingOptions{0, 1}, {}})), law, rested);
+  const TiltResult with = raise(SpecimenPair(boxes_on_rough({AgeingOptions{0, 1}})), law, rested);
   const TiltResult without = raise(SpecimenPair(boxes_on_rough({})), law, light());
   EXPECT_EQ(with.angle, without.angle);
   EXPECT_EQ(with.spread, without.spread);
@@ -170,7 +173,7 @@ TEST(TiltRest, ARestWithoutAgeingIsRefused) {
             "in the effects of the contact, or leave `rest` out");
   rested.rest = -1;
   EXPECT_EQ(error_of([&] {
-              raise(SpecimenPair(boxes_on_rough({{}, AgeingOptions{0.1, 1}, {}})), law, rested);
+              raise(SpecimenPair(boxes_on_rough({AgeingOptions{0.1, 1}})), law, rested);
             }),
             "`rest` is -1 s; give a time from zero up");
 }
@@ -185,7 +188,7 @@ TEST(TiltInterlocking, AnInclineThatFitsSlipsAtItsAngleAndThatOfFriction) {
   };
   // Turned over, the upper one rises the other way and fits.
   Scene scene = scene_of(incline(1), incline(1), 1.0);
-  scene.sliding.interlocking = InterlockingOptions{};
+  scene.effects.set(InterlockingOptions{});
   // A free tile is put down turned by nothing or by half a turn; half of it would not fit.
   const SpecimenPair pair(scene);
   const JunctionLaw law({.tau0 = 0, .alpha = 0.2});
@@ -205,7 +208,7 @@ TEST(TiltInterlocking, ASlopeThatPushesSlipsAtOnce) {
   const Grid grid{24, 10, 2.4, 0.5};
   const auto incline = test::surface_of(grid, [](int i, int) { return 0.03 * i; });
   Scene scene = scene_of(incline, incline, 1.0);
-  scene.sliding.interlocking = InterlockingOptions{std::numbers::pi};
+  scene.effects.set(InterlockingOptions{std::numbers::pi});
   TiltTrialOptions options = light();
   options.repeats = 20;
   const TiltResult t = raise(SpecimenPair(scene), JunctionLaw({.tau0 = 0, .alpha = 0.1}), options);
@@ -219,7 +222,7 @@ TEST(TiltInterlocking, ProbesOfAHalfSpaceTakeItIn) {
   scene.upper = scene.lower.with_material(named_material("quartz"));
   const JunctionLaw law({.tau0 = 5e8, .alpha = 0.2});
   const TiltResult plain = raise(SpecimenPair(scene), law, light());
-  scene.sliding.interlocking = InterlockingOptions{};
+  scene.effects.set(InterlockingOptions{});
   const TiltResult with = raise(SpecimenPair(scene), law, light());
   ASSERT_EQ(plain.probes.size(), with.probes.size());
   for (std::size_t k = 0; k < plain.probes.size(); ++k) {

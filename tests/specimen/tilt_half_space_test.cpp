@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/contact/effects/capillarity.hpp"
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/specimen/tilt_trials.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
@@ -91,7 +93,7 @@ TEST(TiltHalfSpace, AWeightAboveTheProbesIsSolvedItself) {
 // B5: no weight above the hardness.
 TEST(TiltHalfSpace, AWeightThatTheHardnessCannotCarryIsRefused) {
   Scene scene = on_quartz().scene();
-  scene.plasticity = PlasticityOptions{};
+  scene.effects.set(PlasticityOptions{});
   TiltTrialOptions options = stage({30 * megapascal});
   options.stage.mass = 1e6;
   EXPECT_NE(error_of([&] { raise(SpecimenPair(scene), law, options); }).find("cannot be carried"),
@@ -112,7 +114,7 @@ TEST(TiltHalfSpace, WhatTheBodiesAttractEachOtherByRaisesTheAngleAndIsTold) {
   const TiltResult dry = raise(SpecimenPair(scene), law, stage({30 * megapascal}));
   EXPECT_EQ(dry.note.find("attract"), std::string::npos);
   EXPECT_EQ(dry.probes.at(0).attraction, 0);
-  scene.capillarity = CapillarityOptions{.pressure = 100 * megapascal, .surface_tension = 5};
+  scene.effects.set(CapillarityOptions{.pressure = 100 * megapascal, .surface_tension = 5});
   const SpecimenPair pair(scene);
   const TiltResult wet = raise(pair, law, stage({30 * megapascal}));
   EXPECT_NE(wet.note.find("the bodies attract each other by"), std::string::npos) << wet.note;
@@ -128,7 +130,7 @@ TEST(TiltHalfSpace, SpotsThatYieldUnderTheProbeAreTold) {
   const TiltResult elastic = raise(SpecimenPair(scene), law, stage({30 * megapascal}));
   EXPECT_EQ(elastic.note.find(told), std::string::npos);
   EXPECT_FALSE(elastic.probes.at(0).yields);
-  scene.plasticity = PlasticityOptions{};  // the softer of Al-2011 and quartz
+  scene.effects.set(PlasticityOptions{});  // the softer of Al-2011 and quartz
   SpecimenPair pair(scene);
   const std::string before = pair.lower().digest();
   const TiltResult plastic = raise(pair, law, stage({30 * megapascal}));
@@ -137,7 +139,7 @@ TEST(TiltHalfSpace, SpotsThatYieldUnderTheProbeAreTold) {
   EXPECT_GT(*plastic.area_per_load, *elastic.area_per_load);
   EXPECT_EQ(pair.lower().digest(), before);
   // So hard that nothing yields: nothing to tell.
-  scene.plasticity = PlasticityOptions{1e12, std::numeric_limits<double>::infinity()};
+  scene.effects.set(PlasticityOptions{1e12, std::numeric_limits<double>::infinity()});
   EXPECT_EQ(raise(SpecimenPair(scene), law, stage({30 * megapascal})).note.find(told), std::string::npos);
 }
 TEST(TiltHalfSpace, ARaisedProbeTellsHowManyNodesTouched) {

@@ -35,7 +35,7 @@ Values read_state_number(Call& call) {
 // A field is asked for by its own name.
 Values quantity_value(Call& call) {
   const StateQuantity& quantity = *find_quantity(call.function_name());
-  const double value = quantity.value(call.self<Contacting>());
+  const double value = quantity.of(call.self<Contacting>());
   return {quantity.count ? Value(static_cast<std::int64_t>(value)) : Value(value)};
 }
 

@@ -44,7 +44,7 @@ Values bound(Call& call) {
 
 const NodeBracket& yielded(Call& call) {
   const auto& found = bounds(call).yielded_bracket;
-  if (!found) needs_effect(call.function_name(), "plasticity");
+  if (!found) needs_effect(call.function_name(), find_quantity("plastic_fraction")->effect);
   return *found;
 }
 

@@ -3,6 +3,7 @@
 
 #include "bindings/lua/contact/state_class.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "engine/contact/effects/interlocking.hpp"
 
 namespace asperity::lua {
 
@@ -39,7 +40,7 @@ Values law_on(Call& call) {
   const OnKeys keys = call.options(on_block(), 2);
   const CostScope scope;
   const FrictionResult r = call.self<JunctionLaw>().on(state, keys.rest);
-  if (state.sliding().interlocking) {
+  if (state.effects().has<InterlockingOptions>()) {
     const std::pair<std::string, Cost> cost{"interlocking", scope.so_far()};
     call.session().ledger->add_effects({&cost, 1});
   }

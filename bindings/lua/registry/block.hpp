@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "bindings/lua/registry/argument.hpp"
-#include "bindings/lua/registry/number_range.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/number_range.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -66,6 +66,11 @@ std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo
 std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,
                                        const NumberRange& range, Problems& problems);
 void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems);
+// The place of the word among these.
+std::optional<std::size_t> read_word(const Argument& value, const OptionInfo& info,
+                                     const std::vector<std::string>& words, Problems& problems);
+// A value as a script would write it: "250 um", 0.02, math.huge.
+std::string number_text(double value, Dimension dimension);
 // Walks the table: calls read(option index, value) for known keys; reports unknown and missing ones.
 void read_table(const Argument& table, const std::string& caller,
                 const std::vector<const OptionInfo*>& options,

@@ -13,52 +13,11 @@
 
 namespace asperity::lua {
 
-namespace {
-std::string show_bound(double value, Dimension dimension) {
-  return dimension == dimension::number || value == 0 ? format_short(value, 10)
-                                                      : format_quantity(value, dimension);
-}
-}  // namespace
-
-bool NumberRange::contains(double value) const {
-  if (std::isnan(value)) return false;
-  if (std::isinf(value)) return never && (value > 0);
-  return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
-}
-
-std::string NumberRange::text(Dimension dimension) const {
-  const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
-  std::string result;
-  if (has_low && has_high) {
-    result = low_open || high_open
-                 ? (low_open ? "above " : "from ") + show_bound(low, dimension) +
-                       (high_open ? " and below " : " to ") + show_bound(high, dimension)
-                 : "from " + show_bound(low, dimension) + " to " + show_bound(high, dimension);
-  } else if (has_low) {
-    result = (low_open ? "above " : "at least ") + show_bound(low, dimension);
-  } else if (has_high) {
-    result = (high_open ? "below " : "at most ") + show_bound(high, dimension);
-  }
-  if (never) result += (result.empty() ? "" : ", or ") + std::string("math.huge for never");
-  return result;
-}
-
 namespace detail {
 
 void wrong_type(const Argument& value, const OptionInfo& info, std::string_view wanted, Problems& problems) {
   problems.push_back(quoted(info.name) + " is " + value.describe() + "; give " + std::string(wanted));
 }
-
-namespace {
-// `finite`: say so, of a value whose one fault that is.
-std::string wanted_quantity(const OptionInfo& info, const NumberRange& range, bool finite = false) {
-  std::string wanted = info.dimension == dimension::number ? "a number" : describe(info.dimension);
-  if (finite) wanted = "a finite" + wanted.substr(wanted.find(' '));
-  if (const std::string limits = range.text(info.dimension); !limits.empty()) wanted += " " + limits;
-  if (info.dimension != dimension::number) wanted += ", e.g. \"" + example_quantity(info.dimension) + "\"";
-  return wanted;
-}
-}  // namespace
 
 namespace {
 // A bare number that is SI by the rules and reads like another unit.
@@ -100,14 +59,14 @@ std::optional<double> read_quantity(const Argument& value, const OptionInfo& inf
     }
     found = "\"" + std::string(value.text().substr(0, 40)) + "\"";
   } else {
-    wrong_type(value, info, wanted_quantity(info, range), problems);
+    wrong_type(value, info, range.wanted(info.dimension), problems);
     return {};
   }
   if (!range.contains(number)) {
     problems.push_back(quoted(info.name) + " is " + found + "; give " +
                        (range.text(info.dimension).empty()
                             ? "a finite number"
-                            : wanted_quantity(info, range, std::isinf(number) && std::isinf(range.high))));
+                            : range.wanted(info.dimension, std::isinf(number) && std::isinf(range.high))));
     return {};
   }
   return number;
@@ -152,6 +111,27 @@ std::optional<std::int64_t> read_integer(const Argument& value, const OptionInfo
     return {};
   }
   return number;
+}
+
+std::optional<std::size_t> read_word(const Argument& value, const OptionInfo& info,
+                                     const std::vector<std::string>& words, Problems& problems) {
+  if (!value.is_text()) {
+    wrong_type(value, info, "one of " + info.type, problems);
+    return {};
+  }
+  const auto known = std::find(words.begin(), words.end(), value.text());
+  if (known != words.end()) return static_cast<std::size_t>(known - words.begin());
+  std::vector<std::string> accepted;
+  for (const std::string& word : words) accepted.push_back("\"" + word + "\"");
+  problems.push_back(quoted(info.name) + " is \"" + std::string(value.text().substr(0, 40)) + "\"" +
+                     did_you_mean(value.text(), words) + "; give " + joined(accepted));
+  return {};
+}
+
+std::string number_text(double value, Dimension dimension) {
+  if (std::isinf(value)) return "math.huge";
+  if (dimension == dimension::number || value == 0) return format_exact(value);
+  return "\"" + format_quantity(value, dimension, 10) + "\"";
 }
 
 std::optional<std::int64_t> read_cells(const Argument& value, const OptionInfo& info,

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "bindings/lua/registry/block.hpp"
-#include "bindings/lua/registry/number_range.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
+#include "engine/core/number_range.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
@@ -40,9 +40,7 @@ Option<O> quantity(std::string name, M O::*member, Dimension dimension, NumberRa
   option.show = [member, dimension](const O& options) -> std::string {
     const auto value = detail::shown(options.*member);
     if (!value) return "";
-    if (std::isinf(*value)) return "math.huge";
-    if (dimension == dimension::number || *value == 0) return format_exact(*value);
-    return "\"" + format_quantity(*value, dimension, 10) + "\"";
+    return detail::number_text(*value, dimension);
   };
   return option;
 }
@@ -110,20 +108,8 @@ Option<O> choice(std::string name, M O::*member,
   option.info = {std::move(name), type, {}, "", "", std::move(sentence), false};
   option.read = [member, words, names](const Argument& value, const OptionInfo& info, O& options,
                                        Problems& problems) {
-    if (value.is_text()) {
-      for (const auto& [word, meaning] : words) {
-        if (word == value.text()) {
-          options.*member = meaning;
-          return;
-        }
-      }
-      std::vector<std::string> accepted;
-      for (const std::string& word : names) accepted.push_back("\"" + word + "\"");
-      problems.push_back(quoted(info.name) + " is \"" + std::string(value.text().substr(0, 40)) + "\"" +
-                         did_you_mean(value.text(), names) + "; give " + joined(accepted));
-      return;
-    }
-    detail::wrong_type(value, info, "one of " + info.type, problems);
+    if (const auto place = detail::read_word(value, info, names, problems))
+      options.*member = words[*place].second;
   };
   option.show = [member, words](const O& options) -> std::string {
     for (const auto& [word, value] : words)

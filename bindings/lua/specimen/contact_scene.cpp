@@ -3,6 +3,7 @@
 #include "bindings/lua/specimen/contact_scene.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/registry/refinement.hpp"
@@ -10,7 +11,7 @@
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/known_body.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/contact/effects/catalogue.hpp"
+#include "engine/contact/effects/list.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::lua {
@@ -28,96 +29,6 @@ const Block<ElasticityKeys>& elasticity_block() {
                                quantity("stiffness", &K::stiffness, dimension::stiffness, above(0),
                                         "pressure per shortening of a box element; of model=\"box\" alone")
                                    .defaults_to("E*/peak-to-valley")}};
-  return block;
-}
-
-const Block<PlasticityOptions>& plasticity_block() {
-  using O = PlasticityOptions;
-  static const Block<O> block{
-      "plasticity",
-      {quantity(
-           "hardness", &O::hardness, dimension::pressure, above(0).or_never(),
-           "greatest pressure a body carries before it yields. Of two bodies the softer one limits the "
-           "pressure and takes nearly all of what yields: a body r times as hard as the other takes the "
-           "share 1/(1 + exp(1.5 (r^2 - 1/r^2)) young/young of the other), half of like bodies, .25 at "
-           "r = 1.2, .06 at 1.5, .004 at 2, as J2 plasticity below the surface has it; r is that of each "
-           "node, with what hardening has made of it")
-           .defaults_to("each body's own"),
-       quantity("hardening", &O::hardening, dimension::stiffness, above(0).or_never(),
-                "growth of the pressure with the plastic part of the approach; math.huge leaves it out: the "
-                "pressure stays at the hardness")}};
-  return block;
-}
-
-const Block<CreepOptions>& creep_block() {
-  using O = CreepOptions;
-  static const Block<O> block{
-      "creep",
-      {number("rate", &O::rate, at_least(0),
-              "b of the law H = hardness (1 + b ln(1 + reference/onset)) / (1 + b ln(1 + dwell/onset))"),
-       quantity("onset", &O::onset, dimension::time, above(0), "time from which creep counts"),
-       quantity("reference", &O::reference, dimension::time, above(0),
-                "dwell at which the hardness is the stated one, and of a press that names no dwell")}};
-  return block;
-}
-
-const Block<CapillarityOptions>& capillarity_block() {
-  using O = CapillarityOptions;
-  static const Block<O> block{
-      "capillarity",
-      {quantity("pressure", &O::pressure, dimension::pressure, at_least(0),
-                "how far the liquid is below the air; sets the radius of the meniscus"),
-       number("humidity", &O::humidity, {0, 1, false, true, false},
-              "relative; sets the radius and with it the pressure"),
-       quantity("surface_tension", &O::surface_tension, dimension::energy_per_area, above(0),
-                "of the liquid; that of water unless given"),
-       quantity("contact_angle", &O::contact_angle, dimension::angle, at_least(0),
-                "of the liquid on both bodies, below 90 deg"),
-       number("temperature", &O::temperature, above(100), "in kelvins, 293.15 in a room; of `humidity`"),
-       number("molar_volume", &O::molar_volume, above(0), "of the liquid in m^3/mol; of `humidity`")}};
-  return block;
-}
-
-const Block<AdhesionOptions>& adhesion_block() {
-  using O = AdhesionOptions;
-  static const Block<O> block{
-      "adhesion",
-      {quantity("work", &O::work, dimension::energy_per_area, at_least(0), "of parting a unit of area")
-           .required(),
-       quantity("range", &O::range, dimension::length, above(0), "gap over which the attraction falls")
-           .required(),
-       choice("model", &O::model, {{"exponential", GapLaw::exponential}, {"dugdale", GapLaw::dugdale}},
-              "work/range e^(-gap/range), or work/range up to a gap of the range; the end is smoothed over "
-              "gaps of "
-              "0.5 to 1.5 ranges, so pull-off is 0.1 to 0.5 % above Maugis's")}};
-  return block;
-}
-
-const Block<InterlockingOptions>& interlocking_block() {
-  using O = InterlockingOptions;
-  static const Block<O> block{
-      "interlocking",
-      {quantity("direction", &O::direction, dimension::angle, any(),
-                "the way the upper body is pushed over the lower one, counter-clockwise from x")}};
-  return block;
-}
-
-const Block<AgeingOptions>& ageing_block() {
-  using O = AgeingOptions;
-  static const Block<O> block{
-      "ageing",
-      {number("rate", &O::rate, at_least(0), "growth of tau0 per unit of ln(1 + rest/onset)").required(),
-       quantity("onset", &O::onset, dimension::time, above(0), "rest from which ageing counts").required()}};
-  return block;
-}
-
-const Block<TangentialOptions>& tangential_block() {
-  using O = TangentialOptions;
-  static const Block<O> block{
-      "tangential",
-      {number("compliance_ratio", &O::compliance_ratio, above(0),
-              "how much more the bodies give way sideways than normally; required for boxes")
-           .defaults_to("Mindlin's, (2 - poisson)/(2(1 - poisson)) for like bodies")}};
   return block;
 }
 
@@ -233,13 +144,7 @@ struct SceneKeys {
   std::optional<UpperBody> upper;
   std::optional<Boundary> boundary;
   std::optional<Elasticity> elasticity;
-  std::optional<PlasticityOptions> plasticity;
-  std::optional<CreepOptions> creep;
-  std::optional<CapillarityOptions> capillarity;
-  std::optional<AdhesionOptions> adhesion;
-  std::optional<InterlockingOptions> interlocking;
-  std::optional<AgeingOptions> ageing;
-  std::optional<TangentialOptions> tangential;
+  Effects effects;
   AccuracyKeys accuracy;
 };
 
@@ -284,36 +189,32 @@ void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems)
   });
 }
 
-// Each effect that this build computes, by its name.
+// One effect beside the elasticity, with the options that its record tells.
+Option<SceneKeys> effect_option(const Effect& effect) {
+  const RowBlock& block = effect_block(effect);
+  Option<SceneKeys> option = custom<SceneKeys>(
+      std::string(effect.name), "table", effect.sentence,
+      [&](const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
+        if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
+        collect(problems, [&] { keys.effects.set(effect, block.read(value, quoted(info.name))); });
+      });
+  option.info.inner = &block;
+  return option;
+}
+
+// Each effect that can be named, by its name.
 const std::vector<Option<SceneKeys>>& effect_options() {
   using K = SceneKeys;
   static const std::vector<Option<K>> options = [] {
-    Option<K> elasticity = custom<K>("elasticity", "\"half_space\"|\"box\"|\"rigid\"|table",
+    Option<K> elasticity = custom<K>(std::string(elasticity_effect), "\"half_space\"|\"box\"|\"rigid\"|table",
                                      "how the bodies give way and recover",
                                      [](const Argument& value, const OptionInfo&, K& keys,
                                         Problems& problems) { read_elasticity(value, keys, problems); });
     elasticity.info.inner = &elasticity_block();
     elasticity.info.required = true;
-    return std::vector<Option<K>>{
-        std::move(elasticity),
-        table_of("plasticity", &K::plasticity, plasticity_block(),
-                 "pressure is limited by hardness, and what yields stays flattened; {} for its defaults"),
-        table_of("creep", &K::creep, creep_block(),
-                 "hardness falls with the dwell of the load; needs plasticity; {} for its defaults"),
-        table_of("capillarity", &K::capillarity, capillarity_block(),
-                 "liquid in narrow gaps pulls the bodies together, and the junctions carry that too"),
-        table_of(
-            "adhesion", &K::adhesion, adhesion_block(),
-            "the surfaces attract each other across the gap; loads and approaches may be below zero. A press "
-            "takes many transforms: of 60 contacts, balls and rough ground on 64 x 64 cells, 55 to 3628 by "
-            "approach, 161 in the middle, and 73 to 1588 by pressure, 228 in the middle; contact:explain "
-            "tells those of one"),
-        table_of("ageing", &K::ageing, ageing_block(),
-                 "tau0 of the friction law grows with the time the junctions rest"),
-        table_of("interlocking", &K::interlocking, interlocking_block(),
-                 "slopes of two rough bodies add to the angle of friction; {} for its defaults"),
-        table_of("tangential", &K::tangential, tangential_block(),
-                 "shear and partial slip, for contact:shear and stage:slip_growth; {} for its defaults")};
+    std::vector<Option<K>> all{std::move(elasticity)};
+    for (const Effect* effect : known_effects()) all.push_back(effect_option(*effect));
+    return all;
   }();
   return options;
 }
@@ -336,14 +237,14 @@ void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys
   std::sort(names.begin(), names.end());
   for (const std::string& name : names) {
     collect(problems, [&] {
-      require_effect(name);
+      (void)require_effect(name);
       for (const Option<SceneKeys>& option : effect_options())
         if (option.info.name == name)
           with_key(value, name,
                    [&](const Argument& given) { option.read(given, option.info, keys, problems); });
     });
   }
-  if (std::find(names.begin(), names.end(), "elasticity") == names.end())
+  if (std::find(names.begin(), names.end(), elasticity_effect) == names.end())
     problems.push_back("`effects` names no elasticity; give elasticity=\"half_space\", \"box\" or \"rigid\"");
 }
 
@@ -399,15 +300,21 @@ const Block<SceneKeys>& scene_block() {
 Scene scene_of(const SceneKeys& keys, Surface lower, UpperBody upper) {
   Scene scene{std::move(lower), std::move(upper), keys.boundary.value_or(Boundary::free), *keys.elasticity,
               keys.accuracy};
-  scene.plasticity = keys.plasticity;
-  scene.creep = keys.creep;
-  scene.capillarity = keys.capillarity;
-  scene.adhesion = keys.adhesion;
-  scene.sliding = {keys.interlocking, keys.ageing, keys.tangential};
+  scene.effects = keys.effects;
   return scene;
 }
 
 }  // namespace
+
+const RowBlock& effect_block(const Effect& effect) {
+  static const std::map<const Effect*, RowBlock> blocks = [] {
+    std::map<const Effect*, RowBlock> made;
+    for (const Effect* known : known_effects())
+      made.emplace(known, RowBlock(std::string(known->name), known->options, known->defaults));
+    return made;
+  }();
+  return blocks.at(&effect);
+}
 
 Scene read_scene(Call& call) {
   const SceneKeys keys = call.options(scene_block());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/row_block.hpp"
 #include "engine/contact/scene.hpp"
 
 namespace asperity::lua {
@@ -12,6 +13,8 @@ Scene read_scene(Call& call);
 // Of a dry run whose bodies are placeholders: throws what read_scene or the contact would for the scene,
 // as far as the bodies are known.
 void look_at_scene(const Call& call);
+// The keys of an effect's own table.
+const RowBlock& effect_block(const Effect& effect);
 // The keys, for the registry.
 const BlockInfo& scene_keys();
 

@@ -53,7 +53,7 @@ const Block<ShearKeys>& shear_block() {
 Values shear(Call& call) {
   const ShearKeys keys = call.options(shear_block());
   auto& pair = call.self<SpecimenPair>();
-  require_tangential(pair.scene().sliding);
+  require_tangential(pair.scene().effects);
   ShearRequest request{keys.force, keys.ratio, keys.friction};
   if (keys.law && pair.pressed() != nullptr) request.friction = keys.law->on(*pair.pressed()).mu.value_or(0);
   PartialSlip slip = pair.shear(request, call.session().monitor());

@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/specimen/contact_scene.hpp"
 #include "bindings/lua/spread/spread.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/contact/effects/catalogue.hpp"
+#include "engine/contact/effects/list.hpp"
 #include "engine/contact/elasticity/slabs/slab_terms.hpp"
 #include "engine/contact/press_request.hpp"
 #include "engine/core/digest.hpp"
@@ -19,23 +20,12 @@ namespace {
 
 // --- the scene
 
-const Block<PlasticityOptions>& spread_plasticity_block() {
-  using O = PlasticityOptions;
-  static const Block<O> block{"plasticity",
-                              {quantity("hardness", &O::hardness, dimension::pressure, above(0).or_never(),
-                                        "greatest pressure a body carries before it yields")
-                                   .defaults_to("that of the lower body"),
-                               quantity("hardening", &O::hardening, dimension::stiffness, above(0).or_never(),
-                                        "not computed over ranks: math.huge")}};
-  return block;
-}
-
 struct spread_SceneKeys {
   std::optional<SlabSurface> lower;
   std::optional<Material> upper;
   Boundary boundary = Boundary::periodic;
   bool elastic = false;
-  std::optional<PlasticityOptions> plasticity;
+  Effects effects;
   Accuracy accuracy;
 };
 
@@ -51,24 +41,24 @@ const Block<Accuracy>& spread_accuracy_block() {
 }
 
 void read_effect(const std::string& name, const Argument& given, spread_SceneKeys& keys, Problems& problems) {
-  if (name == "elasticity") {
+  const Effect* effect = require_effect(name);
+  if (effect == nullptr) {
     if (given.is_text() && given.text() == "half_space")
       keys.elastic = true;
     else
       problems.push_back("`effects.elasticity` is " + given.describe() +
                          "; over ranks it is \"half_space\", and lab.contact computes the others");
-  } else if (name == "plasticity") {
-    if (given.is_table())
-      keys.plasticity = spread_plasticity_block().read(given, "`effects.plasticity`");
-    else
-      problems.push_back("`effects.plasticity` is " + given.describe() +
-                         "; give a table such as { hardness=\"1 GPa\" }, {} for its defaults");
+  } else if (!effect->over_ranks) {
+    std::vector<std::string> computed{std::string(elasticity_effect)};
+    for (const Effect* known : known_effects())
+      if (known->over_ranks) computed.emplace_back(known->name);
+    problems.push_back("`effects." + name + "` is not computed over ranks, which know " +
+                       joined(computed, " and ") + "; leave it out, or use lab.contact");
+  } else if (given.is_table()) {
+    keys.effects.set(*effect, effect_block(*effect).read(given, "`effects." + name + "`"));
   } else {
-    require_effect(name);
-    problems.push_back(
-        "`effects." + name +
-        "` is not computed over ranks, which know elasticity and plasticity; leave it out, or use "
-        "lab.contact");
+    problems.push_back("`effects." + name + "` is " + given.describe() +
+                       "; give a table such as { hardness=\"1 GPa\" }, {} for its defaults");
   }
 }
 
@@ -91,7 +81,7 @@ void spread_read_effects(const Argument& value, const OptionInfo& info, spread_S
       problems.push_back(error.what());
     }
   }
-  if (std::find(names.begin(), names.end(), "elasticity") == names.end())
+  if (std::find(names.begin(), names.end(), elasticity_effect) == names.end())
     problems.push_back("`effects` names no elasticity; give elasticity=\"half_space\"");
 }
 
@@ -146,14 +136,14 @@ const Block<spread_SceneKeys>& spread_scene_block() {
 
 Values spread_make_contact(Call& call) {
   const spread_SceneKeys keys = call.options(spread_scene_block());
-  const SlabTerms terms = slab_terms(keys.lower->material, *keys.upper, keys.plasticity);
+  const SlabTerms terms = slab_terms(keys.lower->material, *keys.upper, keys.effects);
   SpreadContact contact;
   contact.problem.surface = *keys.lower;
   contact.problem.modulus = terms.modulus;
   contact.problem.cap = terms.cap;
   contact.problem.tolerance = keys.accuracy.tolerance;
   contact.problem.best_effort = keys.accuracy.on_failure == Accuracy::OnFailure::best;
-  contact.plastic = keys.plasticity.has_value();
+  contact.plastic = keys.effects.any_that(Effect::Acts::bounds_pressure);
   return {object(std::move(contact))};
 }
 

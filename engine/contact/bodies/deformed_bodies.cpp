@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/bodies/deformed_bodies.hpp"
 
-#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/planned_yield.hpp"
 
 namespace asperity {
 

@@ -58,14 +58,14 @@ std::int64_t mark_missing(Field& heights, std::span<const std::uint8_t> uncovere
 
 }  // namespace
 
-ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, HardnessMemory hardness,
+ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, BodyMemory memory,
                                  std::span<const std::uint8_t> uncovered)
     : lower_(scene.lower),
       upper_(scene.upper),
       boundary_(scene.boundary),
       pose_(pose),
-      hardness_(std::move(hardness)) {
-  hardness_.upper_here.reset();
+      memory_(std::move(memory)) {
+  for (auto& kept : memory_) kept.second.upper_here.reset();
   if (const auto* rough = std::get_if<Surface>(&upper_)) {
     Field sum = pose_.on_lattice() ? combine(lower_.heights(), rough->heights(), pose_.lattice())
                                    : combine_turned(lower_.heights(), rough->heights(), pose_, lower_.grid());
@@ -90,20 +90,30 @@ ContactGeometry::ContactGeometry(const Scene& scene, const Pose& pose, HardnessM
                 "heights this large leave the range of a double; check the unit of the surfaces");
 }
 
-ContactGeometry::ContactGeometry(const Scene& scene, const ContactGeometry& before, HardnessMemory hardness,
-                                 const Field& yielded)
+ContactGeometry::ContactGeometry(const Scene& scene, const ContactGeometry& before, BodyMemory memory,
+                                 const std::optional<Field>& yielded)
     : ContactGeometry(before) {
+  if (!yielded) {
+    memory_ = std::move(memory);
+    return;
+  }
   if (pose_.on_lattice() || upper_is_flat()) {
-    *this = ContactGeometry(scene, pose_, std::move(hardness));
+    *this = ContactGeometry(scene, pose_, std::move(memory));
     return;
   }
   lower_ = scene.lower;
   upper_ = scene.upper;
-  hardness_ = std::move(hardness);
+  memory_ = std::move(memory);
   Field combined = before.combined();
-  for (std::size_t k = 0; k < combined.size(); ++k) combined[k] -= yielded[k];
+  for (std::size_t k = 0; k < combined.size(); ++k) combined[k] -= (*yielded)[k];
   range_ = known_range(combined.values());
   combined_ = std::make_shared<const Field>(std::move(combined));
+}
+
+const NodeMemory& ContactGeometry::kept(std::string_view name) const {
+  static const NodeMemory none;
+  const auto known = memory_.find(name);
+  return known == memory_.end() ? none : known->second;
 }
 
 Array<double> ContactGeometry::facing_heights() const {

@@ -8,45 +8,43 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string_view>
 
+#include "engine/contact/bodies/node_memory.hpp"
 #include "engine/contact/bodies/pose.hpp"
 #include "engine/contact/scene.hpp"
 
 namespace asperity {
-
-// What earlier events left in the bodies beside their shapes: the hardness of each node, Pa, in each body's
-// own frame. None until a body has hardened: its material then says how hard it is.
-struct HardnessMemory {
-  std::shared_ptr<const Field> lower, upper;
-  // Off the lattice, after events there: the upper body's as the nodes of the lower one meet it, exact until
-  // the bodies are moved.
-  std::shared_ptr<const Field> upper_here;
-};
 
 class ContactGeometry {
  public:
   // The bodies of `scene` (which must have passed check) lying as `pose` says. O(n), and one field of
   // memory for two rough bodies. The upper body, turned off the lattice, does not lie over all nodes of the
   // lower one, nor over those marked in `uncovered` (1; empty for none, or one mark a node under a rough
-  // body). The bodies are taken as put down afresh: `hardness` counts in each body's own frame. Throws
+  // body). The bodies are taken as put down afresh: what is kept on
+  // them counts in each body's own frame. Throws
   // Error{bad_value} when the sums of heights or of their squares leave the range of a double, or no node of
   // one body lies over the other.
-  ContactGeometry(const Scene& scene, const Pose& pose, HardnessMemory hardness = {},
+  ContactGeometry(const Scene& scene, const Pose& pose, BodyMemory memory = {},
                   std::span<const std::uint8_t> uncovered = {});
 
-  // The bodies after an event that took `yielded` from both together, still lying as in `before`. Off the
+  // The bodies after an event that took `yielded` from both together (none: their shapes are as they were),
+  // still lying as in `before`. Off the
   // lattice each body keeps its share only as well as its nodes map onto the other's; what they lost
   // together here is kept exactly until they are moved.
-  ContactGeometry(const Scene& scene, const ContactGeometry& before, HardnessMemory hardness,
-                  const Field& yielded);
+  ContactGeometry(const Scene& scene, const ContactGeometry& before, BodyMemory memory,
+                  const std::optional<Field>& yielded);
 
   const Grid& grid() const { return lower_.grid(); }
   const Surface& lower() const { return lower_; }
   const UpperBody& upper() const { return upper_; }
   Boundary boundary() const { return boundary_; }
   const Pose& pose() const { return pose_; }
-  const HardnessMemory& hardness() const { return hardness_; }
+  // What events have left beside the shapes, all of it and by name; empty where nothing is kept so.
+  const BodyMemory& memory() const { return memory_; }
+  const NodeMemory& kept(std::string_view name) const;
   bool upper_is_flat() const { return std::holds_alternative<Material>(upper_); }
 
   // m; NaN at nodes where nothing faces the lower body, over which neither of the next two goes.
@@ -67,7 +65,7 @@ class ContactGeometry {
   UpperBody upper_;
   Boundary boundary_;
   Pose pose_;
-  HardnessMemory hardness_;
+  BodyMemory memory_;
   std::shared_ptr<const Field> combined_;  // none under a flat
   Range range_;
   std::int64_t facing_ = 0;

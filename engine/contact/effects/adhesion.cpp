@@ -5,11 +5,29 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/effects/tangential.hpp"
+#include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
+
+void check_attraction(const Scene& scene, const std::string& effect) {
+  const auto refuse = [&](const std::string& beside, const char* hint) {
+    throw Error(ErrorCode::bad_value, quoted(effect) + " is not computed " + beside + " by this version",
+                hint);
+  };
+  if (!std::holds_alternative<HalfSpaceOptions>(scene.elasticity))
+    refuse("on box elements", "name elasticity=\"half_space\" beside it");
+  if (scene.effects.has<PlasticityOptions>()) refuse("together with `plasticity`", "leave one of both out");
+  if (scene.effects.has<TangentialOptions>()) refuse("together with `tangential`", "leave one of both out");
+  if (scene.accuracy.precision == Accuracy::Precision::single)
+    refuse("with `precision` \"single\"", "leave `precision` out");
+  if (scene.accuracy.estimate != Accuracy::Estimate::none || scene.accuracy.asked)
+    refuse("with an estimate of the error of the grid", "leave `estimate` and `error` out, give `tolerance`");
+}
 
 void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& geometry, Plan& plan) {
   const Grid& grid = geometry.grid();
@@ -48,7 +66,15 @@ void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& ge
   plan.attraction.push_back(std::move(term));
 }
 
-void plan_adhesion(const AdhesionOptions& options, const ContactGeometry& geometry, Plan& plan) {
+namespace {
+
+// Without strength it is part of no solve, whatever else is in the scene.
+void check_adhesion(const std::any& given, const Scene& scene) {
+  if (std::any_cast<const AdhesionOptions&>(given).work > 0) check_attraction(scene, "adhesion");
+}
+
+void plan_adhesion(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
+  const auto& options = std::any_cast<const AdhesionOptions&>(given);
   const bool dugdale = options.model == GapLaw::dugdale;
   plan_gap_term({"adhesion", options.model, options.work, options.range, dugdale ? 0.5 : 0.0},
                 std::string(dugdale ? "constant" : "exponential") + " attraction of " +
@@ -57,5 +83,35 @@ void plan_adhesion(const AdhesionOptions& options, const ContactGeometry& geomet
                     format_quantity(options.work / options.range, dimension::pressure) + " at touch",
                 geometry, plan);
 }
+
+}  // namespace
+
+const Effect& adhesion_effect() {
+  using O = AdhesionOptions;
+  static const Effect record{
+      .name = "adhesion",
+      .sentence =
+          "the surfaces attract each other across the gap; loads and approaches may be below zero. A press "
+          "takes many transforms: of 60 contacts, balls and rough ground on 64 x 64 cells, 55 to 3628 by "
+          "approach, 161 in the middle, and 73 to 1588 by pressure, 228 in the middle; contact:explain "
+          "tells those of one",
+      .acts = Effect::Acts::adds_term,
+      .defaults = O{},
+      .options = {quantity_row("work", &O::work, dimension::energy_per_area, at_least(0),
+                               "of parting a unit of area")
+                      .needed(),
+                  quantity_row("range", &O::range, dimension::length, above(0),
+                               "gap over which the attraction falls")
+                      .needed(),
+                  choice_row("model", &O::model,
+                             {{"exponential", GapLaw::exponential}, {"dugdale", GapLaw::dugdale}},
+                             "work/range e^(-gap/range), or work/range up to a gap of the range; the end is "
+                             "smoothed over gaps of "
+                             "0.5 to 1.5 ranges, so pull-off is 0.1 to 0.5 % above Maugis's")},
+      .check = check_adhesion,
+      .plan = plan_adhesion};
+  return record;
+}
+const Effect& AdhesionOptions::effect() { return adhesion_effect(); }
 
 }  // namespace asperity

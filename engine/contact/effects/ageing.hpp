@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ageing in the plan of a contact: junctions strengthen with the time they rest, by the logarithmic law of
-// AgeingOptions. It brings no term to the normal problem; friction reads it where a rest is named.
+// Ageing: junctions strengthen as they rest, τ0(t) = τ0 (1 + rate ln(1 + t/onset)), the logarithmic growth of
+// static friction with the time of stationary contact (Dieterich 1972, Rabinowicz 1951). No term of the
+// normal problem; friction reads it where a rest is named.
 #pragma once
 
-#include "engine/contact/plan.hpp"
+#include "engine/contact/effect.hpp"
 
 namespace asperity {
 
-void plan_ageing(const AgeingOptions& options, Plan& plan);
+struct AgeingOptions {
+  double rate = 0;   // >= 0, per unit of ln(1 + t/onset)
+  double onset = 0;  // s, > 0
+  static const Effect& effect();
+};
+
+// τ0(t)/τ0 after a rest of t >= 0 s; 1 without a rest.
+double strengthening(const AgeingOptions& ageing, std::optional<double> rest);
 
 }  // namespace asperity

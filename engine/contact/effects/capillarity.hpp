@@ -5,9 +5,20 @@
 // half of it to either side, the work unchanged). Liquid is neither conserved nor in the way.
 #pragma once
 
-#include "engine/contact/plan.hpp"
+#include "engine/contact/effect.hpp"
 
 namespace asperity {
+
+// Either the pressure is given, or the humidity, which sets the radius.
+struct CapillarityOptions {
+  std::optional<double> pressure{};  // Pa
+  std::optional<double> humidity{};  // relative, 0 … 1
+  double surface_tension = 0.0728;   // γ, N/m; water at 20 °C
+  double contact_angle = 0;          // θ, rad
+  double temperature = 293.15;       // T, K
+  double molar_volume = 1.8e-5;      // V_m, m³/mol
+  static const Effect& effect();
+};
 
 // As a term: its work, its height and p = work/height. No term has work 0 at humidity 0 and pressure 0.
 struct Meniscus {
@@ -15,7 +26,5 @@ struct Meniscus {
   double height = 0;    // m
 };
 Meniscus meniscus(const CapillarityOptions& options);
-
-void plan_capillarity(const CapillarityOptions& options, const ContactGeometry& geometry, Plan& plan);
 
 }  // namespace asperity

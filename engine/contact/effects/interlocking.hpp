@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interlocking in the plan of a contact: it brings no term to the normal problem, only the direction that
-// friction is asked for along. What the slopes do is in friction/interlocking.hpp.
+// Interlocking: the slopes of two rough bodies add to the angle of friction of their junctions. No term of
+// the normal problem, only the direction that friction is asked for along. What the slopes do is in
+// friction/interlocking.hpp.
 #pragma once
 
-#include "engine/contact/plan.hpp"
+#include "engine/contact/effect.hpp"
 
 namespace asperity {
 
-// Throws Error{bad_state} for a flat counter-body: two rough bodies interlock, a flat has no slopes.
-void plan_interlocking(const InterlockingOptions& options, const ContactGeometry& geometry, Plan& plan);
+struct InterlockingOptions {
+  // rad, counter-clockwise from x seen from above the lower body: the way the upper body is pushed over it.
+  double direction = 0;
+  static const Effect& effect();
+};
 
 }  // namespace asperity

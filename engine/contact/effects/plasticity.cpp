@@ -7,7 +7,11 @@
 #include <utility>
 #include <variant>
 
-#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/contact/bodies/after_event.hpp"
+#include "engine/contact/plan.hpp"
+#include "engine/contact/quantities.hpp"
+#include "engine/contact/solution.hpp"
+#include "engine/contact/state.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
@@ -31,23 +35,6 @@ double hardness_of(const Material* material, const std::optional<double>& given,
               wants + "; " + (material->name.empty() ? std::string("its material") : quoted(material->name)) +
                   " has none",
               "give it in lab.material{...}, or to the effect");
-}
-
-// The same hardness everywhere unless events have left a field of it.
-Field hardness_field(const std::shared_ptr<const Field>& memory, double virgin, const Grid& grid) {
-  return memory ? *memory : Field(grid.nx, grid.ny, virgin);
-}
-
-// Raises `memory` (own frame) to the hardness that yielding nodes reached.
-std::shared_ptr<const Field> hardened(const std::shared_ptr<const Field>& memory, double virgin,
-                                      const Field& reached, const Grid& grid) {
-  Field result = hardness_field(memory, virgin, grid);
-  for (std::size_t k = 0; k < result.size(); ++k) result[k] = std::max(result[k], reached[k]);
-  return std::make_shared<const Field>(std::move(result));
-}
-
-Surface with_heights(const Surface& body, Field heights) {
-  return Surface(body.grid(), std::move(heights), body.traits());
 }
 
 std::string share_text(double share) { return format_short(100 * share, 3) + " %"; }
@@ -76,21 +63,9 @@ std::string sharing_text(const PlannedYield& yield) {
   return text;
 }
 
-}  // namespace
-
-double lower_plastic_share(double lower_hardness, double upper_hardness, double modulus_ratio) {
-  if (!std::isfinite(upper_hardness)) return 1;
-  if (!std::isfinite(lower_hardness)) return 0;
-  // Far beyond these ratios one body takes all; the exponential must stay a number.
-  constexpr double least = 1e-3, most = 1e3, greatest_exponent = 700;
-  const double ratio = std::clamp(lower_hardness / upper_hardness, least, most);
-  const double exponent = 1.5 * (ratio * ratio - 1 / (ratio * ratio));
-  if (exponent > greatest_exponent) return 0;
-  if (exponent < -greatest_exponent) return 1;
-  return 1 / (1 + elementary::exp(exponent) * modulus_ratio);
-}
-
-void plan_plasticity(const PlasticityOptions& options, const ContactGeometry& geometry, Plan& plan) {
+// Throws Error{bad_state} naming effect and body where a hardness is missing, or where no body can yield.
+void plan_plasticity(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
+  const auto& options = std::any_cast<const PlasticityOptions&>(given);
   PlannedYield yield;
   yield.hardening = options.hardening;
   yield.lower_hardness = hardness_of(lower_material(geometry.lower()), options.hardness, "lower");
@@ -129,86 +104,65 @@ void plan_plasticity(const PlasticityOptions& options, const ContactGeometry& ge
   plan.yield = yield;
 }
 
-LocalHardness local_hardness(const ContactGeometry& geometry, const PlannedYield& yield) {
-  const HardnessMemory& memory = geometry.hardness();
-  LocalHardness local;
-  local.lower = memory.lower;
-  if (memory.upper_here) {
-    local.upper = memory.upper_here;
-  } else if (memory.upper) {
-    Field seen = geometry.pose().to_lower(*memory.upper, geometry.grid());
-    // Where the turned upper body has no node it cannot be touched; it is as hard there as it began.
-    for (double& value : seen.values())
-      if (std::isnan(value)) value = yield.upper_hardness;
-    local.upper = std::make_shared<const Field>(std::move(seen));
-  }
-  return local;
+// Takes what yielded from the bodies, and keeps the hardness it reached where they harden.
+void leave_yielded(const State& state, const Plan& plan, AfterEvent& after) {
+  const std::optional<PlasticChange> change = state.plastic_change();
+  if (!change) return;
+  YieldedBodies bodies = yielded_bodies(after.geometry, *plan.yield, *change);
+  after.lower = std::move(bodies.lower);
+  after.upper = std::move(bodies.upper);
+  if (!bodies.hardness.empty()) after.memory.insert_or_assign(std::string(hardness_memory), bodies.hardness);
+  after.mapped_volume = bodies.mapped_volume;
+  after.yielded = change->approach;
+  after.carried = change->carried;
+  after.changed = true;
 }
 
-YieldLaw yield_law(const PlannedYield& yield, const LocalHardness& local, double factor) {
-  YieldLaw law;
-  if (!std::isfinite(yield.hardness())) return law;
-  law.cap = factor * yield.hardness();
-  if (!yield.hardens()) return law;
-  law.hardening = yield.hardening;
-  if (!local.lower && !local.upper) return law;
-  Field limit = local.lower ? *local.lower : *local.upper;
-  for (std::size_t k = 0; k < limit.size(); ++k)
-    limit[k] = factor * std::min(local.lower ? (*local.lower)[k] : yield.lower_hardness,
-                                 local.upper ? (*local.upper)[k] : yield.upper_hardness);
-  law.yield = std::make_shared<const Field>(std::move(limit));
-  return law;
+std::vector<StateQuantity> plastic_quantities() {
+  using S = State;
+  using E = AlgebraicError;
+  return {{.name = "plastic_volume",
+           .called = "the plastic volume",
+           .sentence = "volume this press took from both bodies",
+           .dimension = dimension::volume,
+           .value = quantity_value<&S::plastic_volume>,
+           .bound = quantity_bound<&E::plastic_volume>,
+           .cells = CellError{1.5, 2, 1, 1.5}},
+          {.name = "plastic_fraction",
+           .called = "the plastic fraction",
+           .sentence = "share of the tile at the cap",
+           .value = quantity_value<&S::plastic_fraction>,
+           .bound = quantity_bound<&E::plastic_fraction>,
+           .cells = CellError{1, 1.25, 1.2, 1.5, CellError::Kind::steady}}};
 }
 
-YieldedBodies yielded_bodies(const ContactGeometry& geometry, const PlannedYield& yield,
-                             const PlasticChange& change) {
-  const Grid& grid = geometry.grid();
-  const Field& w = change.approach;
-  const bool hardens = !change.hardness.empty();
-  const LocalHardness local = local_hardness(geometry, yield);
-  const auto lower_share = [&](std::size_t k) {
-    return lower_plastic_share(local.lower ? (*local.lower)[k] : yield.lower_hardness,
-                               local.upper ? (*local.upper)[k] : yield.upper_hardness, yield.modulus_ratio);
-  };
+}  // namespace
 
-  Field lower = geometry.lower().heights();
-  Field upper_loss(grid.nx, grid.ny);
-  for (std::size_t k = 0; k < w.size(); ++k) {
-    if (!(w[k] > 0)) continue;
-    const double share = lower_share(k);
-    lower[k] -= share * w[k];
-    upper_loss[k] = (1 - share) * w[k];
-  }
-
-  YieldedBodies after{with_heights(geometry.lower(), std::move(lower)), geometry.upper(),
-                      geometry.hardness()};
-  const auto* rough = std::get_if<Surface>(&geometry.upper());
-  if (rough != nullptr && std::isfinite(yield.upper_hardness)) {
-    const Pose& pose = geometry.pose();
-    Field own_loss = pose.to_upper(upper_loss, grid);
-    if (!pose.on_lattice()) {
-      const double meant = block_sum(upper_loss.values()), mapped = block_sum(own_loss.values());
-      if (meant > 0 && mapped > 0) {
-        after.mapped_volume = mapped / meant;
-        for (double& loss : own_loss.values()) loss *= meant / mapped;
-      }
-    }
-    Field upper = rough->heights();
-    for (std::size_t k = 0; k < upper.size(); ++k)
-      if (own_loss[k] > 0) upper[k] -= own_loss[k];
-    after.upper = with_heights(*rough, std::move(upper));
-  }
-  if (hardens) {
-    if (std::isfinite(yield.lower_hardness))
-      after.hardness.lower = hardened(after.hardness.lower, yield.lower_hardness, change.hardness, grid);
-    if (rough != nullptr && std::isfinite(yield.upper_hardness)) {
-      after.hardness.upper = hardened(after.hardness.upper, yield.upper_hardness,
-                                      geometry.pose().to_upper(change.hardness, grid), grid);
-      if (!geometry.pose().on_lattice())
-        after.hardness.upper_here = hardened(local.upper, yield.upper_hardness, change.hardness, grid);
-    }
-  }
-  return after;
+const Effect& plasticity_effect() {
+  using O = PlasticityOptions;
+  static const Effect record{
+      .name = "plasticity",
+      .sentence = "pressure is limited by hardness, and what yields stays flattened; {} for its defaults",
+      .acts = Effect::Acts::bounds_pressure,
+      .defaults = O{},
+      .options =
+          {quantity_row(
+               "hardness", &O::hardness, dimension::pressure, above(0).or_never(),
+               "greatest pressure a body carries before it yields. Of two bodies the softer one limits the "
+               "pressure and takes nearly all of what yields: a body r times as hard as the other takes the "
+               "share 1/(1 + exp(1.5 (r^2 - 1/r^2)) young/young of the other), half of like bodies, .25 at "
+               "r = 1.2, .06 at 1.5, .004 at 2, as J2 plasticity below the surface has it; r is that of each "
+               "node, with what hardening has made of it")
+               .defaults_to("each body's own"),
+           quantity_row("hardening", &O::hardening, dimension::stiffness, above(0).or_never(),
+                        "growth of the pressure with the plastic part of the approach; math.huge leaves it "
+                        "out: the pressure stays at the hardness")},
+      .plan = plan_plasticity,
+      .leave = leave_yielded,
+      .quantities = plastic_quantities,
+      .over_ranks = true};
+  return record;
 }
+const Effect& PlasticityOptions::effect() { return plasticity_effect(); }
 
 }  // namespace asperity

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <variant>
 
+#include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -47,7 +49,17 @@ double dundurs_beta(const ContactGeometry& geometry) {
   return sums.mixed / sums.normal;
 }
 
-void plan_tangential(const TangentialOptions& options, const ContactGeometry& geometry, Plan& plan) {
+namespace {
+
+void check_tangential(const std::any&, const Scene& scene) {
+  if (scene.effects.has<PlasticityOptions>())
+    throw Error(ErrorCode::bad_value,
+                "`tangential` is the difference of two elastic contacts, which `plasticity` does not leave",
+                "copy the pressed bodies into a contact without `plasticity`, or leave one of both out");
+}
+
+void plan_tangential(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
+  const auto& options = std::any_cast<const TangentialOptions&>(given);
   TangentialOptions filled = options;
   std::string sentence;
   if (std::holds_alternative<BoxOperator>(plan.elasticity)) {
@@ -64,10 +76,28 @@ void plan_tangential(const TangentialOptions& options, const ContactGeometry& ge
     if (std::abs(beta) >= noticeable)
       sentence = "; Dundurs' beta is " + format_short(beta, 2) + ": that shear and pressure mix is left out";
   }
-  plan.sliding.tangential = filled;
+  plan.effects.set(filled);
   plan.terms.push_back({"tangential", "sideways the bodies give way " +
                                           format_short(*filled.compliance_ratio) +
                                           " times as much as normally" + std::move(sentence)});
 }
+
+}  // namespace
+
+const Effect& tangential_effect() {
+  using O = TangentialOptions;
+  static const Effect record{
+      .name = "tangential",
+      .sentence = "shear and partial slip, for contact:shear and stage:slip_growth; {} for its defaults",
+      .acts = Effect::Acts::reads_state,
+      .defaults = O{},
+      .options = {number_row("compliance_ratio", &O::compliance_ratio, above(0),
+                             "how much more the bodies give way sideways than normally; required for boxes")
+                      .defaults_to("Mindlin's, (2 - poisson)/(2(1 - poisson)) for like bodies")},
+      .check = check_tangential,
+      .plan = plan_tangential};
+  return record;
+}
+const Effect& TangentialOptions::effect() { return tangential_effect(); }
 
 }  // namespace asperity

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/accuracy/discretisation_error.hpp"
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/self_affine.hpp"
@@ -40,7 +41,7 @@ Scene scene_on(const Surface& surface, int n, Boundary boundary, double hardness
   if (hardness > 0) material.hardness = hardness;
   Scene scene{at_cells(surface, n, n).surface.with_material(material), rigid_material(), boundary,
               HalfSpaceOptions{}, Accuracy{}};
-  if (hardness > 0) scene.plasticity = PlasticityOptions{};
+  if (hardness > 0) scene.effects.set(PlasticityOptions{});
   return scene;
 }
 

@@ -4,6 +4,7 @@
 // left to fix the offset. Each tolerance has the error that was measured beside it.
 #include <gtest/gtest.h>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/solver/approach_solve.hpp"
 #include "engine/contact/elasticity/half_space/solver/flattening_solve.hpp"
 #include "engine/core/arithmetic/random.hpp"
@@ -160,7 +161,7 @@ Scene light_scene(Boundary boundary, const std::optional<PlasticityOptions>& pla
   metal.hardness = 1.1e9;
   Scene scene{self_affine_surface(options).with_material(metal), rigid_material(), boundary,
               HalfSpaceOptions{}, Accuracy{}};
-  scene.plasticity = plasticity;
+  scene.effects.set(plasticity);
   return scene;
 }
 
@@ -194,7 +195,7 @@ TEST_P(LightLoad, OneNodeSinksInProportion) {
       EXPECT_NEAR(state.approach() / load / per_newton, 1, 3e-14) << load;              // measured 4e-15
       EXPECT_NEAR(state.energy() / (.5 * load * load * per_newton), 1, 3e-14) << load;  // measured 4e-15
       EXPECT_NEAR(state.flatten() / load / flattened_per_newton, 1, 3e-15) << load;     // measured 3e-16
-      if (scene.plasticity) {
+      if (scene.effects.find<PlasticityOptions>()) {
         EXPECT_EQ(state.plastic_volume(), 0) << load;
       }
     }
@@ -338,7 +339,7 @@ Scene rough_pair(Boundary boundary, const std::optional<PlasticityOptions>& plas
     return self_affine_surface(options).with_material(metal);
   };
   Scene scene{body(1), body(2), boundary, HalfSpaceOptions{}, Accuracy{1e-8}};
-  scene.plasticity = plasticity;
+  scene.effects.set(plasticity);
   return scene;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/contact/bodies/elastic_bodies.hpp"
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "tests/stability/cross_checks/dense_contact.hpp"
 #include "tests/stability/properties/scene.hpp"
@@ -27,7 +28,7 @@ DenseProblem dense(const Trial& trial, const State& state) {
   problem.cap = trial.cap();
   if (trial.hardens()) {
     problem.yield = trial.hardness();
-    problem.hardening = trial.scene.plasticity->hardening;
+    problem.hardening = trial.scene.effects.find<PlasticityOptions>()->hardening;
   }
   return problem;
 }

@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "engine/contact/effects/adhesion.hpp"
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/specimen/specimen_pair.hpp"
@@ -48,12 +50,12 @@ std::vector<Path> paths() {
   };
   const auto yielding = [&](Boundary boundary, double hardening) {
     Scene result = scene(boundary, HalfSpaceOptions{});
-    result.plasticity = PlasticityOptions{{}, hardening};
+    result.effects.set(PlasticityOptions{{}, hardening});
     return result;
   };
   const auto adhering = [&](Boundary boundary, GapLaw model) {
     Scene result = scene(boundary, HalfSpaceOptions{});
-    result.adhesion = AdhesionOptions{10, 1e-6, model};
+    result.effects.set(AdhesionOptions{10, 1e-6, model});
     return result;
   };
   const Scene elastic = scene(Boundary::periodic, HalfSpaceOptions{});
@@ -189,14 +191,15 @@ TEST_P(Refusals, TooLittleMemory) {
 TEST_P(Refusals, WhatCannotBeAskedFor) {
   const PressBy by = GetParam().request.by;
   for (const double value : {-1.0, std::nan(""), infinity, -infinity}) {
-    if (value == -1 && GetParam().scene.adhesion) continue;  // a pull
+    if (value == -1 && GetParam().scene.effects.find<AdhesionOptions>()) continue;  // a pull
     EXPECT_TRUE(refused({by, value, {}}, Monitor::silent())) << value;
   }
-  if (GetParam().scene.plasticity && !(GetParam().scene.plasticity->hardening < infinity)) {
+  if (GetParam().scene.effects.find<PlasticityOptions>() &&
+      !(GetParam().scene.effects.find<PlasticityOptions>()->hardening < infinity)) {
     EXPECT_EQ(refused({PressBy::pressure, hardness, {}}, Monitor::silent()), ErrorCode::infeasible);
     EXPECT_TRUE(refused({PressBy::approach, 1.0, {}}, Monitor::silent()));
   }
-  if (GetParam().scene.adhesion) {
+  if (GetParam().scene.effects.find<AdhesionOptions>()) {
     EXPECT_EQ(refused({PressBy::pressure, -1e9, {}}, Monitor::silent()), ErrorCode::infeasible);
     EXPECT_TRUE(refused({PressBy::flatten, 0.1, {}}, Monitor::silent()));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "tests/stability/properties/property.hpp"
 
 namespace asperity::stability {
@@ -54,7 +55,7 @@ std::optional<Broken> scalar_is_wrong(const Scalar& scalar, const State& state) 
 
 std::optional<Broken> field_is_wrong(const Trial& trial, const State& state) {
   for (const std::string& name : State::field_names()) {
-    if (name == "plastic" && !trial.scene.plasticity) continue;
+    if (name == "plastic" && !trial.scene.effects.find<PlasticityOptions>()) continue;
     const std::shared_ptr<const Field> field = state.field(name);
     for (std::size_t k = 0; k < field->size(); ++k) {
       const double value = (*field)[k];
@@ -160,7 +161,7 @@ Verdict check(const Trial& trial, std::uint64_t) {
     if (!(share <= 1)) return Broken{"shares are at most 1", text(share)};
   if (auto broken = field_is_wrong(trial, state)) return broken;
   if (auto broken = sums_are_wrong(trial, state)) return broken;
-  if (trial.scene.plasticity)
+  if (trial.scene.effects.find<PlasticityOptions>())
     if (auto broken = plasticity_is_wrong(state)) return broken;
   return bounds_are_wrong(trial, state);
 }

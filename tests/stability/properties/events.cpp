@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "tests/stability/properties/property.hpp"
@@ -137,7 +138,7 @@ Verdict check(const Trial& given, std::uint64_t salt) {
   const Trial trial = taking_the_best(given);
   const Stream stream(salt, "events");
   if (auto broken = turns_change_nothing(trial, stream)) return broken;
-  if (!trial.scene.plasticity) return {};
+  if (!trial.scene.effects.find<PlasticityOptions>()) return {};
   if (auto broken = a_repeat_takes_nothing(trial, stream)) return broken;
   return the_greater_load_decides(trial, stream);
 }

@@ -28,6 +28,8 @@
 #include <vector>
 
 #include "engine/accuracy/expected_transforms.hpp"
+#include "engine/contact/effects/adhesion.hpp"
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
@@ -102,15 +104,16 @@ Verdict foretell_attraction(const Trial& trial, const State& state, std::uint64_
   constexpr double most_nodes = 150 * 150, tolerance = 1e-6;
   const Grid& grid = trial.scene.lower.grid();
   const double rms = rms_height(state);
-  if (trial.scene.plasticity || static_cast<double>(grid.nodes()) > most_nodes || grid.hx() != grid.hy() ||
-      !(rms > 0))
+  if (trial.scene.effects.find<PlasticityOptions>() || static_cast<double>(grid.nodes()) > most_nodes ||
+      grid.hx() != grid.hy() || !(rms > 0))
     return {};
   const Stream draw(salt, "attraction");
   const double modulus = std::get<HalfSpaceOperator>(SpecimenPair(trial.scene).plan().elasticity).modulus;
   Scene scene = trial.scene;
-  scene.adhesion = AdhesionOptions{};
-  scene.adhesion->work = modulus * rms * rms / grid.size_x * std::pow(10.0, draw.uniform(0, -1, 1.5));
-  scene.adhesion->range = rms * std::pow(10.0, draw.uniform(1, -1, 0.5));
+  scene.effects.set(AdhesionOptions{});
+  scene.effects.find<AdhesionOptions>()->work =
+      modulus * rms * rms / grid.size_x * std::pow(10.0, draw.uniform(0, -1, 1.5));
+  scene.effects.find<AdhesionOptions>()->range = rms * std::pow(10.0, draw.uniform(1, -1, 0.5));
   scene.accuracy.tolerance = std::max(scene.accuracy.tolerance, tolerance);
   std::vector<Pressed>& presses = by_control()[3].presses;
   try {

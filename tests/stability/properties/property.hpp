@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "tests/stability/properties/scene.hpp"
@@ -63,7 +64,7 @@ inline bool doubles_hold_no_more(const Trial& trial, const State& state) {
       greatest(state.field("displacement")->values()) + greatest(trial.scene.lower.heights().values());
   if (const auto* rough = std::get_if<Surface>(&trial.scene.upper))
     lengths += greatest(rough->heights().values());
-  if (trial.scene.plasticity) lengths += greatest(state.field("plastic")->values());
+  if (trial.scene.effects.find<PlasticityOptions>()) lengths += greatest(state.field("plastic")->values());
   const double weight = std::isfinite(trial.cap()) ? trial.cap() / trial.pressure : 1;
   return state.residual() < ends_within * 0x1p-53 * weight * lengths / rms_height(state);
 }

@@ -3,6 +3,7 @@
 // for its exponent.
 #include <cmath>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "tests/stability/properties/property.hpp"
 
@@ -34,9 +35,10 @@ Scene rescaled(const Scene& scene, double length, double stress) {
     result.upper = rescaled(std::get<Material>(scene.upper), stress);
   if (auto* box = std::get_if<BoxOptions>(&result.elasticity); box && box->stiffness)
     *box->stiffness *= stress / length;
-  if (result.plasticity) {
-    if (result.plasticity->hardness) *result.plasticity->hardness *= stress;
-    result.plasticity->hardening *= stress / length;
+  if (result.effects.find<PlasticityOptions>()) {
+    if (result.effects.find<PlasticityOptions>()->hardness)
+      *result.effects.find<PlasticityOptions>()->hardness *= stress;
+    result.effects.find<PlasticityOptions>()->hardening *= stress / length;
   }
   return result;
 }
@@ -74,7 +76,7 @@ Verdict check(const Trial& trial, std::uint64_t salt) {
       " with lengths by 2^" + std::to_string(length) + ", stresses by 2^" + std::to_string(stress);
   for (const auto& [name, lengths, stresses] :
        {std::tuple{"pressure", 0, 1}, {"gap", 1, 0}, {"displacement", 1, 0}, {"plastic", 1, 0}}) {
-    if (std::string(name) == "plastic" && !trial.scene.plasticity) continue;
+    if (std::string(name) == "plastic" && !trial.scene.effects.find<PlasticityOptions>()) continue;
     const auto a = one.field(name), b = two.field(name);
     for (std::size_t k = 0; k < a->size(); ++k)
       if (scale((*a)[k], lengths, stresses) != (*b)[k])

@@ -9,6 +9,7 @@
 
 #include "engine/contact/bodies/elastic_bodies.hpp"
 #include "engine/contact/bodies/geometry.hpp"
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/surface/generators/self_affine.hpp"
@@ -220,21 +221,24 @@ void draw_yield(Draws& draw, Trial& trial, double modulus) {
     draw.chance(0.5) && trial.rough_pair() ? set_hardness(scene, other, hardness)
                                            : set_hardness(scene, hardness, other);
   }
-  scene.plasticity = options;
+  scene.effects.set(options);
 }
 
 }  // namespace
 
 double Trial::hardness() const {
-  if (!scene.plasticity) return infinity;
+  if (!scene.effects.find<PlasticityOptions>()) return infinity;
   const auto of = [&](const Material* material) {
     if (material == nullptr || material->rigid) return infinity;
-    return scene.plasticity->hardness.value_or(material->hardness.value_or(infinity));
+    return scene.effects.find<PlasticityOptions>()->hardness.value_or(material->hardness.value_or(infinity));
   };
   const auto* rough = std::get_if<Surface>(&scene.upper);
   return std::min(of(lower_material(scene.lower)), rough ? of(&*rough->material()) : infinity);
 }
-bool Trial::hardens() const { return scene.plasticity && std::isfinite(scene.plasticity->hardening); }
+bool Trial::hardens() const {
+  return scene.effects.find<PlasticityOptions>() &&
+         std::isfinite(scene.effects.find<PlasticityOptions>()->hardening);
+}
 double Trial::cap() const { return hardens() ? infinity : hardness(); }
 
 Trial draw_trial(std::uint64_t seed, std::uint64_t index, const Wanted& wanted) {
@@ -280,7 +284,8 @@ Trial draw_trial(std::uint64_t seed, std::uint64_t index, const Wanted& wanted) 
     if (wanted.yields || draw.chance(0.45)) {
       draw_yield(draw, trial, modulus);
       // Elements are pressed up to a thousand times their heights: further, no double holds their gaps.
-      scene.plasticity->hardening *= trial.pressure / (span > 0 ? span : amplitude) / (modulus / grid.hx());
+      scene.effects.find<PlasticityOptions>()->hardening *=
+          trial.pressure / (span > 0 ? span : amplitude) / (modulus / grid.hx());
       if (draw.chance(0.4)) scene.elasticity = RigidOptions{};
     }
   }

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "tests/stability/properties/scene.hpp"
 
 namespace asperity::stability {
@@ -54,7 +55,7 @@ std::string effects_text(const Scene& scene) {
     text += "{ model=\"box\", stiffness=" + exact(*box->stiffness) + " }";
   else
     text += "\"box\"";
-  if (const auto& yield = scene.plasticity) {
+  if (const auto* yield = scene.effects.find<PlasticityOptions>()) {
     text += ", plasticity={ hardening=" + exact(yield->hardening);
     if (yield->hardness) text += ", hardness=" + exact(*yield->hardness);
     text += " }";

@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "engine/contact/effects/plasticity.hpp"
 #include "engine/core/constants.hpp"
 #include "tests/stability/properties/scene.hpp"
 
@@ -67,11 +68,11 @@ void fewer_bodies_and_effects(const Trial& trial, std::vector<Trial>& found) {
     found.push_back(std::move(next));
   };
   add([](Scene& s) { s.upper = rigid_material(); });
-  add([](Scene& s) { s.plasticity.reset(); });
-  if (trial.scene.plasticity) {
-    add([](Scene& s) { s.plasticity->hardening = infinity; });
+  add([](Scene& s) { s.effects.remove<PlasticityOptions>(); });
+  if (trial.scene.effects.find<PlasticityOptions>()) {
+    add([](Scene& s) { s.effects.find<PlasticityOptions>()->hardening = infinity; });
     add([&](Scene& s) {
-      if (std::isfinite(trial.hardness())) s.plasticity->hardness = trial.hardness();
+      if (std::isfinite(trial.hardness())) s.effects.find<PlasticityOptions>()->hardness = trial.hardness();
     });
   }
 }
@@ -118,9 +119,10 @@ void rounder_numbers(const Trial& trial, std::vector<Trial>& found) {
       s.upper = material(std::get<Material>(s.upper));
     if (auto* box = std::get_if<BoxOptions>(&s.elasticity); box && box->stiffness)
       *box->stiffness *= stress / length;
-    if (s.plasticity) {
-      if (s.plasticity->hardness) *s.plasticity->hardness *= stress;
-      s.plasticity->hardening *= stress / length;
+    if (s.effects.find<PlasticityOptions>()) {
+      if (s.effects.find<PlasticityOptions>()->hardness)
+        *s.effects.find<PlasticityOptions>()->hardness *= stress;
+      s.effects.find<PlasticityOptions>()->hardening *= stress / length;
     }
     return next;
   };
@@ -144,12 +146,12 @@ void rounder_numbers(const Trial& trial, std::vector<Trial>& found) {
   for (const int bits : {1, 4, 10}) {
     add([=](Trial& t) { t.pressure = rounded(t.pressure, t.pressure, bits); });
     add([=](Trial& t) {
-      auto& plasticity = t.scene.plasticity;
+      auto* plasticity = t.scene.effects.find<PlasticityOptions>();
       if (plasticity && plasticity->hardness)
         plasticity->hardness = rounded(*plasticity->hardness, *plasticity->hardness, bits);
     });
     add([=](Trial& t) {
-      auto& plasticity = t.scene.plasticity;
+      auto* plasticity = t.scene.effects.find<PlasticityOptions>();
       if (plasticity && std::isfinite(plasticity->hardening))
         plasticity->hardening = rounded(plasticity->hardening, plasticity->hardening, bits);
     });

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "engine/contact/bodies/deformed_bodies.hpp"
-#include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
+#include "engine/contact/planned_yield.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -26,7 +26,7 @@ struct YieldingBoxSolver::Ready {
   std::shared_ptr<const ContactGeometry> geometry;
   BoxOperator box;
   PlannedYield yield;
-  LocalHardness hardness;  // empty unless events have left fields of it
+  MetMemory hardness;  // empty unless events have left fields of it
   SortedDrops drops;
   YieldingElements alike;  // of one yield pressure
   StateCost cost;
@@ -35,7 +35,7 @@ struct YieldingBoxSolver::Ready {
       : geometry(std::move(g)),
         box(b),
         yield(y),
-        hardness(y.hardens() ? local_hardness(*geometry, y) : LocalHardness{}),
+        hardness(y.hardens() ? local_hardness(*geometry, y) : MetMemory{}),
         drops(geometry->overhangs() ? SortedDrops(geometry->facing_heights())
                                     : SortedDrops(geometry->combined().values())),
         alike({b.stiffness, y.hardens() ? y.hardening : 0}, drops.drops(), y.hardness()) {}
@@ -295,7 +295,7 @@ State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
   const CostScope scope;
   const double height = geometry().peak_to_valley(), tile = geometry().grid().area();
   const double overlap = geometry().overlap_fraction();
-  const double factor = ready_->yield.creep ? softening(*ready_->yield.creep, request.dwell) : 1.0;
+  const double factor = ready_->yield.softened(request.dwell);
   const YieldLaw law = yield_law(ready_->yield, ready_->hardness, factor);
   const auto elements = ready_->elements(law);
   const std::string asked = quoted(name(request.by)) + " is " + format_short(request.value);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "engine/contact/bodies/deformed_bodies.hpp"
-#include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
 #include "engine/contact/elasticity/half_space/error/half_space_error.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
@@ -16,6 +15,7 @@
 #include "engine/contact/elasticity/half_space/solver/approach_solve.hpp"
 #include "engine/contact/elasticity/half_space/solver/flattening_solve.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
+#include "engine/contact/planned_yield.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/text.hpp"
@@ -47,7 +47,7 @@ struct HalfSpaceSolver::Ready {
   std::shared_ptr<const ContactGeometry> geometry;
   HalfSpaceOperator half_space;
   std::optional<PlannedYield> yield;
-  LocalHardness hardness;  // empty unless events have left fields of it
+  MetMemory hardness;  // empty unless events have left fields of it
   HalfSpaceProblem problem;
   StateCost cost;
 
@@ -245,8 +245,7 @@ State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) cons
                     " is a fraction of a peak-to-valley that is zero: all combined heights are equal",
                 "give `pressure`, `load` or `approach`");
 
-  const double factor =
-      ready_->yield && ready_->yield->creep ? softening(*ready_->yield->creep, request.dwell) : 1.0;
+  const double factor = ready_->yield ? ready_->yield->softened(request.dwell) : 1.0;
   HalfSpaceProblem problem = ready_->problem;
   if (ready_->yield) problem.yield = yield_law(*ready_->yield, ready_->hardness, factor);
   Reported asked;

@@ -46,7 +46,7 @@ class AdhesiveDescent {
         r_(nodes_),
         before_(nodes_),
         free_(nodes_),
-        task_(monitor, "adhesion", 1000) {
+        task_(monitor, problem.attraction.front().effect, 1000) {
     const auto h = problem.contact.heights->values();
     const double peak = known_range(h).max;
     for_nodes(nodes_, [&](std::size_t k) { drop_[k] = (peak - h[k]) / length_; });

@@ -7,9 +7,9 @@
 
 #include "engine/core/quantity.hpp"
 
-namespace asperity::lua {
+namespace asperity {
 
-// The numbers an option accepts. NaN never passes; an infinity only where `never` allows it.
+// NaN never passes; an infinity only where `never` allows it.
 struct NumberRange {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -24,6 +24,8 @@ struct NumberRange {
   bool contains(double value) const;
   // "above 0", "from 2 to 3"; "" for any.
   std::string text(Dimension dimension) const;
+  // "a length above 0, e.g. \"250 um\""; `finite`: says so, of a value whose one fault that is.
+  std::string wanted(Dimension dimension, bool finite = false) const;
 };
 constexpr NumberRange any() { return {}; }
 constexpr NumberRange above(double low) {
@@ -35,4 +37,4 @@ constexpr NumberRange at_least(double low) {
 constexpr NumberRange between(double low, double high) { return {low, high, false, false, false}; }
 constexpr NumberRange inside(double low, double high) { return {low, high, true, true, false}; }
 
-}  // namespace asperity::lua
+}  // namespace asperity

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A block whose options the engine tells (core/option_row.hpp): read, reported and documented as every other
+// block, into the struct of whoever told them.
+#pragma once
+
+#include <any>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bindings/lua/registry/block.hpp"
+#include "engine/core/option_row.hpp"
+
+namespace asperity::lua {
+
+class RowBlock final : public BlockInfo {
+ public:
+  // `rows` must outlive the block. `defaults` holds the struct with no option given.
+  RowBlock(std::string name, std::span<const OptionRow> rows, std::any defaults);
+
+  const std::string& name() const override { return name_; }
+  std::vector<const OptionInfo*> options() const override;
+  // As Block::read.
+  std::any read(const Argument& table, const std::string& caller) const;
+  void check(const Argument& table, const std::string& caller) const override { (void)read(table, caller); }
+
+ private:
+  std::string name_;
+  std::span<const OptionRow> rows_;
+  std::any defaults_;
+  std::vector<OptionInfo> infos_;
+};
+
+}  // namespace asperity::lua

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a scene may name beside its elasticity: an effect is a record of one file of effects/, with its
+// options, what it needs beside it, what it adds to a plan, what an event leaves of it on the bodies and the
+// quantities that only it gives. Whoever reads a scene, checks, plans, presses or documents walks these
+// records (effects/list.hpp) and knows no effect by name.
+#pragma once
+
+#include <any>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/core/option_row.hpp"
+
+namespace asperity {
+
+class ContactGeometry;
+class State;
+struct AfterEvent;
+struct Plan;
+struct Scene;
+struct StateQuantity;
+
+// What the elasticity is called in a scene, in costs and in reports; no record among the effects.
+inline constexpr std::string_view elasticity_effect = "elasticity";
+
+struct Effect {
+  enum class Acts {
+    adds_term,        // to the energy that a solve minimises: of the gap
+    bounds_pressure,  // or scales what bounds it; what passes the bound is left on the bodies
+    reads_state,      // of a contact that is solved without it; no solve knows of it
+  };
+
+  std::string_view name;  // the key in a scene's `effects`
+  std::string sentence;   // what it does, lower case, no full stop
+  Acts acts;
+  std::any defaults;  // the struct of its options
+  std::vector<OptionRow> options;
+  // Throws Error for options that do not go together, and where the scene lacks what the effect needs or
+  // names what it cannot be computed beside. The ranges of the options were checked before. May be null.
+  void (*check)(const std::any& options, const Scene& scene) = nullptr;
+  // Fills the plan: its terms, the bound on its pressures, buffers, warnings, and the options with their
+  // defaults filled in. Throws Error that names effect and body where a material lacks a property.
+  void (*plan)(const std::any& options, const ContactGeometry& geometry, Plan& plan);
+  // Adds to what a press of this state leaves on the bodies (bodies/after_event.hpp). Null: nothing stays.
+  void (*leave)(const State& state, const Plan& plan, AfterEvent& after) = nullptr;
+  // Null: it gives none.
+  std::vector<StateQuantity> (*quantities)() = nullptr;
+  bool over_ranks = false;  // whether lab.spread computes it
+};
+
+// The effects that a scene names, each with its options. The struct of an effect's options says which it is:
+// static const Effect& effect().
+class Effects {
+ public:
+  struct Named {
+    const Effect* effect;
+    std::any options;
+  };
+
+  Effects() = default;
+  template <class... O>
+  requires(sizeof...(O) > 0 && requires { (O::effect(), ...); }) Effects(O... options) {
+    (set(std::move(options)), ...);
+  }
+
+  // Instead of those it had.
+  void set(const Effect& effect, std::any options);
+  template <class O>
+  void set(O options) {
+    set(O::effect(), std::any(std::move(options)));
+  }
+  template <class O>
+  void set(std::optional<O> options) {
+    if (options)
+      set(O::effect(), std::any(*std::move(options)));
+    else
+      remove<O>();
+  }
+  template <class O>
+  void remove() {
+    std::erase_if(named_, [](const Named& known) { return known.effect == &O::effect(); });
+  }
+
+  // Null where it is not named.
+  const std::any* options_of(const Effect& effect) const;
+  template <class O>
+  const O* find() const {
+    const std::any* options = options_of(O::effect());
+    return options == nullptr ? nullptr : std::any_cast<O>(options);
+  }
+  template <class O>
+  O* find() {
+    return const_cast<O*>(std::as_const(*this).find<O>());
+  }
+  template <class O>
+  bool has() const {
+    return options_of(O::effect()) != nullptr;
+  }
+  bool names(std::string_view effect) const;
+  bool any_that(Effect::Acts acts) const;
+  // Those that a solve knows of.
+  Effects of_solve() const;
+
+ private:
+  std::vector<Named> named_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/contact/effects/list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+// A line for each: NAME_effect() is the record in NAME.cpp.
+// clang-format off
+#define ASPERITY_EFFECTS(effect) \
+  effect(plasticity)   \
+  effect(creep)        \
+  effect(capillarity)  \
+  effect(adhesion)     \
+  effect(ageing)       \
+  effect(interlocking) \
+  effect(tangential)   \
+  /* end of the list */
+// clang-format on
+
+namespace asperity {
+
+#define ASPERITY_DECLARED(name) const Effect& name##_effect();
+ASPERITY_EFFECTS(ASPERITY_DECLARED)
+#undef ASPERITY_DECLARED
+
+namespace {
+
+// Processes of the experiment that the program leaves out on purpose.
+constexpr std::array not_modelled = {
+    std::pair<std::string_view, std::string_view>{"oxide", "a brittle film between the metals"},
+    std::pair<std::string_view, std::string_view>{"breakage", "asperities that break off"},
+};
+
+constexpr std::array models = {
+    ElasticityModel{"box", "independent elements over the nodes, pressure in proportion to their shortening"},
+    ElasticityModel{"half_space", "every pressure moves every node, as on an elastic half-space"},
+    ElasticityModel{"rigid", "no elastic deformation; the bodies rest on what has yielded"},
+};
+
+std::vector<std::string> computed_names() {
+  std::vector<std::string> names{std::string(elasticity_effect)};
+  for (const Effect* effect : known_effects()) names.emplace_back(effect->name);
+  return names;
+}
+
+}  // namespace
+
+std::span<const Effect* const> known_effects() {
+#define ASPERITY_LISTED(name) &name##_effect(),
+  static const std::vector<const Effect*> effects{ASPERITY_EFFECTS(ASPERITY_LISTED)};
+#undef ASPERITY_LISTED
+  return effects;
+}
+
+const Effect* require_effect(std::string_view name) {
+  const auto all = known_effects();
+  if (const auto known = std::ranges::find(all, name, &Effect::name); known != all.end()) return *known;
+  if (name == elasticity_effect) return nullptr;
+  const std::vector<std::string> ready = computed_names();
+  for (const auto& [left_out, sentence] : not_modelled)
+    if (name == left_out)
+      throw Error(
+          ErrorCode::bad_value,
+          "the effect " + quoted(name) + " (" + std::string(sentence) + ") is not modelled by this program",
+          "computed here: " + joined(ready, " and "));
+  std::vector<std::string> names = ready;
+  for (const auto& [left_out, sentence] : not_modelled) names.emplace_back(left_out);
+  throw Error(ErrorCode::unknown_name, "there is no effect " + quoted(name) + did_you_mean(name, names),
+              "known are " + joined(ready, " and "));
+}
+
+std::span<const ElasticityModel> elasticity_models() { return models; }
+
+void require_elasticity_model(std::string_view name) {
+  std::vector<std::string> names;
+  for (const ElasticityModel& model : models) names.emplace_back(model.name);
+  if (std::ranges::find(names, name) != names.end()) return;
+  throw Error(ErrorCode::unknown_name,
+              "there is no model of elasticity " + quoted(name) + did_you_mean(name, names),
+              "known are " + joined(names, " and "));
+}
+
+std::vector<std::string> effects_not_in(std::span<const std::string> run) {
+  std::vector<std::string> off = computed_names();
+  std::erase_if(off, [&](const std::string& name) { return std::ranges::find(run, name) != run.end(); });
+  return off;
+}
+
+}  // namespace asperity

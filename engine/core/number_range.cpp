@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/number_range.hpp"
+
+#include <cmath>
+
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+std::string show_bound(double value, Dimension dimension) {
+  return dimension == dimension::number || value == 0 ? format_short(value, 10)
+                                                      : format_quantity(value, dimension);
+}
+}  // namespace
+
+bool NumberRange::contains(double value) const {
+  if (std::isnan(value)) return false;
+  if (std::isinf(value)) return never && (value > 0);
+  return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+}
+
+std::string NumberRange::text(Dimension dimension) const {
+  const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
+  std::string result;
+  if (has_low && has_high) {
+    result = low_open || high_open
+                 ? (low_open ? "above " : "from ") + show_bound(low, dimension) +
+                       (high_open ? " and below " : " to ") + show_bound(high, dimension)
+                 : "from " + show_bound(low, dimension) + " to " + show_bound(high, dimension);
+  } else if (has_low) {
+    result = (low_open ? "above " : "at least ") + show_bound(low, dimension);
+  } else if (has_high) {
+    result = (high_open ? "below " : "at most ") + show_bound(high, dimension);
+  }
+  if (never) result += (result.empty() ? "" : ", or ") + std::string("math.huge for never");
+  return result;
+}
+
+std::string NumberRange::wanted(Dimension dimension, bool finite) const {
+  std::string result = dimension == dimension::number ? "a number" : describe(dimension);
+  if (finite) result = "a finite" + result.substr(result.find(' '));
+  if (const std::string limits = text(dimension); !limits.empty()) result += " " + limits;
+  if (dimension != dimension::number) result += ", e.g. \"" + example_quantity(dimension) + "\"";
+  return result;
+}
+
+}  // namespace asperity
