@@ -13,6 +13,7 @@
 #include "engine/contact/effects/tangential.hpp"
 #include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
+#include "engine/contact/elasticity/layer/layer_plan.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -104,6 +105,8 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
     plan_box(*box, geometry, plan);
   else if (std::holds_alternative<RigidOptions>(scene.elasticity))
     plan_rigid(geometry, plan);
+  else if (const auto* layer = std::get_if<LayerOptions>(&scene.elasticity))
+    plan_layer(*layer, geometry, plan);
   else
     plan_half_space(geometry, plan);
   if (scene.plasticity) plan_plasticity(*scene.plasticity, geometry, plan);

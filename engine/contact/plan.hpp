@@ -38,10 +38,12 @@ struct BoxOperator {
   double lower_share = 1;         // of the shortening that the lower body takes, 0 … 1
 };
 
-// Half-spaces: u = K p, the multiplier 2/(E*|q|) of a periodic tile or the Love kernel of a free one.
+// Half-spaces: u = K p, the multiplier 2/(E*|q|) of a periodic tile or the Love kernel of a free one; or a
+// layer in their place, whose multiplier has a share of that.
 struct HalfSpaceOperator {
   double modulus = 0;      // E*, Pa
   double lower_share = 1;  // of the elastic displacement that the lower body takes, 0 … 1
+  std::optional<ElasticLayer> layer{};
 };
 
 using PlannedOperator = std::variant<BoxOperator, HalfSpaceOperator>;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/contact/elasticity/layer/layer_plan.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -129,6 +130,7 @@ void check(const Scene& scene) {
       throw Error(ErrorCode::bad_value, "`precision` is \"single\" for box elements",
                   "their solution is a closed form in double precision; leave `precision` out");
   }
+  if (const auto* layer = std::get_if<LayerOptions>(&scene.elasticity)) check_layer(*layer, scene);
   if (std::holds_alternative<RigidOptions>(scene.elasticity)) {
     if (single)
       throw Error(ErrorCode::bad_value, "`precision` is \"single\" for rigid bodies",

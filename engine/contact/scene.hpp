@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/contact/boundary.hpp"
+#include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/contact/gap_term.hpp"
 #include "engine/contact/sliding.hpp"
 #include "engine/surface/surface.hpp"
@@ -33,7 +34,13 @@ struct HalfSpaceOptions {};
 // No elastic deformation: a node gives way only by yielding, so the scene names `plasticity` beside it.
 struct RigidOptions {};
 
-using Elasticity = std::variant<BoxOptions, HalfSpaceOptions, RigidOptions>;
+using Elasticity = std::variant<BoxOptions, HalfSpaceOptions, LayerOptions, RigidOptions>;
+
+// Whether every pressure moves every node, so that a press is solved by iterations.
+inline bool moves_every_node(const Elasticity& elasticity) {
+  return std::holds_alternative<HalfSpaceOptions>(elasticity) ||
+         std::holds_alternative<LayerOptions>(elasticity);
+}
 
 // Pressure is limited by hardness, and what yields stays flattened. The volume that yields is removed,
 // not redistributed.

@@ -215,9 +215,7 @@ void SpecimenPair::warn_of_an_overhang(Monitor& monitor) {
 }
 
 void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
-  if (warned_of_rim_ || scene_.boundary != Boundary::periodic ||
-      !std::holds_alternative<HalfSpaceOptions>(scene_.elasticity))
-    return;
+  if (warned_of_rim_ || scene_.boundary != Boundary::periodic || !moves_every_node(scene_.elasticity)) return;
   std::vector<std::string> bodies;
   if (steps_at_the_rim(scene_.lower)) bodies.emplace_back("lower");
   if (const auto* rough = std::get_if<Surface>(&scene_.upper); rough && steps_at_the_rim(*rough))

@@ -20,14 +20,25 @@ namespace {
 struct ElasticityKeys {
   std::string model;
   std::optional<double> stiffness;
+  std::optional<double> thickness;
+  std::optional<LayerBase> base;
 };
 const Block<ElasticityKeys>& elasticity_block() {
   using K = ElasticityKeys;
-  static const Block<K> block{"elasticity",
-                              {text("model", &K::model, "how the bodies give way").required(),
-                               quantity("stiffness", &K::stiffness, dimension::stiffness, above(0),
-                                        "pressure per shortening of a box element; of model=\"box\" alone")
-                                   .defaults_to("E*/peak-to-valley")}};
+  static const Block<K> block{
+      "elasticity",
+      {text("model", &K::model, "how the bodies give way").required(),
+       quantity("stiffness", &K::stiffness, dimension::stiffness, above(0),
+                "pressure per shortening of a box element; of model=\"box\" alone")
+           .defaults_to("E*/peak-to-valley"),
+       quantity("thickness", &K::thickness, dimension::length, above(0),
+                "of the layer, the lower body; model=\"layer\" needs it. Approach and "
+                "energy hold its uniform compression, "
+                "K(0) = t (1+nu)(1-2nu)/(E (1-nu)) per mean pressure")
+           .defaults_to("none"),
+       choice("base", &K::base, {{"bonded", LayerBase::bonded}, {"frictionless", LayerBase::frictionless}},
+              "how the layer lies on its rigid base; of model=\"layer\" alone")
+           .defaults_to("\"bonded\"")}};
   return block;
 }
 
@@ -266,11 +277,27 @@ void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems)
     if (!read) return;
   } else {
     problems.push_back("`effects.elasticity` is " + value.describe() +
-                       "; give \"half_space\", \"box\", \"rigid\" or { model=\"box\", stiffness= }");
+                       "; give \"half_space\", \"box\", \"rigid\", { model=\"box\", stiffness= } or "
+                       "{ model=\"layer\", thickness= }");
     return;
   }
   collect(problems, [&] {
     require_elasticity_model(given.model);
+    if (given.model != "layer" && (given.thickness || given.base))
+      problems.push_back("`effects.elasticity." + std::string(given.thickness ? "thickness" : "base") +
+                         "` is of a layer; give model=\"layer\" beside it, or leave it out");
+    if (given.model == "layer") {
+      if (given.stiffness)
+        problems.push_back(
+            "`effects.elasticity.stiffness` is of box elements; the stiffness of a layer follows "
+            "from its material and `thickness`");
+      if (!given.thickness)
+        problems.push_back(
+            "`effects.elasticity` is a layer without `thickness`; give { model=\"layer\", "
+            "thickness= }");
+      keys.elasticity = LayerOptions{given.thickness.value_or(0), given.base.value_or(LayerBase::bonded)};
+      return;
+    }
     if (given.model == "box") {
       keys.elasticity = BoxOptions{given.stiffness};
       return;
@@ -360,6 +387,8 @@ void require_boundary(SceneKeys& keys, Problems& problems) {
     problems.push_back(
         "a half-space needs `boundary`: \"periodic\" where the tile goes on beyond its "
         "rim, or \"free\"");
+  if (keys.elasticity && std::holds_alternative<LayerOptions>(*keys.elasticity) && !keys.boundary)
+    problems.push_back("a layer needs boundary=\"periodic\": the tile goes on beyond its rim");
 }
 
 const Block<SceneKeys>& scene_block() {

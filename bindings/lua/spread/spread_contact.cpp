@@ -52,8 +52,16 @@ const Block<Accuracy>& spread_accuracy_block() {
 
 void read_effect(const std::string& name, const Argument& given, spread_SceneKeys& keys, Problems& problems) {
   if (name == "elasticity") {
+    bool layer = given.is_text() && given.text() == "layer";
+    if (given.is_table())
+      with_key(given, "model",
+               [&](const Argument& model) { layer = model.is_text() && model.text() == "layer"; });
     if (given.is_text() && given.text() == "half_space")
       keys.elastic = true;
+    else if (layer)
+      problems.push_back(
+          "`effects.elasticity` is a layer, which is not computed over ranks; give \"half_space\", or use "
+          "lab.contact");
     else
       problems.push_back("`effects.elasticity` is " + given.describe() +
                          "; over ranks it is \"half_space\", and lab.contact computes the others");

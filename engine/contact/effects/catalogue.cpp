@@ -30,6 +30,8 @@ constexpr std::array models = {
                 Availability::computed},
     EffectEntry{"half_space", "every pressure moves every node, as on an elastic half-space",
                 Availability::computed},
+    EffectEntry{"layer", "an elastic layer on a rigid base, every pressure moves every node",
+                Availability::computed},
     EffectEntry{"rigid", "no elastic deformation; the bodies rest on what has yielded",
                 Availability::computed},
 };
