@@ -24,7 +24,9 @@
 #include <vector>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/friction/junction_law.hpp"

@@ -162,8 +162,10 @@ double roughness(const Field& h) {
 double distance_to_full_contact(const Field& h, Range known) { return known.max - known_mean(h.values()); }
 
 // The pressure that brings it, over E*: −min (|q|/2) h, within some tens of percent.
-double pressure_of_full_contact(const Field& h, const Grid& grid) {
-  HalfOrderPyramid half_order(grid.nx, grid.ny, grid.hy() / grid.hx(), Boundary::periodic);
+double pressure_of_full_contact(const Field& h, const Grid& grid, const HalfSpaceOperator& half_space) {
+  ComplianceMultiplier multiplier;
+  if (half_space.layer) multiplier = in_cells(*half_space.layer, grid.hx(), false);
+  HalfOrderPyramid half_order(grid.nx, grid.ny, grid.hy() / grid.hx(), Boundary::periodic, 1, multiplier);
   const double middle = mean(h.values()), span = range(h.values()).span();
   if (!(span > 0)) return 0;
   const std::span<float> in = half_order.input();
@@ -231,9 +233,9 @@ ExpectedTransforms tried(const Scene& scene, const ContactGeometry& geometry, co
   if (found.full && fewer && periodic && by_pressure && !(plan.yield && plan.yield->limits())) {
     const auto& half_space = std::get<HalfSpaceOperator>(plan.elasticity);
     const double pressure = there.by == PressBy::load ? there.value / given.area() : there.value;
-    const double needed = pressure_of_full_contact(all, given);
+    const double needed = pressure_of_full_contact(all, given, half_space);
     if (pressure < needed * half_space.modulus) {
-      there = request_times(there, pressure_of_full_contact(heights, grid) / needed);
+      there = request_times(there, pressure_of_full_contact(heights, grid, half_space) / needed);
       if (there.value > 0) found = try_press(grid, heights, scene, geometry, plan, there, most_tried);
     }
   }

@@ -4,8 +4,6 @@
 #include <algorithm>
 
 #include "engine/contact/effects/list.hpp"
-#include "engine/contact/elasticity/box/box_plan.hpp"
-#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -93,16 +91,13 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
   if (!geometry.upper_is_flat())
     plan.buffers.push_back(
         {"combined heights", static_cast<std::int64_t>(geometry.grid().nodes() * sizeof(double))});
-  if (const auto* box = std::get_if<BoxOptions>(&scene.elasticity))
-    plan_box(*box, geometry, plan);
-  else if (std::holds_alternative<RigidOptions>(scene.elasticity))
-    plan_rigid(geometry, plan);
-  else
-    plan_half_space(geometry, plan);
+  const ElasticModel& model = scene.elasticity.model();
+  plan.model = &model;
+  model.plan(scene.elasticity.options(), geometry, plan);
   plan.effects = scene.effects;
   for (const Effect* effect : known_effects())
     if (const std::any* options = scene.effects.options_of(*effect)) effect->plan(*options, geometry, plan);
-  if (std::holds_alternative<BoxOperator>(plan.elasticity)) plan_yield_of_boxes(geometry, plan);
+  if (model.finish != nullptr) model.finish(geometry, plan);
   for (const PlannedTerm& term : plan.terms)
     if (std::find(plan.effects_run.begin(), plan.effects_run.end(), term.effect) == plan.effects_run.end())
       plan.effects_run.push_back(term.effect);
@@ -112,9 +107,8 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry) {
 
 Plan make_plan_like(const Plan& before, const Scene& scene, const ContactGeometry& geometry) {
   Scene same = scene;
-  const auto* box = std::get_if<BoxOperator>(&before.elasticity);
-  if (box != nullptr && std::holds_alternative<BoxOptions>(same.elasticity))
-    same.elasticity = BoxOptions{box->stiffness};
+  if (const ElasticModel& model = same.elasticity.model(); model.as_planned != nullptr)
+    same.elasticity = Elasticity(model, model.as_planned(same.elasticity.options(), before));
   Plan plan = make_plan(same, geometry);
   plan.elasticity = before.elasticity;
   const auto of_elasticity = [](const PlannedTerm& term) { return term.effect == elasticity_effect; };

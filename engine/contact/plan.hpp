@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/contact/bodies/geometry.hpp"
+#include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/contact/gap_term.hpp"
 #include "engine/contact/planned_yield.hpp"
 #include "engine/contact/scene.hpp"
@@ -37,10 +38,12 @@ struct BoxOperator {
   double lower_share = 1;         // of the shortening that the lower body takes, 0 … 1
 };
 
-// Half-spaces: u = K p, the multiplier 2/(E*|q|) of a periodic tile or the Love kernel of a free one.
+// Half-spaces: u = K p, the multiplier 2/(E*|q|) of a periodic tile or the Love kernel of a free one; or a
+// layer in their place, whose multiplier has a share of that.
 struct HalfSpaceOperator {
   double modulus = 0;      // E*, Pa
   double lower_share = 1;  // of the elastic displacement that the lower body takes, 0 … 1
+  std::optional<ElasticLayer> layer{};
 };
 
 using PlannedOperator = std::variant<BoxOperator, HalfSpaceOperator>;
@@ -49,6 +52,7 @@ struct Plan {
   std::string title;   // tile and boundary
   double overlap = 1;  // share of the tile on which the bodies face each other
   std::string solver;
+  const ElasticModel* model = nullptr;  // of elasticity
   PlannedOperator elasticity;
   std::optional<PlannedYield> yield;  // none where no effect limits the pressure
   std::vector<GapTerm> attraction;    // of the gap; a term of no work is left out of the solve

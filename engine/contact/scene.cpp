@@ -49,25 +49,12 @@ void check(const Scene& scene) {
   if (!(tolerance >= 1e-15 && tolerance < 1))
     throw Error(ErrorCode::bad_value, "`tolerance` is " + format_short(tolerance),
                 "give a number from 1e-15 to below 1");
-  const bool single = scene.accuracy.precision == Accuracy::Precision::single;
-  if (const auto* box = std::get_if<BoxOptions>(&scene.elasticity)) {
-    if (box->stiffness && !(*box->stiffness > 0 && std::isfinite(*box->stiffness)))
-      throw Error(ErrorCode::bad_value, "`stiffness` is " + format_short(*box->stiffness) + " Pa/m",
-                  "give a finite value above zero, such as \"80 MPa/um\"");
-    if (single)
-      throw Error(ErrorCode::bad_value, "`precision` is \"single\" for box elements",
-                  "their solution is a closed form in double precision; leave `precision` out");
-  }
-  if (std::holds_alternative<RigidOptions>(scene.elasticity)) {
-    if (single)
-      throw Error(ErrorCode::bad_value, "`precision` is \"single\" for rigid bodies",
-                  "their solution is a closed form in double precision; leave `precision` out");
-    if (!scene.effects.any_that(Effect::Acts::bounds_pressure))
-      throw Error(
-          ErrorCode::bad_value,
-          "rigid bodies carry a load only where they yield, and this scene does not name `plasticity`",
-          "name `plasticity` beside elasticity=\"rigid\", or name another elasticity");
-  }
+  const ElasticModel& model = scene.elasticity.model();
+  check_options(model.options, scene.elasticity.options(), "elasticity=\"" + std::string(model.name) + "\"");
+  if (!model.moves_every_node && scene.accuracy.precision == Accuracy::Precision::single)
+    throw Error(ErrorCode::bad_value, "`precision` is \"single\" for " + std::string(model.noun),
+                "their solution is a closed form in double precision; leave `precision` out");
+  if (model.check != nullptr) model.check(scene.elasticity.options(), scene);
   for (const Effect* effect : known_effects())
     if (const std::any* options = scene.effects.options_of(*effect)) {
       check_options(effect->options, *options, "the effect " + quoted(effect->name));

@@ -11,6 +11,7 @@
 
 #include "engine/contact/boundary.hpp"
 #include "engine/contact/effect.hpp"
+#include "engine/contact/elastic_model.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity {
@@ -18,20 +19,6 @@ namespace asperity {
 // The upper body: a rough one facing down, or a flat of this material (rigid_material() for a rigid
 // counter-body).
 using UpperBody = std::variant<Surface, Material>;
-
-// Independent elements over the nodes: pressure = stiffness · shortening.
-struct BoxOptions {
-  // Pa/m; by default E*/(peak-to-valley of the combined heights as placed).
-  std::optional<double> stiffness;
-};
-
-// Elastic half-spaces: every pressure moves every node.
-struct HalfSpaceOptions {};
-
-// No elastic deformation: a node gives way only by yielding, so the scene names `plasticity` beside it.
-struct RigidOptions {};
-
-using Elasticity = std::variant<BoxOptions, HalfSpaceOptions, RigidOptions>;
 
 // The relative error that a script asks for instead of cells and a tolerance.
 struct AskedError {
@@ -59,7 +46,7 @@ struct Scene {
   Surface lower;  // rough side up
   UpperBody upper;
   Boundary boundary = Boundary::free;
-  Elasticity elasticity = BoxOptions{};
+  Elasticity elasticity{};
   Accuracy accuracy{};
   Effects effects{};
 };

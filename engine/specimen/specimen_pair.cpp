@@ -232,8 +232,7 @@ void SpecimenPair::warn_of_an_overhang(Monitor& monitor) {
 }
 
 void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
-  if (warned_of_rim_ || scene_.boundary != Boundary::periodic ||
-      !std::holds_alternative<HalfSpaceOptions>(scene_.elasticity))
+  if (warned_of_rim_ || scene_.boundary != Boundary::periodic || !scene_.elasticity.model().moves_every_node)
     return;
   std::vector<std::string> bodies;
   if (steps_at_the_rim(scene_.lower)) bodies.emplace_back("lower");

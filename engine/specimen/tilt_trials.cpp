@@ -226,7 +226,7 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
 
   TiltResult result;
   Task task(monitor, "tilt stage", options.repeats);
-  const bool half_space = std::holds_alternative<HalfSpaceOptions>(bench.scene().elasticity);
+  const bool half_space = bench.scene().elasticity.model().moves_every_node;
   std::vector<TiltProbe> probes;
   std::optional<UnderTheWeight> weight;
   const double tile = bench.lower().grid().area();

@@ -12,6 +12,7 @@
 
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/generators/sine.hpp"

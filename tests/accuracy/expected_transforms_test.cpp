@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "engine/accuracy/other_grids.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/surface/generators/self_affine.hpp"

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/resampling.hpp"
 #include "tests/contact/contacts.hpp"

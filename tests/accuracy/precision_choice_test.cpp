@@ -9,6 +9,8 @@
 #include <optional>
 
 #include "engine/accuracy/accuracy_choice.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 

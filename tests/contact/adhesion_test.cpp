@@ -12,6 +12,8 @@
 #include "engine/contact/effects/capillarity.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/effects/tangential.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::adhesion_test {

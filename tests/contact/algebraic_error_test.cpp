@@ -10,7 +10,9 @@
 #include <thread>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/elasticity/half_space/error/half_space_error.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 #include "tests/contact/half_space/half_space_problems.hpp"

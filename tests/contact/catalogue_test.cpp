@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/contact/elasticity/list.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::catalogue_test {
@@ -23,16 +24,19 @@ TEST(Catalogue, EveryEffectHasANameOfItsOwnAndASentence) {
       EXPECT_NO_THROW((void)row.get(effect->defaults)) << row.name;
     }
   }
-  for (const ElasticityModel& model : elasticity_models()) {
-    EXPECT_FALSE(model.sentence.empty());
-    names.push_back(model.name);
+  for (const ElasticModel* model : elastic_models()) {
+    EXPECT_FALSE(model->sentence.empty());
+    EXPECT_FALSE(model->noun.empty());
+    EXPECT_NE(model->plan, nullptr);
+    EXPECT_NE(model->solver, nullptr);
+    names.push_back(model->name);
   }
   for (const std::string_view name : names) EXPECT_EQ(std::ranges::count(names, name), 1) << name;
 }
 
 TEST(Catalogue, ComputedEffectsAreAccepted) {
   EXPECT_NO_THROW(require_effect("elasticity"));
-  EXPECT_NO_THROW(require_elasticity_model("box"));
+  EXPECT_NO_THROW(require_elastic_model("box"));
 }
 
 TEST(Catalogue, AnUnknownEffectIsRefusedWithTheNearestName) {
@@ -40,7 +44,7 @@ TEST(Catalogue, AnUnknownEffectIsRefusedWithTheNearestName) {
   EXPECT_NE(text.find("there is no effect `plastcity` (did you mean `plasticity`?); known are elasticity, "),
             std::string::npos)
       << text;
-  EXPECT_NE(error_of([] { require_elasticity_model("halfspace"); }).find("did you mean `half_space`?"),
+  EXPECT_NE(error_of([] { require_elastic_model("halfspace"); }).find("did you mean `half_space`?"),
             std::string::npos);
 }
 

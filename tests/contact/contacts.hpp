@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::creep_test {

@@ -9,6 +9,8 @@
 #include "engine/accuracy/other_grids.hpp"
 #include "engine/contact/effects/adhesion.hpp"
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"

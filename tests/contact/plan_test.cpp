@@ -8,6 +8,7 @@
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::plan_test {

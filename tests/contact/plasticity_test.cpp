@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::plasticity_test {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/surface/generators/sphere.hpp"
 #include "tests/contact/contacts.hpp"
 

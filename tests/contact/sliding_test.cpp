@@ -11,6 +11,7 @@
 #include "engine/contact/effects/interlocking.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/effects/tangential.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::sliding_test {

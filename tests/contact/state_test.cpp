@@ -7,6 +7,7 @@
 #include <numbers>
 #include <thread>
 
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::state_test {

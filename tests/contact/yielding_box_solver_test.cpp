@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::yielding_box_solver_test {

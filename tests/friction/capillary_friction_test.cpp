@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/contact/effects/capillarity.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/friction/junction_law.hpp"
 #include "tests/contact/contacts.hpp"
 

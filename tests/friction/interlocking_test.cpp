@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/contact/effects/interlocking.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::interlocking_test {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::junction_law_test {

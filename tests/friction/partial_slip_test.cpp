@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/contact/effects/tangential.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::partial_slip_test {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/metrology/fractal_dimension.hpp"
 #include "engine/metrology/line_fit.hpp"
 #include "engine/metrology/roughness.hpp"

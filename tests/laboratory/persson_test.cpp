@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/solver.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"

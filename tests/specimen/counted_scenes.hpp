@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/scene.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/surface/generators/self_affine.hpp"

@@ -16,6 +16,8 @@
 #include "engine/contact/effects/list.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/effects/tangential.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/core/text.hpp"
 #include "engine/friction/junction_law.hpp"
@@ -105,7 +107,7 @@ Names completed(const Names& asked, const Bench& bench) {
     const Effect& effect = effect_named(name);
     for (const std::string& other : effect.excludes)
       if (holds(names, other)) return {};
-    if (!effect.of_boxes && std::holds_alternative<BoxOptions>(bench.elasticity)) return {};
+    if (!effect.of_boxes && bench.elasticity.is<BoxOptions>()) return {};
   }
   return names;
 }
@@ -273,7 +275,7 @@ TEST_F(EffectsCounted, WhatIsNotNamedContributesNothing) {
 
 TEST_F(EffectsCounted, OnlyAPullKeepsTheStateItStartsFrom) {
   for (const Bench& bench : benches) {
-    if (std::holds_alternative<BoxOptions>(bench.elasticity)) continue;
+    if (bench.elasticity.is<BoxOptions>()) continue;
     const Counted bare = count(bare_scene(bench)),
                   pulled = count(with_effects(bare_scene(bench), {"tangential"}));
     const auto nodes = static_cast<std::int64_t>(48 * 48);
@@ -320,7 +322,7 @@ TEST_F(EffectsCounted, AnEstimateChangesNoBitAndShowsWhatItCost) {
       EXPECT_EQ(estimated.transforms_of("elasticity"), bare.press.transforms);
       EXPECT_EQ(estimated.lines(), (Names{"elasticity", "estimate"}));
       EXPECT_GT(estimated.by_effect.back().second.bytes, 0);
-      if (std::holds_alternative<HalfSpaceOptions>(bench.elasticity)) {
+      if (bench.elasticity.is<HalfSpaceOptions>()) {
         EXPECT_GT(estimated.transforms_of("estimate"), 0);
       }
     }

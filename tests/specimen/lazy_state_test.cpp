@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"

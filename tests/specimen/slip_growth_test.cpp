@@ -9,6 +9,8 @@
 #include "engine/contact/effects/ageing.hpp"
 #include "engine/contact/effects/interlocking.hpp"
 #include "engine/contact/effects/tangential.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 
@@ -86,7 +88,7 @@ TEST(SpecimenPairShear, WithoutTheEffectNoStateIsKept) {
 TEST(SlipGrowth, GrowsToAllOfTheContactWhereTheSpecimenSlides) {
   for (const Scene& scene : {boxes_on_rough(partial), half_space({TangentialOptions{}})}) {
     const SpecimenPair pair(scene);
-    const bool boxes = std::holds_alternative<BoxOptions>(scene.elasticity);
+    const bool boxes = scene.elasticity.is<BoxOptions>();
     const JunctionLaw law({.tau0 = boxes ? 0.02 : 5e8, .alpha = 0.2});
     const TiltResult raised = raise(pair, law, light());
     const std::vector<SlipShare> growth = slip_growth(pair, law, light(), 6);

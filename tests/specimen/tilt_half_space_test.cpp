@@ -5,6 +5,7 @@
 
 #include "engine/contact/effects/capillarity.hpp"
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/specimen/tilt_trials.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"

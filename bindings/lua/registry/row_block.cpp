@@ -16,18 +16,29 @@ std::string type_of(const OptionRow& row) {
 
 }  // namespace
 
+OptionInfo row_info(const OptionRow& row, const std::any& defaults) {
+  OptionInfo info{row.name,     type_of(row), row.dimension, row.default_text, row.range.text(row.dimension),
+                  row.sentence, row.required};
+  const std::optional<double> value = row.get(defaults);
+  if (!row.required && info.default_text.empty() && value)
+    info.default_text = row.words.empty() ? detail::number_text(*value, row.dimension)
+                                          : "\"" + row.words[static_cast<std::size_t>(*value)] + "\"";
+  return info;
+}
+
+void read_row(const OptionRow& row, const OptionInfo& info, const Argument& value, std::any& options,
+              Problems& problems) {
+  if (row.words.empty()) {
+    if (const auto number = detail::read_quantity(value, info, row.range, problems))
+      row.set(options, *number);
+  } else if (const auto place = detail::read_word(value, info, row.words, problems)) {
+    row.set(options, static_cast<double>(*place));
+  }
+}
+
 RowBlock::RowBlock(std::string name, std::span<const OptionRow> rows, std::any defaults)
     : name_(std::move(name)), rows_(rows), defaults_(std::move(defaults)) {
-  for (const OptionRow& row : rows_) {
-    OptionInfo info{
-        row.name,     type_of(row), row.dimension, row.default_text, row.range.text(row.dimension),
-        row.sentence, row.required};
-    const std::optional<double> value = row.get(defaults_);
-    if (!row.required && info.default_text.empty() && value)
-      info.default_text = row.words.empty() ? detail::number_text(*value, row.dimension)
-                                            : "\"" + row.words[static_cast<std::size_t>(*value)] + "\"";
-    infos_.push_back(std::move(info));
-  }
+  for (const OptionRow& row : rows_) infos_.push_back(row_info(row, defaults_));
 }
 
 std::vector<const OptionInfo*> RowBlock::options() const {
@@ -42,13 +53,7 @@ std::any RowBlock::read(const Argument& table, const std::string& caller) const 
       table, caller, options(),
       [&](std::size_t k, const Argument& value, Problems& problems) {
         if (value.is_unknown() && value.as_any_object() == nullptr) return;
-        const OptionRow& row = rows_[k];
-        if (row.words.empty()) {
-          if (const auto number = detail::read_quantity(value, infos_[k], row.range, problems))
-            row.set(result, *number);
-        } else if (const auto place = detail::read_word(value, infos_[k], row.words, problems)) {
-          row.set(result, static_cast<double>(*place));
-        }
+        read_row(rows_[k], infos_[k], value, result, problems);
       },
       [](Problems&) {});
   return result;

@@ -13,6 +13,11 @@
 
 namespace asperity::lua {
 
+// What is known of an option by its row, and how one is read into the struct that `options` holds.
+OptionInfo row_info(const OptionRow& row, const std::any& defaults);
+void read_row(const OptionRow& row, const OptionInfo& info, const Argument& value, std::any& options,
+              Problems& problems);
+
 class RowBlock final : public BlockInfo {
  public:
   // `rows` must outlive the block. `defaults` holds the struct with no option given.

@@ -12,24 +12,96 @@
 #include "bindings/lua/surface/known_body.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/contact/effects/list.hpp"
+#include "engine/contact/elasticity/list.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::lua {
 
 namespace {
 
-struct ElasticityKeys {
-  std::string model;
-  std::optional<double> stiffness;
+// `elasticity` as a table: its model, and the options of all models, of which it takes its own.
+class ElasticityBlock final : public BlockInfo {
+ public:
+  ElasticityBlock() {
+    infos_.push_back({"model", "string", {}, "", "", "how the bodies give way", true});
+    for (const ElasticModel* model : elastic_models())
+      for (std::size_t k = 0; k < model->options.size(); ++k) {
+        infos_.push_back(row_info(model->options[k], model->defaults));
+        infos_.back().required = false;  // of the other models it is none at all
+        places_.push_back({model, k});
+      }
+  }
+
+  const std::string& name() const override { return name_; }
+  std::vector<const OptionInfo*> options() const override {
+    std::vector<const OptionInfo*> all;
+    for (const OptionInfo& info : infos_) all.push_back(&info);
+    return all;
+  }
+  Elasticity read(const Argument& table, const std::string& caller) const {
+    const ElasticModel* model = nullptr;
+    std::any options;
+    std::vector<bool> given(infos_.size(), false);
+    detail::read_table(
+        table, caller, this->options(),
+        [&](std::size_t k, const Argument& value, Problems& problems) {
+          given[k] = true;
+          if (k > 0) return read_option(k, value, model, options, problems);
+          if (!value.is_text()) return detail::wrong_type(value, infos_[k], "a string", problems);
+          model = &require_elastic_model(value.text());
+          options = model->defaults;
+        },
+        [&](Problems& problems) {
+          for (std::size_t k = 1; k < infos_.size(); ++k)
+            if (places_[k - 1].model == model && row(k).required && !given[k])
+              problems.push_back(quoted(infos_[k].name) + " is missing: " + infos_[k].sentence);
+        });
+    return model == nullptr ? Elasticity() : Elasticity(*model, std::move(options));
+  }
+  void check(const Argument& table, const std::string& caller) const override { (void)read(table, caller); }
+
+ private:
+  struct Place {
+    const ElasticModel* model;
+    std::size_t row;
+  };
+  const OptionRow& row(std::size_t k) const { return places_[k - 1].model->options[places_[k - 1].row]; }
+  void read_option(std::size_t k, const Argument& value, const ElasticModel* model, std::any& options,
+                   Problems& problems) const {
+    if (model == nullptr) return;  // that is said
+    if (places_[k - 1].model == model) return read_row(row(k), infos_[k], value, options, problems);
+    problems.push_back("`effects.elasticity." + infos_[k].name + "` is of model=\"" +
+                       std::string(places_[k - 1].model->name) + "\", and the model is \"" +
+                       std::string(model->name) + "\"; leave one of both out");
+  }
+
+  std::string name_{elasticity_effect};
+  std::vector<OptionInfo> infos_;
+  std::vector<Place> places_;  // of each but the first
 };
-const Block<ElasticityKeys>& elasticity_block() {
-  using K = ElasticityKeys;
-  static const Block<K> block{"elasticity",
-                              {text("model", &K::model, "how the bodies give way").required(),
-                               quantity("stiffness", &K::stiffness, dimension::stiffness, above(0),
-                                        "pressure per shortening of a box element; of model=\"box\" alone")
-                                   .defaults_to("E*/peak-to-valley")}};
+const ElasticityBlock& elasticity_block() {
+  static const ElasticityBlock block;
   return block;
+}
+
+// How a script writes it: "box", or { model="layer", thickness= } where an option must be given.
+std::string written(const ElasticModel& model, bool all_options) {
+  std::string keys;
+  for (const OptionRow& row : model.options)
+    if (row.required || all_options) keys += ", " + row.name + "=";
+  const std::string name = "\"" + std::string(model.name) + "\"";
+  return keys.empty() ? name : "{ model=" + name + keys + " }";
+}
+bool needs_options(const ElasticModel& model) {
+  return std::ranges::any_of(model.options, &OptionRow::required);
+}
+std::vector<std::string> ways_to_write() {
+  std::vector<std::string> ways;
+  for (const ElasticModel* model : elastic_models())
+    if (!needs_options(*model)) ways.push_back(written(*model, false));
+  for (const ElasticModel* model : elastic_models())
+    if (!model->options.empty()) ways.push_back(written(*model, !needs_options(*model)));
+  return ways;
 }
 
 struct AccuracyKeys : Accuracy {
@@ -159,33 +231,20 @@ void collect(Problems& problems, Act act) {
 }
 
 void read_elasticity(const Argument& value, SceneKeys& keys, Problems& problems) {
-  ElasticityKeys given;
-  if (value.is_text()) {
-    given.model = value.text();
-  } else if (value.is_table()) {
-    bool read = false;
-    collect(problems, [&] {
-      given = elasticity_block().read(value, "`effects.elasticity`");
-      read = true;
-    });
-    if (!read) return;
-  } else {
-    problems.push_back("`effects.elasticity` is " + value.describe() +
-                       "; give \"half_space\", \"box\", \"rigid\" or { model=\"box\", stiffness= }");
-    return;
-  }
   collect(problems, [&] {
-    require_elasticity_model(given.model);
-    if (given.model == "box") {
-      keys.elasticity = BoxOptions{given.stiffness};
-      return;
+    if (value.is_table()) {
+      keys.elasticity = elasticity_block().read(value, "`effects.elasticity`");
+    } else if (value.is_text()) {
+      const ElasticModel& model = require_elastic_model(value.text());
+      if (needs_options(model))
+        throw Error(ErrorCode::bad_value,
+                    "`effects.elasticity` is \"" + std::string(model.name) + "\" without its options",
+                    "give " + written(model, false));
+      keys.elasticity = Elasticity(model, model.defaults);
+    } else {
+      problems.push_back("`effects.elasticity` is " + value.describe() + "; give " +
+                         joined(ways_to_write(), " or "));
     }
-    const bool rigid = given.model == "rigid";
-    keys.elasticity = rigid ? Elasticity(RigidOptions{}) : Elasticity(HalfSpaceOptions{});
-    if (given.stiffness)
-      problems.push_back(rigid ? "`effects.elasticity.stiffness` is of box elements; rigid bodies have none"
-                               : "`effects.elasticity.stiffness` is of box elements; the stiffness of a "
-                                 "half-space follows from the materials");
   });
 }
 
@@ -206,10 +265,14 @@ Option<SceneKeys> effect_option(const Effect& effect) {
 const std::vector<Option<SceneKeys>>& effect_options() {
   using K = SceneKeys;
   static const std::vector<Option<K>> options = [] {
-    Option<K> elasticity = custom<K>(std::string(elasticity_effect), "\"half_space\"|\"box\"|\"rigid\"|table",
-                                     "how the bodies give way and recover",
-                                     [](const Argument& value, const OptionInfo&, K& keys,
-                                        Problems& problems) { read_elasticity(value, keys, problems); });
+    std::string type;
+    for (const ElasticModel* model : elastic_models())
+      if (!needs_options(*model)) type += "\"" + std::string(model->name) + "\"|";
+    Option<K> elasticity =
+        custom<K>(std::string(elasticity_effect), type + "table", "how the bodies give way and recover",
+                  [](const Argument& value, const OptionInfo&, K& keys, Problems& problems) {
+                    read_elasticity(value, keys, problems);
+                  });
     elasticity.info.inner = &elasticity_block();
     elasticity.info.required = true;
     std::vector<Option<K>> all{std::move(elasticity)};
@@ -257,10 +320,8 @@ Option<SceneKeys> effects() {
 }
 
 void require_boundary(SceneKeys& keys, Problems& problems) {
-  if (keys.elasticity && std::holds_alternative<HalfSpaceOptions>(*keys.elasticity) && !keys.boundary)
-    problems.push_back(
-        "a half-space needs `boundary`: \"periodic\" where the tile goes on beyond its "
-        "rim, or \"free\"");
+  if (keys.elasticity && !keys.boundary && !keys.elasticity->model().boundary.empty())
+    problems.push_back(keys.elasticity->model().boundary);
 }
 
 const Block<SceneKeys>& scene_block() {

@@ -191,7 +191,7 @@ std::int64_t presses_of(const Call& call) {
   // A stage solves at each of its probe pressures; it may raise them, which is not known here.
   if (self != nullptr && self->type == &class_of<TiltStage>() && self->pointer != nullptr) {
     const auto* stage = static_cast<const TiltStage*>(self->pointer.get());
-    const bool probes = std::holds_alternative<HalfSpaceOptions>(stage->contact->scene().elasticity);
+    const bool probes = stage->contact->scene().elasticity.model().moves_every_node;
     return probes ? static_cast<std::int64_t>(stage->options.probe_pressures.size()) : 1;
   }
   std::int64_t presses = 1;

@@ -63,8 +63,7 @@ const Block<StageKeys>& stage_block() {
 
 Values make_stage(Call& call) {
   const StageKeys keys = call.options(stage_block());
-  const bool half_space =
-      keys.contact && std::holds_alternative<HalfSpaceOptions>(keys.contact->scene().elasticity);
+  const bool half_space = keys.contact && keys.contact->scene().elasticity.model().moves_every_node;
   if (keys.probe_given && !half_space)
     call.session().monitor().warn(
         "`probe_pressure` is for half-space contacts; a box contact is solved at its weight");

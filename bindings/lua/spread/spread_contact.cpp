@@ -9,6 +9,7 @@
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/contact/effects/list.hpp"
+#include "engine/contact/elasticity/list.hpp"
 #include "engine/contact/elasticity/slabs/slab_terms.hpp"
 #include "engine/contact/press_request.hpp"
 #include "engine/core/digest.hpp"
@@ -43,7 +44,7 @@ const Block<Accuracy>& spread_accuracy_block() {
 void read_effect(const std::string& name, const Argument& given, spread_SceneKeys& keys, Problems& problems) {
   const Effect* effect = require_effect(name);
   if (effect == nullptr) {
-    if (given.is_text() && given.text() == "half_space")
+    if (given.is_text() && require_elastic_model(given.text()).over_ranks)
       keys.elastic = true;
     else
       problems.push_back("`effects.elasticity` is " + given.describe() +

@@ -7,6 +7,7 @@
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/effects/tangential.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -19,8 +20,8 @@ void check_attraction(const Scene& scene, const std::string& effect) {
     throw Error(ErrorCode::bad_value, quoted(effect) + " is not computed " + beside + " by this version",
                 hint);
   };
-  if (!std::holds_alternative<HalfSpaceOptions>(scene.elasticity))
-    refuse("on box elements", "name elasticity=\"half_space\" beside it");
+  if (!scene.elasticity.is<HalfSpaceOptions>())
+    refuse("on " + std::string(scene.elasticity.model().noun), "name elasticity=\"half_space\" beside it");
   if (scene.effects.has<PlasticityOptions>()) refuse("together with `plasticity`", "leave one of both out");
   if (scene.effects.has<TangentialOptions>()) refuse("together with `tangential`", "leave one of both out");
   if (scene.accuracy.precision == Accuracy::Precision::single)

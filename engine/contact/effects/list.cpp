@@ -35,12 +35,6 @@ constexpr std::array not_modelled = {
     std::pair<std::string_view, std::string_view>{"breakage", "asperities that break off"},
 };
 
-constexpr std::array models = {
-    ElasticityModel{"box", "independent elements over the nodes, pressure in proportion to their shortening"},
-    ElasticityModel{"half_space", "every pressure moves every node, as on an elastic half-space"},
-    ElasticityModel{"rigid", "no elastic deformation; the bodies rest on what has yielded"},
-};
-
 std::vector<std::string> computed_names() {
   std::vector<std::string> names{std::string(elasticity_effect)};
   for (const Effect* effect : known_effects()) names.emplace_back(effect->name);
@@ -71,17 +65,6 @@ const Effect* require_effect(std::string_view name) {
   for (const auto& [left_out, sentence] : not_modelled) names.emplace_back(left_out);
   throw Error(ErrorCode::unknown_name, "there is no effect " + quoted(name) + did_you_mean(name, names),
               "known are " + joined(ready, " and "));
-}
-
-std::span<const ElasticityModel> elasticity_models() { return models; }
-
-void require_elasticity_model(std::string_view name) {
-  std::vector<std::string> names;
-  for (const ElasticityModel& model : models) names.emplace_back(model.name);
-  if (std::ranges::find(names, name) != names.end()) return;
-  throw Error(ErrorCode::unknown_name,
-              "there is no model of elasticity " + quoted(name) + did_you_mean(name, names),
-              "known are " + joined(names, " and "));
 }
 
 std::vector<std::string> effects_not_in(std::span<const std::string> run) {

@@ -24,11 +24,4 @@ const Effect* require_effect(std::string_view name);
 // The effects a scene could name that are not in `run`, in their order, the elasticity first.
 std::vector<std::string> effects_not_in(std::span<const std::string> run);
 
-// The models of elasticity and what each is; throws as require_effect.
-struct ElasticityModel {
-  std::string_view name, sentence;
-};
-std::span<const ElasticityModel> elasticity_models();
-void require_elasticity_model(std::string_view name);
-
 }  // namespace asperity

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/layer/layer_plan.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
@@ -52,6 +53,9 @@ double dundurs_beta(const ContactGeometry& geometry) {
 namespace {
 
 void check_tangential(const std::any&, const Scene& scene) {
+  if (scene.elasticity.is<LayerOptions>())
+    throw Error(ErrorCode::bad_value, "`tangential` is not computed on a layer by this version",
+                "name elasticity=\"half_space\" beside it, or leave it out");
   if (scene.effects.has<PlasticityOptions>())
     throw Error(ErrorCode::bad_value,
                 "`tangential` is the difference of two elastic contacts, which `plasticity` does not leave",

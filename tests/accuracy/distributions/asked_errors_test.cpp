@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "engine/accuracy/chosen_accuracy.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/resampling.hpp"

@@ -18,6 +18,7 @@
 
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/self_affine.hpp"

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/elasticity/half_space/solver/approach_solve.hpp"
 #include "engine/contact/elasticity/half_space/solver/flattening_solve.hpp"
 #include "engine/core/arithmetic/random.hpp"

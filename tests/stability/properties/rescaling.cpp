@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "tests/stability/properties/property.hpp"
 
@@ -33,7 +34,7 @@ Scene rescaled(const Scene& scene, double length, double stress) {
     result.upper = std::get<Surface>(result.upper).with_material(rescaled(*rough->material(), stress));
   else
     result.upper = rescaled(std::get<Material>(scene.upper), stress);
-  if (auto* box = std::get_if<BoxOptions>(&result.elasticity); box && box->stiffness)
+  if (auto* box = result.elasticity.find<BoxOptions>(); box && box->stiffness)
     *box->stiffness *= stress / length;
   if (result.effects.find<PlasticityOptions>()) {
     if (result.effects.find<PlasticityOptions>()->hardness)

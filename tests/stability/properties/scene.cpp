@@ -10,6 +10,8 @@
 #include "engine/contact/bodies/elastic_bodies.hpp"
 #include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/surface/generators/self_affine.hpp"

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/scene.hpp"
 
 namespace asperity::stability {
@@ -18,7 +19,7 @@ struct Trial {
   double pressure = 0;  // Pa
   std::string heights;  // what kind they are, for the reader
 
-  bool half_space() const { return std::holds_alternative<HalfSpaceOptions>(scene.elasticity); }
+  bool half_space() const { return scene.elasticity.is<HalfSpaceOptions>(); }
   bool rough_pair() const { return std::holds_alternative<Surface>(scene.upper); }
   // The least hardness of the two bodies, Pa; infinite without plasticity.
   double hardness() const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
 #include "tests/stability/properties/scene.hpp"
 
 namespace asperity::stability {
@@ -46,8 +47,8 @@ std::string surface_text(const Surface& surface) {
 
 std::string effects_text(const Scene& scene) {
   std::string text = "effects={ elasticity=";
-  const auto* box = std::get_if<BoxOptions>(&scene.elasticity);
-  if (std::holds_alternative<RigidOptions>(scene.elasticity))
+  const auto* box = scene.elasticity.find<BoxOptions>();
+  if (scene.elasticity.is<RigidOptions>())
     text += "\"rigid\"";
   else if (box == nullptr)
     text += "\"half_space\"";

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/contact/effects/plasticity.hpp"
+#include "engine/contact/elasticity/box/box_plan.hpp"
 #include "engine/core/constants.hpp"
 #include "tests/stability/properties/scene.hpp"
 
@@ -117,7 +118,7 @@ void rounder_numbers(const Trial& trial, std::vector<Trial>& found) {
       s.upper = rough->with_material(material(*rough->material()));
     else
       s.upper = material(std::get<Material>(s.upper));
-    if (auto* box = std::get_if<BoxOptions>(&s.elasticity); box && box->stiffness)
+    if (auto* box = s.elasticity.find<BoxOptions>(); box && box->stiffness)
       *box->stiffness *= stress / length;
     if (s.effects.find<PlasticityOptions>()) {
       if (s.effects.find<PlasticityOptions>()->hardness)

@@ -6,8 +6,11 @@
 #include <limits>
 
 #include "engine/contact/bodies/elastic_bodies.hpp"
+#include "engine/contact/elasticity/box/box_solver.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
+#include "engine/contact/elasticity/box/yielding_box_solver.hpp"
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
+#include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -29,9 +32,8 @@ void plan_sorting(const BoxOperator& box, const ContactGeometry& geometry, Plan&
   plan.seconds = std::max(1e-6, seconds_per_node * static_cast<double>(nodes));
 }
 
-}  // namespace
-
-void plan_box(const BoxOptions& options, const ContactGeometry& geometry, Plan& plan) {
+void plan_box(const std::any& given, const ContactGeometry& geometry, Plan& plan) {
+  const auto& options = std::any_cast<const BoxOptions&>(given);
   const double height = geometry.peak_to_valley();
   BoxOperator box;
   std::string origin;
@@ -64,13 +66,15 @@ void plan_box(const BoxOptions& options, const ContactGeometry& geometry, Plan& 
   plan_sorting(box, geometry, plan);
 }
 
-void plan_rigid(const ContactGeometry& geometry, Plan& plan) {
+void plan_rigid(const std::any&, const ContactGeometry& geometry, Plan& plan) {
   BoxOperator box;
   box.stiffness = std::numeric_limits<double>::infinity();
   plan.terms.push_back({"elasticity", "rigid bodies, which rest on what has yielded"});
   plan_sorting(box, geometry, plan);
 }
 
+// What yielding adds once the plan says whether anything does. Throws Error{bad_state} for rigid bodies that
+// cannot yield: nothing would carry a load.
 void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan) {
   const auto& box = std::get<BoxOperator>(plan.elasticity);
   if (!plan.yield || !plan.yield->limits()) {
@@ -88,5 +92,57 @@ void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan) {
     plan.buffers.push_back({"elements of bodies that have hardened, in order",
                             static_cast<std::int64_t>(3 * nodes * sizeof(double))});
 }
+
+void check_rigid(const std::any&, const Scene& scene) {
+  if (!scene.effects.any_that(Effect::Acts::bounds_pressure))
+    throw Error(ErrorCode::bad_value,
+                "rigid bodies carry a load only where they yield, and this scene does not name `plasticity`",
+                "name `plasticity` beside elasticity=\"rigid\", or name another elasticity");
+}
+
+std::any stiffness_as_planned(const std::any&, const Plan& before) {
+  return BoxOptions{std::get<BoxOperator>(before.elasticity).stiffness};
+}
+
+std::shared_ptr<const Solver> box_solver(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry) {
+  const auto& box = std::get<BoxOperator>(plan.elasticity);
+  if (plan.yield && plan.yield->limits())
+    return std::make_shared<const YieldingBoxSolver>(plan, box, std::move(geometry));
+  return std::make_shared<const BoxSolver>(plan, box, std::move(geometry));
+}
+
+}  // namespace
+
+const ElasticModel& box_model() {
+  using O = BoxOptions;
+  static const ElasticModel record{
+      .name = "box",
+      .noun = "box elements",
+      .sentence = "independent elements over the nodes, pressure in proportion to their shortening",
+      .defaults = O{},
+      .options = {quantity_row("stiffness", &O::stiffness, dimension::stiffness, above(0),
+                               "pressure per shortening of a box element; of model=\"box\" alone")
+                      .defaults_to("E*/peak-to-valley")},
+      .plan = plan_box,
+      .finish = plan_yield_of_boxes,
+      .as_planned = stiffness_as_planned,
+      .solver = box_solver};
+  return record;
+}
+const ElasticModel& BoxOptions::model() { return box_model(); }
+
+const ElasticModel& rigid_model() {
+  static const ElasticModel record{.name = "rigid",
+                                   .noun = "rigid bodies",
+                                   .sentence = "no elastic deformation; the bodies rest on what has yielded",
+                                   .defaults = RigidOptions{},
+                                   .options = {},
+                                   .check = check_rigid,
+                                   .plan = plan_rigid,
+                                   .finish = plan_yield_of_boxes,
+                                   .solver = box_solver};
+  return record;
+}
+const ElasticModel& RigidOptions::model() { return rigid_model(); }
 
 }  // namespace asperity

@@ -37,15 +37,22 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   });
   const double free = counts[0] + counts[1], n = static_cast<double>(nodes);
   if (free == 0) return 0;
+  // K(0) of a layer is in series with what the rest of K gives.
+  const double uniform = uniform_compliance(problem);
   if (problem.boundary == Boundary::periodic && counts[0] == n)
-    return std::numeric_limits<double>::infinity();
+    return uniform > 0 ? 1 / uniform : std::numeric_limits<double>::infinity();
   const auto in = [&](std::size_t k) { return elastic[k] || (!yields.empty() && yields[k]); };
 
-  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary);
-  ContactPreconditioner preconditioner(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary);
+  const double aspect = grid.hy() / grid.hx(), longest = std::max<double>(grid.nx, grid.ny);
+  const ComplianceMultiplier multiplier = multiplier_of(problem);
+  HalfSpaceCompliance compliance(grid.nx, grid.ny, aspect, problem.boundary, 1, false, multiplier);
+  ContactPreconditioner preconditioner(grid.nx, grid.ny, aspect, problem.boundary, 1, 4, multiplier);
   preconditioner.set_free(elastic);
   // The pyramid sees nothing of a constant; the longest wave does for it.
-  const double constant = std::numbers::pi / std::max<double>(grid.nx, grid.ny) / std::max(counts[0], 1.0);
+  const double of_longest = multiplier.layered()
+                                ? 1 / multiplier.greatest_from(2 * std::numbers::pi / longest)
+                                : std::numbers::pi / longest;
+  const double constant = of_longest / std::max(counts[0], 1.0);
   const double yielded_factor = 1 / (give + 4 / std::numbers::pi);
 
   Array<double> x(nodes), r(nodes), z(nodes), d(nodes), image(nodes);
@@ -82,7 +89,8 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
     })[0];
   }
   const double sum = over_nodes<1>(nodes, [&](std::size_t k, double* v) { v[0] = x[k]; })[0];
-  return sum / n * (problem.modulus / grid.hx());
+  const double stiffness = sum / n * (problem.modulus / grid.hx());
+  return uniform > 0 ? stiffness / (1 + uniform * stiffness) : stiffness;
 }
 
 }  // namespace asperity

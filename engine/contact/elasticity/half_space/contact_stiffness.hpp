@@ -9,7 +9,8 @@
 namespace asperity {
 
 // By preconditioned conjugate gradients on the finest grid, some 10 to 20 applications of K; +∞ where all of
-// a periodic tile is in elastic contact, 0 where no node is free. Relative accuracy about 1e-8.
+// a periodic half-space is in elastic contact (1/K(0) of a layer), 0 where no node is free. Relative accuracy
+// about 1e-8.
 double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Monitor& monitor);
 
 }  // namespace asperity

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "engine/contact/bodies/elastic_bodies.hpp"
+#include "engine/contact/elasticity/half_space/adhesion/adhesive_solver.hpp"
+#include "engine/contact/elasticity/half_space/half_space_solver.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/line_extension.hpp"
 #include "engine/contact/elasticity/half_space/solver/line_loads.hpp"
+#include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/fourier/fourier_lane_filter.hpp"
 #include "engine/core/laws_met.hpp"
@@ -72,5 +77,30 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   constexpr double seconds_per_node = 4e-9;
   plan.seconds = plan.transforms * seconds_per_node * nodes * (periodic ? 1 : 2.5);
 }
+
+std::shared_ptr<const Solver> half_space_solver(const Plan& plan,
+                                                std::shared_ptr<const ContactGeometry> geometry) {
+  const auto& half_space = std::get<HalfSpaceOperator>(plan.elasticity);
+  if (plan.attracts()) return std::make_shared<const AdhesiveSolver>(plan, half_space, std::move(geometry));
+  return std::make_shared<const HalfSpaceSolver>(plan, half_space, std::move(geometry));
+}
+
+const ElasticModel& half_space_model() {
+  static const ElasticModel record{
+      .name = "half_space",
+      .noun = "a half-space",
+      .sentence = "every pressure moves every node, as on an elastic half-space",
+      .moves_every_node = true,
+      .defaults = HalfSpaceOptions{},
+      .options = {},
+      .boundary =
+          "a half-space needs `boundary`: \"periodic\" where the tile goes on beyond its rim, or \"free\"",
+      .over_ranks = true,
+      .plan = [](const std::any&, const ContactGeometry& geometry,
+                 Plan& plan) { plan_half_space(geometry, plan); },
+      .solver = half_space_solver};
+  return record;
+}
+const ElasticModel& HalfSpaceOptions::model() { return half_space_model(); }
 
 }  // namespace asperity

@@ -62,6 +62,7 @@ struct HalfSpaceSolver::Ready {
     problem.grid = ready->geometry->grid();
     problem.boundary = ready->geometry->boundary();
     problem.modulus = half_space.modulus;
+    problem.layer = half_space.layer;
     problem.heights = {ready->geometry, &ready->geometry->combined()};
     problem.overhangs = ready->geometry->overhangs();
     problem.rms =
@@ -186,19 +187,23 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
 };
 
 // Half the product of pressures and displacements. Where all of a periodic tile touches, the mean pressure
-// moves nothing and may be so large that pressures beside it keep no digit of what differs; that is
-// taken from the displacements then.
+// moves nothing, or compresses a layer by what is known, and may be so large that pressures beside it keep no
+// digit of what differs; that is taken from the displacements then.
 double HalfSpaceSolver::UnderLoad::energy() const {
   Field pressure = at_.pressure;
+  double uniform = 0;  // twice the energy of the mean, where it is taken by itself
   if (problem_.boundary == Boundary::periodic && static_cast<double>(at_.contacts) == nodes() &&
       yielded() == 0) {
     const Grid& grid = problem_.grid;
-    HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem_.boundary);
+    HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem_.boundary, 1, false,
+                                   multiplier_of(problem_));
     compliance.apply_inverse(displacement_field().values(), pressure.values());
     for (double& p : pressure.values()) p *= problem_.modulus / grid.hx();
+    uniform = uniform_compliance(problem_) * at_.mean_pressure * load();
   }
   const double twice = sum([&](std::size_t k) { return faces(k) ? pressure[k] * displacement(k) : 0.0; });
-  return std::max(0.0, 0.5 * twice * problem_.grid.cell_area());  // a sum of squares, but for rounding
+  return 0.5 * uniform +
+         std::max(0.0, 0.5 * twice * problem_.grid.cell_area());  // a sum of squares, but for rounding
 }
 
 PressureSplit HalfSpaceSolver::UnderLoad::split(double threshold) const {

@@ -6,6 +6,7 @@
 
 #include "engine/contact/bodies/elastic_bodies.hpp"
 #include "engine/contact/bodies/geometry.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 

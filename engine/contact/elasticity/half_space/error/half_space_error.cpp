@@ -45,14 +45,18 @@ class Bounds {
         nodes_(problem.grid.nodes()),
         n_(static_cast<double>(nodes_)),
         facing_(problem.overhangs ? static_cast<double>(known_count(problem.heights->values())) : n_),
-        periodic_(problem.boundary == Boundary::periodic),
+        with_mean_(reported.prescribed == Prescribed::approach && uniform_compliance(problem) > 0),
+        periodic_(problem.boundary == Boundary::periodic && !with_mean_),
+        compression_(with_mean_ ? 0 : uniform_compliance(problem) * answer.mean_pressure),
+        approach_(answer.approach - compression_),
+        energy_(reported.energy - 0.5 * compression_ * answer.mean_pressure * problem.grid.area()),
         pascal_(answer.peak_pressure),
         metre_(pascal_ / problem.modulus * problem.grid.hx()),
         joule_(pascal_ * problem.grid.cell_area() * metre_),
         give_(problem.yield.hardens() ? pascal_ / problem.yield.hardening / metre_ : 0),
         cap_(problem.yield.caps() ? problem.yield.cap / pascal_ : infinity),
-        compliance_(problem.grid.nx, problem.grid.ny, problem.grid.hy() / problem.grid.hx(),
-                    problem.boundary),
+        compliance_(problem.grid.nx, problem.grid.ny, problem.grid.hy() / problem.grid.hx(), problem.boundary,
+                    1, false, multiplier_of(problem, with_mean_)),
         spectrum_(compliance_.spectrum()) {}
 
   SolutionError find() {
@@ -95,7 +99,10 @@ class Bounds {
   const Reported& reported_;
   std::size_t nodes_;
   double n_, facing_;  // all nodes, and those that something faces
-  bool periodic_;
+  bool with_mean_;     // K(0) of a layer takes part
+  bool periodic_;      // the mean pressure moves nothing of what is looked at
+  // Of a layer what its mean pressure compresses it by, m; without that the approach and, J, the energy.
+  double compression_, approach_, energy_;
   double pascal_, metre_, joule_;  // SI values of the units
   double give_, cap_;              // 1/K_h, H
   HalfSpaceCompliance compliance_;
@@ -155,12 +162,12 @@ void Bounds::take_gaps() {
   });
   norm_ = std::sqrt(std::max(0.0, sums[0]));
   const double from_pressures = std::sqrt(spectrum_.greatest * spectrum_.node * sums[1] / n_);
-  gap_rounding_ = relative_rounding * (-sums[2] + at_.approach / metre_ + from_pressures);
+  gap_rounding_ = relative_rounding * (-sums[2] + approach_ / metre_ + from_pressures);
   const Field& h = *problem_.heights;
   const double peak = known_range(h.values()).max;
   for_nodes(nodes_, [&](std::size_t k) {
     // Ground that nothing faces is out of reach of both solutions.
-    gap_[k] = faces(k) ? gap_[k] + ((peak - h[k]) - at_.approach) / metre_ : at_.gap[k] / metre_;
+    gap_[k] = faces(k) ? gap_[k] + ((peak - h[k]) - approach_) / metre_ : at_.gap[k] / metre_;
   });
   // What rounding alone does to the pressures counts as distance, and so does a load that is still not right.
   const double miss =
@@ -278,7 +285,7 @@ void Bounds::bracket_approach() {
 // touches outside a set, which holds along the way from the one to the other if what moves any gap on it is
 // less than what would close the least of those outside.
 void Bounds::follow_asked_approach() {
-  const double shift = (at_.approach - reported_.asked_approach) / metre_;
+  const double shift = (approach_ - reported_.asked_approach) / metre_;
   approach_error_ = std::abs(shift);
   const double pull = std::abs(mean_residual_ + shift) + gap_rounding_;
   const double moved = std::max(std::abs(mean_residual_), std::abs(shift));
@@ -343,8 +350,7 @@ SolutionError Bounds::result() {
 
   error.approach = approach_error_ * metre_ + relative_rounding * at_.approach;
   error.energy = joule_ * distance_ * (norm_ + 0.5 * distance_) +
-                 std::abs(reported_.energy - 0.5 * joule_ * norm_ * norm_) +
-                 relative_rounding * reported_.energy;
+                 std::abs(energy_ - 0.5 * joule_ * norm_ * norm_) + relative_rounding * reported_.energy;
   const double least_peak = caps && counts[3] > 0 ? cap_ : std::max(0.0, 1 - near_pressure_);
   const double greatest_peak = std::min(cap_, 1 + near_pressure_);
   error.peak_pressure = pascal_ * std::max(1 - least_peak, greatest_peak - 1);
@@ -377,7 +383,7 @@ SolutionError Bounds::result() {
   const double reported = reported_.mean_gap / metre_;
   const double gap_error =
       approach_error_ + sunk + openings / facing_ + std::abs(counts[8] / facing_ - reported);
-  error.mean_gap = gap_error * metre_ + relative_rounding * (reported_.mean_gap + at_.approach);
+  error.mean_gap = gap_error * metre_ + relative_rounding * (reported_.mean_gap + approach_);
 
   const double load = at_.mean_pressure * problem_.grid.area();
   if (reported_.prescribed == Prescribed::load) error.load = relative_rounding * load;

@@ -31,6 +31,7 @@ struct Reported {
   double plastic_volume = 0;  // m³
 };
 
+// K(0) of a layer takes part where the approach was asked for; under a load it is known and left out.
 // A fresh application of K, one of K⁻¹ and, where ground yields or the approach was asked for, a few more;
 // holds five fields besides the operator. Under a prescribed approach the load is bounded through
 // Σ d <= ‖f‖_{K⁻¹}‖d‖_K, f any field that is 1 wherever either solution may touch: no sharper than the

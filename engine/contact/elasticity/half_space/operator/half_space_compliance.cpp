@@ -28,15 +28,18 @@ int period(int n, Boundary boundary) {
   return boundary == Boundary::periodic ? n : good_fourier_length(2 * n - 1);
 }
 
-// 2/|q| of the waves (a, b), b = 0 … period/2; 0 for the mean.
-void periodic_multiplier(int nx, int ny, double aspect, int a, std::span<double> factors) {
+// K of the waves (a, b), b = 0 … period/2: 2/|q| of a half-space, 0 for its mean.
+void periodic_multiplier(const ComplianceMultiplier& multiplier, int nx, int ny, double aspect, int a,
+                         std::span<double> factors) {
   const double qx = 2 * std::numbers::pi * static_cast<double>(a) / nx;
   const double per_wave = 2 * std::numbers::pi / (ny * aspect);
   for (std::size_t b = 0; b < factors.size(); ++b) {
     const double qy = per_wave * static_cast<int>(b);
     factors[b] = 2 / std::sqrt(qx * qx + qy * qy);
   }
-  if (a == 0) factors[0] = 0;
+  if (multiplier.layered())
+    for (double& factor : factors) factor *= multiplier.share(2 / factor);
+  if (a == 0) factors[0] = multiplier.uniform;
 }
 
 // The transforms of even sequences, each given from 0 to period/2, are real; they replace them.
@@ -103,6 +106,7 @@ struct HalfSpaceCompliance::Parts {
   double aspect;
   Boundary boundary;
   double weight;
+  ComplianceMultiplier of_wave;  // of a periodic tile
   std::optional<FourierLaneFilter<double>> lanes;
   std::optional<FourierLaneFilter<float>> singles;
   double scale = 1;  // of pressures, for `singles`
@@ -110,20 +114,22 @@ struct HalfSpaceCompliance::Parts {
   Array<double> multiplier;  // of `plain`; the y wave runs fastest
   Array<double> field;       // where `plain` works if its result is kept nowhere
 
-  Parts(int nx_, int ny_, double aspect_, Boundary boundary_, double weight_, bool single)
+  Parts(int nx_, int ny_, double aspect_, Boundary boundary_, double weight_, bool single,
+        const ComplianceMultiplier& of_wave_)
       : nx(nx_),
         ny(ny_),
         period_x(period(nx, boundary_)),
         period_y(period(ny, boundary_)),
         aspect(aspect_),
         boundary(boundary_),
-        weight(weight_) {
+        weight(weight_),
+        of_wave(of_wave_) {
     const bool by_lanes = FourierLaneFilter<double>::possible(period_x, period_y);
     if (!by_lanes || boundary == Boundary::free) {
       multiplier.resize(bins_x() * bins_y());
       if (boundary == Boundary::periodic)
         parallel_for(period_x / 2 + 1, [&](std::int64_t a) {
-          periodic_multiplier(nx, ny, aspect, static_cast<int>(a), column(static_cast<int>(a)));
+          periodic_multiplier(of_wave, nx, ny, aspect, static_cast<int>(a), column(static_cast<int>(a)));
         });
       else
         free_multiplier(period_x, period_y, aspect, multiplier);
@@ -134,7 +140,7 @@ struct HalfSpaceCompliance::Parts {
     }
     const auto factors = [this](int a, std::span<double> to) {
       if (boundary == Boundary::periodic)
-        periodic_multiplier(nx, ny, aspect, a, to);
+        periodic_multiplier(of_wave, nx, ny, aspect, a, to);
       else
         std::copy_n(column(a).data(), to.size(), to.data());
     };
@@ -154,7 +160,7 @@ struct HalfSpaceCompliance::Parts {
     if (!singles)
       singles.emplace(nx, ny, period_x, period_y, [this](int a, std::span<double> to) {
         if (boundary == Boundary::periodic)
-          periodic_multiplier(nx, ny, aspect, a, to);
+          periodic_multiplier(of_wave, nx, ny, aspect, a, to);
         else
           factors_of(a, to);
       });
@@ -187,7 +193,7 @@ struct HalfSpaceCompliance::Parts {
     if (lanes)
       for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = lanes->factor(a, static_cast<int>(b));
     else if (singles && boundary == Boundary::periodic)
-      periodic_multiplier(nx, ny, aspect, a, factors);
+      periodic_multiplier(of_wave, nx, ny, aspect, a, factors);
     else if (singles)
       for (std::size_t b = 0; b < factors.size(); ++b) factors[b] = singles->factor(a, static_cast<int>(b));
     else
@@ -196,8 +202,8 @@ struct HalfSpaceCompliance::Parts {
 };
 
 HalfSpaceCompliance::HalfSpaceCompliance(int nx, int ny, double aspect, Boundary boundary, double weight,
-                                         bool single)
-    : parts_(std::make_unique<Parts>(nx, ny, aspect, boundary, weight, single)) {}
+                                         bool single, const ComplianceMultiplier& multiplier)
+    : parts_(std::make_unique<Parts>(nx, ny, aspect, boundary, weight, single, multiplier)) {}
 
 HalfSpaceCompliance::~HalfSpaceCompliance() = default;
 HalfSpaceCompliance::HalfSpaceCompliance(HalfSpaceCompliance&&) noexcept = default;
@@ -251,7 +257,7 @@ void HalfSpaceCompliance::apply_in_double(const Source& source, const Sink& sink
   parts.by_field(source, sink, u, [&](std::span<double> field) {
     FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
     filter.apply(field, field, [&](int a, std::span<double> factors) {
-      periodic_multiplier(parts.nx, parts.ny, parts.aspect, a, factors);
+      periodic_multiplier(parts.of_wave, parts.nx, parts.ny, parts.aspect, a, factors);
     });
   });
 }
@@ -279,7 +285,7 @@ HalfSpaceCompliance::Spectrum HalfSpaceCompliance::spectrum() const {
   Array<double> sums(static_cast<std::size_t>(period_x / 2 + 1)), inverse(sums.size());
   Array<double> column(parts_->bins_y());
   Spectrum found{std::numeric_limits<double>::infinity(), 0, 0, 0};
-  const bool mean_is_free = parts_->boundary == Boundary::periodic;
+  const bool mean_is_free = parts_->boundary == Boundary::periodic && parts_->of_wave.uniform == 0;
   for (int a = 0; a <= period_x / 2; ++a) {
     parts_->factors_of(a, column);
     double sum = 0, inverse_sum = 0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The elastic half-space as an operator: u = K p, the surface displacement under a pressure, in cell
 // units (hx = 1, hy = aspect, E* = 1). Periodic: the Fourier multiplier 2/|q|, and 0 for the mean, so
-// that only displacement from the mean is given. Free: the sum of Love's coefficients over the loaded
-// cells, by a transform padded with zeros; no wrap. Symmetric, positive (periodic: semi-definite).
-// Rectangular, odd and prime grids of any aspect; no friction, one material.
+// that only displacement from the mean is given; or that of a layer on a rigid base, ComplianceMultiplier.
+// Free: the sum of Love's coefficients over the loaded cells, by a transform padded with zeros; no wrap.
+// Symmetric, positive (periodic: semi-definite). Rectangular, odd and prime grids of any aspect; no friction,
+// one material.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <span>
 
 #include "engine/contact/boundary.hpp"
+#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
 
 namespace asperity {
 
@@ -20,8 +22,9 @@ class HalfSpaceCompliance {
   // nx, ny >= 1; aspect > 0. An application counts 2·weight transforms: the cost of one transform of
   // this grid in transforms of the finest. Making one costs less than an application and counts none.
   // `single`: transforms and multiplier in single precision, where single() says so; fields stay double.
+  // `multiplier`: of a periodic tile; half-spaces unless one is given.
   HalfSpaceCompliance(int nx, int ny, double aspect, Boundary boundary, double weight = 1,
-                      bool single = false);
+                      bool single = false, const ComplianceMultiplier& multiplier = {});
   ~HalfSpaceCompliance();
   HalfSpaceCompliance(HalfSpaceCompliance&&) noexcept;
   HalfSpaceCompliance& operator=(HalfSpaceCompliance&&) noexcept;
@@ -48,15 +51,16 @@ class HalfSpaceCompliance {
   // In single precision all the same, where single_possible(); rows of p must be near 1.
   void apply_rounded(const Source& source, const Sink& sink, std::span<double> u);
 
-  // Periodic only: the pressure of mean 0 whose displacement is u, but for the mean of u: |q|/2. Costs
-  // the same. Throws Error{internal} on a free boundary.
+  // Periodic only: the pressure of mean 0 whose displacement is u, but for the mean of u: |q|/2. Where the
+  // mean moves the tile, with that. Costs the same. Throws Error{internal} on a free boundary.
   void apply_inverse(std::span<const double> u, std::span<double> p);
 
   // The inverse of the operator on its own period: as apply_inverse where the tile is periodic; on a free
   // boundary that of the padded one, p of it giving Σ u p no less than Σ u K⁻¹ u. Costs the same.
   void apply_period_inverse(std::span<const double> u, std::span<double> p);
 
-  // What the multiplier says of every node alike; of a periodic tile without its mean. O(n).
+  // What the multiplier says of every node alike; of a periodic tile whose mean moves nothing, without
+  // it. O(n).
   struct Spectrum {
     double least = 0, greatest = 0;     // of the multiplier; `least` > 0 wherever it was ever looked at
     double node = 0, inverse_node = 0;  // its mean over all waves, K_kk, and the mean of its inverse

@@ -33,6 +33,10 @@ using namespace edge_rows;
 
 constexpr int tile_width = FreeTiles::width;
 
+// Cells: nothing is carried past the edge of contact on a thinner layer.
+constexpr double thin_layer = 8;
+bool carries_on(const ComplianceMultiplier& multiplier) { return multiplier.thickness >= thin_layer; }
+
 // From value k on.
 void take(const ContactPreconditioner::Step& step, std::size_t k, std::size_t n) {
   if (step.length != 0) add_times(step.length, step.more + k, n, step.values + k);
@@ -41,7 +45,8 @@ void take(const ContactPreconditioner::Step& step, std::size_t k, std::size_t n)
 
 class ContactPreconditioner::Parts {
  public:
-  Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps, double weight);
+  Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps, double weight,
+        const ComplianceMultiplier& multiplier);
   void set_free(std::span<const std::uint8_t> free);
   double spread(const Residual& r, const Step& step);
   void gather(const Keep& keep);
@@ -71,7 +76,7 @@ class ContactPreconditioner::Parts {
   void load(Patch& patch, const FreeTile& tile, const Put& put) const;
   void extend(const FreeTile& tile, const Residual& scaled);
   void gather_back(std::size_t number, Patch& patch, std::span<const float> y, const Keep& keep);
-  // Of long cells.
+  // Of long cells, and where nothing is carried past the edge.
   double spread_along_lines(const Residual& scaled, const Step& step);
   void gather_along_lines(const Keep& keep);
   void no_smooth_field();
@@ -92,26 +97,28 @@ class ContactPreconditioner::Parts {
   std::span<const float> spread_;        // B Ext r/grow_; empty where r is 0
   double grow_ = 1;                      // a power of two
   FreeTiles tiles_;
-  std::optional<LineExtension> lines_;  // of long cells, in place of sweeps and smooth fields
-  UnsetArray<float> gathered_;          // by them
+  bool tiled_;                          // sweeps and smooth fields carry r on
+  std::optional<LineExtension> lines_;  // of long cells, in their place
+  UnsetArray<float> gathered_;          // by lines, or by nothing
   std::vector<Hats> hats_;              // of each tile
   ScratchPool<Patch> patches_;
 };
 
 ContactPreconditioner::Parts::Parts(int nx, int ny, double aspect, Boundary boundary, int sweeps,
-                                    double weight)
+                                    double weight, const ComplianceMultiplier& multiplier)
     : nx_(nx),
       ny_(ny),
       share_(nx == 1 || ny == 1 ? 0.5f : 0.25f),
-      pyramid_(nx, ny, aspect, boundary, weight),
+      pyramid_(nx, ny, aspect, boundary, weight, multiplier),
       smooth_(nx, ny, boundary),
       free_hats_(smooth_.size()),
       sums_(smooth_.size()),
       level_(smooth_),
       rest_(smooth_),
-      tiles_(nx, ny, boundary, sweeps) {
-  if (LineExtension::serves(aspect, boundary)) {
-    lines_.emplace(nx, ny, boundary, aspect > 1);
+      tiles_(nx, ny, boundary, sweeps),
+      tiled_(carries_on(multiplier) && !LineExtension::serves(aspect, boundary)) {
+  if (!tiled_) {
+    if (carries_on(multiplier)) lines_.emplace(nx, ny, boundary, aspect > 1);
     gathered_.resize(tiles_.nodes());
     no_smooth_field();
     return;
@@ -141,9 +148,9 @@ void ContactPreconditioner::Parts::load(Patch& patch, const FreeTile& tile, cons
 }
 
 void ContactPreconditioner::Parts::set_free(std::span<const std::uint8_t> free) {
-  if (lines_) {
+  if (!tiled_) {
     tiles_.set(free, [](std::size_t) {});
-    lines_->set_free(free);
+    if (lines_) lines_->set_free(free);
     return;
   }
   tiles_.set(free, [&](std::size_t number) {
@@ -267,14 +274,19 @@ double ContactPreconditioner::Parts::spread_along_lines(const Residual& r, const
     for (std::size_t i = 0; i < static_cast<std::size_t>(nx_); ++i)
       to[i] = free[i] != 0 ? static_cast<float>(r.offset + r.factor * r.values[begin + i]) : 0.0f;
   });
-  lines_->extend(pyramid_.input());
+  if (lines_) lines_->extend(pyramid_.input());
   spread_ = pyramid_.apply();
   return pyramid_.product() * grow_ * grow_;
 }
 
 void ContactPreconditioner::Parts::gather_along_lines(const Keep& keep) {
-  std::copy(spread_.begin(), spread_.end(), gathered_.begin());
-  lines_->gather(gathered_);
+  if (lines_) {
+    std::copy(spread_.begin(), spread_.end(), gathered_.begin());
+    lines_->gather(gathered_);
+  } else {
+    const std::uint8_t* const free = tiles_.marks(0);
+    for (std::size_t k = 0; k < gathered_.size(); ++k) gathered_[k] = free[k] != 0 ? spread_[k] : 0.0f;
+  }
   for (int j = 0; j < ny_; ++j)
     keep(0, node(0, j), static_cast<std::size_t>(nx_), gathered_.data() + node(0, j), grow_);
 }
@@ -314,7 +326,7 @@ double ContactPreconditioner::Parts::spread(const Residual& r, const Step& step)
   const double shrink = std::ldexp(1.0, -exponent);
   grow_ = std::ldexp(1.0, exponent);
   const Residual near_one{r.values, r.factor * shrink, r.offset * shrink};
-  if (lines_) return spread_along_lines(near_one, step);
+  if (!tiled_) return spread_along_lines(near_one, step);
   const auto pass_on_residual = [&](std::size_t number, Patch& patch) {
     const FreeTile& tile = tiles_[number];
     SmoothExtension::Sums& hats = hats_[number].passed;
@@ -343,7 +355,7 @@ void ContactPreconditioner::Parts::gather(const Keep& keep) {
     no_smooth_field();
     return;
   }
-  if (lines_) {
+  if (!tiled_) {
     gather_along_lines(keep);
     return;
   }
@@ -364,8 +376,8 @@ void ContactPreconditioner::Parts::add_smooth(std::span<double> z) const {
 }
 
 ContactPreconditioner::ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, double weight,
-                                             int sweeps)
-    : parts_(std::make_unique<Parts>(nx, ny, aspect, boundary, sweeps, weight)) {}
+                                             int sweeps, const ComplianceMultiplier& multiplier)
+    : parts_(std::make_unique<Parts>(nx, ny, aspect, boundary, sweeps, weight, multiplier)) {}
 
 ContactPreconditioner::~ContactPreconditioner() = default;
 ContactPreconditioner::ContactPreconditioner(ContactPreconditioner&&) noexcept = default;
@@ -395,13 +407,15 @@ void ContactPreconditioner::gather(const Keep& keep) { parts_->gather(keep); }
 
 std::size_t ContactPreconditioner::tiles() const { return parts_->tiles(); }
 
-std::int64_t ContactPreconditioner::bytes(int nx, int ny, double aspect, Boundary boundary) {
+std::int64_t ContactPreconditioner::bytes(int nx, int ny, double aspect, Boundary boundary,
+                                          const ComplianceMultiplier& multiplier) {
   // The free set, the groups of eight nodes with their margins', the rows of smooth fields, and a patch a
   // thread.
   constexpr std::int64_t patch = 12 * (tile_width + 64) * (FreeTiles::height + 32);
-  return HalfOrderPyramid::bytes(nx, ny, aspect, boundary) + 2 * static_cast<std::int64_t>(nx) * ny +
-         SmoothExtension::field_bytes(nx, ny) + patch * thread_count() +
-         (LineExtension::serves(aspect, boundary)
+  return HalfOrderPyramid::bytes(nx, ny, aspect, boundary, multiplier) +
+         2 * static_cast<std::int64_t>(nx) * ny + SmoothExtension::field_bytes(nx, ny) +
+         patch * thread_count() +
+         (LineExtension::serves(aspect, boundary) || !carries_on(multiplier)
               ? LineExtension::bytes(nx, ny) + 4 * static_cast<std::int64_t>(nx) * ny
               : 0);
 }

@@ -5,7 +5,8 @@
 // the grid, and what r differs from that by a few sweeps far, each making the nodes of one colour of a
 // chessboard, off the set, the mean of their four neighbours, of two on a line of nodes; on a periodic side
 // of an odd number of nodes, where two of one colour meet, sweeps do not wrap. |q|/2 is HalfOrderPyramid's.
-// On cells much longer than wide, it is LineExtension that carries r on instead.
+// On cells much longer than wide, it is LineExtension that carries r on instead. On a layer 1/K takes the
+// place of |q|/2; on a thin one, which hardly hands a pressure on, nothing is carried past the edge.
 // Symmetric, positive semi-definite on the free set; single precision inside. No projection of the mean.
 #pragma once
 
@@ -16,6 +17,7 @@
 #include <span>
 
 #include "engine/contact/boundary.hpp"
+#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/smooth_extension.hpp"
 
 namespace asperity {
@@ -24,7 +26,8 @@ class ContactPreconditioner {
  public:
   // nx, ny >= 1; aspect > 0; sweeps >= 0. `weight` is the cost of one transform of this grid in
   // transforms of the finest; counted only as far as the pyramid has to transform.
-  ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, double weight = 1, int sweeps = 4);
+  ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, double weight = 1, int sweeps = 4,
+                        const ComplianceMultiplier& multiplier = {});
   ~ContactPreconditioner();
   ContactPreconditioner(ContactPreconditioner&&) noexcept;
   ContactPreconditioner& operator=(ContactPreconditioner&&) noexcept;
@@ -62,7 +65,8 @@ class ContactPreconditioner {
   std::size_t tiles() const;
 
   // What an object of this grid holds, at most.
-  static std::int64_t bytes(int nx, int ny, double aspect, Boundary boundary);
+  static std::int64_t bytes(int nx, int ny, double aspect, Boundary boundary,
+                            const ComplianceMultiplier& multiplier = {});
 
  private:
   class Parts;

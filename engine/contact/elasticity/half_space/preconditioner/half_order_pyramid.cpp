@@ -2,6 +2,7 @@
 #include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "engine/contact/elasticity/half_space/operator/lane_terms.hpp"
@@ -22,6 +23,10 @@ constexpr float s20 = 0.06862f, s21 = 0.01861f, s22 = 0.02134f;
 constexpr double squareness = 1.15;
 
 constexpr int coarsest = 16;
+
+// A grid is halved under a layer of so many of its cells or more: what the coarser grid does not carry are
+// waves of x = |q| t from π on, whose share is .9 to 1.
+constexpr double least_thickness = 4;
 constexpr int halo = 2;
 
 int rows_per_block(int nx) { return std::clamp(32768 / nx, 4, 64); }
@@ -158,26 +163,29 @@ double work(double nodes) { return nodes * elementary::log2(std::max(nodes, 2.0)
 
 }  // namespace
 
-std::vector<HalfOrderPyramid::Level> HalfOrderPyramid::shape(int nx, int ny, double aspect,
-                                                             Boundary boundary) {
+std::vector<HalfOrderPyramid::Level> HalfOrderPyramid::shape(int nx, int ny, double aspect, Boundary boundary,
+                                                             const ComplianceMultiplier& multiplier) {
   std::vector<Level> levels{{nx, ny, {}, {}}};
   if (aspect > squareness || aspect * squareness < 1) return levels;
   const bool wraps = boundary == Boundary::periodic;
-  while (std::min(levels.back().nx, levels.back().ny) > coarsest) {
+  double thickness = multiplier.thickness;
+  while (std::min(levels.back().nx, levels.back().ny) > coarsest && thickness >= least_thickness) {
     const int fine_x = levels.back().nx, fine_y = levels.back().ny;
     if (wraps && (fine_x % 2 != 0 || fine_y % 2 != 0)) break;
     // Beyond a free rim, one coarse node may still feel the last fine one.
     const int more = wraps ? 0 : 1;
     levels.push_back({fine_x / 2 + more, fine_y / 2 + more, {}, {}});
+    thickness /= 2;
   }
   return levels;
 }
 
-HalfOrderPyramid::HalfOrderPyramid(int nx, int ny, double aspect, Boundary boundary, double weight)
+HalfOrderPyramid::HalfOrderPyramid(int nx, int ny, double aspect, Boundary boundary, double weight,
+                                   const ComplianceMultiplier& multiplier)
     : wraps_(boundary == Boundary::periodic),
       weight_(weight),
       transform_share_(1),
-      levels_(shape(nx, ny, aspect, boundary)),
+      levels_(shape(nx, ny, aspect, boundary, multiplier)),
       zeros_(static_cast<std::size_t>(nx), 0.0f),
       filter_(levels_.back().nx, levels_.back().ny, bottom_period(levels_.back().nx, boundary),
               bottom_period(levels_.back().ny, boundary)) {
@@ -197,12 +205,19 @@ HalfOrderPyramid::HalfOrderPyramid(int nx, int ny, double aspect, Boundary bound
       multiplier_[static_cast<std::size_t>(a) * static_cast<std::size_t>(bins_y) +
                   static_cast<std::size_t>(b)] =
           std::numbers::pi * elementary::hypot(static_cast<double>(a) / period_x, b / (period_y * aspect));
+  if (multiplier.layered()) {
+    const ComplianceMultiplier there =
+        multiplier.on_coarser(std::ldexp(1.0, static_cast<int>(levels_.size()) - 1));
+    for (double& half_wave : multiplier_)
+      if (half_wave > 0) half_wave /= there.share(2 * half_wave);
+  }
   work_.resize(last.in.size());
 }
 
-std::int64_t HalfOrderPyramid::bytes(int nx, int ny, double aspect, Boundary boundary) {
+std::int64_t HalfOrderPyramid::bytes(int nx, int ny, double aspect, Boundary boundary,
+                                     const ComplianceMultiplier& multiplier) {
   std::int64_t total = 0;
-  const auto levels = shape(nx, ny, aspect, boundary);
+  const auto levels = shape(nx, ny, aspect, boundary, multiplier);
   for (const Level& level : levels)
     total += 2 * static_cast<std::int64_t>(sizeof(float)) * level.nx * level.ny;
   const Level& last = levels.back();

@@ -4,13 +4,16 @@
 // W being full weighting, down every second node and up its transpose; only the coarsest grid is
 // transformed. Within 0.7 … 1.3 of |q|/2 for every wave, symmetric, and 0 for a constant on a periodic
 // grid. Single precision. On a free boundary the field is 0 beyond the rim. A grid that does not halve
-// (periodic and odd) or whose cells are far from square is transformed as it is: exact, and dearer.
+// (periodic and odd) or whose cells are far from square is transformed as it is: exact, and dearer. On a
+// layer 1/K in place of |q|/2, the mean left out: grids are halved as long as their stencil meets waves that
+// know nothing of its base, and a layer of less than four cells is transformed as it is.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "engine/contact/boundary.hpp"
+#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
 #include "engine/core/fourier/fourier_filter.hpp"
 #include "engine/core/memory.hpp"
 
@@ -19,7 +22,8 @@ namespace asperity {
 class HalfOrderPyramid {
  public:
   // `weight`: the cost of one transform of this grid in transforms of the finest.
-  HalfOrderPyramid(int nx, int ny, double aspect, Boundary boundary, double weight = 1);
+  HalfOrderPyramid(int nx, int ny, double aspect, Boundary boundary, double weight = 1,
+                   const ComplianceMultiplier& multiplier = {});
 
   // The field to work on, nx·ny values row by row; kept by apply().
   std::span<float> input() { return levels_.front().in; }
@@ -32,7 +36,8 @@ class HalfOrderPyramid {
   // coarser grid. Counted where it is more than a thousandth.
   double transform_share() const { return transform_share_; }
 
-  static std::int64_t bytes(int nx, int ny, double aspect, Boundary boundary);
+  static std::int64_t bytes(int nx, int ny, double aspect, Boundary boundary,
+                            const ComplianceMultiplier& multiplier = {});
 
  private:
   struct Level {
@@ -41,7 +46,8 @@ class HalfOrderPyramid {
     float* row_in(int j) { return in.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(nx); }
     float* row_out(int j) { return out.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(nx); }
   };
-  static std::vector<Level> shape(int nx, int ny, double aspect, Boundary boundary);
+  static std::vector<Level> shape(int nx, int ny, double aspect, Boundary boundary,
+                                  const ComplianceMultiplier& multiplier);
   const float* row(const UnsetArray<float>& field, const Level& level, int j) const;
   void restrict_to(const Level& fine, Level& coarse) const;
   void add_up(Level& fine, const Level& coarse);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -23,6 +24,18 @@ namespace asperity {
 
 namespace {
 std::string approach_in_metres(double length) { return format_quantity(length, dimension::length); }
+
+// The mean pressure that brings a layer to an approach past full contact, in which it is linear there; none
+// short of that, where anything may yield, and on a half-space.
+std::optional<double> pressure_past_full_contact(const HalfSpaceProblem& problem, double approach) {
+  const double uniform = uniform_compliance(problem);
+  const double compression = approach - approach_of_full_contact(problem);
+  if (!(uniform > 0 && compression > 0) || problem.yield.limits()) return {};
+  const double pressure = compression / uniform;
+  if (!(known_range(problem.heights->values()).span() > 0)) return pressure;
+  const auto full = pressure_of_full_contact(problem);
+  return full && pressure >= *full ? std::optional(pressure) : std::nullopt;
+}
 }  // namespace
 
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor) {
@@ -36,11 +49,17 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
                     " m, less than 1e-280 of the tile: no double holds the pressures it takes",
                 "give a larger approach, or none");
   check_approach_within_full_contact(problem, approach);
+  if (const auto pressure = pressure_past_full_contact(problem, approach)) {
+    HalfSpaceAnswer answer = solve_at_pressure(problem, *pressure, nullptr, monitor);
+    answer.approach = approach;  // but for rounding
+    return answer;
+  }
   // Within rounding of full contact: any load from the least on has this approach.
   const double full = approach_of_full_contact(problem);
   const double apart = std::abs(approach - full) / std::min(full, problem.rms);
   const bool rough = known_range(problem.heights->values()).span() > 0;
-  if (problem.boundary == Boundary::periodic && rough && apart <= 0.5 * problem.tolerance)
+  if (problem.boundary == Boundary::periodic && uniform_compliance(problem) == 0 && rough &&
+      apart <= 0.5 * problem.tolerance)
     if (const auto pressure = pressure_of_full_contact(problem))
       return solve_at_full_contact(problem, *pressure, std::abs(full / approach - 1), monitor);
   HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, nullptr, true, monitor);

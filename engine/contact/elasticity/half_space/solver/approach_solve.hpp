@@ -10,8 +10,8 @@
 namespace asperity {
 
 // approach in m from first touch, >= 0. Besides what solve_at_pressure throws: Error{infeasible} where no
-// load gives it: past full contact of a periodic tile (max h − mean h without yield; where it hardens, once
-// the pressure would hide all heights), or where every node is at the cap.
+// load gives it: past full contact of a periodic half-space (max h − mean h without yield; where it hardens,
+// once the pressure would hide all heights), or where every node is at the cap.
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor);
 
 }  // namespace asperity

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -8,6 +9,19 @@
 namespace asperity {
 
 namespace {
+// Of wave number π/2 over the root of the cell's sides.
+double stiffness_of_short_waves(const LevelShape& shape) {
+  const double of_half_space = std::numbers::pi / 4 / std::sqrt(shape.aspect);
+  return shape.multiplier.layered() ? of_half_space / shape.multiplier.share(2 * of_half_space)
+                                    : of_half_space;
+}
+
+double compliance_of_long_waves(const LevelShape& shape) {
+  const double longest = std::max(static_cast<double>(shape.nx), shape.ny * shape.aspect);
+  return shape.multiplier.layered() ? shape.multiplier.greatest_from(2 * std::numbers::pi / longest)
+                                    : longest / std::numbers::pi;
+}
+
 // Of the preconditioner. With four, one random scene in 2000 of ground that hardens weakly stalled.
 int sweeps_under(const PressureLimit& limit) {
   return std::holds_alternative<LinearHardening>(limit) ? 8 : 4;
@@ -20,9 +34,12 @@ ContactLevel::ContactLevel(const LevelShape& level_shape, std::span<const double
     : shape(level_shape),
       limit(std::move(pressure_limit)),
       mean_pressure(mean),
-      compliance(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, shape.single),
-      preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, sweeps_under(limit)),
-      short_wave_stiffness(std::numbers::pi / 4 / std::sqrt(shape.aspect)),
+      compliance(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, shape.single,
+                 shape.multiplier),
+      preconditioner(shape.nx, shape.ny, shape.aspect, shape.boundary, shape.weight, sweeps_under(limit),
+                     shape.multiplier),
+      short_wave_stiffness(stiffness_of_short_waves(shape)),
+      greatest_compliance(compliance_of_long_waves(shape)),
       heights_(raw_heights),
       origin_(height_origin),
       factor_(height_factor),

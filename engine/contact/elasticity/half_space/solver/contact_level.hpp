@@ -24,6 +24,7 @@ struct LevelShape {
   Boundary boundary = Boundary::periodic;
   double weight = 1;    // of one transform, in transforms of the finest grid
   bool single = false;  // what steps change is computed in single precision, gaps of pressures in double
+  ComplianceMultiplier multiplier{};  // of a periodic tile
 
   std::size_t nodes() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
 };
@@ -41,6 +42,8 @@ class ContactLevel {
   ContactPreconditioner preconditioner;
   // Pressure per gap of a short wave: orders nodes that leave or enter the contact.
   const double short_wave_stiffness;
+  // Gap per pressure of the wave that gives way most, but for the mean: on a half-space the longest.
+  const double greatest_compliance;
   // Told the residual after each pass; throws to stop the solve.
   std::function<void(double)> report;
   int applications = 0;  // of K so far
@@ -75,8 +78,12 @@ class ContactLevel {
     ++applications;
     compliance.apply_in_double(source, sink, work);
   }
-  // On a periodic tile the mean pressure moves nothing, and may be so large that beside it p has lost digits.
-  double immobile_pressure() const { return shape.boundary == Boundary::free ? 0 : mean_pressure; }
+  // Whether the mean pressure moves nothing: on a periodic tile, unless it compresses a layer.
+  bool mean_is_immobile() const {
+    return shape.boundary == Boundary::periodic && !(shape.multiplier.uniform > 0);
+  }
+  // It may be so large then that beside it p has lost digits.
+  double immobile_pressure() const { return mean_is_immobile() ? mean_pressure : 0; }
   // g = K p − h, in double precision always: …
   void gap(std::span<const double> p, std::span<double> g);
   // … the same of a p from which it has been taken already. g may be p.

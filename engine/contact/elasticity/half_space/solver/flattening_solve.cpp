@@ -31,18 +31,20 @@ double hardened(const YieldLaw& law, const HalfSpaceAnswer& answer, std::size_t 
 
 // How far the highest point and the lowest of h − u − w lie below those of h, from u itself: sums of small
 // terms where a light load moves little. One application.
-double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Range span) {
+double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, double approach,
+                    Range span) {
   const Field& h = *problem.heights;
   const Grid& grid = problem.grid;
-  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight);
+  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight,
+                                 false, multiplier_of(problem));
   Array<double> u(h.size());
   compliance.apply(answer.pressure.values(), u);
   const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
   const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
     const double down = length * u[k] + hardened(problem.yield, answer, k);
     const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
-    const double high = capped ? answer.approach : (span.max - h[k]) + down;
-    const double low = capped ? span.span() - answer.approach : (h[k] - span.min) - down;
+    const double high = capped ? approach : (span.max - h[k]) + down;
+    const double low = capped ? span.span() - approach : (h[k] - span.min) - down;
     v[0] = faces(problem, k) ? high : infinity;
     v[1] = faces(problem, k) ? low : infinity;
   });
@@ -57,7 +59,9 @@ double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer)
   const Range span = known_range(h.values());
   if (!(span.span() > 0) || answer.contacts == 0) return 0;
   constexpr double few_digits = 1e-4;
-  if (answer.approach < few_digits * span.span()) return sunk_lightly(problem, answer, span) / span.span();
+  // What compresses a layer as a whole presses nothing away.
+  const double approach = answer.approach - uniform_compliance(problem) * answer.mean_pressure;
+  if (approach < few_digits * span.span()) return sunk_lightly(problem, answer, approach, span) / span.span();
   // h − u − w = −(g + w + δ), w what yielded; neither of them where nothing faces the ground.
   const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
     const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
@@ -262,6 +266,14 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
   if (!(fraction >= 0 && fraction <= 1))
     throw Error(ErrorCode::bad_value, "`flatten` is " + format_short(fraction), "it is a share from 0 to 1");
   if (fraction == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
+  if (const double uniform = uniform_compliance(problem); uniform > 0) {
+    HalfSpaceProblem stiff = problem;
+    stiff.layer->compresses = false;
+    HalfSpaceAnswer answer = solve_at_flattening(stiff, fraction, monitor);
+    answer.approach += uniform * answer.mean_pressure;
+    answer.offset += uniform * answer.mean_pressure;
+    return answer;
+  }
   if (fraction >= 1 - 0.4 * problem.tolerance)
     if (const auto pressure = pressure_of_full_contact(problem))
       return solve_at_full_contact(problem, *pressure, 1 - fraction, monitor);

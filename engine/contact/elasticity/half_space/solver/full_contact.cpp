@@ -36,7 +36,17 @@ void check_approach_within_full_contact(const HalfSpaceProblem& problem, double 
   const auto heights = problem.heights->values();
   const Range span = range(heights);
   const YieldLaw& law = problem.yield;
-  const double full = approach_of_full_contact(problem);
+  const double full = approach_of_full_contact(problem), uniform = uniform_compliance(problem);
+  if (uniform > 0) {
+    // More load goes on compressing a layer, as far as it is borne.
+    const double most = span.span() + uniform * law.cap;
+    if (!law.caps() || approach < most) return;
+    throw Error(ErrorCode::infeasible,
+                "an approach of " + full_contact_metres(approach) +
+                    " cannot be reached: all of this tile is at its hardness at " +
+                    full_contact_metres(most) + ", and carries no more",
+                "ask for a smaller `approach`, or press by `pressure`");
+  }
   if (law.hardens()) {
     constexpr double hidden = 1e12;
     const double needed = law.hardening * (approach - full);
@@ -72,7 +82,8 @@ std::optional<double> pressure_of_full_contact(const HalfSpaceProblem& problem) 
   if (problem.boundary != Boundary::periodic) return {};
   const Grid& grid = problem.grid;
   const Field& h = *problem.heights;
-  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight);
+  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight,
+                                 false, multiplier_of(problem));
   Array<double> p(h.size());
   const double middle = mean(h.values()), unit = problem.modulus * (problem.rms / grid.hx());
   for_nodes(h.size(), [&](std::size_t k) { p[k] = (h[k] - middle) / problem.rms; });

@@ -153,9 +153,31 @@ Field with_ground_out_of_reach(const HalfSpaceProblem& problem, double lowest, d
                                 "`pressure` is " + pascals(mean_pressure));
 }
 
+// The grid of a problem and what acts between its nodes.
+LevelShape level_shape(const HalfSpaceProblem& problem, bool with_mean) {
+  const Grid& grid = problem.grid;
+  return {grid.nx,
+          grid.ny,
+          grid.hy() / grid.hx(),
+          problem.boundary,
+          problem.weight,
+          problem.single,
+          multiplier_of(problem, with_mean)};
+}
+
 double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.yield)[k] : law.cap; }
 
 }  // namespace
+
+double uniform_compliance(const HalfSpaceProblem& problem) {
+  if (!problem.layer || !problem.layer->compresses) return 0;
+  return problem.layer->thickness * uniform_share(problem.layer->poisson) / problem.modulus;
+}
+
+ComplianceMultiplier multiplier_of(const HalfSpaceProblem& problem, bool with_mean) {
+  if (!problem.layer) return {};
+  return in_cells(*problem.layer, problem.grid.hx(), with_mean);
+}
 
 double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {
   const Grid& grid = problem.grid;
@@ -170,7 +192,8 @@ double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {
 
 Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure) {
   const Grid& grid = problem.grid;
-  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary);
+  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, 1, false,
+                                 multiplier_of(problem, true));
   Field u(grid.nx, grid.ny);
   compliance.apply(pressure.values(), u.values());
   const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
@@ -254,10 +277,18 @@ HalfSpaceAnswer first_touch(const HalfSpaceProblem& problem) {
 }
 
 // Whether a flat lies on all of a periodic tile and nothing yields: every node then carries the mean
-// pressure, and a uniform pressure moves nothing.
+// pressure, and a uniform pressure moves nothing, or all of a layer alike.
 bool evenly_loaded(const HalfSpaceProblem& problem, double mean_pressure) {
   return problem.boundary == Boundary::periodic && range(problem.heights->values()).span() == 0 &&
          (!problem.yield.limits() || (!problem.yield.yield && mean_pressure < problem.yield.cap));
+}
+
+// What a mean pressure compresses a layer by, which the cells leave out under a load.
+void add_uniform_compression(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
+  const double compression = uniform_compliance(problem) * answer.mean_pressure;
+  if (!(compression > 0)) return;
+  answer.approach += compression;
+  answer.offset += compression;
 }
 
 HalfSpaceAnswer even_load(const HalfSpaceProblem& problem, double mean_pressure) {
@@ -267,6 +298,7 @@ HalfSpaceAnswer even_load(const HalfSpaceProblem& problem, double mean_pressure)
   answer.offset = -(*problem.heights)[0];
   answer.mean_pressure = mean_pressure;
   answer.solver = "even pressure of a flat";
+  add_uniform_compression(problem, answer);
   certify(problem, answer);
   return answer;
 }
@@ -294,6 +326,7 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   const double peak = peak_of(problem);
   answer.approach = cell.from_peak ? offset : (peak - units.origin) + offset;
   answer.offset = cell.from_peak ? offset - peak : offset - units.origin;
+  add_uniform_compression(problem, answer);
   answer.iterations = cell.applications;
   answer.solver = cell.stage;
   if (cell.single) answer.solver += " in single precision";
@@ -332,7 +365,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   units.pressure = problem.modulus * (units.height / grid.hx());
 
   CellProblem cell;
-  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight, problem.single};
+  cell.shape = level_shape(problem, true);
   Field out_of_the_way;
   if (problem.overhangs) {
     // Nothing on a free tile rises under pressure: what lies deeper than the approach is never reached.
@@ -421,7 +454,7 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   const Grid& grid = problem.grid;
 
   CellProblem cell;
-  cell.shape = {grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight, problem.single};
+  cell.shape = level_shape(problem, false);
   Field out_of_the_way;
   if (problem.overhangs) {
     cell.lowest = known_range(problem.heights->values()).min;

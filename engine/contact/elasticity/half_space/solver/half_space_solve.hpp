@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact of an elastic half-space with a rough one under a prescribed mean pressure p̄: minimise
 // ½ p·Kp − h·p (+ Σ max(0, p − Y)²/(2K_h)) over 0 <= p <= H with mean p = p̄, K the compliance of the
-// boundary (periodic: 2/(E*|q|), Johnson 1985 §13; free: Love 1929), h the combined heights, peaks
-// up. Solved on nested grids by projected, preconditioned descents, and finished only by the certificate of
-// the pressures and gaps handed out, evaluated with a fresh application of K. Full contact is an exact
-// filter. No friction, no adhesion; half-space slopes are taken as small.
+// boundary (periodic: 2/(E*|q|), Johnson 1985 §13; free: Love 1929) or of a layer (elastic_layer.hpp), h the
+// combined heights, peaks up. Solved on nested grids by projected, preconditioned descents, and finished only
+// by the certificate of the pressures and gaps handed out, evaluated with a fresh application of K. Full
+// contact is an exact filter. No friction, no adhesion; half-space slopes are taken as small.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/contact/boundary.hpp"
 #include "engine/contact/certificate.hpp"
+#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
 #include "engine/contact/yield_law.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"
@@ -23,6 +25,8 @@ struct HalfSpaceProblem {
   Grid grid;
   Boundary boundary = Boundary::periodic;
   double modulus = 0;  // E*, Pa
+  // In place of the half-space, on a periodic tile. Pressures and gaps under a load know nothing of its K(0).
+  std::optional<ElasticLayer> layer{};
   // h, m. On a free tile it may be missing (NaN) where nothing faces the ground, which then never carries.
   std::shared_ptr<const Field> heights;
   bool overhangs = false;  // whether it is missing anywhere
@@ -54,6 +58,12 @@ struct HalfSpaceAnswer {
   std::string solver;  // the stage that finished
 };
 
+// K(0), m/Pa: what the tile sinks under a uniform pressure, all of it the same; 0 but on a layer.
+double uniform_compliance(const HalfSpaceProblem& problem);
+
+// K in cell units, with K(0) or without.
+ComplianceMultiplier multiplier_of(const HalfSpaceProblem& problem, bool with_mean = false);
+
 // Heights that are all equal, or differ by rounding alone, have no rms; the certificate then takes p̄√area/E*
 // for its length, about what the tile would sink as one punch.
 // Means of pressures are over all nodes of the tile. Ground that nothing faces is put deeper than a load of
@@ -80,8 +90,9 @@ Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure)
 // `start`, if not null and on the same grid: pressures to begin from, outside their bounds if need be, and
 // their gaps at its approach; what it holds is spent. `afresh`: gaps and certificate come from an application
 // of their own to the pressures handed out, not from the steps that led to them. Does not throw for lack of
-// convergence; of a periodic tile in full contact without yield, or of one whose
-// nodes are all at the cap, there is no such answer, and `converged` is false or all nodes are at the cap.
+// convergence; of a periodic half-space in full contact without yield, or of a
+// tile whose nodes are all at the cap, there is no such answer, and `converged` is false or all nodes are at
+// the cap.
 HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
                                 HalfSpaceAnswer* start, bool afresh, Monitor& monitor);
 

@@ -50,6 +50,7 @@ std::optional<CoarserGrid> coarser(const LevelShape& fine) {
   coarse.shape.nx = nx;
   coarse.shape.ny = ny;
   coarse.shape.aspect = fine.aspect * (coarse.pitch_y / coarse.pitch_x);
+  coarse.shape.multiplier = fine.multiplier.on_coarser(coarse.pitch_x);
   return coarse;
 }
 

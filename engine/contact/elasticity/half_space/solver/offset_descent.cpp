@@ -46,6 +46,7 @@ class OffsetDescent {
         effort_(effort),
         careful_(careful),
         periodic_(level.shape.boundary == Boundary::periodic),
+        immobile_(level.mean_is_immobile()),
         dear_(Limit::hardens || !periodic_),
         work_(fields.pressure.size()),
         direction_(fields.pressure.size()) {}
@@ -73,7 +74,7 @@ class OffsetDescent {
   double turn(double target);
   void settle_step();
   bool all_free() const {
-    return periodic_ && elastic_ == static_cast<double>(nodes()) && yielding_ == 0 && settling_ == 0;
+    return immobile_ && elastic_ == static_cast<double>(nodes()) && yielding_ == 0 && settling_ == 0;
   }
   void shift_all();
   bool descend(int steps);
@@ -91,7 +92,7 @@ class OffsetDescent {
   double offset_, tolerance_;
   int most_;
   const ChainEffort effort_;
-  const bool careful_, periodic_, dear_;
+  const bool careful_, periodic_, immobile_, dear_;
   Array<double> work_, direction_;
   double elastic_ = 0, yielding_ = 0, settling_ = 0;  // nodes
   bool changed_ = true, fresh_ = false, have_direction_ = false;
@@ -104,7 +105,7 @@ class OffsetDescent {
 template <class Limit>
 void OffsetDescent<Limit>::find_gap() {
   double mean = 0;
-  if (periodic_)
+  if (immobile_)
     mean = over_nodes<1>(nodes(), [p = f_.pressure.data()](std::size_t k, double* v) { v[0] = p[k]; })[0] /
            static_cast<double>(nodes());
   for_nodes(nodes(),
@@ -182,18 +183,19 @@ double OffsetDescent<Limit>::turn(double target) {
     v[1] = counts(k) ? 1.0 : 0.0;
   });
   preconditioner_.apply(f_.free, work_);
-  // On a periodic tile the preconditioner sees nothing of a constant; the longest wave does for it, and what
-  // yields. Where all nodes are free a constant moves the gap of those alone, if there are any.
+  // On a periodic tile the preconditioner sees nothing of a constant; the longest wave does for it, what
+  // yields, and K(0) of a layer. Where all nodes are free a constant moves the gap of those that yield alone,
+  // if there are any, and of all on a layer.
   double level = 0;
   if (periodic_ && sums[1] > 0) {
-    const double longest =
-        std::max(static_cast<double>(level_.shape.nx), level_.shape.ny * level_.shape.aspect);
-    const double others = static_cast<double>(nodes()) - sums[1];
+    const double all = static_cast<double>(nodes()), others = all - sums[1];
     // A constant on nearly all nodes is what the few others lack of it.
     const double lacking = LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * others;
-    const double elastically = std::min(longest / std::numbers::pi * sums[1], lacking);
+    const double elastically = std::min(level_.greatest_compliance * sums[1], lacking);
     const double yields = all_that_moves ? limit_.yielding_slope() * yielding_ : 0.0;
-    if (elastically + yields > 0) level = sums[0] / (elastically + yields);
+    double gives = elastically + yields;
+    if (!immobile_) gives += level_.shape.multiplier.uniform * sums[1] * (sums[1] / all);
+    if (gives > 0) level = sums[0] / gives;
   }
   return over_nodes<1>(nodes(), [lack, counts, z = work_.data(), level](std::size_t k, double* v) {
     if (counts(k)) z[k] += level;

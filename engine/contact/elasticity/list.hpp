@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every model of elasticity that a scene can name, a line each.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "engine/contact/elastic_model.hpp"
+
+namespace asperity {
+
+// In the order in which they are documented.
+std::span<const ElasticModel* const> elastic_models();
+
+// Throws Error{unknown_name} with the nearest name for a name that is not listed.
+const ElasticModel& require_elastic_model(std::string_view name);
+
+}  // namespace asperity
