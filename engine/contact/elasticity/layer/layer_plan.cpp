@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
@@ -24,7 +25,6 @@ void refuse_on_layer(const std::string& effect) {
               "name elasticity=\"half_space\" beside it, or leave it out");
 }
 
-// 1/Pa · m
 std::string sinking_under_pressure(double metres_per_pascal) {
   return format_quantity(metres_per_pascal * 1e6, dimension::length) + " a MPa";
 }
@@ -37,8 +37,7 @@ void check_layer(const LayerOptions& options, const Scene& scene) {
                 "give a finite length above zero, such as \"50 um\"");
   if (scene.boundary != Boundary::periodic)
     throw Error(ErrorCode::bad_value,
-                "`boundary` is " + quoted(name(scene.boundary)) +
-                    " on a layer, which is not computed by this version",
+                "`boundary` is \"free\" on a layer, which is not computed by this version",
                 "give boundary=\"periodic\", on a tile several times as wide as contact and layer, or name "
                 "elasticity=\"half_space\"");
   const Material* const lower = lower_material(scene.lower);
@@ -72,6 +71,15 @@ void plan_layer(const LayerOptions& options, const ContactGeometry& geometry, Pl
       format_quantity(half_space.modulus, dimension::pressure) +
       ", Fourier multiplier: a share of 2/(E*|q|); a uniform pressure compresses it by " +
       (uniform > 0 ? sinking_under_pressure(uniform) : "nothing, for its volume stays");
+  // On a thin layer the preconditioner is a transform of the grid as it is, or of one not much coarser.
+  const Grid& grid = geometry.grid();
+  const double aspect = grid.hy() / grid.hx();
+  const auto preconditioner = [&](const ComplianceMultiplier& multiplier) {
+    return HalfOrderPyramid::bytes(grid.nx, grid.ny, aspect, Boundary::periodic, multiplier);
+  };
+  const std::int64_t more =
+      preconditioner(in_cells(*half_space.layer, grid.hx(), false)) - preconditioner({});
+  if (more > 0) plan.buffers.push_back({"waves that feel the base", more, false});
 }
 
 }  // namespace asperity

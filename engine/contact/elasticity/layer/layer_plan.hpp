@@ -12,9 +12,8 @@ namespace asperity {
 // lower body that is rigid or an upper one that is not, and beside an effect that is not computed on a layer.
 void check_layer(const LayerOptions& options, const Scene& scene);
 
-// As plan_half_space, with the layer in the operator and in the sentence. Throws what that does, and
-// Error{bad_value} where waves on the tile are so much longer than the layer is thick that their compliance
-// leaves what a solve can tell apart.
+// As plan_half_space, with the layer in the operator, in the sentence and in what a solve holds. Throws what
+// that does.
 void plan_layer(const LayerOptions& options, const ContactGeometry& geometry, Plan& plan);
 
 }  // namespace asperity
