@@ -164,7 +164,7 @@ double distance_to_full_contact(const Field& h, Range known) { return known.max 
 // The pressure that brings it, over E*: −min (|q|/2) h, within some tens of percent.
 double pressure_of_full_contact(const Field& h, const Grid& grid, const HalfSpaceOperator& half_space) {
   ComplianceMultiplier multiplier;
-  if (half_space.layer) multiplier = in_cells(*half_space.layer, grid.hx(), false);
+  if (half_space.share) multiplier = in_cells(*half_space.share, grid.hx(), false);
   HalfOrderPyramid half_order(grid.nx, grid.ny, grid.hy() / grid.hx(), Boundary::periodic, 1, multiplier);
   const double middle = mean(h.values()), span = range(h.values()).span();
   if (!(span > 0)) return 0;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/contact/bodies/geometry.hpp"
-#include "engine/contact/elasticity/layer/elastic_layer.hpp"
+#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
 #include "engine/contact/gap_term.hpp"
 #include "engine/contact/planned_yield.hpp"
 #include "engine/contact/scene.hpp"
@@ -38,12 +38,12 @@ struct BoxOperator {
   double lower_share = 1;         // of the shortening that the lower body takes, 0 … 1
 };
 
-// Half-spaces: u = K p, the multiplier 2/(E*|q|) of a periodic tile or the Love kernel of a free one; or a
-// layer in their place, whose multiplier has a share of that.
+// Half-spaces: u = K p, the multiplier 2/(E*|q|) of a periodic tile or the Love kernel of a free one; or what
+// lies in their place on a periodic tile, whose multiplier is a share of that.
 struct HalfSpaceOperator {
-  double modulus = 0;      // E*, Pa
-  double lower_share = 1;  // of the elastic displacement that the lower body takes, 0 … 1
-  std::optional<ElasticLayer> layer{};
+  double modulus = 0;                // E*, Pa
+  double lower_share = 1;            // of the elastic displacement that the lower body takes, 0 … 1
+  std::optional<WaveShare> share{};  // none: a half-space
 };
 
 using PlannedOperator = std::variant<BoxOperator, HalfSpaceOperator>;

@@ -140,7 +140,7 @@ const StateQuantity of_every_state[] = {
     {.name = "stiffness",
      .called = "the stiffness",
      .sentence =
-         "d pressure / d approach at this contact set; math.huge where all of a periodic tile touches",
+         "d pressure / d approach at this contact set; math.huge where all of a periodic half-space touches",
      .dimension = dimension::stiffness,
      .value = quantity_value<&S::stiffness>,
      .cells = CellError{1.5, 3, 0.95, 2.75, Kind::grid, nullptr, ", which is solved for on each grid"}},

@@ -62,7 +62,7 @@ struct HalfSpaceSolver::Ready {
     problem.grid = ready->geometry->grid();
     problem.boundary = ready->geometry->boundary();
     problem.modulus = half_space.modulus;
-    problem.layer = half_space.layer;
+    problem.share = half_space.share;
     problem.heights = {ready->geometry, &ready->geometry->combined()};
     problem.overhangs = ready->geometry->overhangs();
     problem.rms =

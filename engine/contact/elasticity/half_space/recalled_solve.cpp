@@ -97,8 +97,11 @@ void add(Digester& digester, const HalfSpaceProblem& problem) {
   const YieldLaw& law = problem.yield;
   digester.add(law.cap).add(law.hardening).add(law.yield ? law.yield->values() : std::span<const double>());
   digester.add(problem.tolerance).add(problem.best_effort).add(problem.single);
-  if (const auto& layer = problem.layer)
-    digester.add("layer").add(layer->thickness).add(layer->poisson).add(static_cast<int>(layer->base));
+  if (const auto& share = problem.share)
+    digester.add("share")
+        .add(share->length)
+        .add(share->uniform)
+        .add(std::span<const double>(share->parameters));
 }
 
 }  // namespace

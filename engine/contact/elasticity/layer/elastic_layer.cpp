@@ -46,4 +46,11 @@ double layer_share(double x, double poisson, LayerBase base) {
 
 double uniform_share(double poisson) { return (1 - 2 * poisson) / ((1 - poisson) * (1 - poisson)); }
 
+WaveShare wave_share(const ElasticLayer& layer) {
+  return {[poisson = layer.poisson, base = layer.base](double x) { return layer_share(x, poisson, base); },
+          layer.thickness,
+          uniform_share(layer.poisson),
+          {layer.poisson, static_cast<double>(layer.base)}};
+}
+
 }  // namespace asperity

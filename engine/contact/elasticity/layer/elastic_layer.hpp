@@ -10,6 +10,8 @@
 // is more. Of Poisson's ratio 1/2 K(0) is 0, and on a bonded base K goes as q² t³.
 #pragma once
 
+#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
+
 namespace asperity {
 
 enum class LayerBase { bonded, frictionless };
@@ -18,12 +20,13 @@ struct ElasticLayer {
   double thickness = 0;  // m
   double poisson = 0;    // in (-1, 0.5]
   LayerBase base = LayerBase::bonded;
-  // Whether K(0) counts. A search that the mean of the displacement is no matter to leaves it out.
-  bool compresses = true;
 };
 
 // The share at x = |q| t >= 0, in [0, 1]; 0 at x = 0. To some 1e-15 of itself at any x, infinity included.
 double layer_share(double x, double poisson, LayerBase base);
+
+// As a solver of the half-space takes it.
+WaveShare wave_share(const ElasticLayer& layer);
 
 // K(0) E*/t = (1 − 2ν)/(1 − ν)², E* being that of the layer alone.
 double uniform_share(double poisson);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
@@ -20,7 +21,6 @@ std::string material_found(const Material* material) {
   return material->name.empty() ? std::string("is elastic") : "is of " + quoted(material->name);
 }
 
-// 1/Pa · m
 std::string sinking_under_pressure(double metres_per_pascal) {
   return format_quantity(metres_per_pascal * 1e6, dimension::length) + " a MPa";
 }
@@ -30,8 +30,7 @@ std::string sinking_under_pressure(double metres_per_pascal) {
 void check_layer(const std::any&, const Scene& scene) {
   if (scene.boundary != Boundary::periodic)
     throw Error(ErrorCode::bad_value,
-                "`boundary` is " + quoted(name(scene.boundary)) +
-                    " on a layer, which is not computed by this version",
+                "`boundary` is \"free\" on a layer, which is not computed by this version",
                 "give boundary=\"periodic\", on a tile several times as wide as contact and layer, or name "
                 "elasticity=\"half_space\"");
   const Material* const lower = lower_material(scene.lower);
@@ -53,7 +52,7 @@ void plan_layer(const std::any& given, const ContactGeometry& geometry, Plan& pl
   plan_half_space(geometry, plan);
   auto& half_space = std::get<HalfSpaceOperator>(plan.elasticity);
   const double poisson = *lower_material(geometry.lower())->poisson;
-  half_space.layer = ElasticLayer{options.thickness, poisson, options.base};
+  half_space.share = wave_share({options.thickness, poisson, options.base});
   const double uniform = options.thickness * uniform_share(poisson) / half_space.modulus;
   const bool bonded = options.base == LayerBase::bonded;
   plan.terms.back().sentence =
@@ -62,6 +61,15 @@ void plan_layer(const std::any& given, const ContactGeometry& geometry, Plan& pl
       format_quantity(half_space.modulus, dimension::pressure) +
       ", Fourier multiplier: a share of 2/(E*|q|); a uniform pressure compresses it by " +
       (uniform > 0 ? sinking_under_pressure(uniform) : "nothing, for its volume stays");
+  // On a thin layer the preconditioner is a transform of the grid as it is, or of one not much coarser.
+  const Grid& grid = geometry.grid();
+  const double aspect = grid.hy() / grid.hx();
+  const auto preconditioner = [&](const ComplianceMultiplier& multiplier) {
+    return HalfOrderPyramid::bytes(grid.nx, grid.ny, aspect, Boundary::periodic, multiplier);
+  };
+  const std::int64_t more =
+      preconditioner(in_cells(*half_space.share, grid.hx(), false)) - preconditioner({});
+  if (more > 0) plan.buffers.push_back({"waves that feel the base", more, false});
 }
 
 }  // namespace

@@ -7,27 +7,23 @@ namespace asperity {
 
 double ComplianceMultiplier::greatest_from(double q) const {
   double greatest = 2 / q * share(q);
-  if (!layered()) return greatest;
-  // Past x = 4 the compliance falls on either base; below it is smooth in log x.
-  for (double wave = q; wave * thickness < 4; wave *= 1.25)
+  if (!shares()) return greatest;
+  // Below x = 4 it is smooth in log x.
+  for (double wave = q; wave * length < 4; wave *= 1.25)
     greatest = std::max(greatest, 2 / wave * share(wave));
   return greatest;
 }
 
 ComplianceMultiplier ComplianceMultiplier::on_coarser(double pitch) const {
   ComplianceMultiplier result = *this;
-  result.thickness /= pitch;
+  result.length /= pitch;
   result.uniform /= pitch;
   return result;
 }
 
-ComplianceMultiplier in_cells(const ElasticLayer& layer, double hx, bool with_mean) {
-  ComplianceMultiplier result;
-  result.thickness = layer.thickness / hx;
-  result.poisson = layer.poisson;
-  result.base = layer.base;
-  if (with_mean && layer.compresses) result.uniform = result.thickness * uniform_share(layer.poisson);
-  return result;
+ComplianceMultiplier in_cells(const WaveShare& share, double hx, bool with_mean) {
+  const double length = share.length / hx;
+  return {share.share, length, with_mean ? length * share.uniform : 0};
 }
 
 }  // namespace asperity

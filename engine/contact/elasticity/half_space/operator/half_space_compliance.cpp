@@ -37,7 +37,7 @@ void periodic_multiplier(const ComplianceMultiplier& multiplier, int nx, int ny,
     const double qy = per_wave * static_cast<int>(b);
     factors[b] = 2 / std::sqrt(qx * qx + qy * qy);
   }
-  if (multiplier.layered())
+  if (multiplier.shares())
     for (double& factor : factors) factor *= multiplier.share(2 / factor);
   if (a == 0) factors[0] = multiplier.uniform;
 }

@@ -6,7 +6,8 @@
 // grid. Single precision. On a free boundary the field is 0 beyond the rim. A grid that does not halve
 // (periodic and odd) or whose cells are far from square is transformed as it is: exact, and dearer. On a
 // layer 1/K in place of |q|/2, the mean left out: grids are halved as long as their stencil meets waves that
-// know nothing of its base, and a layer of less than four cells is transformed as it is.
+// know nothing of its base, and under a layer of less than one and a half cells the grid is transformed as it
+// is.
 #pragma once
 
 #include <span>

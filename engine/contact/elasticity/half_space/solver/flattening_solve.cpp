@@ -268,7 +268,7 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
   if (fraction == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
   if (const double uniform = uniform_compliance(problem); uniform > 0) {
     HalfSpaceProblem stiff = problem;
-    stiff.layer->compresses = false;
+    stiff.share->uniform = 0;
     HalfSpaceAnswer answer = solve_at_flattening(stiff, fraction, monitor);
     answer.approach += uniform * answer.mean_pressure;
     answer.offset += uniform * answer.mean_pressure;

@@ -170,13 +170,12 @@ double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.
 }  // namespace
 
 double uniform_compliance(const HalfSpaceProblem& problem) {
-  if (!problem.layer || !problem.layer->compresses) return 0;
-  return problem.layer->thickness * uniform_share(problem.layer->poisson) / problem.modulus;
+  return problem.share ? problem.share->length * problem.share->uniform / problem.modulus : 0;
 }
 
 ComplianceMultiplier multiplier_of(const HalfSpaceProblem& problem, bool with_mean) {
-  if (!problem.layer) return {};
-  return in_cells(*problem.layer, problem.grid.hx(), with_mean);
+  if (!problem.share) return {};
+  return in_cells(*problem.share, problem.grid.hx(), with_mean);
 }
 
 double out_of_reach(const HalfSpaceProblem& problem, double mean_pressure) {

@@ -26,7 +26,7 @@ struct HalfSpaceProblem {
   Boundary boundary = Boundary::periodic;
   double modulus = 0;  // E*, Pa
   // In place of the half-space, on a periodic tile. Pressures and gaps under a load know nothing of its K(0).
-  std::optional<ElasticLayer> layer{};
+  std::optional<WaveShare> share{};
   // h, m. On a free tile it may be missing (NaN) where nothing faces the ground, which then never carries.
   std::shared_ptr<const Field> heights;
   bool overhangs = false;  // whether it is missing anywhere

@@ -124,7 +124,7 @@ TEST(LayerShare, GrowsWithTheWaveNumber) {
 }
 
 TEST(ComplianceMultiplier, FindsTheSoftestWave) {
-  ComplianceMultiplier multiplier{5, 0.5, LayerBase::bonded, 0};
+  ComplianceMultiplier multiplier = in_cells(wave_share({5, 0.5, LayerBase::bonded}), 1, false);
   double most = 0;
   for (double q = 1e-3; q < 3; q *= 1.001) most = std::max(most, 2 / q * multiplier.share(q));
   EXPECT_NEAR(multiplier.greatest_from(1e-3), most, 0.01 * most);
@@ -138,7 +138,7 @@ TEST(HalfSpaceCompliance, OfALayerTakesEachWaveByItself) {
     const ElasticLayer layer{3e-6, 0.4, LayerBase::bonded};
     const double hx = 1e-6;
     for (const bool with_mean : {false, true}) {
-      const ComplianceMultiplier multiplier = in_cells(layer, hx, with_mean);
+      const ComplianceMultiplier multiplier = in_cells(wave_share(layer), hx, with_mean);
       EXPECT_EQ(multiplier.uniform, with_mean ? 3 * uniform_share(0.4) : 0);
       HalfSpaceCompliance compliance(nx, ny, aspect, Boundary::periodic, 1, false, multiplier);
       const int a = nx > 1 ? 2 : 0, b = 3;
