@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/plot/chart_axis.hpp"
 #include "engine/plot/gnuplot.hpp"
@@ -336,7 +336,7 @@ std::vector<std::string> draw(const Grid& grid, const Field& field, const Pictur
   const PictureScript picture = picture_script(grid, field, options);
   const GnuplotData cells{"cells", picture.cells};
   const GnuplotResult drawn = run_gnuplot(picture.script, {&cells, 1});
-  write_aside(file, drawn.picture);
+  write_atomically(file, drawn.picture);
   return complaints_of(drawn, file);
 }
 

@@ -12,9 +12,8 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
-#include "engine/core/files/part_file.hpp"
 #include "engine/core/patient_lock.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/recorded_run.hpp"
@@ -287,7 +286,7 @@ void RunDirectory::begin(const RunSetup& setup) {
   }
   journal_ = again && !setup.journal_lost ? Journal::again(root_ / journal_file)
                                           : std::make_unique<Journal>(root_ / journal_file);
-  if (!again) write_aside(root_ / script_file, setup.script_text, durable);
+  if (!again) write_atomically(root_ / script_file, setup.script_text, durable);
   const std::string digest = Digester().add(setup.script_text).hex();
   const std::string script = fs::path(setup.script_name).filename().string();
   manifest_.set("status", name(RunStatus::running))
@@ -338,7 +337,7 @@ void RunDirectory::take_up() {
 void RunDirectory::write_manifest(Durable durable) {
   Json whole = manifest_;
   whole.set("unhashed", unhashed_);
-  write_aside(root_ / manifest_file, whole.text(2) + "\n", durable);
+  write_atomically(root_ / manifest_file, whole.text(2) + "\n", durable);
 }
 
 // Their content, and their names in every folder up to the run's own.
@@ -508,7 +507,7 @@ Json RunDirectory::outputs(bool with_digests) const {
 void RunDirectory::note_end(RunStatus status, std::string_view reason, Json files) {
   if (text_) {
     const std::string text = text_();
-    write_aside(root_ / script_file, text, Durable::yes);
+    write_atomically(root_ / script_file, text, Durable::yes);
     const Json* script = manifest_.find("script");
     Json whole = script == nullptr ? Json::object() : *script;
     manifest_.set("script", std::move(whole.set("digest", Digester().add(text).hex())));

@@ -26,7 +26,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/json.hpp"
 #include "engine/run/expectation_log.hpp"
 #include "engine/run/journal.hpp"
