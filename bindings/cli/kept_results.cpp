@@ -11,7 +11,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/recorded_run.hpp"
-#include "engine/run/run_directory.hpp"
+#include "engine/run/run_folder.hpp"
 
 namespace asperity::cli {
 
@@ -24,8 +24,8 @@ std::filesystem::path results_of(const std::string& named) {
   if (!std::filesystem::is_directory(folder, problem))
     throw Error(ErrorCode::bad_value, "`--reuse` names " + asperity::quoted(named) + ", which is no folder",
                 "give the directory of a run");
-  const std::filesystem::path store = folder / "store";
-  const bool is_run = std::filesystem::exists(folder / "manifest.json", problem) ||
+  const std::filesystem::path store = folder / run_names::store;
+  const bool is_run = std::filesystem::exists(folder / run_names::manifest, problem) ||
                       std::filesystem::exists(std::filesystem::symlink_status(store, problem));
   if (!is_run) return folder;
   if (std::filesystem::is_symlink(std::filesystem::symlink_status(store, problem)))
@@ -46,7 +46,8 @@ RunCommand begun_there(RunCommand command) {
 // Whether the moving aside of an earlier run may have been cut off there.
 bool holds_earlier_run(const std::filesystem::path& root) {
   std::error_code problem;
-  if (std::filesystem::exists(std::filesystem::symlink_status(root / "manifest.json", problem))) return false;
+  if (std::filesystem::exists(std::filesystem::symlink_status(root / run_names::manifest, problem)))
+    return false;
   for (std::filesystem::directory_iterator entry(root, problem), end; !problem && entry != end;
        entry.increment(problem))
     if (entry->path().filename().string().starts_with("before-")) return true;
@@ -97,7 +98,7 @@ void require_repeatable(const RunCommand& command, const RecordedRun& recorded, 
     throw Error(ErrorCode::bad_value,
                 asperity::quoted(recorded.root.string()) +
                     " is a session of the prompt, whose journal begins with its first file",
-                "its lines run again by `asperity run " + (recorded.root / "script.lua").string() + "`");
+                "its lines run again by `asperity run " + (recorded.root / run_names::script).string() + "`");
   if (command.trust == recorded.trusted) return;
   if (recorded.trusted)
     throw Error(
@@ -165,7 +166,7 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
     command.damages = damages_of(recorded);
     if (command.damages.empty()) return {};
     command.journal_lost = !recorded.journal_fault.empty();
-  } else if (!fs::exists(root / "journal.jsonl")) {
+  } else if (!fs::exists(root / run_names::journal)) {
     command.damages = {recorded.journal_fault};
     command.journal_lost = true;
   } else if (!recorded.journal_hint.empty()) {

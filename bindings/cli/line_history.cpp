@@ -8,6 +8,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "engine/core/error.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::cli {
@@ -17,8 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // In one piece, so that lines of two sessions do not mix.
-void append(const fs::path& file, const std::string& text, int flags) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0600);
+void append(const fs::path& file, const std::string& text) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_APPEND, 0600);
   if (descriptor < 0) return;
   [[maybe_unused]] const auto written = ::write(descriptor, text.data(), text.size());
   ::close(descriptor);
@@ -43,11 +45,11 @@ LineHistory::LineHistory(fs::path file) : file_(std::move(file)) {
   lines_.erase(lines_.begin(), lines_.end() - static_cast<std::ptrdiff_t>(most_lines));
   std::string whole;
   for (const std::string& line : lines_) whole += line + "\n";
-  fs::path aside = file_;
-  aside += "." + std::to_string(::getpid());
-  append(aside, whole, O_EXCL);
-  std::error_code ignored;
-  fs::rename(aside, file_, ignored);
+  try {
+    write_atomically(file_, whole, Durable::no, 0600);
+  } catch (const Error&) {
+    // the file stays as long as it is
+  }
 }
 
 bool LineHistory::add(const std::string& line) {
@@ -57,7 +59,7 @@ bool LineHistory::add(const std::string& line) {
   if (file_.empty()) return true;
   std::error_code ignored;
   fs::create_directories(file_.parent_path(), ignored);
-  append(file_, line + "\n", O_APPEND);
+  append(file_, line + "\n");
   return true;
 }
 

@@ -25,7 +25,6 @@
 #include "bindings/web/places.hpp"
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 

@@ -11,10 +11,10 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "engine/accuracy/discretisation_error.hpp"
-#include "engine/accuracy/precision_choice.hpp"
 #include "engine/contact/quantities.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
@@ -155,14 +155,12 @@ struct Trial {
   Plan plan;
   std::shared_ptr<const Solver> solver;
   std::optional<State> state;
-  std::string source, why_precision;
+  std::string source;
 };
 
 Trial make_trial(Placed placed, double tolerance) {
-  PrecisionChoice precision = choose_precision(placed.scene, placed.scene.lower.grid());
-  Trial trial{std::move(placed.scene), {}, {}, {}, {}, std::move(placed.source), std::move(precision.why)};
+  Trial trial{std::move(placed.scene), {}, {}, {}, {}, std::move(placed.source)};
   trial.scene.accuracy.tolerance = tolerance;
-  trial.scene.accuracy.precision = precision.precision;
   trial.scene.accuracy.estimate = Accuracy::Estimate::coarser;
   trial.scene.accuracy.chosen = true;
   trial.geometry = std::make_shared<const ContactGeometry>(trial.scene, placed.pose);
@@ -213,11 +211,10 @@ std::string choice_text(const Scene& scene, const Plan& plan) {
   if (!scene.accuracy.asked) return {};
   const AskedError& asked = *scene.accuracy.asked;
   const std::string error = percent_text(asked.error) + " of " + joined(asked.of, " and ");
-  const std::string what =
-      scene.accuracy.precision_named ? "cells and tolerance" : "cells, tolerance and precision";
-  if (scene.accuracy.chosen) return what + " as the first press chose them for an error of " + error;
+  if (scene.accuracy.chosen)
+    return "cells and tolerance as the first press chose them for an error of " + error;
   const std::vector<Grid> grids = grids_to_try(scene.lower.grid(), finest_grid(scene.lower.grid(), plan));
-  return "the first press chooses " + what + " for an error of " + error + ", from " +
+  return "the first press chooses cells and tolerance for an error of " + error + ", from " +
          cells_text(grids.front().nx, grids.front().ny) + " up to " +
          cells_text(grids.back().nx, grids.back().ny) + "; what follows is of the cells given";
 }
@@ -247,6 +244,11 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
 
   ChosenAccuracy chosen;
   chosen.asked = asked;
+  chosen.precision = scene.accuracy.precision;
+  chosen.why_precision = scene.accuracy.precision_named ? "as named"
+                         : std::holds_alternative<BoxOptions>(scene.elasticity)
+                             ? "boxes are solved in no other"
+                             : "single saves no time";
   double tolerance = first_tolerance(asked.error);
   const CostScope scope;
   Cost last;  // of the press that is kept
@@ -286,8 +288,6 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
       chosen.error = found.error;
       chosen.of = found.of;
       chosen.source = trial->source;
-      chosen.precision = trial->scene.accuracy.precision;
-      chosen.why_precision = trial->why_precision;
       // More cells would not help where the bound of the solve is what is missing.
       if (!chosen.met() && note.empty() && found.error - found.algebraic <= asked.error &&
           tolerance > tightest) {

@@ -15,6 +15,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -133,9 +134,8 @@ std::span<const std::string> estimated_quantities() {
 namespace {
 
 void check(const AskedError& asked, const Effects& named) {
-  if (!(asked.error >= 1e-6 && asked.error < 1))
-    throw Error(ErrorCode::bad_value, "`error` is " + format_short(asked.error),
-                "it is relative: give a number from 1e-6 to below 1, such as 0.01 for 1 %");
+  require(asked.error >= 1e-6 && asked.error < 1, "error", asked.error, "",
+          "it is relative: give a number from 1e-6 to below 1, such as 0.01 for 1 %");
   if (asked.of.empty())
     throw Error(ErrorCode::bad_value, "`of` names no quantity",
                 "give one, such as \"corrected_area_fraction\"");

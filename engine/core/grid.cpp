@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -18,9 +19,7 @@ Grid make_grid(double nx, double ny, double size_x, double size_y) {
                   "give a whole number from 1 to " + std::to_string(max_cells));
   }
   for (const double size : {size_x, size_y}) {
-    if (!(std::isfinite(size) && size > 0))
-      throw Error(ErrorCode::bad_value, "`size` is " + format_short(size) + " m",
-                  "give a finite length above zero");
+    require_positive("size", size, "m", "give a finite length above zero");
   }
   for (const auto& [size, n] : {std::pair{size_x, nx}, std::pair{size_y, ny}})
     if (!(size / n > 0))

@@ -41,6 +41,30 @@ std::string quoted(std::string_view name) { return "`" + std::string(name) + "`"
 
 std::string quoted(const std::string& name) { return quoted(std::string_view(name)); }
 
+std::string safe_file_name(std::string_view text) {
+  constexpr std::size_t longest = 120;
+  std::string name;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool kept = std::isalnum(byte) || c == '_' || c == '.' || byte >= 0x80;
+    if (kept) {
+      name += c;
+    } else if (!name.empty() && name.back() != '-') {
+      name += '-';
+    }
+  }
+  if (name.size() > longest) {
+    name.resize(longest);
+    // Not in the middle of a character.
+    while (!name.empty() && (static_cast<unsigned char>(name.back()) & 0xC0) == 0x80) name.pop_back();
+    if (!name.empty() && static_cast<unsigned char>(name.back()) >= 0xC0) name.pop_back();
+  }
+  while (!name.empty() && name.back() == '-') name.pop_back();
+  const std::size_t first = name.find_first_not_of(".-");
+  name.erase(0, first == std::string::npos ? name.size() : first);
+  return name.empty() ? "unnamed" : name;
+}
+
 std::string joined(std::span<const std::string> items, std::string_view last) {
   std::string text;
   for (std::size_t k = 0; k < items.size(); ++k) {

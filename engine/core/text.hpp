@@ -23,6 +23,9 @@ std::string quoted(std::string_view name);
 std::string quoted(const std::string& name);
 inline std::string quoted(std::string& name) { return quoted(std::string_view(name)); }
 inline std::string quoted(const char* name) { return quoted(std::string_view(name)); }
+// A file name for any text: letters, digits, `_`, `.` and characters beyond ASCII stay, each run of others
+// becomes one `-`; no dot or `-` in front, no `-` at the end, at most 120 bytes, never empty.
+std::string safe_file_name(std::string_view text);
 // "a", "a or b", "a, b or c".
 std::string joined(std::span<const std::string> items, std::string_view last = " or ");
 

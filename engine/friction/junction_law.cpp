@@ -7,6 +7,7 @@
 #include "engine/contact/effects/ageing.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/friction/interlocking.hpp"
 
@@ -15,23 +16,18 @@ namespace asperity {
 namespace {
 
 void require_finite(double value, std::string_view key) {
-  if (!(value >= 0 && std::isfinite(value)))
-    throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(value),
-                "give a finite value from zero up");
+  require(value >= 0 && std::isfinite(value), key, value, "", "give a finite value from zero up");
 }
 
-void require_positive(const std::optional<double>& value, std::string_view key) {
-  if (value && !(*value > 0))
-    throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(*value),
-                "give a pressure above zero; leave it out for no cap");
+void require_cap(const std::optional<double>& value, std::string_view key) {
+  if (value) require(*value > 0, key, *value, "", "give a pressure above zero; leave it out for no cap");
 }
 
 }  // namespace
 
 void check_rest(std::optional<double> rest, const Effects& effects) {
   if (!rest) return;
-  if (!(*rest >= 0 && std::isfinite(*rest)))
-    throw Error(ErrorCode::bad_value, "`rest` is " + format_short(*rest) + " s", "give a time from zero up");
+  require(*rest >= 0 && std::isfinite(*rest), "rest", *rest, "s", "give a time from zero up");
   if (!effects.has<AgeingOptions>())
     throw Error(ErrorCode::bad_state, "`rest` needs the effect `ageing`, which this scene does not name",
                 "name ageing={ rate=, onset= } in the effects of the contact, or leave `rest` out");
@@ -45,8 +41,8 @@ double strengthening(const Effects& effects, std::optional<double> rest) {
 JunctionLaw::JunctionLaw(const FrictionOptions& options) : tau0_(options.tau0), alpha_(options.alpha) {
   require_finite(options.tau0, "tau0");
   require_finite(options.alpha, "alpha");
-  require_positive(options.tau_max, "tau_max");
-  require_positive(options.yield_pressure, "yield_pressure");
+  require_cap(options.tau_max, "tau_max");
+  require_cap(options.yield_pressure, "yield_pressure");
   if (options.tau_max && options.yield_pressure)
     throw Error(ErrorCode::bad_value, "`tau_max` and `yield_pressure` are both given",
                 "give one: `yield_pressure` stands for tau_max = tau0 + alpha yield_pressure");

@@ -8,6 +8,7 @@
 #include "engine/contact/effects/tangential.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -18,22 +19,18 @@ const std::array<std::string, 2> names_of_fields = {"shear", "stick"};
 
 // Q/(f P), which must not pass 1 but for rounding.
 double ratio_of(const ShearRequest& request, double load) {
-  if (!(request.friction > 0 && std::isfinite(request.friction)))
-    throw Error(ErrorCode::bad_value, "`friction` is " + format_short(request.friction),
-                "give a finite coefficient above zero");
+  require_positive("friction", request.friction, "", "give a finite coefficient above zero");
   if (request.force.has_value() == request.ratio.has_value())
     throw Error(ErrorCode::bad_value,
                 std::string("`force` and `ratio` are ") + (request.force ? "both" : "not") + " given",
                 "give one of both");
   if (request.ratio) {
-    if (!(*request.ratio >= 0 && *request.ratio <= 1))
-      throw Error(ErrorCode::bad_value, "`ratio` is " + format_short(*request.ratio),
-                  "it is the shear force over the one that slides: give a number from 0 to 1");
+    require(*request.ratio >= 0 && *request.ratio <= 1, "ratio", *request.ratio, "",
+            "it is the shear force over the one that slides: give a number from 0 to 1");
     return *request.ratio;
   }
-  if (!(*request.force >= 0 && std::isfinite(*request.force)))
-    throw Error(ErrorCode::bad_value, "`force` is " + format_short(*request.force) + " N",
-                "give a finite force from zero up");
+  require(*request.force >= 0 && std::isfinite(*request.force), "force", *request.force, "N",
+          "give a finite force from zero up");
   constexpr double rounding = 1e-12;
   const double sliding = request.friction * load, ratio = *request.force / sliding;
   if (!(ratio <= 1 + rounding))

@@ -9,6 +9,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -19,14 +20,8 @@ constexpr double right_angle = 0.5 * std::numbers::pi;
 
 std::string degrees(double angle) { return format_short(angle * 180 / std::numbers::pi) + " deg"; }
 
-void check_positive(double value, std::string_view key, std::string_view unit) {
-  if (!(value > 0 && std::isfinite(value)))
-    throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(value) + " " + std::string(unit),
-                "give a finite value above zero");
-}
-
 void check_stage(double step, double limit) {
-  check_positive(step, "step", "rad");
+  require_positive("step", step, "rad");
   // Degrees converted one way or another may pass a right angle by an ulp.
   if (!(limit > 0 && limit <= right_angle * (1 + 1e-12)))
     throw Error(ErrorCode::bad_value, "`limit` is " + degrees(limit), "a stage is raised to at most 90 deg");
@@ -40,13 +35,13 @@ void check_stage(double step, double limit) {
 }  // namespace
 
 void check(const TiltOptions& options) {
-  check_positive(options.mass, "mass", "kg");
-  check_positive(options.gravity, "gravity", "m/s^2");
+  require_positive("mass", options.mass, "kg");
+  require_positive("gravity", options.gravity, "m/s^2");
   check_stage(options.step, options.limit);
 }
 
 SlipAngle slip_angle(const FrictionForce& friction, double weight, double step, double limit) {
-  check_positive(weight, "weight", "N");
+  require_positive("weight", weight, "N");
   check_stage(step, limit);
   limit = std::min(limit, right_angle);
   auto holds = [&](double angle) {

@@ -14,6 +14,7 @@
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/fourier/fourier_batch.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/metrology/blocked_sums.hpp"
 
@@ -30,12 +31,9 @@ GaussianFilter checked(const GaussianFilter& filter) {
   if (!filter.short_wave && !filter.long_wave)
     throw Error(ErrorCode::bad_value, "a filter was asked for without `short_wave` or `long_wave`",
                 "give one or both, as in `short_wave=\"2.5 um\", long_wave=\"0.8 mm\"`");
-  if (filter.short_wave && !(std::isfinite(*filter.short_wave) && *filter.short_wave > 0))
-    throw Error(ErrorCode::bad_value, "`short_wave` is " + format_short(*filter.short_wave) + " m",
-                "give a finite length above zero");
-  if (filter.long_wave && !(*filter.long_wave > 0))
-    throw Error(ErrorCode::bad_value, "`long_wave` is " + format_short(*filter.long_wave) + " m",
-                "give a length above zero");
+  require_positive("short_wave", filter.short_wave, "m", "give a finite length above zero");
+  if (filter.long_wave)
+    require(*filter.long_wave > 0, "long_wave", *filter.long_wave, "m", "give a length above zero");
   if (filter.short_wave && filter.long_wave && !(*filter.short_wave < *filter.long_wave))
     throw Error(ErrorCode::bad_value,
                 "`short_wave` " + format_short(*filter.short_wave) + " m is not below `long_wave` " +

@@ -13,6 +13,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -20,9 +21,7 @@ namespace asperity {
 namespace {
 
 double checked_radius(double radius) {
-  if (!(std::isfinite(radius) && radius >= 0))
-    throw Error(ErrorCode::bad_value, "`tip` is " + format_short(radius) + " m",
-                "give a finite radius of 0 or more");
+  require(std::isfinite(radius) && radius >= 0, "tip", radius, "m", "give a finite radius of 0 or more");
   return radius;
 }
 

@@ -10,9 +10,9 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/metrology/roughness.hpp"
 #include "engine/metrology/spherical_tip.hpp"
@@ -23,22 +23,10 @@ namespace {
 
 constexpr double same = 1e-9;  // relative, of lengths that a script gives twice
 
-std::string metres(double value) { return format_quantity(value, dimension::length); }
-
-[[noreturn]] void refuse(std::string sentence, std::string hint) {
-  throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
-}
-
-double positive(const char* key, double value) {
-  if (!(std::isfinite(value) && value > 0))
-    refuse(quoted(key) + " is " + format_short(value), "give a finite value above zero");
-  return value;
-}
-
 double spacing_of(const StylusOptions& o) {
-  if (o.spacing) positive("spacing", *o.spacing);
-  if (o.speed) positive("speed", *o.speed);
-  if (o.rate) positive("rate", *o.rate);
+  require_positive("spacing", o.spacing);
+  require_positive("speed", o.speed);
+  require_positive("rate", o.rate);
   if (o.speed && !o.rate && !o.spacing)
     refuse("`speed` is given without `rate`, so the distance between samples is not known",
            "give `rate`, such as \"100 Hz\", or `spacing`");
@@ -74,11 +62,11 @@ std::optional<Range> fitting_angles(double length, double width, double height) 
 Stylus::Stylus(const StylusOptions& options)
     : tip_(options.tip),
       spacing_(spacing_of(options)),
-      length_(positive("length", options.length)),
+      length_(options.length),
       speed_(options.speed),
       rate_(options.rate) {
-  if (!(std::isfinite(tip_) && tip_ >= 0))
-    refuse("`tip` is " + format_short(tip_) + " m", "give a finite radius of 0 or more");
+  require_positive("length", length_);
+  require(std::isfinite(tip_) && tip_ >= 0, "tip", tip_, "m", "give a finite radius of 0 or more");
   if (!(length_ >= 2 * spacing_ * (1 - same)))
     refuse("`length` is " + metres(length_) + " and `spacing` " + metres(spacing_),
            "give a length of at least two spacings, " + metres(2 * spacing_));

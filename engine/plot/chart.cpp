@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/plot/palette.hpp"
 
@@ -241,7 +241,7 @@ std::vector<std::string> draw(const LineChart& chart, const std::filesystem::pat
   std::vector<std::string> warnings;
   const std::string script = chart_script(chart, picture_format(file), warnings);
   const GnuplotResult drawn = run_gnuplot(script);
-  write_aside(file, drawn.picture);
+  write_atomically(file, drawn.picture);
   const std::vector<std::string> complaints = complaints_of(drawn, file);
   warnings.insert(warnings.end(), complaints.begin(), complaints.end());
   return warnings;

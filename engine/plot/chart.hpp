@@ -52,7 +52,7 @@ struct LineChart {
 std::string chart_script(const LineChart& chart, PictureFormat format, std::vector<std::string>& warnings);
 
 // Draws the chart into `file` (.svg or .png), written aside. Returns the warnings. Throws as
-// chart_script, picture_format, run_gnuplot and write_aside do.
+// chart_script, picture_format, run_gnuplot and write_atomically do.
 std::vector<std::string> draw(const LineChart& chart, const std::filesystem::path& file);
 
 }  // namespace asperity

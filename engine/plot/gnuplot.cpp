@@ -21,7 +21,8 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
 
@@ -243,8 +244,8 @@ std::string script_for_file(std::string_view script) {
 GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> data) {
   if (drawer()) return drawer()(script, data);
   const TemporaryDirectory folder;
-  write_aside(folder.path() / "script", script_for_file(script));
-  for (const GnuplotData& item : data) write_aside(folder.path() / item.name, item.bytes);
+  write_atomically(folder.path() / "script", script_for_file(script));
+  for (const GnuplotData& item : data) write_atomically(folder.path() / item.name, item.bytes);
   const int status = wait_for(start(folder.path()));
   GnuplotResult result{content_of(folder.path() / "picture"),
                        without_ends(content_of(folder.path() / "messages")), handles_if_few()};

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/plot/chart_axis.hpp"
 #include "engine/plot/gnuplot.hpp"
@@ -64,9 +65,8 @@ void check(const Grid& grid, const Field& field, const PictureOptions& options) 
     throw Error(ErrorCode::bad_value, "the field has " + std::to_string(field.nx()) + " × " +
                                           std::to_string(field.ny()) + " values on a grid of " +
                                           std::to_string(grid.nx) + " × " + std::to_string(grid.ny));
-  if (options.width < 200 || options.width > 4000)
-    throw Error(ErrorCode::bad_value, "`width` is " + std::to_string(options.width) + " pixels",
-                "give 200 to 4000");
+  require(options.width >= 200 && options.width <= 4000, "width", options.width, "pixels",
+          "give 200 to 4000");
   if (options.range && !(options.range->min < options.range->max && std::isfinite(options.range->span())))
     throw Error(
         ErrorCode::bad_value,
@@ -336,7 +336,7 @@ std::vector<std::string> draw(const Grid& grid, const Field& field, const Pictur
   const PictureScript picture = picture_script(grid, field, options);
   const GnuplotData cells{"cells", picture.cells};
   const GnuplotResult drawn = run_gnuplot(picture.script, {&cells, 1});
-  write_aside(file, drawn.picture);
+  write_atomically(file, drawn.picture);
   return complaints_of(drawn, file);
 }
 

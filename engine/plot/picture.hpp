@@ -37,7 +37,7 @@ struct PictureScript {
 PictureScript picture_script(const Grid& grid, const Field& field, const PictureOptions& options);
 
 // Draws into `file` (.png), written aside. Returns warnings: what gnuplot complained of. Throws as
-// picture_script, run_gnuplot and write_aside do.
+// picture_script, run_gnuplot and write_atomically do.
 std::vector<std::string> draw(const Grid& grid, const Field& field, const PictureOptions& options,
                               const std::filesystem::path& file);
 std::vector<std::string> draw(const Surface& surface, const PictureOptions& options,

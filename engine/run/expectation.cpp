@@ -9,15 +9,12 @@
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
 
 namespace {
-
-[[noreturn]] void refuse(std::string sentence, std::string hint) {
-  throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
-}
 
 struct Value {
   std::size_t row;

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/patient_lock.hpp"
 #include "engine/core/text.hpp"
 

@@ -3,7 +3,8 @@
 
 #include <utility>
 
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/patient_lock.hpp"
 
 namespace asperity {
@@ -62,7 +63,7 @@ std::string Notebook::unit_of(std::string_view column) const {
 
 void Notebook::rewrite() {
   stale_ = true;
-  write_aside(csv_, table_.csv());
+  write_atomically(csv_, table_.csv());
   stale_ = false;
 }
 

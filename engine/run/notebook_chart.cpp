@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/text.hpp"
 

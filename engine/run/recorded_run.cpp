@@ -11,6 +11,7 @@
 #include "engine/core/text.hpp"
 #include "engine/run/journal.hpp"
 #include "engine/run/run_facts.hpp"
+#include "engine/run/run_folder.hpp"
 
 namespace asperity {
 
@@ -111,23 +112,24 @@ std::string program_version(const RecordedRun& run) {
 }
 
 Json read_manifest(const fs::path& root) {
-  const fs::path file = root / "manifest.json";
+  const fs::path file = root / run_names::manifest;
   return Json::parse(whole_file(file), quoted(file.string()));
 }
 
 RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   RecordedRun run;
   run.root = root;
-  const fs::path file = root / "manifest.json";
+  const fs::path file = root / run_names::manifest;
   const Json manifest = read_manifest(root);
   run.status = member(manifest, "status", file).string();
   const Json& script = member(manifest, "script", file);
   const Json& rest = member(manifest, unhashed, file);
   run.script_path = member(rest, "script_path", file).string();
-  run.script_text = whole_file(root / "script.lua");
+  run.script_text = whole_file(root / run_names::script);
   const std::string digest = Digester().add(run.script_text).hex();
   if (digest != member(script, "digest", file).string())
-    throw Error(ErrorCode::bad_file, quoted((root / "script.lua").string()) + " is not the script that ran",
+    throw Error(ErrorCode::bad_file,
+                quoted((root / run_names::script).string()) + " is not the script that ran",
                 "it was altered since; run it as a script of its own");
   for (const Json& argument : member(manifest, "arguments", file).list())
     run.arguments.push_back(argument.string());
@@ -137,7 +139,7 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   if (const Json* machine = rest.is_object() ? rest.find("machine") : nullptr) run.machine = *machine;
   run.manifest = without_unhashed(manifest);
   try {
-    run.journal = read_journal(root / "journal.jsonl", !run.ended()).lines;
+    run.journal = read_journal(root / run_names::journal, !run.ended()).lines;
   } catch (const Error& error) {
     if (!journal_may_be_damaged) throw;
     run.journal_fault = error.sentence();
@@ -148,7 +150,7 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   if (!run.ended() || facts == nullptr) return run;
   const JournalFacts now = facts_of(run.journal);
   if (!(member(*facts, "digest", file) == Json(now.digest)))
-    run.journal_fault = quoted((root / "journal.jsonl").string()) + " was altered since the run";
+    run.journal_fault = quoted((root / run_names::journal).string()) + " was altered since the run";
   return run;
 }
 

@@ -7,9 +7,8 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
-#include "engine/core/files/part_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
 
@@ -129,7 +128,7 @@ void ResultFiles::bring_over(const fs::path& from, const std::string& name) {
   fs::create_hard_link(from, to, problem);  // one file of both folders, where they are on one disk
   if (!problem) return;
   try {
-    AsideFile aside(to);  // other runs may bring it over at the same time
+    AtomicFile aside(to);  // other runs may bring it over at the same time
     if (fs::copy_file(from, aside.temporary(), problem)) aside.commit();
   } catch (const Error&) {
     // it stays where it is

@@ -26,11 +26,12 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/json.hpp"
 #include "engine/run/expectation_log.hpp"
 #include "engine/run/journal.hpp"
 #include "engine/run/notebook.hpp"
+#include "engine/run/run_folder.hpp"
 #include "engine/run/run_lock.hpp"
 
 namespace asperity {
@@ -56,15 +57,6 @@ struct RunSetup {
   Json versions = Json::object();  // program, libraries, compiler
   Json barriers{};  // what held a confined run and what it could read; null for one that was not confined
 };
-
-// Whether a directory, which may be missing, holds nothing of a run but what one writes before its first
-// manifest, or nothing at all: a run may begin there.
-bool is_not_begun(const std::filesystem::path& folder);
-// Goes on with the moving aside of an earlier run (RunSetup::anew) that was cut off: what is left of it
-// follows its manifest into before-<n>. Nothing is done where that is not how things stand.
-void finish_moving_aside(const std::filesystem::path& folder);
-// Throws Error{bad_file} where script, manifest, journal or store of a run is a link.
-void refuse_links(const std::filesystem::path& folder);
 
 enum class RunStatus { running, done, failed, interrupted, killed };
 std::string_view name(RunStatus status);
@@ -100,7 +92,7 @@ class RunDirectory {
   static Prepared prepared_for(const RunSetup& setup);
 
   // Where results of heavy calls are kept.
-  std::filesystem::path store() const { return root_ / "store"; }
+  std::filesystem::path store() const { return root_ / run_names::store; }
   // A sentence where the file system of the directory gives no locks; "" otherwise.
   std::string lock_notice() const { return lock_ ? lock_->notice() : std::string(); }
   // Whether it is a finished run that was taken up because something of it was damaged, and is done again.
@@ -148,6 +140,8 @@ class RunDirectory {
 
  private:
   enum class Kind { directory, loose, dry };
+  // Of the manifest, until a run is mended: what its outputs are to be again.
+  static constexpr std::string_view mending_member = "recorded_outputs";
   void make(const RunSetup& setup);
   void begin(const RunSetup& setup);
   void take_up();

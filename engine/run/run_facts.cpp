@@ -15,7 +15,7 @@
 #include "engine/core/build_identity.hpp"
 #include "engine/core/c_library_identity.hpp"
 #include "engine/core/digest.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

@@ -17,7 +17,8 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/files/json.hpp"
 #include "engine/core/text.hpp"
 
@@ -200,7 +201,7 @@ void RunLock::hold_by_name() {
   if (const std::optional<LockHolder> holder = holder_in(file); holder && !has_ended(*holder))
     throw_held(folder_, holder, holder->host == this_process().host);
   const std::string own = lock_text(this_process());
-  write_aside(file, own);
+  write_atomically(file, own);
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const std::optional<LockHolder> holder = holder_in(file);
   if (!holder || lock_text(*holder) != own) throw_held(folder_, holder, true);

@@ -5,6 +5,7 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity {
 
@@ -30,9 +31,7 @@ SlipShare share_at(const Solver& contact, const State& state, double friction, d
 std::vector<SlipShare> slip_growth(const SpecimenPair& pair, const JunctionLaw& law,
                                    const TiltTrialOptions& options, int steps, Monitor& monitor) {
   require_tangential(pair.scene().effects);
-  if (steps < 1 || steps > 10000)
-    throw Error(ErrorCode::bad_value, "`steps` is " + std::to_string(steps),
-                "give a whole number from 1 to 10000");
+  require(steps >= 1 && steps <= 10000, "steps", steps, "", "give a whole number from 1 to 10000");
   TiltTrialOptions once = options;
   once.repeats = 1;
   once.scatter = 0;

@@ -44,7 +44,7 @@ class SpecimenPair {
   // that they have carried as they lie, or less, nothing yields again (carried_load.hpp). Warns once where
   // bodies that do not continue across the rim lie on a periodic half-space, where a dwell is named and creep
   // is not, and where a turn off the lattice maps the yielded volume badly (it is scaled to be kept). Where
-  // the scene asks for an error, the first press under load chooses cells, tolerance and precision for it and
+  // the scene asks for an error, the first press under load chooses cells and tolerance for it and
   // puts the bodies on these cells, where they stay (accuracy_choice.hpp); presses after it are held to the
   // error there.
   State press(const PressRequest& request, Monitor& monitor = Monitor::silent());

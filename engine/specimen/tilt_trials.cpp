@@ -13,6 +13,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -24,20 +25,16 @@ constexpr std::int64_t enough_contacts = 50;
 
 void check_trials(const TiltTrialOptions& options) {
   check(options.stage);
-  if (options.specimen_area && !(*options.specimen_area > 0 && std::isfinite(*options.specimen_area)))
-    throw Error(ErrorCode::bad_value, "`specimen_area` is " + format_short(*options.specimen_area) + " m^2",
-                "give a finite area above zero");
-  if (!(options.scatter >= 0 && options.scatter < 1))
-    throw Error(ErrorCode::bad_value, "`scatter` is " + format_short(options.scatter),
-                "it is a relative standard deviation: give a number from 0 to below 1");
+  require_positive("specimen_area", options.specimen_area, "m^2", "give a finite area above zero");
+  require(options.scatter >= 0 && options.scatter < 1, "scatter", options.scatter, "",
+          "it is a relative standard deviation: give a number from 0 to below 1");
   if (options.probe_pressures.empty() ||
       !std::all_of(options.probe_pressures.begin(), options.probe_pressures.end(),
                    [](double p) { return p > 0 && std::isfinite(p); }))
     throw Error(ErrorCode::bad_value, "`probe_pressure` holds a pressure that is not finite and above zero",
                 "give one or more, such as { \"1 MPa\", \"3 MPa\" }");
-  if (options.repeats < 1 || options.repeats > 100000)
-    throw Error(ErrorCode::bad_value, "`repeats` is " + std::to_string(options.repeats),
-                "give a whole number from 1 to 100000");
+  require(options.repeats >= 1 && options.repeats <= 100000, "repeats", options.repeats, "",
+          "give a whole number from 1 to 100000");
 }
 
 TiltProbe probe_of(const State& state, const JunctionLaw& law, const TiltTrialOptions& options) {

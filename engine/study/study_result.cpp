@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/study/study_text.hpp"
 
@@ -95,8 +96,7 @@ const StudyRow* best_held(const StudyResult& result) {
 }
 
 const StudyRow& cheapest(const StudyResult& result, double error) {
-  if (!(error > 0) || std::isinf(error))
-    throw Error(ErrorCode::bad_value, "`error` is " + format_short(error), "give a number above 0");
+  require(error > 0 && !std::isinf(error), "error", error, "", "give a number above 0");
   const StudyRow *found = nullptr, *accident = nullptr;
   for (const StudyRow& row : result.rows) {
     if (!has_error(row)) continue;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/study/study_text.hpp"
 
@@ -25,8 +26,7 @@ bool same_bits(double a, double b) {
 }
 
 void check(const StudyRequest& request) {
-  if (request.repeats < 1)
-    throw Error(ErrorCode::bad_value, "`repeats` is " + std::to_string(request.repeats), "give at least 1");
+  require(request.repeats >= 1, "repeats", request.repeats, "", "give at least 1");
   if (const auto* value = std::get_if<double>(&request.truth); value != nullptr && !std::isfinite(*value))
     throw Error(ErrorCode::bad_value, "`truth` is " + format_short(*value),
                 "give a finite number, or the knobs of a setting to be taken for it");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -50,19 +51,12 @@ const Material& rigid_material() {
 }
 
 void check(const Material& m) {
-  auto positive = [](const std::optional<double>& value, const char* key) {
-    if (value && !(*value > 0 && std::isfinite(*value)))
-      throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(*value),
-                  "give a finite value above zero");
-  };
-  positive(m.young, "young");
-  positive(m.density, "density");
-  if (m.hardness && !(*m.hardness > 0))
-    throw Error(ErrorCode::bad_value, "`hardness` is " + format_short(*m.hardness),
-                "give a value above zero");
-  if (m.poisson && !(*m.poisson > -1 && *m.poisson <= 0.5))
-    throw Error(ErrorCode::bad_value, "`poisson` is " + format_short(*m.poisson),
-                "Poisson's ratio lies above -1 and at most at 0.5");
+  require_positive("young", m.young);
+  require_positive("density", m.density);
+  if (m.hardness) require(*m.hardness > 0, "hardness", *m.hardness, "", "give a value above zero");
+  if (m.poisson)
+    require(*m.poisson > -1 && *m.poisson <= 0.5, "poisson", *m.poisson, "",
+            "Poisson's ratio lies above -1 and at most at 0.5");
 }
 
 double plane_strain_modulus(const Material& m) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/effects/plasticity.hpp"
@@ -69,7 +70,7 @@ TEST(AccuracyChoice, StopsAtTheFirstGridThatIsGoodEnough) {
   SpecimenPair pair(asking(rough(512), rigid_material(), Boundary::periodic, 0.05));
   EXPECT_EQ(pair.lower().grid().nx, 512);
   EXPECT_NE(
-      pair.plan().text().find("the first press chooses cells, tolerance and precision for an error of 5 % of "
+      pair.plan().text().find("the first press chooses cells and tolerance for an error of 5 % of "
                               "corrected_area_fraction, from 64 x 64 cells up to 4096 x 4096 cells; what "
                               "follows is of the cells given"),
       std::string::npos)
@@ -83,8 +84,7 @@ TEST(AccuracyChoice, StopsAtTheFirstGridThatIsGoodEnough) {
   EXPECT_EQ(pair.lower().grid().nx, chosen.nx);
   EXPECT_EQ(state.geometry().grid().nx, chosen.nx);
   EXPECT_EQ(pair.plan().accuracy.tolerance, chosen.tolerance);
-  EXPECT_NE(pair.plan().text().find("cells, tolerance and precision as the first press chose them"),
-            std::string::npos);
+  EXPECT_NE(pair.plan().text().find("cells and tolerance as the first press chose them"), std::string::npos);
   EXPECT_NE(chosen.text().find("5 % of corrected_area_fraction was asked for"), std::string::npos)
       << chosen.text();
   EXPECT_GT(discretisation_estimate(state, "corrected_area_fraction").error, 0);
@@ -384,6 +384,56 @@ TEST(AccuracyChoice, TwoRoughBodiesLieAsTheyDid) {
     ASSERT_GT(fine.geometry->grid().nx, 128);
     EXPECT_LT(off_at_shared_nodes(as_given.combined(), fine.geometry->combined()), 1e-12) << quarters;
   }
+}
+
+Surface waves(int nx, int ny, std::uint64_t seed = 1) {
+  SelfAffineOptions o;
+  o.grid = Grid{nx, ny, 1, 1};
+  o.hurst = 0.8;
+  o.rms_slope = 0.1;
+  o.roll_off = 0.5;
+  o.short_wave = 1.0 / 8;
+  o.seed = seed;
+  Material material;
+  material.young = 1e9;
+  material.poisson = 0;
+  return self_affine_surface(o).with_material(material);
+}
+
+// Why no precision is chosen: single saves no step, and costs none.
+TEST(AccuracyChoice, EitherPrecisionTakesAsManySteps) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+    for (const std::uint64_t seed : {1, 2, 3})
+      for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+        const auto transforms = [&](Accuracy::Precision precision) {
+          Scene scene{waves(128, 128, seed), rigid_material(), boundary, HalfSpaceOptions{}, Accuracy{}};
+          scene.accuracy.precision = precision;
+          scene.accuracy.tolerance = tolerance;
+          return SpecimenPair(scene).press({PressBy::pressure, 1e7, {}}).cost().total.transforms;
+        };
+        EXPECT_NEAR(transforms(Accuracy::Precision::single) / transforms(Accuracy::Precision::double_), 1,
+                    0.05)
+            << seed << " " << tolerance;
+      }
+}
+
+State chosen_press(Surface surface, std::optional<Accuracy::Precision> named) {
+  Scene scene = asking(std::move(surface), rigid_material(), Boundary::periodic, 0.1);
+  scene.accuracy.precision_named = named.has_value();
+  scene.accuracy.precision = named.value_or(Accuracy::Precision::double_);
+  SpecimenPair pair(scene);
+  State state = pair.press({PressBy::pressure, 2e7, {}});
+  EXPECT_EQ(pair.plan().accuracy.precision, state.chosen()->precision);
+  const bool single = state.chosen()->precision == Accuracy::Precision::single;
+  EXPECT_EQ(state.solver().find(" in single precision") != std::string_view::npos, single);
+  return state;
+}
+
+TEST(AccuracyChoice, KeepsThePrecisionAndSaysWhy) {
+  const std::string chosen = chosen_press(waves(64, 64), {}).chosen()->text();
+  EXPECT_NE(chosen.find(", double precision (single saves no time): "), std::string::npos) << chosen;
+  const std::string named = chosen_press(waves(64, 63), Accuracy::Precision::single).chosen()->text();
+  EXPECT_NE(named.find(", single precision (as named): "), std::string::npos) << named;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ if grep -rnE "(std|__builtin)(::|_)($names)[fl]?\b *\(" engine bindings/lua --in
   found=1
 fi
 if grep -rnE "<random>|std::(normal|lognormal|exponential|gamma|weibull)_distribution" engine \
-  --include='*.cpp' --include='*.hpp' | grep -v '^engine/core/files/part_file\.cpp:'; then
+  --include='*.cpp' --include='*.hpp' | grep -v '^engine/core/files/atomic_file\.cpp:'; then
   echo "use engine/core/arithmetic/random.hpp: distributions of the standard library are each compiler's own"
   found=1
 fi

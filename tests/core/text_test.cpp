@@ -105,5 +105,23 @@ TEST(WithoutTraceback, IsTheMessageAlone) {
   EXPECT_EQ(without_traceback("no"), "no");
 }
 
+TEST(SafeFileName, KeepsWhatIsHarmless) {
+  EXPECT_EQ(safe_file_name("rotation-memory_2.5"), "rotation-memory_2.5");
+  EXPECT_EQ(safe_file_name("Rauheit (µm)"), "Rauheit-µm");
+  EXPECT_EQ(safe_file_name("a'b`rm -rf /`"), "a-b-rm-rf");
+  EXPECT_EQ(safe_file_name("../../etc/passwd"), "etc-passwd");
+  EXPECT_EQ(safe_file_name(".hidden"), "hidden");
+  EXPECT_EQ(safe_file_name(""), "unnamed");
+  EXPECT_EQ(safe_file_name("///"), "unnamed");
+}
+
+TEST(SafeFileName, CutsLongNamesBetweenCharacters) {
+  EXPECT_EQ(safe_file_name(std::string(500, 'x')).size(), 120U);
+  std::string wide = "x";
+  for (int k = 0; k < 100; ++k) wide += "µ";
+  const std::string cut = safe_file_name(wide);
+  EXPECT_EQ(cut, wide.substr(0, 119));
+}
+
 }  // namespace
 }  // namespace asperity::text_test

@@ -13,6 +13,7 @@
 #include "engine/core/digest.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_facts.hpp"
+#include "engine/run/run_folder.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::run_directory_test {

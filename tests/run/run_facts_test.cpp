@@ -2,7 +2,7 @@
 // Facts about the surroundings of a run.
 #include "engine/run/run_facts.hpp"
 
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::run_facts_test {
@@ -45,10 +45,10 @@ TEST(RunFacts, MachineNamesWhatLastDigitsHangOn) {  // N10
 
 TEST_F(RunFactsTest, DigestTellsContentsApart) {
   const std::string large(3 << 20, 'x');
-  write_aside(folder / "a", large);
-  write_aside(folder / "b", large);
-  write_aside(folder / "c", large.substr(1) + "y");
-  write_aside(folder / "empty", "");
+  write_atomically(folder / "a", large);
+  write_atomically(folder / "b", large);
+  write_atomically(folder / "c", large.substr(1) + "y");
+  write_atomically(folder / "empty", "");
   EXPECT_EQ(file_digest(folder / "a"), file_digest(folder / "b"));
   EXPECT_NE(file_digest(folder / "a"), file_digest(folder / "c"));
   EXPECT_EQ(file_digest(folder / "empty").size(), 32U);

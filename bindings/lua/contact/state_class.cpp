@@ -246,7 +246,7 @@ const Class& class_of<asperity::State>() {
          [](Call& call) -> Values { return {object(StateError{call.self<S>()})}; }},
         {"chosen",
          "table",
-         "cells, tolerance and precision that were chosen for accuracy={ error= }, and why; nil otherwise",
+         "cells and tolerance that were chosen for accuracy={ error= }, and why; nil otherwise",
          {},
          [](Call& call) -> Values { return {chosen_record(call.self<S>())}; }},
         {"cost", "table", "seconds, transforms, bytes, and by effect", {}, cost_of},

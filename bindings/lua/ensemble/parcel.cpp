@@ -2,12 +2,11 @@
 #include "bindings/lua/ensemble/parcel.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
-#include <type_traits>
 
 #include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/registry/registry.hpp"
-#include "engine/core/digest.hpp"
 
 namespace asperity::lua {
 
@@ -150,107 +149,17 @@ void Parcel::push(lua_State* L) const {
   lua_settop(L, top - 1);
 }
 
-bool Parcel::before(const Entry& a, const Entry& b) {
-  const auto rank = [](const Item& item) {
-    return std::holds_alternative<std::int64_t>(item) || std::holds_alternative<double>(item) ? 0
-           : std::holds_alternative<std::string>(item)                                        ? 1
-                                                                                              : 2;
-  };
-  const int rank_a = rank(a.key), rank_b = rank(b.key);
-  if (rank_a != rank_b) return rank_a < rank_b;
-  if (rank_a == 1) return std::get<std::string>(a.key) < std::get<std::string>(b.key);
-  if (rank_a == 2)
-    return std::holds_alternative<bool>(a.key) && std::holds_alternative<bool>(b.key) &&
-           std::get<bool>(a.key) < std::get<bool>(b.key);
-  if (const auto* i = std::get_if<std::int64_t>(&a.key))
-    if (const auto* j = std::get_if<std::int64_t>(&b.key)) return *i < *j;
-  const auto number_of = [](const Item& item) {
-    const auto* whole = std::get_if<std::int64_t>(&item);
-    return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(item);
-  };
-  return number_of(a.key) < number_of(b.key);
+std::string step_text(std::string_view key) {
+  const bool name = !key.empty() && std::isdigit(static_cast<unsigned char>(key[0])) == 0 &&
+                    std::all_of(key.begin(), key.end(), [](char c) {
+                      return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+                    });
+  return name ? "." + std::string(key) : "[\"" + std::string(key.substr(0, 40)) + "\"]";
 }
 
-// Tables are numbered in the order in which the sorted keys lead to them.
-struct Parcel::Digest {
-  const Parcel& parcel;
-  Digester digester{};
-  std::vector<std::int64_t> number = std::vector<std::int64_t>(parcel.nodes_.size(), -1);
-  std::vector<std::uint32_t> order{};
-
-  void add(const Object& object) {
-    digester.add(object.type->name);
-    if (object.pointer == nullptr)
-      digester.add("");
-    else if (object.type->digest != nullptr)
-      digester.add(object.type->digest(object.pointer.get()));
-    else
-      digester.add(object.type->describe != nullptr ? object.type->describe(object.pointer.get()) : "");
-  }
-  void add(const Value& value) {
-    std::visit(Overload{[&](bool v) { digester.add(v ? "true" : "false"); },
-                        [&](std::int64_t v) { digester.add(v); }, [&](double v) { digester.add(v); },
-                        [&](const std::string& v) { digester.add(v); }, [&](const Object& v) { add(v); },
-                        [&](const std::shared_ptr<Record>& v) {
-                          digester.add(v->name);
-                          for (const Record::Entry& entry : v->entries) {
-                            digester.add(entry.field);
-                            add(entry.value);
-                          }
-                        },
-                        [&](const std::shared_ptr<List>& v) {
-                          digester.add(static_cast<std::int64_t>(v->items.size()));
-                          for (const Value& item : v->items) add(item);
-                          for (const auto& [key, item] : v->named) {
-                            digester.add(key);
-                            add(item);
-                          }
-                        },
-                        [&](const std::shared_ptr<Map>& v) {
-                          for (const auto& [key, item] : v->items) {
-                            digester.add(key);
-                            add(item);
-                          }
-                        },
-                        [&](const Value::Numbers& v) { digester.add(std::span<const double>(*v)); },
-                        [&](const Value::Rows& v) { digester.add(v->values()); },
-                        [&](const auto&) { digester.add(show(value)); }},
-               value.data);
-  }
-  void add(const Item& item) {
-    digester.add(static_cast<int>(item.index()));  // "1" is not 1
-    std::visit(Overload{[&](bool v) { digester.add(v ? 1 : 0); }, [&](std::int64_t v) { digester.add(v); },
-                        [&](double v) { digester.add(v); }, [&](const std::string& v) { digester.add(v); },
-                        [&](NodeId v) {
-                          if (const Value* value = std::get_if<Value>(&parcel.nodes_[v.index]))
-                            return add(*value);
-                          if (number[v.index] < 0) {
-                            number[v.index] = static_cast<std::int64_t>(order.size());
-                            order.push_back(v.index);
-                          }
-                          digester.add(number[v.index]);
-                        },
-                        [&](const auto&) { digester.add("?"); }},
-               item);
-  }
-
-  std::string all() {
-    add(parcel.root_);
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const Table* table = std::get_if<Table>(&parcel.nodes_[order[k]]);
-      if (table == nullptr) continue;
-      Array<Entry> entries = table->entries;
-      std::sort(entries.begin(), entries.end(), before);
-      digester.add(static_cast<std::int64_t>(entries.size()));
-      for (const Entry& entry : entries) {
-        add(entry.key);
-        add(entry.value);
-      }
-    }
-    return digester.hex();
-  }
-};
-
-std::string Parcel::digest() const { return Digest{*this}.all(); }
+const Value* Parcel::native() const {
+  const auto* id = std::get_if<NodeId>(&root_);
+  return id == nullptr ? nullptr : std::get_if<Value>(&nodes_[id->index]);
+}
 
 }  // namespace asperity::lua

@@ -24,6 +24,9 @@ namespace asperity::lua {
 
 struct Module;
 
+// How a table leads on to what it holds under a text, in the words of an error: ".bench", "[\"two words\"]".
+std::string step_text(std::string_view key);
+
 class Parcel final : public StoredValue {
  public:
   // Makes the value in a state and leaves it on the stack; one made by make_state if functions came
@@ -102,9 +105,10 @@ class Parcel final : public StoredValue {
 
   // Numbers in their order, then strings, then the rest.
   static bool before(const Entry& a, const Entry& b);
+  static Array<Entry> in_order(Array<Entry> entries);
 
   struct Pusher;
-  struct Digest;
+  struct RowDigest;
   struct Writer;
   struct Reader;
   struct ContentDigest;

@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "bindings/lua/ensemble/parcel.hpp"
-#include "bindings/lua/ensemble/reach.hpp"
+#include "bindings/lua/registry/value_visitor.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/byte_string.hpp"
@@ -33,13 +33,10 @@ enum class Tag : std::uint8_t {
   list,
   map,
   numbers,
-  rows,
-  parcel
+  rows
 };
 
 // What bytes cannot carry, in a few words; "" where they can.
-std::string no_bytes_for(const Value& value);
-
 std::string no_bytes_for(const Object& object) {
   if (object.pointer == nullptr) return object.type->article_name + " that was closed";
   if (object.type == &class_of<Surface>())
@@ -48,11 +45,6 @@ std::string no_bytes_for(const Object& object) {
                : "a surface that its generator can make again on other cells";
   if (object.type == &class_of<Profile>() || object.type == &class_of<Material>()) return "";
   return object.type->article_name;
-}
-
-std::string no_bytes_for(const Value& value) {
-  if (const auto* object = std::get_if<Object>(&value.data)) return no_bytes_for(*object);
-  return "a result that holds functions";
 }
 
 const Value* same_object(const Object& object, const std::vector<Value>& given, std::size_t& place) {
@@ -65,18 +57,16 @@ const Value* same_object(const Object& object, const std::vector<Value>& given, 
 
 }  // namespace
 
-const Value* Parcel::native() const {
-  const auto* id = std::get_if<NodeId>(&root_);
-  return id == nullptr ? nullptr : std::get_if<Value>(&nodes_[id->index]);
-}
-
-struct Parcel::Writer {
+struct Parcel::Writer : ValueVisitor {
   const Parcel& parcel;
   const std::string& name;
   const std::vector<Value>& given;
   ByteWriter out{};
   std::uint32_t node = 0;  // being written
   int depth = 0;
+
+  Writer(const Parcel& written, const std::string& called, const std::vector<Value>& at_hand)
+      : parcel(written), name(called), given(at_hand) {}
 
   void tag(Tag value) { out.number(static_cast<std::uint8_t>(value)); }
   template <class T>
@@ -98,7 +88,7 @@ struct Parcel::Writer {
         if (id == nullptr || id->index != to) continue;
         std::string step = "[...]";
         if (const auto* text = std::get_if<std::string>(&entry.key))
-          step = is_name(*text) ? "." + *text : "[\"" + *text + "\"]";
+          step = step_text(*text);
         else if (const auto* whole = std::get_if<std::int64_t>(&entry.key))
           step = "[" + std::to_string(*whole) + "]";
         return path_to(k, steps + 1) + step;
@@ -120,7 +110,7 @@ struct Parcel::Writer {
     out.text(material.source);
     out.number(material.rigid);
   }
-  void write(const Object& object) {
+  void leaf(const Object& object) {
     std::size_t place = 0;
     if (same_object(object, given, place) != nullptr) {
       tag(Tag::given);
@@ -151,80 +141,66 @@ struct Parcel::Writer {
       write(*static_cast<const Material*>(object.pointer.get()));
     }
   }
-  void write(const std::shared_ptr<Record>& record) {
+  void begin(const Value&) {
+    if (++depth > deepest_parcel)
+      refuse("results within results, more than " + std::to_string(deepest_parcel) + " deep");
+  }
+  void end() { --depth; }
+  void named(std::size_t count) { out.number(static_cast<std::uint64_t>(count)); }
+  bool under(const std::string& key) {
+    out.text(key);
+    return true;
+  }
+  void enter(const Record& record) {
     tag(Tag::record);
-    out.text(record->name);
-    out.number(static_cast<std::uint64_t>(record->entries.size()));
-    for (const Record::Entry& entry : record->entries) {
-      out.text(entry.field);
-      write(entry.value);
-      for (const std::int8_t power :
-           {entry.dimension.length, entry.dimension.mass, entry.dimension.time, entry.dimension.angle})
-        out.number(power);
-    }
-    out.number(static_cast<std::uint64_t>(record->missing_effects.size()));
-    for (const auto& [field, effect] : record->missing_effects) {
+    out.text(record.name);
+    named(record.entries.size());
+  }
+  void after(const Record::Entry& entry) {
+    for (const std::int8_t power :
+         {entry.dimension.length, entry.dimension.mass, entry.dimension.time, entry.dimension.angle})
+      out.number(power);
+  }
+  void leave(const Record& record) {
+    named(record.missing_effects.size());
+    for (const auto& [field, effect] : record.missing_effects) {
       out.text(field);
       out.text(effect);
     }
   }
-  template <class Named>
-  void write_named(const Named& named) {
-    out.number(static_cast<std::uint64_t>(named.size()));
-    for (const auto& [key, item] : named) {
-      out.text(key);
-      write(item);
-    }
+  void enter(const List& list) {
+    tag(Tag::list);
+    named(list.items.size());
   }
-  void write(const Value& value) {
-    if (++depth > deepest_parcel)
-      refuse("results within results, more than " + std::to_string(deepest_parcel) + " deep");
-    std::visit(
-        [&](const auto& held) {
-          using Held = std::decay_t<decltype(held)>;
-          if constexpr (std::is_same_v<Held, std::monostate>) {
-            tag(Tag::nil);
-          } else if constexpr (std::is_same_v<Held, bool>) {
-            tag(Tag::truth);
-            out.number(held);
-          } else if constexpr (std::is_same_v<Held, std::int64_t>) {
-            tag(Tag::integer);
-            out.number(held);
-          } else if constexpr (std::is_same_v<Held, double>) {
-            tag(Tag::number);
-            out.number(held);
-          } else if constexpr (std::is_same_v<Held, std::string>) {
-            tag(Tag::text);
-            out.text(held);
-          } else if constexpr (std::is_same_v<Held, Object> ||
-                               std::is_same_v<Held, std::shared_ptr<Record>>) {
-            write(held);
-          } else if constexpr (std::is_same_v<Held, std::shared_ptr<List>>) {
-            tag(Tag::list);
-            out.number(static_cast<std::uint64_t>(held->items.size()));
-            for (const Value& item : held->items) write(item);
-            write_named(held->named);
-          } else if constexpr (std::is_same_v<Held, std::shared_ptr<Map>>) {
-            tag(Tag::map);
-            write_named(held->items);
-          } else if constexpr (std::is_same_v<Held, Value::Numbers>) {
-            tag(Tag::numbers);
-            out.numbers(*held);
-          } else if constexpr (std::is_same_v<Held, Value::Rows>) {
-            tag(Tag::rows);
-            out.number(held->nx());
-            out.number(held->ny());
-            out.numbers(held->values());
-          } else if constexpr (std::is_same_v<Held, std::shared_ptr<const Parcel>>) {
-            tag(Tag::parcel);
-            out.text(held->bytes(name, given));
-          } else {
-            refuse(no_bytes_for(value));
-          }
-        },
-        value.data);
-    --depth;
+  void enter(const Map&) { tag(Tag::map); }
+  void leaf(std::monostate) { tag(Tag::nil); }
+  void leaf(bool truth) {
+    tag(Tag::truth);
+    out.number(truth);
   }
+  void leaf(std::int64_t number) {
+    tag(Tag::integer);
+    out.number(number);
+  }
+  void leaf(double number) {
+    tag(Tag::number);
+    out.number(number);
+  }
+  void leaf(const std::string& text) {
+    tag(Tag::text);
+    out.text(text);
+  }
+  void leaf(const Value::Numbers& numbers) {
+    tag(Tag::numbers);
+    out.numbers(*numbers);
+  }
+  void leaf(const Value::Rows& rows) {
+    tag(Tag::rows);
+    out.number(rows->nx());
+    out.number(rows->ny());
+    out.numbers(rows->values());
+  }
+  void leaf(const auto&) { refuse("a result that holds functions"); }
   void write(const Item& item) {
     std::visit(
         [&](const auto& held) {
@@ -232,11 +208,10 @@ struct Parcel::Writer {
           if constexpr (std::is_same_v<Held, NodeId>) {
             tag(Tag::node);
             out.number(held.index);
-          } else if constexpr (std::is_constructible_v<Value, Held> && !std::is_same_v<Held, Unknown> &&
-                               !std::is_pointer_v<Held>) {
-            write(Value(held));
-          } else if constexpr (std::is_same_v<Held, std::monostate>) {
-            tag(Tag::nil);
+          } else if constexpr (std::is_same_v<Held, std::monostate> || std::is_same_v<Held, bool> ||
+                               std::is_same_v<Held, std::int64_t> || std::is_same_v<Held, double> ||
+                               std::is_same_v<Held, std::string>) {
+            leaf(held);
           } else {
             refuse("a part of Lua's library");
           }
@@ -250,7 +225,7 @@ struct Parcel::Writer {
     for (node = 0; node < parcel.nodes_.size(); ++node) {
       if (const auto* value = std::get_if<Value>(&parcel.nodes_[node])) {
         out.number(false);
-        write(*value);
+        visit_value(*value, *this);
         continue;
       }
       const auto* table = std::get_if<Table>(&parcel.nodes_[node]);
@@ -348,7 +323,7 @@ struct Parcel::Reader {
   }
   Tag tag() {
     const auto found = in.number<std::uint8_t>();
-    if (found > static_cast<std::uint8_t>(Tag::parcel)) ByteReader::damaged();
+    if (found > static_cast<std::uint8_t>(Tag::rows)) ByteReader::damaged();
     return static_cast<Tag>(found);
   }
   Value value() { return value(tag()); }
@@ -394,8 +369,6 @@ struct Parcel::Reader {
           return std::make_shared<const Array<double>>(numbers());
         case Tag::rows:
           return std::make_shared<const Field>(field());
-        case Tag::parcel:
-          return from_bytes(in.text(), given);
         case Tag::node:
           break;
       }
@@ -452,7 +425,7 @@ struct Parcel::Reader {
 };
 
 std::string Parcel::bytes(const std::string& name, const std::vector<Value>& given) const {
-  return Writer{*this, name, given}.all();
+  return Writer(*this, name, given).all();
 }
 
 std::shared_ptr<const Parcel> Parcel::from_bytes(std::string_view bytes, const std::vector<Value>& given) {

@@ -6,10 +6,10 @@
 #include <unordered_map>
 #include <utility>
 
-#include "bindings/lua/ensemble/reach.hpp"
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/value_visitor.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -26,20 +26,33 @@ int append_code(lua_State*, const void* piece, std::size_t size, void* code) {
   }
 }
 
-// Whether another thread may read it.
-bool shareable(const Value& value) {
-  if (const auto* object = std::get_if<Object>(&value.data))
-    return object->type->shareable && !object->closed;
-  if (const auto* record = std::get_if<std::shared_ptr<Record>>(&value.data))
-    return std::all_of((*record)->entries.begin(), (*record)->entries.end(),
-                       [](const Record::Entry& entry) { return shareable(entry.value); });
-  const auto field_is_shareable = [](const auto& field) { return shareable(field.second); };
-  if (const auto* list = std::get_if<std::shared_ptr<List>>(&value.data))
-    return std::all_of((*list)->items.begin(), (*list)->items.end(), shareable) &&
-           std::all_of((*list)->named.begin(), (*list)->named.end(), field_is_shareable);
-  if (const auto* map = std::get_if<std::shared_ptr<Map>>(&value.data))
-    return std::all_of((*map)->items.begin(), (*map)->items.end(), field_is_shareable);
-  return !std::holds_alternative<std::shared_ptr<Iterator>>(value.data);
+// Whether another thread may read a value.
+struct Shareable : ValueVisitor {
+  bool all = true;
+  void leaf(const Object& object) { all = all && object.type->shareable && !object.closed; }
+  void leaf(const std::shared_ptr<Iterator>&) { all = false; }
+  void leaf(const auto&) {}
+};
+
+// ".bench", "[3]", "[\"two words\"]".
+std::string step_of(const Argument& key) {
+  if (key.is_text()) return step_text(key.text());
+  if (key.is_number())
+    return "[" + (key.integer() ? std::to_string(*key.integer()) : format_short(key.number())) + "]";
+  return "[" + key.describe() + "]";
+}
+
+// "an open file", "an iterator": a userdata that is no value of ours, by the name of its kind.
+std::string kind_of_userdata(const Argument& value) {
+  lua_State* L = value.state();
+  const Argument::StackGuard guard(L);
+  std::string name;
+  if (lua_getmetatable(L, value.index()) != 0)
+    with_key(Argument(L, -1), "__name", [&](const Argument& text) { name = text.text(); });
+  if (name.empty()) return "state that cannot be copied";
+  if (name == LUA_FILEHANDLE) return "an open file";
+  const bool vowel = std::string_view("aeiou").find(name[0]) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + name;
 }
 
 }  // namespace
@@ -176,7 +189,9 @@ class Packer {
     if (auto record = record_at(L, -1)) {
       Value whole;
       whole.data = std::move(record);
-      if (!shareable(whole)) refuse("a result that holds something of its own state");
+      Shareable shareable;
+      visit_value(whole, shareable);
+      if (!shareable.all) refuse("a result that holds something of its own state");
       return popped(add_node(identity, std::move(whole)));
     }
     refuse(kind_of_userdata(value));
@@ -309,7 +324,7 @@ class Packer {
       held_by_host = false;
       if (!lua_isfunction(L, frame.index)) {
         chain.back() += frame.phase == Frame::Phase::metatable ? std::string("'s metatable")
-                                                               : step_text(Argument(L, frame.index + 1));
+                                                               : step_of(Argument(L, frame.index + 1));
         continue;
       }
       held_by_host = lua_iscfunction(L, frame.index) != 0;
@@ -336,8 +351,8 @@ class Packer {
       if (!key.is_text() && !key.is_number()) return;
       if (is_original(value, path.library, key)) return;
       const std::size_t nodes = parcel_.nodes_.size(), cells = parcel_.cells_.size();
-      name_ = path.library == "_G" ? step_text(key).substr(key.is_text() && is_name(key.text()) ? 1 : 0)
-                                   : path.library + step_text(key);
+      name_ = path.library + step_of(key);
+      if (path.library == "_G") name_.erase(0, name_.starts_with("_G.") ? 3 : 2);
       try {
         Parcel::Item item = pack(value.index());
         Parcel::Item name = key.is_text()   ? Parcel::Item(std::string(key.text()))

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/value_visitor.hpp"
 #include "engine/core/digest.hpp"
 
 namespace asperity::lua {
@@ -15,52 +16,39 @@ namespace {
 
 constexpr std::array<std::string_view, 3> costs = {"cost", "seconds", "bytes"};
 
-class Adder {
- public:
-  explicit Adder(Digester& digester) : digester_(digester) {}
+struct Adder : ValueVisitor {
+  Digester digester{};
   // Numbers, or native values with digests, were among what was added.
   bool anything = false;
 
-  void add(const Value& value) {
-    std::visit([this](const auto& held) { add_held(held); }, value.data);
-  }
-  void add(std::string_view name, const Value& value) {
-    if (std::find(costs.begin(), costs.end(), name) != costs.end()) return;
-    digester_.add(name);
-    add(value);
+  using ValueVisitor::enter;
+  void enter(const Record& record) { digester.add(record.name); }
+  void enter(const List& list) { digester.add(static_cast<std::int64_t>(list.items.size())); }
+  bool under(const std::string& name) {
+    if (std::find(costs.begin(), costs.end(), name) != costs.end()) return false;
+    digester.add(name);
+    return true;
   }
 
- private:
   template <class T>
-  void add_held(const T& held) {
+  void leaf(const T& held) {
     if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::int64_t> || std::is_same_v<T, double>) {
-      digester_.add(held);
+      digester.add(held);
       anything = true;
     } else if constexpr (std::is_same_v<T, std::string>) {
-      digester_.add(held);
+      digester.add(held);
     } else if constexpr (std::is_same_v<T, Object>) {
       const std::string digest = digest_of(held);
-      digester_.add(digest);
+      digester.add(digest);
       anything = anything || !digest.empty();
     } else if constexpr (std::is_same_v<T, Value::Numbers>) {
-      digester_.add(std::span<const double>(*held));
+      digester.add(std::span<const double>(*held));
       anything = true;
     } else if constexpr (std::is_same_v<T, Value::Rows>) {
-      digester_.add(held->nx()).add(held->values());
+      digester.add(held->nx()).add(held->values());
       anything = true;
-    } else if constexpr (std::is_same_v<T, std::shared_ptr<Record>>) {
-      digester_.add(held->name);
-      for (const Record::Entry& entry : held->entries) add(entry.field, entry.value);
-    } else if constexpr (std::is_same_v<T, std::shared_ptr<List>>) {
-      digester_.add(static_cast<std::int64_t>(held->items.size()));
-      for (const Value& item : held->items) add(item);
-      for (const auto& [name, value] : held->named) add(name, value);
-    } else if constexpr (std::is_same_v<T, std::shared_ptr<Map>>) {
-      for (const auto& [name, value] : held->items) add(name, value);
     }  // iterators, functions and nothing have no content
   }
-
-  Digester& digester_;
 };
 
 }  // namespace
@@ -74,10 +62,9 @@ std::string digest_of(const Object& object) {
 std::string digest_of(const Values& results) {
   if (results.size() == 1)
     if (const auto* object = std::get_if<Object>(&results.front().data)) return digest_of(*object);
-  Digester digester;
-  Adder adder(digester);
-  for (const Value& result : results) adder.add(result);
-  return adder.anything ? digester.hex() : "";
+  Adder adder;
+  for (const Value& result : results) visit_value(result, adder);
+  return adder.anything ? adder.digester.hex() : "";
 }
 
 }  // namespace asperity::lua

@@ -12,7 +12,7 @@
 #include "bindings/lua/specimen/contact_scene.hpp"
 #include "bindings/lua/specimen/shear.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/recording/bench_log.hpp"
 
 namespace asperity::lua {
@@ -251,7 +251,7 @@ Values shift(Call& call) {
 Values log(Call& call) {
   const std::string text = bench_log_text(call.self<SpecimenPair>());
   const std::string path = writable_path(call, call.text(1, "path"));
-  write_aside(path, text);
+  write_atomically(path, text);
   return {path};
 }
 Values copy(Call& call) { return {object(call.self<SpecimenPair>().copy())}; }

@@ -8,7 +8,7 @@
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/protocol_events.hpp"
 #include "bindings/lua/specimen/protocol_reading.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/recording/event_detection.hpp"
 #include "engine/recording/press_log.hpp"
@@ -169,7 +169,7 @@ Values plus(Call& call) { return {object(call.self<Protocol>().plus(call.object<
 Values write_protocol(Call& call) {
   const std::string log = press_log_text(call.self<Protocol>());
   const std::string path = writable_path(call, call.text(1, "path"));
-  write_aside(path, log);
+  write_atomically(path, log);
   return {path};
 }
 

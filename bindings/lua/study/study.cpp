@@ -7,7 +7,8 @@
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/study/study_chart.hpp"
 #include "engine/study/study_text.hpp"
@@ -137,7 +138,7 @@ void record_result(RunDirectory* run, const std::string& name, const StudyResult
                                      {"total_seconds", result.total_seconds}}));
   run->journal().write("study end", line);
   const std::filesystem::path file = run->path_for(safe_file_name(name) + ".csv");
-  if (!run->dry()) write_aside(file, study_table(result).csv());
+  if (!run->dry()) write_atomically(file, study_table(result).csv());
 }
 
 template <>

@@ -8,7 +8,7 @@
 
 #include "bindings/web/sandbox/confined_process.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/disk.hpp"
 
 namespace asperity::web {
 

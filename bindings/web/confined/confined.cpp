@@ -20,7 +20,7 @@
 #include "bindings/web/confined/event_channel.hpp"
 #include "bindings/web/sandbox/system_calls.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/part_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_facts.hpp"

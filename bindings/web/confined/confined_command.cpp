@@ -21,7 +21,7 @@
 #include "bindings/web/runs/plain_files.hpp"
 #include "bindings/web/serve_setup.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/disk.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/recorded_run.hpp"

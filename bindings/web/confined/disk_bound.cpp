@@ -4,13 +4,12 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 #include <system_error>
 #include <tuple>
 #include <vector>
 
 #include "engine/core/text.hpp"
+#include "engine/run/run_folder.hpp"
 
 namespace asperity::web {
 
@@ -44,8 +43,8 @@ void each_entry(const fs::path& folder, const Action& action) {
 }
 
 bool is_record(const fs::path& folder, const fs::path& path) {
-  constexpr std::array<std::string_view, 4> own{"manifest.json", "script.lua", "journal.jsonl", ".lock"};
-  return path.parent_path() == folder && std::ranges::find(own, path.filename().string()) != own.end();
+  return path.parent_path() == folder &&
+         std::ranges::find(run_names::files, path.filename().string()) != run_names::files.end();
 }
 
 }  // namespace

@@ -16,7 +16,8 @@
 #include "bindings/web/runs/plain_files.hpp"
 #include "bindings/web/sandbox/confined_process.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/disk.hpp"
 
 namespace asperity::web {
 
@@ -66,11 +67,11 @@ class Folder {
 GnuplotResult draw(const std::vector<std::string>& request, const std::vector<std::string>& barriers,
                    const std::atomic<bool>& given_up) {
   const Folder folder;
-  write_aside(folder.path / "script", script_for_file(request[0]));
+  write_atomically(folder.path / "script", script_for_file(request[0]));
   for (std::size_t k = 1; k + 1 < request.size(); k += 2) {
     if (!is_plain_name(request[k]))
       throw Error(ErrorCode::not_permitted, "data of a picture have a name that is none");
-    write_aside(folder.path / request[k], request[k + 1]);
+    write_atomically(folder.path / request[k], request[k + 1]);
   }
   ConfinedRequest work{.work = Work::draw, .confinement = {}};
   work.confinement.as = Confined::drawing;

@@ -12,7 +12,7 @@
 #include "bindings/web/api/views.hpp"
 #include "bindings/web/confined/frames.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/quantity.hpp"
 
@@ -135,7 +135,7 @@ void EventChannel::keep_view(const Seen& seen) {
                       seen.call + " at " + format_quantity(seen.state->pressure(), dimension::pressure),
                       seen.line);
     std::filesystem::create_directories(views_);
-    write_aside(std::filesystem::path(views_) / (name + ".json"), view.text());
+    write_atomically(std::filesystem::path(views_) / (name + ".json"), view.text());
     send("view", Json::object({{"name", name}, {"title", field_or_null(view, "title")}}));
   } catch (const std::exception&) {
     views_.clear();  // a full disk must not end the run

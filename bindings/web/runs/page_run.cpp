@@ -9,7 +9,7 @@
 #include "bindings/web/runs/plain_files.hpp"
 #include "bindings/web/runs/run_follower.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/aside_file.hpp"
+#include "engine/core/files/disk.hpp"
 
 namespace asperity::web {
 

@@ -16,8 +16,8 @@
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/generators/option_checks.hpp"
 #include "engine/surface/generators/recalled_heights.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 
@@ -31,8 +31,8 @@ constexpr double rim_radius = 1.15, rim_width = 0.2, rim_share = 0.5;
 constexpr double rim_reach = rim_radius + 4.3 * rim_width;
 
 void check_pair(const char* key, double low, double high) {
-  check_positive(key, low);
-  check_positive(key, high);
+  require_positive(key, low);
+  require_positive(key, high);
   if (low > high)
     refuse(quoted(key) + " runs from " + metres(low) + " down to " + metres(high),
            "give the smaller length first");
@@ -40,10 +40,10 @@ void check_pair(const char* key, double low, double high) {
 
 Grid check(const BeadBlastedOptions& o) {
   const Grid grid = make_grid(o.grid.nx, o.grid.ny, o.grid.size_x, o.grid.size_y);
-  check_positive("ra", o.ra);
+  require_positive("ra", o.ra);
   check_pair("bead", o.bead_low, o.bead_high);
   check_pair("dent", o.dent_low, o.dent_high);
-  check_positive("coverage", o.coverage);
+  require_positive("coverage", o.coverage);
   if (o.dent_high > 0.5 * o.bead_low)
     refuse("`dent` allows a radius of " + metres(o.dent_high) + ", and `bead` a bead of radius " +
                metres(0.5 * o.bead_low),

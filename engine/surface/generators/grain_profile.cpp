@@ -9,8 +9,8 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -20,20 +20,15 @@ namespace {
 constexpr int fewest_points = 7;  // the first term has three waves
 constexpr int most_points = 1 << 24;
 
-void refuse_unless(bool good, const char* key, double value, const char* hint) {
-  if (!good) throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(value), hint);
-}
-
 void check(const GrainProfileOptions& o) {
-  refuse_unless(std::isfinite(o.radius) && o.radius > 0, "radius", o.radius,
-                "give a finite length above zero");
-  refuse_unless(o.D > 1 && o.D < 2, "D", o.D,
-                "the dimension of an outline lies between 1 and 2, ends excluded");
-  refuse_unless(o.amplitude >= 0 && o.amplitude < 1, "amplitude", o.amplitude,
-                "give a fraction of the radius, from 0 to below 1");
-  refuse_unless(o.points >= fewest_points && o.points <= most_points, "points", o.points,
-                "give a whole number from 7 to 16777216");
-  refuse_unless(o.gamma >= 1.01 && o.gamma <= 1e6, "gamma", o.gamma, "give a number from 1.01 to 1e6");
+  require_positive("radius", o.radius, "", "give a finite length above zero");
+  require(o.D > 1 && o.D < 2, "D", o.D, "",
+          "the dimension of an outline lies between 1 and 2, ends excluded");
+  require(o.amplitude >= 0 && o.amplitude < 1, "amplitude", o.amplitude, "",
+          "give a fraction of the radius, from 0 to below 1");
+  require(o.points >= fewest_points && o.points <= most_points, "points", o.points, "",
+          "give a whole number from 7 to 16777216");
+  require(o.gamma >= 1.01 && o.gamma <= 1e6, "gamma", o.gamma, "", "give a number from 1.01 to 1e6");
 }
 
 // 2π k i/K with the whole turns taken off in integers.

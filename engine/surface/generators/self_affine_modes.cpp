@@ -7,7 +7,7 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
-#include "engine/surface/generators/option_checks.hpp"
+#include "engine/core/require.hpp"
 
 namespace asperity {
 
@@ -23,9 +23,9 @@ void check_scale(const SelfAffineOptions& options) {
     refuse(given == 0 ? "the surface has no height: none of `rms_height`, `rms_slope`, `ra` is given"
                       : "the height of the surface is given more than once",
            "give exactly one of `rms_height`, `rms_slope`, `ra`");
-  if (options.rms_height) check_positive("rms_height", *options.rms_height);
-  if (options.rms_slope) check_positive("rms_slope", *options.rms_slope);
-  if (options.ra) check_positive("ra", *options.ra);
+  require_positive("rms_height", options.rms_height);
+  require_positive("rms_slope", options.rms_slope);
+  require_positive("ra", options.ra);
 }
 
 }  // namespace
@@ -37,11 +37,11 @@ SelfAffineBand checked_band(const SelfAffineOptions& options, const Grid& grid) 
   check_scale(options);
   SelfAffineBand band{};
   band.long_wave = options.long_wave.value_or(side);
-  check_positive("long_wave", band.long_wave);
+  require_positive("long_wave", band.long_wave);
   band.roll_off = options.roll_off.value_or(band.long_wave);
-  check_positive("roll_off", band.roll_off);
+  require_positive("roll_off", band.roll_off);
   band.short_wave = options.short_wave;
-  check_positive("short_wave", band.short_wave);
+  require_positive("short_wave", band.short_wave);
   if (band.long_wave > side * (1 + on_the_bound))
     refuse("`long_wave` is " + metres(band.long_wave) + ", longer than the size of " + metres(side),
            "a periodic surface has no wave longer than its size; give at most " + metres(side));

@@ -11,6 +11,7 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -64,16 +65,12 @@ void check_resolved(double wavelength, double cell, const char* direction) {
 SineFactors sine_factors(const SineOptions& options) {
   const Grid grid = make_grid(options.grid.nx, options.grid.ny, options.grid.size_x, options.grid.size_y);
   const double amplitude = options.amplitude;
-  if (!(std::isfinite(amplitude) && amplitude >= 0))
-    throw Error(ErrorCode::bad_value, "`amplitude` is " + format_short(amplitude) + " m",
-                "give a finite length, zero or above");
+  require(std::isfinite(amplitude) && amplitude >= 0, "amplitude", amplitude, "m",
+          "give a finite length, zero or above");
   const double wavelength = options.wavelength.value_or(grid.size_x);
-  if (!(std::isfinite(wavelength) && wavelength > 0))
-    throw Error(ErrorCode::bad_value, "`wavelength` is " + format_short(wavelength) + " m",
-                "give a finite length above zero");
-  if (options.directions != 1 && options.directions != 2)
-    throw Error(ErrorCode::bad_value, "`directions` is " + std::to_string(options.directions),
-                "give 1 for waves along x, or 2 for their product with waves along y");
+  require_positive("wavelength", wavelength, "m", "give a finite length above zero");
+  require(options.directions == 1 || options.directions == 2, "directions", options.directions, "",
+          "give 1 for waves along x, or 2 for their product with waves along y");
   const bool both = options.directions == 2;
   check_resolved(wavelength, grid.hx(), "x");
   if (both) check_resolved(wavelength, grid.hy(), "y");

@@ -8,6 +8,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -32,9 +33,7 @@ Surface cap_on(const Grid& grid, double radius, bool cap, double apex_i, double 
 void require_makeable(const SphereOptions& options) {
   const Grid grid = make_grid(options.grid.nx, options.grid.ny, options.grid.size_x, options.grid.size_y);
   const double radius = options.radius;
-  if (!(std::isfinite(radius) && radius > 0))
-    throw Error(ErrorCode::bad_value, "`radius` is " + format_short(radius) + " m",
-                "give a finite length above zero");
+  require_positive("radius", radius, "m", "give a finite length above zero");
   const double corner = elementary::hypot(grid.nx / 2 * grid.hx(), grid.ny / 2 * grid.hy());
   constexpr double rounding = 1e-12;
   if (options.shape == SphereShape::sphere && corner > radius * (1 + rounding))

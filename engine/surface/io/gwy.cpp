@@ -13,11 +13,11 @@
 #include <map>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/binary_cursor.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/staged_file.hpp"
 #include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
@@ -274,7 +274,7 @@ void write_gwy(const Surface& surface, const std::string& path) {
   const auto field_bytes = static_cast<std::uint32_t>(before.size() + heights.size_bytes());
   const std::string title = ended("/0/data/title") + "s" + ended("height") + ended("/0/data") + "o" +
                             ended("GwyDataField") + raw(field_bytes);
-  StagedFile file(path);
+  AtomicFile file(path, FileWords::data);
   file.write(std::string(mark) + ended("GwyContainer") +
              raw(static_cast<std::uint32_t>(title.size() + field_bytes)) + title + before);
   file.write({reinterpret_cast<const char*>(heights.data()), heights.size_bytes()});

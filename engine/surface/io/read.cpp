@@ -10,6 +10,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/holes.hpp"
@@ -18,25 +19,23 @@ namespace asperity {
 
 namespace {
 
-void check_positive(const std::optional<double>& value, const std::string& key) {
-  if (value && !(std::isfinite(*value) && *value > 0))
-    throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(*value) + " m",
-                "give a finite length above zero");
+void require_length(const char* key, std::optional<double> value) {
+  require_positive(key, value, "m", "give a finite length above zero");
 }
 
 // A call that cannot be right is told so before the file is looked for.
 void check_call(const ReadOptions& options) {
-  check_positive(options.size_x, "size");
-  check_positive(options.size_y, "size");
-  check_positive(options.unit, "unit");
-  check_positive(options.unit_xy, "unit_xy");
+  require_length("size", options.size_x);
+  require_length("size", options.size_y);
+  require_length("unit", options.unit);
+  require_length("unit_xy", options.unit_xy);
   if (options.material) check(*options.material);
 }
 
 void check_call(const ReadProfileOptions& options) {
-  check_positive(options.spacing, "spacing");
-  check_positive(options.unit, "unit");
-  check_positive(options.unit_xy, "unit_xy");
+  require_length("spacing", options.spacing);
+  require_length("unit", options.unit);
+  require_length("unit_xy", options.unit_xy);
 }
 
 bool differ(double asked, double found) { return std::abs(asked - found) > 1e-9 * std::abs(found); }
@@ -144,9 +143,8 @@ HeightMap read_map(const SourceFile& file, const std::string& forced, const std:
 // Turns the numbers into metres and closes the holes.
 void into_metres(HeightMap& map, const SourceFile& file, double unit, double hx, double hy,
                  const HoleFill& fill, Monitor& monitor) {
-  if (fill.kind == HoleFill::Kind::value && !std::isfinite(fill.height))
-    throw Error(ErrorCode::bad_value, "`fill` is " + format_short(fill.height) + " m",
-                "give a finite height");
+  if (fill.kind == HoleFill::Kind::value)
+    require(std::isfinite(fill.height), "fill", fill.height, "m", "give a finite height");
   const auto nx = static_cast<std::size_t>(map.heights.nx());
   const auto node = [&](std::size_t k) {
     return "node (" + std::to_string(k % nx) + ", " + std::to_string(k / nx) + ")";

@@ -8,11 +8,11 @@
 #include <string_view>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/gwy.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
 #include "engine/surface/io/source_file.hpp"
-#include "engine/surface/io/staged_file.hpp"
 #include "engine/surface/io/x3p_writer.hpp"
 
 namespace asperity {
@@ -41,7 +41,7 @@ void write_npy(const std::string& path, const std::string& shape, std::span<cons
   std::string start("\x93NUMPY\x01\x00", 8);
   start += static_cast<char>(header.size() & 0xFF);
   start += static_cast<char>(header.size() >> 8);
-  StagedFile file(path);
+  AtomicFile file(path, FileWords::data);
   file.write(start + header);
   Task task(monitor, "writing", rows);
   const std::size_t row = values.size() / static_cast<std::size_t>(rows);
@@ -55,7 +55,7 @@ void write_npy(const std::string& path, const std::string& shape, std::span<cons
 
 void write_matrix(const Surface& surface, const std::string& path, char separator, Monitor& monitor) {
   const Grid& grid = surface.grid();
-  StagedFile file(path);
+  AtomicFile file(path, FileWords::data);
   std::string text = "# asperity surface\n# cells = " + std::to_string(grid.nx) + " " +
                      std::to_string(grid.ny) + "\n# size [m] = " + format_exact(grid.size_x) + " " +
                      format_exact(grid.size_y) + "\n# unit [m] = 1\n";
@@ -76,7 +76,7 @@ void write_matrix(const Surface& surface, const std::string& path, char separato
 }
 
 void write_trace(const Profile& profile, const std::string& path, char separator, Monitor& monitor) {
-  StagedFile file(path);
+  AtomicFile file(path, FileWords::data);
   std::string text = "# asperity profile\n# samples = " + std::to_string(profile.size()) +
                      "\n# spacing [m] = " + format_exact(profile.spacing()) + "\n";
   if (profile.closed_radius())

@@ -11,9 +11,9 @@
 #include <span>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/surface/io/archive.hpp"
 #include "engine/surface/io/source_file.hpp"
-#include "engine/surface/io/staged_file.hpp"
 
 namespace asperity {
 
@@ -86,9 +86,9 @@ void write_x3p(const Surface& surface, const std::string& path) {
   const std::string xml = main_xml(surface.grid(), md5_of(data));
   const std::string checksum = md5_of(xml) + " *main.xml\n";
 
-  StagedFile file(path);
+  AtomicFile file(path, FileWords::data);
   int code = 0;
-  zip_t* zip = zip_open(file.aside().c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
+  zip_t* zip = zip_open(file.temporary().c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
   const auto refuse = [&](const std::string& reason) {
     if (zip != nullptr) zip_discard(zip);
     throw Error(ErrorCode::bad_file, file_name(path) + " cannot be written: " + reason,

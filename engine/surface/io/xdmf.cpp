@@ -4,9 +4,9 @@
 
 #include <array>
 
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/source_file.hpp"
-#include "engine/surface/io/staged_file.hpp"
 
 namespace asperity {
 
@@ -85,7 +85,7 @@ std::string xdmf_text(const Grid& grid, std::string_view name, const Hdf5Content
 void write_hdf5_and_xdmf(const std::filesystem::path& hdf5, const Grid& grid, std::string_view name,
                          const Hdf5Content& content) {
   write_hdf5(hdf5, content);
-  StagedFile beside(xdmf_path(hdf5).string());
+  AtomicFile beside(xdmf_path(hdf5), FileWords::data);
   beside.write(xdmf_text(grid, name, content, hdf5));
   beside.commit();
 }

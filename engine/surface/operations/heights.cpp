@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -47,9 +48,8 @@ SurfaceRecipe then(std::shared_ptr<const SurfaceRecipe> recipe, Change change) {
 }
 
 double cut_level(const Range& range, double fraction) {
-  if (!(fraction >= 0 && fraction <= 1))
-    throw Error(ErrorCode::bad_value, "`fraction` is " + format_short(fraction),
-                "give the part of the peak-to-valley height to cut off, from 0 to 1");
+  require(fraction >= 0 && fraction <= 1, "fraction", fraction, "",
+          "give the part of the peak-to-valley height to cut off, from 0 to 1");
   // At 1 the level is the lowest point itself, not what rounding makes of it.
   return fraction == 1 ? range.min : range.max - fraction * range.span();
 }
@@ -58,9 +58,7 @@ double cut_level(const Range& range, double fraction) {
 
 Surface scaled(const Surface& surface, ScaleTo measure, double target, ScaleAbout about) {
   const std::string key = key_of(measure);
-  if (!(std::isfinite(target) && target >= 0))
-    throw Error(ErrorCode::bad_value, quoted(key) + " is " + format_short(target) + " m",
-                "give a finite length of 0 or more");
+  require(std::isfinite(target) && target >= 0, key, target, "m", "give a finite length of 0 or more");
   const Range range = surface.height_range();
   const double average = mean(surface.heights().values());
   if (range.span() == 0 && target > 0)

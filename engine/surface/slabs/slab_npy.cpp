@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/npy_header.hpp"
-#include "engine/surface/io/staged_file.hpp"
 #include "engine/surface/slabs/slab_surface.hpp"
 
 namespace asperity {
@@ -102,7 +102,7 @@ void write_slabs(Team& team, const Slab& slab, const SlabRow& row, const std::st
                  Monitor& monitor) {
   constexpr int rows_a_turn = 64;
   Array<double> out, in;
-  std::optional<StagedFile> file;
+  std::optional<AtomicFile> file;
   std::vector<int> out_counts, in_counts;
   std::optional<Task> task;
   team.work([&] {
@@ -112,7 +112,7 @@ void write_slabs(Team& team, const Slab& slab, const SlabRow& row, const std::st
     in_counts.resize(static_cast<std::size_t>(slab.ranks));
     task.emplace(monitor, "writing", slab.ny);
     if (slab.rank != 0) return;
-    file.emplace(path);
+    file.emplace(path, FileWords::data);
     file->write(npy_head(slab.nx, slab.ny));
   });
   team.agree();

@@ -13,7 +13,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -22,8 +22,6 @@ namespace {
 
 constexpr int most_solves = 60;
 constexpr double least_nodes = 64 * 64;
-
-std::string metres(double value) { return format_quantity(value, dimension::length); }
 
 // The same contact on the next coarser grid, heights counted as on the fine one.
 std::optional<SlabContactProblem> coarser_problem(Team& team, const SlabContactProblem& problem) {

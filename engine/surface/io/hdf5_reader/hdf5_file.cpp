@@ -10,14 +10,13 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/files/disk.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5/write_call.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_data.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 #include "engine/surface/io/source_file.hpp"
-#include "engine/surface/io/staged_file.hpp"
 
 namespace asperity {
 
@@ -245,17 +244,16 @@ void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content) {
                               numbers.size(), arrays.data(), arrays.size()};
   auto* const write = part_function<AsperityHdf5Write>(part, "asperity_hdf5_write_1");
 
-  StagedFile staged(path.string());
+  AtomicFile staged(path, FileWords::data);
   static std::mutex one_at_a_time;
   std::array<char, 512> reason{};
   {
     const std::lock_guard lock(one_at_a_time);
-    if (write(staged.aside().c_str(), &file, reason.data(), reason.size()) != 0)
+    if (write(staged.temporary().c_str(), &file, reason.data(), reason.size()) != 0)
       throw Error(ErrorCode::bad_file, file_name(path.string()) + " cannot be written: " + reason.data(),
                   "check permission and space on the disk");
   }
-  wait_for_disk(staged.aside());
-  staged.commit();
+  staged.commit(Durable::yes);
 }
 
 Hdf5Content read_hdf5(const std::filesystem::path& path, Monitor& monitor) {

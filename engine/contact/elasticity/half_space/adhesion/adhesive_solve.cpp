@@ -13,6 +13,7 @@
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -349,9 +350,7 @@ void finish(const AdhesiveProblem& problem, AdhesiveAnswer& answer, std::optiona
 
 AdhesiveAnswer adhere_at_approach(const AdhesiveProblem& problem, double approach,
                                   const AdhesiveAnswer* start, Monitor& monitor) {
-  if (!std::isfinite(approach))
-    throw Error(ErrorCode::bad_value, "`approach` is " + format_short(approach) + " m",
-                "give a finite length");
+  require(std::isfinite(approach), "approach", approach, "m", "give a finite length");
   const HalfSpaceProblem& contact = problem.contact;
   if (contact.boundary == Boundary::periodic) {
     const auto h = contact.heights->values();

@@ -17,14 +17,12 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
 
 namespace {
-std::string approach_in_metres(double length) { return format_quantity(length, dimension::length); }
-
 // The mean pressure that brings a layer to an approach past full contact, in which it is linear there; none
 // short of that, where anything may yield, and on a half-space.
 std::optional<double> pressure_past_full_contact(const HalfSpaceProblem& problem, double approach) {
@@ -40,7 +38,7 @@ std::optional<double> pressure_past_full_contact(const HalfSpaceProblem& problem
 
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor) {
   if (!(approach >= 0) || !std::isfinite(approach))
-    throw Error(ErrorCode::bad_value, "`approach` is " + approach_in_metres(approach),
+    throw Error(ErrorCode::bad_value, "`approach` is " + metres(approach),
                 "an approach is finite and not negative, measured from first touch");
   if (approach == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
   if (approach < 1e-280 * std::max(problem.grid.size_x, problem.grid.size_y))
@@ -69,7 +67,7 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
     sought.wanted = sought.length = approach;
     answer = solve_by_load(problem, sought, std::move(answer), monitor);
   }
-  return met(problem, std::move(answer), "an approach of " + approach_in_metres(approach));
+  return met(problem, std::move(answer), "an approach of " + metres(approach));
 }
 
 }  // namespace asperity

@@ -16,6 +16,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -263,8 +264,7 @@ FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fr
 }  // namespace
 
 HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double fraction, Monitor& monitor) {
-  if (!(fraction >= 0 && fraction <= 1))
-    throw Error(ErrorCode::bad_value, "`flatten` is " + format_short(fraction), "it is a share from 0 to 1");
+  require(fraction >= 0 && fraction <= 1, "flatten", fraction, "", "it is a share from 0 to 1");
   if (fraction == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
   if (const double uniform = uniform_compliance(problem); uniform > 0) {
     HalfSpaceProblem stiff = problem;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/files/part_file.hpp"
+#include "engine/core/files/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <sys/random.h>
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -15,9 +16,13 @@
 #include <random>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "engine/core/digest.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/files/disk.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -97,7 +102,74 @@ std::optional<Writer> writer_of_part(std::string_view name) {
   return writer_of(name.substr(dot + 1));
 }
 
+// "\"path\"", as readers and writers of data name files.
+std::string name_of_data(const fs::path& file) { return "\"" + file.string() + "\""; }
+
 }  // namespace
+
+AtomicFile::AtomicFile(fs::path target, FileWords words) : target_(std::move(target)), words_(words) {
+  std::error_code ignored;
+  if (words_ == FileWords::data) {
+    const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, ignored))
+      throw Error(ErrorCode::bad_file, "there is no directory " + name_of_data(folder) + " to write in",
+                  "make it first");
+    if (fs::is_directory(target_, ignored) || !target_.has_filename())
+      throw Error(ErrorCode::bad_file, name_of_data(target_) + " is a directory",
+                  "give the name of a file in it");
+    if (fs::is_other(target_, ignored))
+      throw Error(ErrorCode::bad_file, name_of_data(target_) + " is not a plain file",
+                  "give the name of one");
+  } else if (fs::is_other(target_, ignored)) {
+    throw Error(ErrorCode::bad_file,
+                "cannot write " + quoted(target_.string()) + ": it is a device or a pipe",
+                "give the name of a file");
+  }
+  temporary_ = part_beside(target_);
+}
+
+AtomicFile::~AtomicFile() {
+  if (committed_) return;
+  close();
+  ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes, unsigned mode) {
+  if (descriptor_ < 0)
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+  if (const int reason = descriptor_ < 0 ? errno : write_all(descriptor_, bytes); reason != 0)
+    refuse(reason, false);
+}
+
+void AtomicFile::commit(Durable durable) {
+  if (descriptor_ < 0 && durable == Durable::yes) wait_for_disk(temporary_);
+  if (descriptor_ >= 0) {
+    int reason = durable == Durable::yes && ::fsync(descriptor_) != 0 && errno != EINVAL ? errno : 0;
+    if (const int closing = close(); reason == 0) reason = closing;
+    if (reason != 0) refuse(reason, false);
+  }
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(errno, true);
+  committed_ = true;
+}
+
+int AtomicFile::close() {
+  const int descriptor = std::exchange(descriptor_, -1);
+  return descriptor >= 0 && ::close(descriptor) != 0 ? errno : 0;
+}
+
+void AtomicFile::refuse(int reason, bool renaming) const {
+  if (words_ == FileWords::run) throw_file_error("write", target_, reason);
+  throw Error(ErrorCode::bad_file,
+              name_of_data(target_) + " cannot be written" +
+                  (renaming ? ": " + std::generic_category().message(reason) : std::string()),
+              "check permission and space on the disk");
+}
+
+void write_atomically(const fs::path& target, std::string_view content, Durable durable, unsigned mode) {
+  AtomicFile file(target);
+  file.write(content, mode);
+  file.commit(durable);
+}
 
 fs::path part_beside(const fs::path& target) {
   constexpr std::size_t longest_stem = 120, longest_extension = 24;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a function and everything it reaches would do, as a digest that other processes of this build come to
-// as well: nothing in it depends on addresses or on the order of keys in memory.
+// Digests of a parcel: of a row, which journals hold; and of what a function and everything it reaches would
+// do, which other processes of this build come to as well. Nothing in them depends on addresses or on the
+// order of keys in memory: what is met is numbered in the order in which sorted keys and upvalues lead to it.
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 #include "bindings/lua/ensemble/parcel.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/value_visitor.hpp"
 #include "bindings/lua/runtime/code_digest.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
@@ -30,29 +32,138 @@ void add(Digester& digester, const Material& material) {
     add(digester, property);
 }
 
+// Numbers of nodes or cells in the order in which they are met, each of which is gone through once.
+class MetOrder {
+ public:
+  explicit MetOrder(std::size_t count) : numbers_(count, -1) {}
+  bool knows(std::uint32_t id) const { return numbers_[id] >= 0; }
+  std::int64_t number(std::uint32_t id) {
+    if (!knows(id)) {
+      numbers_[id] = static_cast<std::int64_t>(order_.size());
+      order_.push_back(id);
+    }
+    return numbers_[id];
+  }
+  // The next one that was met and not gone through.
+  std::optional<std::uint32_t> next() {
+    return done_ < order_.size() ? std::optional(order_[done_++]) : std::nullopt;
+  }
+
+ private:
+  std::vector<std::int64_t> numbers_;
+  std::vector<std::uint32_t> order_;
+  std::size_t done_ = 0;
+};
+
 }  // namespace
 
-// Nodes and cells are numbered in the order in which sorted keys and upvalues lead to them.
-struct Parcel::ContentDigest {
+bool Parcel::before(const Entry& a, const Entry& b) {
+  const auto rank = [](const Item& item) {
+    return std::holds_alternative<std::int64_t>(item) || std::holds_alternative<double>(item) ? 0
+           : std::holds_alternative<std::string>(item)                                        ? 1
+                                                                                              : 2;
+  };
+  const int rank_a = rank(a.key), rank_b = rank(b.key);
+  if (rank_a != rank_b) return rank_a < rank_b;
+  if (rank_a == 1) return std::get<std::string>(a.key) < std::get<std::string>(b.key);
+  if (rank_a == 2)
+    return std::holds_alternative<bool>(a.key) && std::holds_alternative<bool>(b.key) &&
+           std::get<bool>(a.key) < std::get<bool>(b.key);
+  if (const auto* i = std::get_if<std::int64_t>(&a.key))
+    if (const auto* j = std::get_if<std::int64_t>(&b.key)) return *i < *j;
+  const auto number_of = [](const Item& item) {
+    const auto* whole = std::get_if<std::int64_t>(&item);
+    return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(item);
+  };
+  return number_of(a.key) < number_of(b.key);
+}
+
+// Keys that have no order of their own keep that of memory: two runs may then differ, and not find.
+Array<Parcel::Entry> Parcel::in_order(Array<Entry> entries) {
+  std::sort(entries.begin(), entries.end(), before);
+  return entries;
+}
+
+struct Parcel::RowDigest : ValueVisitor {
+  const Parcel& parcel;
+  Digester digester{};
+  MetOrder nodes{parcel.nodes_.size()};
+  const Value* value = nullptr;  // being visited
+
+  explicit RowDigest(const Parcel& row) : parcel(row) {}
+
+  void begin(const Value& visited) { value = &visited; }
+  using ValueVisitor::enter;
+  void enter(const Record& record) { digester.add(record.name); }
+  void enter(const List& list) { digester.add(static_cast<std::int64_t>(list.items.size())); }
+  bool under(const std::string& name) {
+    digester.add(name);
+    return true;
+  }
+  void leaf(const Object& object) {
+    digester.add(object.type->name);
+    if (object.pointer == nullptr)
+      digester.add("");
+    else if (object.type->digest != nullptr)
+      digester.add(object.type->digest(object.pointer.get()));
+    else
+      digester.add(object.type->describe != nullptr ? object.type->describe(object.pointer.get()) : "");
+  }
+  void leaf(std::int64_t number) { digester.add(number); }
+  void leaf(double number) { digester.add(number); }
+  void leaf(const Value::Numbers& numbers) { digester.add(std::span<const double>(*numbers)); }
+  void leaf(const Value::Rows& rows) { digester.add(rows->values()); }
+  void leaf(const auto&) { digester.add(show(*value)); }
+
+  void add(const Item& item) {
+    digester.add(static_cast<int>(item.index()));  // "1" is not 1
+    std::visit(
+        [&](const auto& held) {
+          using Held = std::decay_t<decltype(held)>;
+          if constexpr (std::is_same_v<Held, bool>) {
+            digester.add(held ? 1 : 0);
+          } else if constexpr (std::is_same_v<Held, std::int64_t> || std::is_same_v<Held, double> ||
+                               std::is_same_v<Held, std::string>) {
+            digester.add(held);
+          } else if constexpr (std::is_same_v<Held, NodeId>) {
+            if (const Value* native = std::get_if<Value>(&parcel.nodes_[held.index]))
+              visit_value(*native, *this);
+            else
+              digester.add(nodes.number(held.index));
+          } else {
+            digester.add("?");
+          }
+        },
+        item);
+  }
+
+  std::string all() {
+    add(parcel.root_);
+    while (const auto node = nodes.next()) {
+      const Table* table = std::get_if<Table>(&parcel.nodes_[*node]);
+      if (table == nullptr) continue;
+      digester.add(static_cast<std::int64_t>(table->entries.size()));
+      for (const Entry& entry : in_order(table->entries)) {
+        add(entry.key);
+        add(entry.value);
+      }
+    }
+    return digester.hex();
+  }
+};
+
+std::string Parcel::digest() const { return RowDigest(*this).all(); }
+
+struct Parcel::ContentDigest : ValueVisitor {
   const Parcel& parcel;
   const ScriptSpelling& spelling;
   Digester digester{}, lines{};
   bool whole = true;
-  std::vector<std::int64_t> node_number = std::vector<std::int64_t>(parcel.nodes_.size(), -1);
-  std::vector<std::int64_t> cell_number = std::vector<std::int64_t>(parcel.cells_.size(), -1);
-  std::vector<std::uint32_t> nodes{}, cells{};
-  std::size_t node_done = 0, cell_done = 0;
+  MetOrder nodes{parcel.nodes_.size()}, cells{parcel.cells_.size()};
   std::optional<std::uint32_t> arguments{};  // the node of `arg`, where only its name leads there
   bool names_arguments = false;
 
-  static std::int64_t number(std::uint32_t id, std::vector<std::int64_t>& numbers,
-                             std::vector<std::uint32_t>& order) {
-    if (numbers[id] < 0) {
-      numbers[id] = static_cast<std::int64_t>(order.size());
-      order.push_back(id);
-    }
-    return numbers[id];
-  }
+  ContentDigest(const Parcel& reached, const ScriptSpelling& names) : parcel(reached), spelling(names) {}
 
   // A function of the program: where it lies in the file it was loaded from.
   void add_place(const void* address) {
@@ -65,7 +176,27 @@ struct Parcel::ContentDigest {
                                            static_cast<const char*>(file.dli_fbase)));
   }
 
-  void add(const Object& object) {
+  void begin(const Value& value) { digester.add(static_cast<int>(value.data.index())); }
+  using ValueVisitor::enter;
+  void enter(const Record& record) {
+    digester.add(record.name);
+    named(record.entries.size());
+  }
+  void enter(const List& list) { digester.add(static_cast<std::int64_t>(list.items.size())); }
+  void named(std::size_t count) { digester.add(static_cast<std::int64_t>(count)); }
+  bool under(const std::string& name) {
+    digester.add(name);
+    return true;
+  }
+  void leaf(std::monostate) {}
+  void leaf(bool truth) { digester.add(truth ? 1 : 0); }
+  void leaf(std::int64_t number) { digester.add(number); }
+  void leaf(double number) { digester.add(number); }
+  void leaf(const std::string& text) { digester.add(text); }
+  void leaf(const Value::Numbers& numbers) { digester.add(std::span<const double>(*numbers)); }
+  void leaf(const Value::Rows& rows) { digester.add(rows->nx()).add(rows->values()); }
+  void leaf(const auto&) { whole = false; }
+  void leaf(const Object& object) {
     digester.add(object.type->name);
     if (object.pointer == nullptr) return;
     if (object.type == &class_of<Material>()) {
@@ -87,50 +218,7 @@ struct Parcel::ContentDigest {
         digester.add(object.type->describe(object.pointer.get()));
     }
   }
-  template <class Named>
-  void add_named(const Named& named) {
-    digester.add(static_cast<std::int64_t>(named.size()));
-    for (const auto& [key, item] : named) {
-      digester.add(key);
-      add(item);
-    }
-  }
-  void add(const Value& value) {
-    digester.add(static_cast<int>(value.data.index()));
-    std::visit(
-        [&](const auto& held) {
-          using Held = std::decay_t<decltype(held)>;
-          if constexpr (std::is_same_v<Held, std::monostate>) {
-          } else if constexpr (std::is_same_v<Held, bool>) {
-            digester.add(held ? 1 : 0);
-          } else if constexpr (std::is_same_v<Held, std::int64_t> || std::is_same_v<Held, double> ||
-                               std::is_same_v<Held, std::string>) {
-            digester.add(held);
-          } else if constexpr (std::is_same_v<Held, Object>) {
-            add(held);
-          } else if constexpr (std::is_same_v<Held, std::shared_ptr<Record>>) {
-            digester.add(held->name);
-            digester.add(static_cast<std::int64_t>(held->entries.size()));
-            for (const Record::Entry& entry : held->entries) {
-              digester.add(entry.field);
-              add(entry.value);
-            }
-          } else if constexpr (std::is_same_v<Held, std::shared_ptr<List>>) {
-            digester.add(static_cast<std::int64_t>(held->items.size()));
-            for (const Value& item : held->items) add(item);
-            add_named(held->named);
-          } else if constexpr (std::is_same_v<Held, std::shared_ptr<Map>>) {
-            add_named(held->items);
-          } else if constexpr (std::is_same_v<Held, Value::Numbers>) {
-            digester.add(std::span<const double>(*held));
-          } else if constexpr (std::is_same_v<Held, Value::Rows>) {
-            digester.add(held->nx()).add(held->values());
-          } else {
-            whole = false;
-          }
-        },
-        value.data);
-  }
+  void add(const Value& value) { visit_value(value, *this); }
   void add(const Item& item) {
     digester.add(static_cast<int>(item.index()));  // "1" is not 1
     std::visit(
@@ -140,7 +228,7 @@ struct Parcel::ContentDigest {
           } else if constexpr (std::is_same_v<Held, bool>) {
             digester.add(held ? 1 : 0);
           } else if constexpr (std::is_same_v<Held, NodeId>) {
-            digester.add(number(held.index, node_number, nodes));
+            digester.add(nodes.number(held.index));
           } else if constexpr (std::is_same_v<Held, BaseId>) {
             add(parcel.bases_[held.index]);
           } else if constexpr (std::is_same_v<Held, const Module*>) {
@@ -193,11 +281,9 @@ struct Parcel::ContentDigest {
   }
 
   void add(const Table& table, bool without_script_name = false) {
-    Array<Entry> entries = table.entries;
+    Array<Entry> entries = in_order(table.entries);
     if (without_script_name)
       std::erase_if(entries, [&](const Entry& entry) { return is_script_name(entry); });
-    // Keys that have no order of their own keep that of memory: two runs may then differ, and not find.
-    std::sort(entries.begin(), entries.end(), before);
     digester.add("table").add(static_cast<std::int64_t>(entries.size()));
     for (const Entry& entry : entries) {
       add(entry.key);
@@ -209,7 +295,7 @@ struct Parcel::ContentDigest {
     digester.add("function").add(code_digest(function.code));
     lines.add(code_digest(function.code, CodeLines::counted));
     names_arguments = names_arguments || names_arg(function);
-    for (const std::uint32_t cell : function.cells) digester.add(number(cell, cell_number, cells));
+    for (const std::uint32_t cell : function.cells) digester.add(cells.number(cell));
   }
   void add(const HostFunction& function) {
     digester.add("native");
@@ -218,16 +304,18 @@ struct Parcel::ContentDigest {
   }
 
   void everything_reached() {
-    while (node_done < nodes.size() || cell_done < cells.size()) {
-      if (node_done < nodes.size()) {
-        const std::uint32_t node = nodes[node_done++];
-        const Table* table = std::get_if<Table>(&parcel.nodes_[node]);
-        if (table != nullptr && arguments == node && !names_arguments)
+    for (;;) {
+      if (const auto node = nodes.next()) {
+        const Table* table = std::get_if<Table>(&parcel.nodes_[*node]);
+        if (table != nullptr && arguments == *node && !names_arguments)
           add(*table, true);
         else
-          std::visit([&](const auto& held) { add(held); }, parcel.nodes_[node]);
-      } else
-        add(parcel.cells_[cells[cell_done++]].value);
+          std::visit([&](const auto& held) { add(held); }, parcel.nodes_[*node]);
+      } else if (const auto cell = cells.next()) {
+        add(parcel.cells_[*cell].value);
+      } else {
+        return;
+      }
     }
   }
 
@@ -257,7 +345,7 @@ struct Parcel::ContentDigest {
     everything_reached();
     if (last == nullptr) return {digester.hex(), lines.hex(), whole};
     const std::uint32_t node = std::get<NodeId>(last->entry.value).index;
-    if (node_number[node] < 0) arguments = node;
+    if (!nodes.knows(node)) arguments = node;
     add(parcel.bases_[last->table.index]);
     add(last->entry.key);
     add(last->entry.value);
@@ -267,7 +355,7 @@ struct Parcel::ContentDigest {
 };
 
 Parcel::Content Parcel::content(const ScriptSpelling& spelling) const {
-  return ContentDigest{*this, spelling}.all();
+  return ContentDigest(*this, spelling).all();
 }
 
 }  // namespace asperity::lua

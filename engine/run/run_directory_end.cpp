@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a run ends: what it wrote is listed and compared with what is to be made again, brought to the disk,
+// and only then does the manifest say so.
+#include <algorithm>
+#include <exception>
+#include <functional>
+#include <utility>
+
+#include "engine/core/digest.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/disk.hpp"
+#include "engine/core/patient_lock.hpp"
+#include "engine/core/text.hpp"
+#include "engine/run/run_directory.hpp"
+#include "engine/run/run_facts.hpp"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+// Their content, and their names in every folder up to the run's own.
+void RunDirectory::wait_for_outputs(const Json& outputs) const {
+  std::set<fs::path> folders = {root_};
+  for (const Json& entry : outputs.list()) {
+    const fs::path place = (root_ / entry.find("file")->string()).lexically_normal();
+    std::error_code gone;
+    if (!fs::is_regular_file(place, gone)) continue;
+    wait_for_disk(place);
+    fs::path folder = place.parent_path();
+    folders.insert(folder);
+    while (std::ranges::mismatch(root_, folder).in1 == root_.end() && folder != root_)
+      folders.insert(folder = folder.parent_path());
+  }
+  for (const fs::path& folder : folders) wait_for_names_in(folder);
+  for (const fs::path& folder : holding_) wait_for_names_in(folder);
+}
+
+// Which outputs are not what was recorded of a run that is mended, as a sentence; "" where all are.
+std::string RunDirectory::unlike_recorded(const Json& outputs) const {
+  if (recorded_outputs_.is_null()) return {};
+  std::vector<std::string> unlike;
+  const auto file_of = [](const Json& entry) { return entry.find("file")->string(); };
+  for (const Json& entry : recorded_outputs_.list()) {
+    const Json::List& now = outputs.list();
+    const auto found =
+        std::ranges::find_if(now, [&](const Json& other) { return file_of(other) == file_of(entry); });
+    if (found == now.end() || !(*found == entry)) unlike.push_back(quoted(file_of(entry)));
+  }
+  if (unlike.empty()) return {};
+  return joined(unlike, " and ") + " could not be made again as recorded";
+}
+
+Json RunDirectory::outputs(bool with_digests) const {
+  Json::List list;
+  for (const std::string& file : outputs_) {
+    const fs::path place = root_ / file;  // an absolute `file` replaces the root
+    std::error_code missing;
+    const auto bytes = fs::file_size(place, missing);
+    if (missing) continue;
+    Json entry = Json::object({{"file", file}, {"bytes", bytes}});
+    if (with_digests) entry.set("digest", file_digest(place));
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+void RunDirectory::note_end(RunStatus status, std::string_view reason, Json files) {
+  if (text_) {
+    const std::string text = text_();
+    write_atomically(root_ / run_names::script, text, Durable::yes);
+    const Json* script = manifest_.find("script");
+    Json whole = script == nullptr ? Json::object() : *script;
+    manifest_.set("script", std::move(whole.set("digest", Digester().add(text).hex())));
+  }
+  manifest_.set("status", name(status));
+  if (!reason.empty()) manifest_.set("reason", reason);
+  Json::List inputs;
+  for (const Input& input : inputs_)
+    inputs.push_back(Json::object({{"file", input.file}, {"bytes", input.bytes}, {"digest", input.digest}}));
+  manifest_.set("inputs", std::move(inputs)).set("outputs", std::move(files));
+  if (status != RunStatus::killed && !journal_->is_lost())
+    if (const std::optional<JournalFacts> facts = journal_->facts())
+      manifest_.set("journal", Json::object({{"lines", facts->lines}, {"digest", facts->digest}}));
+  Json::List verdicts;
+  for (const Verdict& verdict : expectations_.verdicts()) verdicts.push_back(to_json(verdict));
+  manifest_.set("expectations", std::move(verdicts));
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started_;
+  unhashed_.set("finished", utc_now()).set("seconds", seconds.count());
+  if (recorded_outputs_.is_null() || (status != RunStatus::done && status != RunStatus::failed)) return;
+  Json::Members kept;
+  for (const Json::Member& member : unhashed_.members())
+    if (member.first != mending_member) kept.push_back(member);
+  unhashed_ = Json::object(std::move(kept));
+}
+
+bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
+                          std::chrono::milliseconds patience) {
+  if (finished_.exchange(true)) return false;
+  std::exception_ptr first;
+  std::string reason(given_reason);
+  // What goes wrong now is the end of a run that would be done; the first failure is told.
+  const auto attempt = [&](const std::function<void()>& step) {
+    try {
+      step();
+    } catch (const std::exception& problem) {
+      if (!first) first = std::current_exception();
+      if (status != RunStatus::done) return;
+      status = RunStatus::failed;
+      reason = problem.what();
+    }
+  };
+  const std::unique_lock lock = lock_within(mutex_, patience);
+  const bool records = kind_ == Kind::directory && !later_ && lock.owns_lock();
+  // Without the lock the list of notebooks and the manifest may be half changed: what is on disk
+  // already then stays as it is.
+  if (lock.owns_lock())
+    for (const auto& notebook : notebooks_) attempt([&] { notebook->save(patience); });
+  Json files = Json::List();
+  if (records)
+    attempt([&] {
+      // A run that must die now does not read its large files once more.
+      files = outputs(status != RunStatus::killed);
+      if (status != RunStatus::done) return;
+      if (const std::string unlike = unlike_recorded(files); !unlike.empty())
+        throw Error(ErrorCode::bad_state, unlike,
+                    "the script does not do the same again, or what it reads has changed");
+      if (journal_->is_lost())
+        throw Error(ErrorCode::bad_file,
+                    quoted(journal_->path().string()) + " was taken away while the run wrote it",
+                    "its results are kept: take the run up with --resume");
+    });
+  attempt([&] {
+    Json fields = Json::object({{"status", name(status)}});
+    if (!reason.empty()) fields.set("reason", reason);
+    journal_->close("end", fields, patience);
+  });
+  if (records) {
+    // What comes to its own end is compared later by what the manifest says, and so is on the disk before it.
+    const auto durable = [&] {
+      return !scratch_ && (status == RunStatus::done || status == RunStatus::failed) ? Durable::yes
+                                                                                     : Durable::no;
+    };
+    if (durable() == Durable::yes) {
+      attempt([&] {
+        if (!journal_->is_lost()) wait_for_disk(journal_->path());
+      });
+      attempt([&] { wait_for_outputs(files); });
+    }
+    attempt([&] {
+      note_end(status, reason, files);
+      write_manifest(durable());
+      if (durable() == Durable::yes) wait_for_disk(root_);
+    });
+  }
+  if (lock_) lock_->release();
+  mended_ = status == RunStatus::done && !recorded_outputs_.is_null();
+  if (first) std::rethrow_exception(first);
+  return true;
+}
+
+}  // namespace asperity
