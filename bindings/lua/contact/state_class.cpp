@@ -187,12 +187,13 @@ std::size_t field_bytes(const void* self) {
 
 std::vector<RecordField<Certificate>> certificate_fields() {
   using C = Certificate;
-  return {
-      {"penetration", &C::penetration, "greatest overlap of the bodies where the pressure is below its cap"},
-      {"tension", &C::tension, "greatest tension, over the mean pressure"},
-      {"complementarity", &C::complementarity, "how far pressure stands where a gap is open, in the mean"},
-      {"load", &C::load, "distance of the mean pressure from the one asked for"},
-      {"cap", &C::cap, "greatest excess of the pressure over its cap; 0 without one"}};
+  return {{"penetration", &C::penetration,
+           "greatest overlap of the bodies where the pressure is below its cap, over the rms height of both"},
+          {"tension", &C::tension, "greatest tension, over the mean pressure"},
+          {"complementarity", &C::complementarity,
+           "gap under the pressures, in the mean weighted with them, over that rms height"},
+          {"load", &C::load, "distance of the mean pressure from the one asked for, over it"},
+          {"cap", &C::cap, "greatest excess of the pressure over its cap, over the cap; 0 without one"}};
 }
 
 template <>

@@ -105,9 +105,7 @@ const Class& class_of<JunctionLaw>() {
     };
     c.methods = {{.name = "on",
                   .body = law_on,
-                  .sentence = "The friction of a state: force, mu, its adhesive and load parts, and the "
-                              "share of the area at the cap; with interlocking also what the slopes of the "
-                              "junctions add, with ageing by what tau0 grew.",
+                  .sentence = "The friction of a contact under load.",
                   .parameters = {{"st", "State", "the contact under load"}},
                   .options = &on_block(),
                   .options_optional = true,

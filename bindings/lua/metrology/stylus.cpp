@@ -152,9 +152,8 @@ const Class& class_of<Stylus>() {
          .sentence =
              "Traces at random places and angles, as the tip gives them: nothing is levelled or "
              "filtered. On a periodic surface they go on past the rim; on any other they stay inside. "
-             "The list also holds tip_effect, what the tip changed against a needle on the same lines "
-             "(Ra_ratio, rms_slope_ratio, amplitude_ratio, mean_lift, greatest_lift), and lines, "
-             "where each trace begins (x, y) and its angle.",
+             "The list also holds tip_effect, what the tip changed against a needle on the same lines, and "
+             "lines, where each trace begins and its angle.",
          .parameters = {{"surface", "Surface", "what is measured"}},
          .options = &scan_block(),
          .options_optional = true,

@@ -52,7 +52,7 @@ const Class& class_of<LedgerReport>() {
                  [](Call& call) -> Values { return {call.self<R>().bytes}; }},
                 {"calls",
                  "LedgerLine[]",
-                 "a line per call: call, in_case, times, seconds, transforms, bytes",
+                 "a line for each function that was called",
                  {},
                  [](Call& call) -> Values { return {ledger_line_type().list(call.self<R>().lines)}; }},
                 {"by_effect",

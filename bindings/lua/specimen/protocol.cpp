@@ -271,13 +271,8 @@ const Class& class_of<Protocol>() {
          [](Call& call) -> Values { return {static_cast<std::int64_t>(call.self<Protocol>().presses())}; }},
         {"recording",
          "Recording?",
-         "what was found in the recording that it was detected in, and by which thresholds: name, samples, "
-         "missing, interval, noise, highest, zero_low, zero_high, shortest_hold, least_load and least_step "
-         "(smaller ones may go unseen), and spans, the stretches of the recording with kind (rest, rise, "
-         "hold, "
-         "peak, fall, release, turn), begin, end, load, load_error, dwell_error, angle, first_line, "
-         "last_line; "
-         "nil if there is none",
+         "what was found in the recording that it was detected in, and by which thresholds; nil if there is "
+         "none",
          {},
          recording},
         {"digest", "string", "equal protocols have equal digests", {}, [](Call& call) -> Values {
@@ -287,9 +282,8 @@ const Class& class_of<Protocol>() {
         {.name = "on",
          .body = on,
          .sentence =
-             "Does one event after another to a contact, one a turn of a for loop: an event (index, total, "
-             "kind, text, and pressure, load, approach, indentation, flatten, dwell, seed, angle, x, y, time "
-             "where they apply, else nil) and the state of a press, nil after any other. An event that fails "
+             "Does one event after another to a contact, one a turn of a for loop, which is given the event "
+             "and the state of a press, nil after any other. An event that fails "
              "raises an error, and leaves the contact as it was before that event; a loop that is broken off "
              "leaves the rest undone.",
          .parameters = {{"contact", "Contact", "what it is done to"}},

@@ -217,12 +217,10 @@ const Class& class_of<TiltStage>() {
     c.methods = {
         {.name = "raise",
          .body = raise_stage,
-         .sentence =
-             "Raises the stage until the specimen slides, several times. angle is exact; "
-             "held is the last step that "
-             "held, the source paper's measure; mu = tan(held), so mu goes in the steps of the stage "
-             "and tan(angle) does not. trials holds angle and held of each trial, spread the standard "
-             "deviation of their mu.",
+         .sentence = "Raises the stage until the specimen slides, several times. angle is exact; "
+                     "held is the last step that "
+                     "held, the source paper's measure; mu = tan(held), so mu goes in the steps of the stage "
+                     "and tan(angle) does not.",
          .options = &raise_block(),
          .options_optional = true,
          .returns = "Tilt",
@@ -230,9 +228,8 @@ const Class& class_of<TiltStage>() {
          .heavy = true},
         {.name = "slip_growth",
          .body = grow_slip,
-         .sentence = "Which part of the contact slips at each angle before the specimen slides, as a "
-                     "list of angle, ratio (the pull over the one that slides), slip_fraction and, "
-                     "for boxes, displacement; needs tangential.",
+         .sentence =
+             "Which part of the contact slips at each angle before the specimen slides; needs tangential.",
          .options = &growth_block(),
          .options_optional = true,
          .returns = "SlipShare[]",

@@ -176,9 +176,7 @@ const Class& class_of<Profile>() {
          .example = "local x, y = grain:outline()"},
         {.name = "roughness",
          .body = roughness_of_profile,
-         .sentence =
-             "Amplitude and slope statistics (ISO 21920-2): Ra, Rq, amplitude (peak to valley), skewness, "
-             "kurtosis, rms_slope, peak, valley, mean.",
+         .sentence = "Amplitude and slope statistics (ISO 21920-2), nothing levelled or filtered first.",
          .returns = "Roughness",
          .example = "print(p:roughness().Ra)"},
         {.name = "spectrum",

@@ -157,11 +157,8 @@ const Class& class_of<Surface>() {
         {.name = "roughness",
          .body = roughness_of,
          .sentence =
-             "Amplitude and slope statistics of all nodes (ISO 25178-2), nothing levelled or filtered first: "
-             "Ra, "
-             "Rq, amplitude, skewness, kurtosis, rms_slope, peak, valley, mean, also by their areal names "
-             "Sa, Sq, "
-             "Sz, Ssk, Sku, Sdq. Its amplitude is peak to valley; that of lab.surface.sine is half of it.",
+             "Amplitude and slope statistics of all nodes (ISO 25178-2), nothing levelled or filtered first. "
+             "Its amplitude is peak to valley; that of lab.surface.sine is half of it.",
          .returns = "ArealRoughness",
          .example = "print(s:roughness().Ra)"},
         {.name = "spectrum",
