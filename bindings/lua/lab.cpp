@@ -32,7 +32,8 @@ std::string help_on(const Argument& value) {
     std::string text = "A " + record->name + " result, with its values:\n";
     for (const Record::Entry& entry : record->entries)
       if (!entry.value.is_nil()) text += "  " + entry.field + "  " + show(entry) + "\n";
-    return text;
+    return text +
+           (record->type == nullptr ? "" : "help \"" + record->type->name + "\" says what they are.\n");
   }
   if (lua_iscfunction(L, value.index())) {
     if (lua_getupvalue(L, value.index(), 1) != nullptr)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/contact/discretisation_error.hpp"
 
+#include <array>
+
 #include "bindings/lua/contact/state_error.hpp"
 #include "bindings/lua/registry/record.hpp"
-#include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
 #include "engine/contact/quantities.hpp"
 #include "engine/core/text.hpp"
@@ -76,34 +77,55 @@ const Class& class_of<DiscretisationError>() {
   return type;
 }
 
+const RecordType<TriedGrid>& tried_grid_type() {
+  using G = TriedGrid;
+  static const RecordType<G> type =
+      RecordType<G>{
+          "TriedGrid",
+          "grid that was tried",
+          "A grid on which the press was tried for the error that was asked for.",
+          {{"cells",
+            [](const G& g) {
+              return std::array{g.nx, g.ny};
+            },
+            "along x and y"},
+           {"tolerance", &G::tolerance, "of the solve"},
+           {"error", &G::error, "greatest relative error among the quantities asked for, with its margin"},
+           {"of", &G::of, "the quantity that has it"},
+           {"note", &G::note, "why this grid does not count; empty where it does"},
+           {"cost", &G::cost, cost_type(), "transforms in those of this grid"}}}
+          .titled([](const G& g) { return cells_text(g.nx, g.ny); });
+  return type;
+}
+
+const RecordType<ChosenAccuracy>& chosen_accuracy_type() {
+  using C = ChosenAccuracy;
+  static const RecordType<C> type{
+      "ChosenAccuracy",
+      "chosen accuracy",
+      "Cells, tolerance and precision that were chosen for an error, and why.",
+      {{"cells",
+        [](const C& c) {
+          return std::array{c.nx, c.ny};
+        },
+        "along x and y"},
+       {"tolerance", &C::tolerance, "of the solve"},
+       {"precision",
+        [](const C& c) { return c.precision == Accuracy::Precision::single ? "single" : "double"; },
+        "\"single\" or \"double\""},
+       {"why_precision", &C::why_precision, "in a few words"},
+       {"error", &C::error,
+        "of this state: greatest relative error among the quantities asked for, with its margin"},
+       {"of", &C::of, "the quantity that has it"},
+       {"met", &C::met, "whether that is at most the error asked for"},
+       {"reason", &C::reason, "why these were chosen, in a sentence"},
+       {"text", &C::text, "all of it on one line"},
+       {"tried", &C::tried, tried_grid_type(), "the grids that were tried, one after another"}}};
+  return type;
+}
+
 Value chosen_record(const asperity::State& state) {
-  if (!state.chosen()) return {};
-  const ChosenAccuracy& chosen = *state.chosen();
-  Record record;
-  record.name = "chosen accuracy";
-  record.add("cells", List{{chosen.nx, chosen.ny}})
-      .add("tolerance", chosen.tolerance)
-      .add("precision", chosen.precision == Accuracy::Precision::single ? "single" : "double")
-      .add("why_precision", chosen.why_precision)
-      .add("error", chosen.error)
-      .add("of", chosen.of)
-      .add("met", chosen.met())
-      .add("reason", chosen.reason())
-      .add("text", chosen.text());
-  List tried;
-  for (const TriedGrid& grid : chosen.tried) {
-    Record entry;
-    entry.name = cells_text(grid.nx, grid.ny);
-    entry.add("cells", List{{grid.nx, grid.ny}})
-        .add("tolerance", grid.tolerance)
-        .add("error", grid.error)
-        .add("of", grid.of)
-        .add("note", grid.note)
-        .add("cost", cost_record(grid.cost, "cost"));
-    tried.items.emplace_back(std::move(entry));
-  }
-  record.add("tried", std::move(tried));
-  return {std::move(record)};
+  return state.chosen() ? Value(chosen_accuracy_type()(*state.chosen())) : Value();
 }
 
 }  // namespace asperity::lua

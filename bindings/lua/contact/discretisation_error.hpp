@@ -3,7 +3,8 @@
 // asked for them; and st.chosen, what was chosen for an error that it asked for.
 #pragma once
 
-#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/record_type.hpp"
+#include "engine/accuracy/chosen_accuracy.hpp"
 #include "engine/contact/state.hpp"
 
 namespace asperity::lua {
@@ -15,6 +16,9 @@ struct DiscretisationError {
 
 template <>
 const Class& class_of<DiscretisationError>();
+
+const RecordType<ChosenAccuracy>& chosen_accuracy_type();
+const RecordType<TriedGrid>& tried_grid_type();
 
 // The record of cells, tolerance, precision, reason and all that was tried; nil where nothing was asked for.
 Value chosen_record(const asperity::State& state);

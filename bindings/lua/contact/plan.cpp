@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/contact/plan.hpp"
 
+#include "bindings/lua/registry/record_type.hpp"
 #include "engine/run/plan_json.hpp"
 
 namespace asperity::lua {
 
 namespace {
 
-Values terms_of(Call& call) {
-  List list;
-  for (const PlannedTerm& term : call.self<Plan>().terms) {
-    Record record;
-    record.name = "term";
-    record.add("effect", term.effect).add("sentence", term.sentence);
-    list.items.emplace_back(std::move(record));
-  }
-  return {std::move(list)};
+const RecordType<PlannedTerm>& planned_term_type() {
+  using T = PlannedTerm;
+  static const RecordType<T> type{"PlannedTerm",
+                                  "term",
+                                  "A term of the problem that a press will solve.",
+                                  {{"effect", &T::effect, "that adds it"},
+                                   {"sentence", &T::sentence, "what it is here, with its numbers"}}};
+  return type;
 }
 
-Values buffers_of(Call& call) {
-  List list;
-  for (const PlannedBuffer& buffer : call.self<Plan>().buffers) {
-    Record record;
-    record.name = "buffer";
-    record.add("name", buffer.name).add("bytes", buffer.bytes).add("kept", buffer.kept);
-    list.items.emplace_back(std::move(record));
-  }
-  return {std::move(list)};
+const RecordType<PlannedBuffer>& planned_buffer_type() {
+  using B = PlannedBuffer;
+  static const RecordType<B> type{
+      "PlannedBuffer",
+      "buffer",
+      "What a press will hold in memory.",
+      {{"name", &B::name, "what it is for"},
+       {"bytes", &B::bytes, "its size"},
+       {"kept", &B::kept, "whether for as long as the bodies lie as they do, or only for a moment"}}};
+  return type;
 }
 
 }  // namespace
@@ -49,8 +50,16 @@ const Class& class_of<Plan>() {
          "share of the tile on which the bodies face each other as they lie",
          {},
          [](Call& call) -> Values { return {call.self<Plan>().overlap}; }},
-        {"terms", "table[]", "the terms of the problem: effect and sentence", {}, terms_of},
-        {"buffers", "table[]", "what is held in memory: name, bytes, and whether it is kept", {}, buffers_of},
+        {"terms",
+         "PlannedTerm[]",
+         "the terms of the problem",
+         {},
+         [](Call& call) -> Values { return {planned_term_type().list(call.self<Plan>().terms)}; }},
+        {"buffers",
+         "PlannedBuffer[]",
+         "what is held in memory",
+         {},
+         [](Call& call) -> Values { return {planned_buffer_type().list(call.self<Plan>().buffers)}; }},
         {"transforms",
          "number",
          "Fourier transforms expected of a press, in equivalents of the finest grid",
@@ -86,6 +95,7 @@ const Class& class_of<Plan>() {
         {"json", "string", "all of it, as JSON", {}, [](Call& call) -> Values {
            return {to_json(call.self<Plan>()).text(2)};
          }}};
+    c.results = {&planned_term_type(), &planned_buffer_type()};
     c.describe = [](const void* self) {
       std::string text = static_cast<const Plan*>(self)->text();
       text.pop_back();

@@ -39,27 +39,31 @@ Values quantity_value(Call& call) {
   return {quantity.count ? Value(static_cast<std::int64_t>(value)) : Value(value)};
 }
 
-Values cost_of(Call& call) {
-  const StateCost& cost = call.self<Contacting>().cost();
-  Record record = cost_record(cost.total, "cost");
-  Record by_effect;
-  by_effect.name = "cost by effect";
-  for (const auto& [effect, share] : cost.by_effect) by_effect.add(effect, cost_record(share, effect));
-  record.add("by_effect", std::move(by_effect));
-  return {std::move(record)};
+const RecordType<StateCost>& state_cost_type() {
+  using C = StateCost;
+  static const RecordType<C> type{
+      "StateCost",
+      "cost",
+      "What a press took to compute.",
+      {{"seconds", [](const C& c) { return c.total.seconds; }, dimension::time, "by the clock"},
+       {"transforms", [](const C& c) { return c.total.transforms; },
+        "Fourier transforms, in equivalents of the finest grid"},
+       {"bytes", [](const C& c) { return c.total.bytes; }, "greatest memory beyond what was held before"},
+       {"by_effect", "table<string, Cost>", [](const C& c) { return cost_by_effect(c.by_effect); },
+        "the parts of the effects that ran, and of the estimate of errors"}}};
+  return type;
 }
 
-Values certificate_of(Call& call) {
-  const Certificate& c = call.self<Contacting>().certificate();
-  Record record;
-  record.name = "certificate";
-  record.add("penetration", c.penetration)
-      .add("tension", c.tension)
-      .add("complementarity", c.complementarity)
-      .add("load", c.load)
-      .add("cap", c.cap)
-      .add("attraction", c.attraction);
-  return {std::move(record)};
+const RecordType<Certificate>& certificate_type() {
+  static const RecordType<Certificate> type{
+      "Certificate", "certificate", "How far the contact conditions are from being met, each relative.", [] {
+        std::vector<RecordField<Certificate>> fields = certificate_fields();
+        fields.emplace_back("attraction", &Certificate::attraction,
+                            "greatest distance of the attraction from its law, over its greatest; 0 without "
+                            "attraction across the gap");
+        return fields;
+      }()};
+  return type;
 }
 
 Value state_numbers(const std::vector<double>& values) {
@@ -89,19 +93,22 @@ const Block<HistogramOptions>& histogram_block() {
   return block;
 }
 
+const RecordType<Histogram>& distribution_type() {
+  using H = Histogram;
+  static const RecordType<H> type{
+      "Distribution",
+      "distribution",
+      "How pressures, gaps or spot areas are distributed, in the SI unit of these.",
+      {{"edges", &H::edges, "of the bins, ascending: one more than there are bins"},
+       {"counts", &H::counts, "values in each bin; the last bin holds its upper edge too"},
+       {"density", &H::density, "probability density in each bin, which integrates to 1"},
+       {"values", &H::values, "how many were counted"},
+       {"mean", &H::mean, "of the values"}}};
+  return type;
+}
 Values distribution(Call& call) {
   const HistogramOptions options = call.options(histogram_block(), 2);
-  const Histogram h = call.self<Contacting>().distribution(call.text(1, "name"), options);
-  List counts;
-  for (const std::int64_t n : h.counts) counts.items.emplace_back(n);
-  Record record;
-  record.name = "distribution";
-  record.add("edges", state_numbers(h.edges))
-      .add("counts", std::move(counts))
-      .add("density", state_numbers(h.density))
-      .add("values", h.values)
-      .add("mean", h.mean);
-  return {std::move(record)};
+  return {distribution_type()(call.self<Contacting>().distribution(call.text(1, "name"), options))};
 }
 
 struct StateFileKeys {
@@ -178,6 +185,17 @@ std::size_t field_bytes(const void* self) {
 
 }  // namespace
 
+std::vector<RecordField<Certificate>> certificate_fields() {
+  using C = Certificate;
+  return {{"penetration", &C::penetration,
+           "greatest overlap of the bodies where the pressure is below its cap, over the rms height of both"},
+          {"tension", &C::tension, "greatest tension, over the mean pressure"},
+          {"complementarity", &C::complementarity,
+           "gap under the pressures, in the mean weighted with them, over that rms height"},
+          {"load", &C::load, "distance of the mean pressure from the one asked for, over it"},
+          {"cap", &C::cap, "greatest excess of the pressure over its cap, over the cap; 0 without one"}};
+}
+
 template <>
 const Class& class_of<asperity::State>() {
   using S = Contacting;
@@ -213,12 +231,12 @@ const Class& class_of<asperity::State>() {
          read_state_number<&S::iterations>},
         {"residual", "number", "greatest entry of the certificate", {}, read_state_number<&S::residual>},
         {"certificate",
-         "table",
+         "Certificate",
          "how far the contact conditions are from being met, each relative; with `adhesion` these bound "
          "tractions "
          "and not lengths: gaps and approaches may be off by more",
          {},
-         certificate_of},
+         [](Call& call) -> Values { return {certificate_type()(call.self<S>().certificate())}; }},
         {"converged",
          "boolean",
          "whether every entry of the certificate is within the tolerance",
@@ -245,11 +263,15 @@ const Class& class_of<asperity::State>() {
          {},
          [](Call& call) -> Values { return {object(StateError{call.self<S>()})}; }},
         {"chosen",
-         "table",
+         "ChosenAccuracy?",
          "cells and tolerance that were chosen for accuracy={ error= }, and why; nil otherwise",
          {},
          [](Call& call) -> Values { return {chosen_record(call.self<S>())}; }},
-        {"cost", "table", "seconds, transforms, bytes, and by effect", {}, cost_of},
+        {"cost",
+         "StateCost",
+         "seconds, transforms, bytes, and by effect",
+         {},
+         [](Call& call) -> Values { return {state_cost_type()(call.self<S>().cost())}; }},
         {"digest", "string", "of pressures and approach", {}, read_state_number<&S::digest>},
     };
     c.fields.insert(c.fields.end(), others.begin(), others.end());
@@ -291,9 +313,11 @@ const Class& class_of<asperity::State>() {
          .parameters = {{"name", "\"pressure\"|\"gap\"|\"spot_area\"", "of what"}},
          .options = &histogram_block(),
          .options_optional = true,
-         .returns = "table",
+         .returns = "Distribution",
          .example = "local d = st:distribution(\"pressure\", { bins=40 })"},
     };
+    c.results = {&certificate_type(), &chosen_accuracy_type(), &tried_grid_type(), &state_cost_type(),
+                 &cost_type(),        &distribution_type()};
     return c;
   }();
   return type;

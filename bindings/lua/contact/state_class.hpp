@@ -4,8 +4,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/record_type.hpp"
+#include "engine/contact/certificate.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/core/grid.hpp"
 
@@ -18,6 +20,9 @@ struct StateField {
   std::shared_ptr<const Field> values;
   Dimension dimension;
 };
+
+// Those of every certificate; bodies that attract each other have one more.
+std::vector<RecordField<Certificate>> certificate_fields();
 
 template <>
 const Class& class_of<asperity::State>();

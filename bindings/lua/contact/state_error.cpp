@@ -137,10 +137,10 @@ const Class& class_of<StateBounds>() {
          {},
          [](Call& call) -> Values { return {share(bounds(call), yielded(call).high)}; }},
         {"cost",
-         "table",
+         "Cost",
          "seconds, transforms and bytes of finding these bounds",
          {},
-         [](Call& call) -> Values { return {cost_record(bounds(call).cost, "cost")}; }},
+         [](Call& call) -> Values { return {cost_type()(bounds(call).cost)}; }},
     };
     c.fields.insert(c.fields.end(), brackets.begin(), brackets.end());
     return c;

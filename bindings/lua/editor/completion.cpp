@@ -207,6 +207,13 @@ class Completer {
         for (const Getter& field : (*type)->fields)
           add({field.name, "value", describe_field(field), field.sentence});
       for (const Function& method : (*type)->methods) add(of_function(method));
+    } else if (const auto* record = of.as<const RecordInfo*>()) {
+      if (!methods_only)
+        for (const Getter& field : (*record)->fields)
+          add({field.name, "value", describe_field(field), field.sentence});
+    } else if (const auto* list = of.as<ScriptType::List>(); list != nullptr && list->fields != nullptr) {
+      if (!methods_only)
+        for (const auto& [name, field] : *list->fields) add({name, "value", type_text(field), ""});
     } else if (const auto* table = of.as<ScriptType::Table>()) {
       for (const auto& [name, field] : *table->fields)
         if (!methods_only || field.as<ScriptType::Closure>() != nullptr)

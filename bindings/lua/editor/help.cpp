@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bindings/lua/registry/record_type.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -72,6 +73,53 @@ std::string padded(const std::string& text, std::size_t width) {
   return text.size() >= width ? text : text + std::string(width - text.size(), ' ');
 }
 
+std::string fields_help(const std::vector<Getter>& fields, std::size_t width = 0) {
+  for (const Getter& field : fields) width = std::max(width, field.name.size());
+  std::string text;
+  for (const Getter& field : fields)
+    text += "  " + padded(field.name, width) + "  " + field.sentence + " (" + describe_field(field) + ")\n";
+  return text;
+}
+
+std::string record_help(const RecordInfo& type) {
+  return type.name + ": " + type.sentence + "\n" + fields_help(type.fields);
+}
+
+// The records that a type names, and those that are fields of them.
+void add_records_of(const std::string& of, std::vector<const RecordInfo*>& found) {
+  for (const RecordInfo* type : record_types_in(of)) {
+    if (std::find(found.begin(), found.end(), type) != found.end()) continue;
+    found.push_back(type);
+    for (const Getter& field : type->fields) add_records_of(field.type, found);
+  }
+}
+
+std::string records_help(const std::string& of) {
+  std::vector<const RecordInfo*> found;
+  add_records_of(of, found);
+  std::string text;
+  for (const RecordInfo* type : found) text += "\n" + record_help(*type);
+  return text;
+}
+
+// What gives records of a type: functions, fields of values, and fields of other records.
+std::vector<std::string> givers_of(const RecordInfo& type) {
+  std::vector<std::string> givers;
+  const auto look_at = [&](const std::string& giver, const std::string& of) {
+    const std::vector<const RecordInfo*> named = record_types_in(of);
+    if (std::find(named.begin(), named.end(), &type) != named.end()) givers.push_back(giver);
+  };
+  for (const Module* module : modules())
+    for (const Function& f : module->functions) look_at(qualified_name(f), f.returns);
+  for (const Class* value : classes()) {
+    for (const Function& f : value->methods) look_at(qualified_name(f), f.returns);
+    for (const Getter& field : value->fields) look_at(value->name + "." + field.name, field.type);
+  }
+  for (const RecordInfo* other : record_types())
+    for (const Getter& field : other->fields) look_at(other->name + "." + field.name, field.type);
+  return givers;
+}
+
 std::string function_help(const Function& function) {
   std::string text = signature(function);
   if (!function.returns.empty()) text += "  ->  " + function.returns;
@@ -87,6 +135,7 @@ std::string function_help(const Function& function) {
   if (function.options != nullptr)
     for (const auto& [name, option] : all_options(*function.options))
       text += "  " + padded(name, width) + "  " + option->sentence + " (" + describe_option(*option) + ")\n";
+  text += records_help(function.returns);
   if (!function.example.empty()) text += "\nExample:\n  " + function.example + "\n";
   return text;
 }
@@ -95,9 +144,7 @@ std::string class_help(const Class& type) {
   std::string text = type.name + ": " + type.sentence + "\n";
   std::size_t width = 0;
   for (const std::string& name : type.names()) width = std::max(width, name.size());
-  if (!type.fields.empty()) text += "\nFields:\n";
-  for (const Getter& field : type.fields)
-    text += "  " + padded(field.name, width) + "  " + field.sentence + " (" + describe_field(field) + ")\n";
+  if (!type.fields.empty()) text += "\nFields:\n" + fields_help(type.fields, width);
   if (!type.methods.empty()) text += "\nMethods:\n";
   for (const Function& method : type.methods)
     text += "  " + padded(method.name, width) + "  " + method.sentence + "\n";
@@ -140,7 +187,8 @@ std::string last_name(const std::string& path) {
 struct Topic {
   std::string name;
   std::string text;
-  std::string sentence;  // of the text
+  std::string sentence;     // of the text
+  bool exact_name = false;  // found by its name as it is written alone: `Tilt` is not meant by "tilt"
 };
 
 std::vector<Topic> all_topics() {
@@ -158,10 +206,21 @@ std::vector<Topic> all_topics() {
     for (const Function& f : type->methods)
       topics.push_back({qualified_name(f), function_help(f), f.sentence});
     for (const Getter& field : type->fields)
+      topics.push_back({type->name + "." + field.name,
+                        type->name + "." + field.name + ": " + field.sentence + " (" + describe_field(field) +
+                            ")\n" + records_help(field.type),
+                        field.sentence});
+  }
+  for (const RecordInfo* type : record_types()) {
+    const std::string givers = joined(givers_of(*type), " and ");
+    topics.push_back({type->name, record_help(*type) + "\nGiven by " + givers + ".\n",
+                      type->sentence + " Given by " + givers + ".", true});
+    for (const Getter& field : type->fields) {
+      const std::string name = type->name + "." + field.name;
       topics.push_back(
-          {type->name + "." + field.name,
-           type->name + "." + field.name + ": " + field.sentence + " (" + describe_field(field) + ")\n",
+          {name, name + ", of " + givers + ": " + field.sentence + " (" + describe_field(field) + ")\n",
            field.sentence});
+    }
   }
   return topics;
 }
@@ -267,6 +326,27 @@ void function_reference(std::string& page, const Function& function) {
   if (!function.example.empty()) page += "```lua\n" + function.example + "\n```\n\n";
 }
 
+void fields_reference(std::string& page, const std::vector<Getter>& fields) {
+  if (fields.empty()) return;
+  page += "| field | type | meaning |\n|---|---|---|\n";
+  for (const Getter& field : fields)
+    page += "| `" + field.name + "` | " + cell(describe_field(field)) + " | " + cell(field.sentence) + " |\n";
+  page += "\n";
+}
+
+// Each type of record stands with the first module or class that gives it.
+void records_reference(std::string& page, const std::vector<const RecordInfo*>& results,
+                       std::vector<const RecordInfo*>& told) {
+  for (const RecordInfo* type : results) {
+    if (std::find(told.begin(), told.end(), type) != told.end()) continue;
+    told.push_back(type);
+    std::vector<std::string> givers;
+    for (const std::string& giver : givers_of(*type)) givers.push_back("`" + giver + "`");
+    page += "### " + type->name + "\n\n" + type->sentence + " Given by " + joined(givers, " and ") + ".\n\n";
+    fields_reference(page, type->fields);
+  }
+}
+
 // --- editor types
 
 std::string cats_type(const std::string& type) {
@@ -274,15 +354,22 @@ std::string cats_type(const std::string& type) {
   if (type.starts_with("iterator<")) return "fun(): " + cats_type(type.substr(9, type.size() - 10));
   if (const std::size_t at = type.find(" and "); at != std::string::npos && type.find(" with ") > at)
     return cats_type(type.substr(0, at)) + ", " + cats_type(type.substr(at + 5));
-  if (const std::size_t at = type.find("[] with "); at != std::string::npos)
-    return cats_type(type.substr(0, at + 2)) + "|table";
+  if (const std::size_t at = type.find("[] with "); at != std::string::npos) {
+    std::string fields;
+    for (const auto& [name, of] : named_fields(type))
+      fields += (fields.empty() ? "" : ", ") + std::string(name) + ": " + cats_type(std::string(of));
+    return cats_type(type.substr(0, at + 2)) + "|{ " + fields + " }";
+  }
+  constexpr std::string_view map = "table<string, ";
+  if (type.starts_with(map))
+    return std::string(map) + cats_type(type.substr(map.size(), type.size() - map.size() - 1)) + ">";
   if (type.ends_with("[]")) return cats_type(type.substr(0, type.size() - 2)) + "[]";
   if (type.starts_with("{") || type.starts_with("\"")) return type.starts_with("{") ? "table" : type;
   if (const std::size_t bar = type.find('|'); bar != std::string::npos)
     return cats_type(type.substr(0, bar)) + "|" + cats_type(type.substr(bar + 1));
   for (const char* known : {"number", "integer", "string", "boolean", "table", "function", "nil", "any"})
     if (type == known) return type;
-  if (find_class(type) != nullptr) return "asperity." + type;
+  if (find_class(type) != nullptr || find_record_type(type) != nullptr) return "asperity." + type;
   if (type.starts_with("a ") || type.starts_with("an ")) return "number|string";  // a quantity
   return "any";
 }
@@ -300,6 +387,16 @@ void cats_block(std::string& page, const Function& function) {
     page += "---@field " + option->name + (option->required ? "" : "?") + " " + cats_type(option->type) +
             " " + option->sentence + " (" + describe_option(*option) + ")\n";
   page += "\n";
+}
+
+void cats_class(std::string& page, const std::string& name, const std::string& sentence,
+                const std::vector<Getter>& fields) {
+  page += "---" + sentence + "\n---@class asperity." + name + "\n";
+  for (const Getter& field : fields) {
+    const std::string unit = si_unit(field.dimension);
+    page += "---@field " + field.name + " " + cats_type(field.type) + " " + field.sentence +
+            (unit.empty() ? "" : " (" + unit + ")") + "\n";
+  }
 }
 
 void cats_function(std::string& page, const Function& function, const std::string& declared) {
@@ -330,11 +427,11 @@ std::string help_text(const std::string& topic) {
     for (const Topic& t : topics)
       if (t.name == name) return t.text;
   for (const Topic& t : topics)
-    if (same_word(t.name, topic) || same_word(t.name, "lab." + topic)) return t.text;
+    if (!t.exact_name && (same_word(t.name, topic) || same_word(t.name, "lab." + topic))) return t.text;
   // A bare name may mean several things: `close`, `roughness`. Show them all.
   std::string found;
   for (const Topic& t : topics)
-    if (same_word(last_name(t.name), topic)) found += (found.empty() ? "" : "\n") + t.text;
+    if (!t.exact_name && same_word(last_name(t.name), topic)) found += (found.empty() ? "" : "\n") + t.text;
   if (const std::string keys = keys_help(topic); !keys.empty()) found += (found.empty() ? "" : "\n") + keys;
   if (!found.empty()) return found;
   if (const std::string hits = hits_help(topic, topics); !hits.empty()) return hits;
@@ -402,6 +499,7 @@ std::string reference_page() {
       "that runs\n"
       "after these lines:\n\n```lua\n" +
       example_preamble() + "```\n\n";
+  std::vector<const RecordInfo*> told;
   for (const Module* module : modules()) {
     page += "## `" + module->path + "`\n\n" + module->sentence + "\n\n";
     if (!module->constants.empty()) {
@@ -412,17 +510,13 @@ std::string reference_page() {
     }
     if (module->call) function_reference(page, *module->call);
     for (const Function& f : module->functions) function_reference(page, f);
+    records_reference(page, module->results, told);
   }
   for (const Class* type : classes()) {
     page += "## " + type->name + "\n\n" + type->sentence + "\n\n";
-    if (!type->fields.empty()) {
-      page += "| field | type | meaning |\n|---|---|---|\n";
-      for (const Getter& field : type->fields)
-        page +=
-            "| `" + field.name + "` | " + cell(describe_field(field)) + " | " + cell(field.sentence) + " |\n";
-      page += "\n";
-    }
+    fields_reference(page, type->fields);
     for (const Function& f : type->methods) function_reference(page, f);
+    records_reference(page, type->results, told);
   }
   while (page.ends_with("\n\n")) page.pop_back();
   return page;
@@ -432,11 +526,13 @@ std::string editor_types() {
   std::string page =
       "---@meta asperity\n-- Types of the language for editors (LuaCATS).\n"
       "-- Generated by `asperity help --types`; do not edit.\n\n";
+  for (const RecordInfo* type : record_types()) {
+    cats_class(page, type->name, type->sentence, type->fields);
+    page += "\n";
+  }
   for (const Class* type : classes()) {
     for (const Function& f : type->methods) cats_block(page, f);
-    page += "---" + type->sentence + "\n---@class asperity." + type->name + "\n";
-    for (const Getter& field : type->fields)
-      page += "---@field " + field.name + " " + cats_type(field.type) + " " + field.sentence + "\n";
+    cats_class(page, type->name, type->sentence, type->fields);
     page += "local " + type->name + " = {}\n\n";
     for (const Function& f : type->methods) cats_function(page, f, type->name + ":" + f.name);
   }

@@ -303,6 +303,8 @@ std::vector<LiveGlobal> Prompt::live_globals() const {
   const auto type_of = [&](const Argument& value) -> std::string {
     if (const Module* module = module_at(L, value.index())) return module->path;
     if (const Object* object = native_at(L, value.index())) return object->type->name;
+    if (const std::shared_ptr<Record> record = record_at(L, value.index()))
+      return record->type != nullptr ? record->type->name : "";
     if (value.is_number()) return "number";
     return value.is_text() ? "string" : "";
   };
@@ -324,7 +326,8 @@ std::vector<LiveGlobal> Prompt::live_globals() const {
             global.fields.push_back({std::string(name.text()), type_of(field), {}});
         });
       }
-    } else if (const std::shared_ptr<Record> record = record_at(L, value.index())) {
+    } else if (const std::shared_ptr<Record> record = record_at(L, value.index());
+               record != nullptr && record->type == nullptr) {
       for (const Record::Entry& entry : record->entries)
         global.fields.push_back({entry.field, entry.value.number() ? "number" : "", {}});
     }

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "bindings/lua/editor/script_tokens.hpp"
-#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 
 namespace asperity::lua {
 
@@ -29,14 +29,19 @@ struct ScriptType {
   struct Unknown {};
   struct Number {};
   struct Text {};
+  using Fields = std::map<std::string, ScriptType, std::less<>>;
   struct List {
+    std::shared_ptr<const ScriptType> element;
+    std::shared_ptr<const Fields> fields{};  // that it has besides; may be null
+  };
+  // A record with a field for each name that there is, all of one type: costs by effect.
+  struct Map {
     std::shared_ptr<const ScriptType> element;
   };
   struct Iterator {
     std::shared_ptr<const ScriptTypeList> turn;  // the values of one turn
   };
   // A table of the script's own with named fields.
-  using Fields = std::map<std::string, ScriptType, std::less<>>;
   struct Table {
     std::shared_ptr<Fields> fields;
   };
@@ -47,8 +52,8 @@ struct ScriptType {
   struct Library {
     std::string path;
   };
-  std::variant<Unknown, Number, Text, const Module*, const Class*, const Function*, List, Iterator, Table,
-               Closure, Library>
+  std::variant<Unknown, Number, Text, const Module*, const Class*, const RecordInfo*, const Function*, List,
+               Map, Iterator, Table, Closure, Library>
       data{};
 
   bool known() const { return !std::holds_alternative<Unknown>(data); }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int deepest_brackets = 40;  // brackets in brackets; beyond, values are unknown
 
-// "State", "table and State?", "Profile[] with tip_effect and lines": one type a turn.
+// "State", "ProtocolEvent and State?": one type a turn.
 ScriptTypeList types_of_turn(std::string_view text) {
   constexpr std::string_view separator = " and ";
   ScriptTypeList types;
@@ -37,8 +37,15 @@ bool is_binary(std::string_view sign) {
 
 ScriptType script_type(std::string_view text) {
   if (text.ends_with("?")) return script_type(text.substr(0, text.size() - 1));
-  if (const std::size_t at = text.find(" with "); at != std::string_view::npos)
-    return script_type(text.substr(0, at));
+  if (const std::size_t at = text.find("[] with "); at != std::string_view::npos) {
+    auto fields = std::make_shared<ScriptType::Fields>();
+    for (const auto& [name, type] : named_fields(text)) (*fields)[std::string(name)] = script_type(type);
+    return {ScriptType::List{std::make_shared<const ScriptType>(script_type(text.substr(0, at))), fields}};
+  }
+  constexpr std::string_view map = "table<string, ";
+  if (text.starts_with(map))
+    return {ScriptType::Map{std::make_shared<const ScriptType>(
+        script_type(text.substr(map.size(), text.size() - map.size() - 1)))}};
   if (text.starts_with("iterator<"))
     return {ScriptType::Iterator{
         std::make_shared<const ScriptTypeList>(types_of_turn(text.substr(9, text.size() - 10)))}};
@@ -53,6 +60,7 @@ ScriptType script_type(std::string_view text) {
   if (text == "number" || text == "integer") return {ScriptType::Number{}};
   if (text == "string") return {ScriptType::Text{}};
   if (const Class* type = find_class(text)) return {type};
+  if (const RecordInfo* type = find_record_type(text)) return {type};
   for (const Module* module : modules())
     if (module->path == text) return {module};
   return {};
@@ -65,11 +73,13 @@ std::string type_text(const ScriptType& type) {
     std::string operator()(ScriptType::Text) const { return "a string"; }
     std::string operator()(const Module* module) const { return module->path; }
     std::string operator()(const Class* type) const { return type->article_name; }
+    std::string operator()(const RecordInfo* type) const { return "a " + type->title + " result"; }
     std::string operator()(const Function* function) const { return qualified_name(*function); }
     std::string operator()(const ScriptType::List& list) const {
       const std::string element = type_text(*list.element);
       return "a list" + (element.empty() ? "" : ", each " + element);
     }
+    std::string operator()(const ScriptType::Map&) const { return "a result"; }
     std::string operator()(const ScriptType::Iterator&) const { return "an iterator"; }
     std::string operator()(const ScriptType::Table&) const { return "a table"; }
     std::string operator()(ScriptType::Closure) const { return "a function"; }
@@ -173,7 +183,8 @@ void ScriptTypes::suffixes(std::size_t& k, ScriptTypeList& types, int depth, std
       k += 2;
     } else if (is(k, "[")) {
       const auto* list = now.as<ScriptType::List>();
-      types = {list != nullptr ? *list->element : ScriptType{}};
+      const auto* map = now.as<ScriptType::Map>();
+      types = {list != nullptr ? *list->element : map != nullptr ? *map->element : ScriptType{}};
       k = partner_[k] == none ? stop : partner_[k] + 1;
     } else if (is(k, "(") || is(k, "{")) {
       types = call(now, k, depth);
@@ -235,6 +246,15 @@ ScriptType ScriptTypes::member(const ScriptType& of, std::string_view name) cons
     if (const auto g = named(type.fields); g != type.fields.end()) return script_type(g->type);
     return {};
   }
+  if (const auto* held = of.as<const RecordInfo*>()) {
+    const auto field = named((*held)->fields);
+    return field == (*held)->fields.end() ? ScriptType{} : script_type(field->type);
+  }
+  if (const auto* held = of.as<ScriptType::Map>()) return *held->element;
+  if (const auto* held = of.as<ScriptType::List>(); held != nullptr && held->fields != nullptr) {
+    const auto field = held->fields->find(name);
+    return field == held->fields->end() ? ScriptType{} : field->second;
+  }
   if (const auto* held = of.as<ScriptType::Table>()) {
     const auto field = held->fields->find(name);
     return field == held->fields->end() ? ScriptType{} : field->second;
@@ -276,9 +296,12 @@ ScriptTypeList ScriptTypes::call(const ScriptType& function, std::size_t argumen
   if (path == "ipairs" || path == "pairs") {
     const ScriptType of = first_argument();
     const auto* list = of.as<ScriptType::List>();
+    const auto* map = of.as<ScriptType::Map>();
     auto turn = std::make_shared<const ScriptTypeList>(
         ScriptTypeList{path == "ipairs" || list != nullptr ? ScriptType{ScriptType::Number{}} : ScriptType{},
-                       list != nullptr ? *list->element : ScriptType{}});
+                       list != nullptr                     ? *list->element
+                       : map != nullptr && path == "pairs" ? *map->element
+                                                           : ScriptType{}});
     return {{ScriptType::Iterator{std::move(turn)}}};
   }
   if (path == "assert" || path == "setmetatable") return {first_argument()};

@@ -2,6 +2,7 @@
 #include "bindings/lua/friction/law.hpp"
 
 #include "bindings/lua/contact/state_class.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/contact/effects/interlocking.hpp"
 
@@ -35,6 +36,28 @@ const Block<OnKeys>& on_block() {
   return block;
 }
 
+const RecordType<FrictionResult>& friction_type() {
+  using F = FrictionResult;
+  using Entry = RecordField<F>;
+  static const RecordType<F> type{
+      "Friction",
+      "friction",
+      "The friction of a contact under load by a law.",
+      {{"force", &F::force, dimension::force, "that the whole tile bears before it slides"},
+       {"mu", &F::mu, "force over the applied load; nil without load"},
+       {"adhesive_force", &F::adhesive_force, dimension::force,
+        "the part that tau0 gives, or the cap where that is lower"},
+       {"load_force", &F::load_force, dimension::force, "the part that comes with pressure"},
+       {"capped_fraction", &F::capped_fraction,
+        "share of the real contact area at the cap; 0 without contact"},
+       Entry("interlocking_force", &F::interlocking_force, dimension::force,
+             "beyond that of the same junctions lying level")
+           .needs("interlocking"),
+       Entry("strengthening", &F::strengthening, "tau0 after the rest over tau0 without one")
+           .needs("ageing")}};
+  return type;
+}
+
 Values law_on(Call& call) {
   const auto& state = call.object<asperity::State>(1, "st");
   const OnKeys keys = call.options(on_block(), 2);
@@ -44,16 +67,7 @@ Values law_on(Call& call) {
     const std::pair<std::string, Cost> cost{"interlocking", scope.so_far()};
     call.session().ledger->add_effects({&cost, 1});
   }
-  Record record;
-  record.name = "friction";
-  record.add("force", r.force, dimension::force)
-      .add("mu", Value(r.mu))
-      .add("adhesive_force", r.adhesive_force, dimension::force)
-      .add("load_force", r.load_force, dimension::force)
-      .add("capped_fraction", r.capped_fraction);
-  record.add_if("interlocking", "interlocking_force", r.interlocking_force, dimension::force)
-      .add_if("ageing", "strengthening", r.strengthening);
-  return {std::move(record)};
+  return {friction_type()(r)};
 }
 
 std::string describe_law(const void* self) { return static_cast<const JunctionLaw*>(self)->text(); }
@@ -92,14 +106,13 @@ const Class& class_of<JunctionLaw>() {
     };
     c.methods = {{.name = "on",
                   .body = law_on,
-                  .sentence = "The friction of a state: force, mu, its adhesive and load parts, and the "
-                              "share of the area at the cap; with interlocking also what the slopes of the "
-                              "junctions add, with ageing by what tau0 grew.",
+                  .sentence = "The friction of a contact under load.",
                   .parameters = {{"st", "State", "the contact under load"}},
                   .options = &on_block(),
                   .options_optional = true,
-                  .returns = "table",
+                  .returns = "Friction",
                   .example = "print(law:on(st).mu)"}};
+    c.results = {&friction_type()};
     return c;
   }();
   return type;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/metrology/stylus.hpp"
 
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/metrology/spherical_tip.hpp"
@@ -40,35 +41,41 @@ const Block<ScanKeys>& scan_block() {
   return block;
 }
 
-Record effect_record(const TipEffect& effect) {
-  Record record;
-  record.name = "tip effect";
-  record.add("Ra_ratio", effect.ra_ratio)
-      .add("rms_slope_ratio", effect.rms_slope_ratio)
-      .add("amplitude_ratio", effect.amplitude_ratio)
-      .add("mean_lift", effect.mean_lift, dimension::length)
-      .add("greatest_lift", effect.greatest_lift, dimension::length);
-  return record;
+const RecordType<TipEffect>& tip_effect_type() {
+  using E = TipEffect;
+  static const RecordType<E> type{
+      "TipEffect",
+      "tip effect",
+      "What a tip changed, against a needle on the same lines, over all traces.",
+      {{"Ra_ratio", &E::ra_ratio, "Ra with the tip over Ra without; 1 where both are 0"},
+       {"rms_slope_ratio", &E::rms_slope_ratio, "rms_slope with the tip over that without"},
+       {"amplitude_ratio", &E::amplitude_ratio, "peak to valley with the tip over that without"},
+       {"mean_lift", &E::mean_lift, dimension::length, "of the tip's lowest point above the surface"},
+       {"greatest_lift", &E::greatest_lift, dimension::length,
+        "of the tip's lowest point above the surface"}}};
+  return type;
 }
 
-Record traverse_record(const Traverse& line) {
-  Record record;
-  record.name = "line";
-  record.add("x", line.start.x, dimension::length)
-      .add("y", line.start.y, dimension::length)
-      .add("angle", line.angle, dimension::angle);
-  return record;
+const RecordType<Traverse>& traverse_type() {
+  using T = Traverse;
+  static const RecordType<T> type{
+      "Traverse",
+      "line",
+      "The line over which a trace goes.",
+      {{"x", [](const T& t) { return t.start.x; }, dimension::length, "where it begins"},
+       {"y", [](const T& t) { return t.start.y; }, dimension::length, "where it begins"},
+       {"angle", &T::angle, dimension::angle, "its direction, counter-clockwise from x"}}};
+  return type;
 }
 
 Values scan(Call& call) {
   const Surface& surface = call.object<Surface>(1, "surface");
   const ScanKeys keys = call.options(scan_block(), 2);
   StylusScan result = call.self<Stylus>().scan(surface, keys.count, keys.seed, call.session().monitor());
-  List traces, lines;
+  List traces;
   for (Profile& trace : result.traces) traces.items.push_back(object(std::move(trace)));
-  for (const Traverse& line : result.lines) lines.items.emplace_back(traverse_record(line));
-  traces.named.emplace_back("tip_effect", effect_record(result.effect));
-  traces.named.emplace_back("lines", std::move(lines));
+  traces.named.emplace_back("tip_effect", tip_effect_type()(result.effect));
+  traces.named.emplace_back("lines", traverse_type().list(result.lines));
   return {std::move(traces)};
 }
 
@@ -145,13 +152,12 @@ const Class& class_of<Stylus>() {
          .sentence =
              "Traces at random places and angles, as the tip gives them: nothing is levelled or "
              "filtered. On a periodic surface they go on past the rim; on any other they stay inside. "
-             "The list also holds tip_effect, what the tip changed against a needle on the same lines "
-             "(Ra_ratio, rms_slope_ratio, amplitude_ratio, mean_lift, greatest_lift), and lines, "
-             "where each trace begins (x, y) and its angle.",
+             "The list also holds tip_effect, what the tip changed against a needle on the same lines, and "
+             "lines, where each trace begins and its angle.",
          .parameters = {{"surface", "Surface", "what is measured"}},
          .options = &scan_block(),
          .options_optional = true,
-         .returns = "Profile[] with tip_effect and lines",
+         .returns = "Profile[] with tip_effect: TipEffect and lines: Traverse[]",
          .example = "local traces = stylus:scan(s, { count=5, seed=1 })",
          .heavy = true},
         {.name = "dilated",
@@ -171,6 +177,7 @@ const Class& class_of<Stylus>() {
          .example = "local reached = stylus:closed(s)",
          .heavy = true},
     };
+    c.results = {&tip_effect_type(), &traverse_type()};
     return c;
   }();
   return type;

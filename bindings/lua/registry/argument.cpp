@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/registry/argument.hpp"
 
+#include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
@@ -15,6 +16,7 @@ Argument::StackGuard::StackGuard(lua_State* state) : L(state), top_(lua_gettop(s
 bool Argument::is_unknown() const {
   const Object* object = as_any_object();
   if (object != nullptr) return object->is_placeholder();
+  if (const std::shared_ptr<Record> record = record_at(L, index_)) return record->placeholder;
   if (lua_type(L, index_) != LUA_TUSERDATA || lua_getmetatable(L, index_) == 0) return false;
   lua_rawgetp(L, LUA_REGISTRYINDEX, unknown_key());
   const bool same = lua_rawequal(L, -1, -2) != 0;

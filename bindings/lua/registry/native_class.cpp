@@ -4,6 +4,7 @@
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/mistakes.hpp"
 #include "bindings/lua/registry/placeholder.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/core/text.hpp"
@@ -29,7 +30,9 @@ int guarded_field(lua_State* L, const Class& type) {
       if (self->is_placeholder()) return {placeholder_of(field.type)};
       Call call(L, field.name, true);
       const LedgerScope scope = call.session().ledger_scope(field.name, false, type.name);
-      return field.body(call);
+      Values values = field.body(call);
+      for (const Value& value : values) check_declared(field.name, field.type, value);
+      return values;
     }
     throw Error(ErrorCode::unknown_name, type.article_name + " has no field " +
                                              quoted(key.text().substr(0, 40)) +

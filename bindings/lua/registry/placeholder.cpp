@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 
 namespace asperity::lua {
 
@@ -56,8 +57,9 @@ int concat_unknown(lua_State* L) {
 
 // type() and math.type(): a script asks them to choose its path.
 int refuse_unknown(lua_State* L) {
-  return Argument(L, 1).is_unknown() && native_at(L, 1) == nullptr ? luaL_error(L, "%s", cannot_follow)
-                                                                   : call_original(L);
+  const bool of_known_class = native_at(L, 1) != nullptr || record_at(L, 1) != nullptr;
+  return Argument(L, 1).is_unknown() && !of_known_class ? luaL_error(L, "%s", cannot_follow)
+                                                        : call_original(L);
 }
 
 // A loop over a placeholder runs its body once.
@@ -91,7 +93,7 @@ void wrap(lua_State* L, const char* library, const char* name, lua_CFunction wra
   }
 }
 
-// Of the values of one turn: "State", or "table and State?".
+// Of the values of one turn: "State", or "ProtocolEvent and State?".
 std::optional<Values> one_turn(const std::shared_ptr<bool>& done, const std::string& types) {
   if (*done) return std::nullopt;
   *done = true;
@@ -103,6 +105,21 @@ std::optional<Values> one_turn(const std::shared_ptr<bool>& done, const std::str
     rest.remove_prefix(std::min(end + separator.size(), rest.size()));
   }
   return values;
+}
+
+// Of a field of a record, or of a list: another list in it may have any length.
+Value placeholder_inside(const std::string& type) {
+  return type.ends_with("[]") ? Value(Unknown{}) : placeholder_of(type);
+}
+
+Record record_placeholder(const RecordInfo& type) {
+  Record record;
+  record.name = type.title;
+  record.type = &type;
+  record.placeholder = true;
+  for (const Getter& field : type.fields)
+    record.add(field.name, placeholder_inside(field.type), field.dimension);
+  return record;
 }
 
 }  // namespace
@@ -146,11 +163,8 @@ Value placeholder_of(const std::string& type) {
   if (type == "boolean" || type == "string" || type == "number" || type == "integer") return Unknown{};
   if (const std::size_t at = type.find("[] with "); at != std::string::npos) {
     List list{{placeholder_of(type.substr(0, at))}};
-    for (std::string_view rest = std::string_view(type).substr(at + 8); !rest.empty();) {
-      const std::size_t end = std::min(rest.find(" and "), rest.size());
-      list.named.emplace_back(rest.substr(0, end), Unknown{});
-      rest.remove_prefix(std::min(end + 5, rest.size()));
-    }
+    for (const auto& [field, of] : named_fields(type))
+      list.named.emplace_back(field, placeholder_inside(std::string(of)));
     return list;
   }
   if (type.ends_with("[]")) return List{{placeholder_of(type.substr(0, type.size() - 2))}};
@@ -160,6 +174,7 @@ Value placeholder_of(const std::string& type) {
     return Iterator{[inner, done](Call&) { return one_turn(done, inner); }};
   }
   if (const Class* found = find_class(type)) return Object{found, nullptr, false};
+  if (const RecordInfo* found = find_record_type(type)) return record_placeholder(*found);
   return Unknown{};
 }
 

@@ -15,8 +15,8 @@ namespace asperity::lua {
 
 // Raises on lack of memory: call inside protect().
 void push_unknown(lua_State* L);
-// The placeholder for a result of this declared type ("Surface", "number", "Profile[]", "Profile[] with
-// tip_effect and lines", …).
+// The placeholder for a result of this declared type ("Surface", "number", "Profile[]", "Roughness",
+// "Profile[] with lines: Traverse[]", …).
 Value placeholder_of(const std::string& type);
 
 // Whether a value is a placeholder, or a table that holds one within `depth` levels.

@@ -203,12 +203,25 @@ void push_iterator(lua_State* L, const std::shared_ptr<Iterator>& iterator) {
   *static_cast<IteratorPointer*>(block) = iterator;
 }
 
-Record cost_record(const Cost& cost, std::string name) {
+const RecordType<Cost>& cost_type() {
+  static const RecordType<Cost> type{
+      "Cost",
+      "cost",
+      "What something took to compute.",
+      {{"seconds", &Cost::seconds, dimension::time, "by the clock"},
+       {"transforms", &Cost::transforms, "Fourier transforms, in equivalents of the finest grid"},
+       {"bytes", &Cost::bytes, "greatest memory beyond what was held before"}}};
+  return type;
+}
+
+Record cost_by_effect(const std::vector<std::pair<std::string, Cost>>& costs) {
   Record record;
-  record.name = std::move(name);
-  record.add("seconds", cost.seconds, dimension::time)
-      .add("transforms", cost.transforms)
-      .add("bytes", cost.bytes);
+  record.name = "cost by effect";
+  for (const auto& [effect, cost] : costs) {
+    Record of_effect = cost_type()(cost);
+    of_effect.name = effect;
+    record.add(effect, std::move(of_effect));
+  }
   return record;
 }
 

@@ -6,9 +6,11 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bindings/lua/registry/lua_api.hpp"
-#include "bindings/lua/registry/value.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "engine/core/cost.hpp"
 
 namespace asperity::lua {
@@ -17,8 +19,9 @@ namespace asperity::lua {
 void push_record(lua_State* L, const std::shared_ptr<Record>& record);
 void push_iterator(lua_State* L, const std::shared_ptr<Iterator>& iterator);
 
-// seconds, transforms and bytes
-Record cost_record(const Cost& cost, std::string name);
+const RecordType<Cost>& cost_type();
+// A record of one cost an effect, "table<string, Cost>".
+Record cost_by_effect(const std::vector<std::pair<std::string, Cost>>& costs);
 
 // The record at an index, or null.
 std::shared_ptr<Record> record_at(lua_State* L, int index);

@@ -8,6 +8,7 @@
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/mistakes.hpp"
 #include "bindings/lua/registry/placeholder.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/result_digest.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/core/error.hpp"
@@ -32,6 +33,19 @@ std::vector<std::string> result_types(const Function& function) {
     rest.remove_prefix(std::min(end + separator.size(), rest.size()));
   }
   return types;
+}
+
+std::vector<std::pair<std::string_view, std::string_view>> named_fields(std::string_view type) {
+  std::vector<std::pair<std::string_view, std::string_view>> fields;
+  const std::size_t with = type.find(" with ");
+  for (std::string_view rest = type.substr(with == std::string_view::npos ? type.size() : with + 6);
+       !rest.empty();) {
+    const std::size_t end = std::min(rest.find(" and "), rest.size());
+    const std::size_t colon = std::min(rest.find(": "), end);
+    fields.emplace_back(rest.substr(0, colon), rest.substr(0, end).substr(std::min(colon + 2, end)));
+    rest.remove_prefix(std::min(end + 5, rest.size()));
+  }
+  return fields;
 }
 
 namespace {
@@ -105,6 +119,18 @@ Values dry_call(const Call& call, const Function& function) {
   return results;
 }
 
+// That records among the results are those that the function is described to give.
+void check_results(const Function& function, const Values& results) {
+  const auto may_hold_records = [](const Value& value) {
+    return std::holds_alternative<std::shared_ptr<Record>>(value.data) ||
+           std::holds_alternative<std::shared_ptr<List>>(value.data);
+  };
+  if (std::none_of(results.begin(), results.end(), may_hold_records)) return;
+  const std::vector<std::string> types = result_types(function);
+  for (std::size_t k = 0; k < std::min(types.size(), results.size()); ++k)
+    check_declared(qualified_name(function), types[k], results[k]);
+}
+
 // Whether a dry run that plans contacts needs what the function makes: a body.
 bool makes_a_body(const Function& function) {
   const Class* made = find_class(function.returns);
@@ -135,6 +161,7 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
   LedgerScope scope = call.session().ledger_scope(call.function_name(), function.heavy);
   if (function.returns.starts_with("iterator")) scope.forget();  // its turns count
   Values results = function.body(call);
+  check_results(function, results);
   if (function.heavy) {
     enter_into_ledger(call.session(), results);
     record_call(call.session(), call.function_name(), Argument(L, 1).as_any_object(), call.inputs(), results);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bindings/lua/registry/argument.hpp"
@@ -44,7 +45,8 @@ struct Function {
   std::vector<Parameter> parameters{};  // positional ones
   const BlockInfo* options = nullptr;   // the table of named keys: the last argument
   bool options_optional = false;        // the table may be left out
-  std::string returns{};  // "State", "number", "Profile[]", "iterator<State>", "number, string", "" for none
+  // "State", "number", "Profile[]", "Roughness" (a record), "iterator<State>", "number, string", "" for none
+  std::string returns{};
   std::string example{};  // required; a line that runs after example_preamble()
   bool heavy = false;     // not run by `asperity check`
   // What a dry run does with arguments that hold placeholders, beside reading the options; null: nothing.
@@ -53,6 +55,9 @@ struct Function {
 
 // The types of its results one by one.
 std::vector<std::string> result_types(const Function& function);
+// The fields that a list has besides, of "Profile[] with tip_effect: TipEffect and lines: Traverse[]": names
+// and types.
+std::vector<std::pair<std::string_view, std::string_view>> named_fields(std::string_view type);
 
 // A field of a native value, computed when read.
 struct Getter {
@@ -69,7 +74,8 @@ struct Class {
   std::string sentence{};
   std::vector<Getter> fields{};
   std::vector<Function> methods{};
-  bool shareable = true;  // an immutable value, which cases of an ensemble may share
+  std::vector<const RecordInfo*> results{};  // types of the records that its fields and methods give
+  bool shareable = true;                     // an immutable value, which cases of an ensemble may share
   std::int64_t (*length)(const void* self) = nullptr;       // what # gives; null: nothing
   std::string (*describe)(const void* self) = nullptr;      // one line for print()
   std::size_t (*native_bytes)(const void* self) = nullptr;  // memory Lua cannot see
@@ -97,6 +103,7 @@ struct Module {
   std::string sentence{};
   std::vector<Function> functions{};
   std::vector<Constant> constants{};
+  std::vector<const RecordInfo*> results{};  // types of the records that its functions give
   // Called when the module itself is called, as lab.protocol{...} is.
   std::optional<Function> call{};
 };

@@ -30,6 +30,7 @@ template <class T>
 const Class& class_of();
 
 struct KnownBody;
+struct RecordInfo;
 
 // A native value. A null pointer is the placeholder of a dry run, unless the value was closed.
 struct Object {
@@ -47,6 +48,8 @@ struct Record {
   std::vector<Entry> entries;
   // Fields that are there only with an effect that the scene did not name: field and effect.
   std::vector<std::pair<std::string, std::string>> missing_effects{};
+  const RecordInfo* type = nullptr;  // that describes its fields; null of one that was carried over as bytes
+  bool placeholder = false;          // of a dry run, which knows the fields and not their values
   Record& add(std::string field, Value value, Dimension dimension = {});
   // A field that an effect brings: added if it has a value, and otherwise an error that names the effect.
   Record& add_if(std::string effect, std::string field, Value value, Dimension dimension = {});

@@ -8,30 +8,19 @@ namespace asperity::lua {
 
 namespace {
 
-Record line_record(const LedgerLine& line) {
-  Record record;
-  record.name = "line";
-  record.add("call", line.call)
-      .add("in_case", line.in_case)
-      .add("times", line.calls)
-      .add("seconds", line.cost.seconds, dimension::time)
-      .add("transforms", line.cost.transforms)
-      .add("bytes", line.cost.bytes);
-  return record;
-}
-
-Values calls_of(Call& call) {
-  List list;
-  for (const LedgerLine& line : call.self<LedgerReport>().lines) list.items.emplace_back(line_record(line));
-  return {std::move(list)};
-}
-
-Values effects_of(Call& call) {
-  Record record;
-  record.name = "cost by effect";
-  for (const auto& [effect, cost] : call.self<LedgerReport>().by_effect)
-    record.add(effect, cost_record(cost, effect));
-  return {std::move(record)};
+const RecordType<LedgerLine>& ledger_line_type() {
+  using L = LedgerLine;
+  static const RecordType<L> type{
+      "LedgerLine",
+      "line",
+      "What the calls of a function have cost.",
+      {{"call", &L::call, "the function, as \"contact:press\""},
+       {"in_case", &L::in_case, "whether cases of an ensemble called it"},
+       {"times", &L::calls, "how often it was called"},
+       {"seconds", [](const L& l) { return l.cost.seconds; }, dimension::time, "of all calls"},
+       {"transforms", [](const L& l) { return l.cost.transforms; }, "Fourier transforms of all calls"},
+       {"bytes", [](const L& l) { return l.cost.bytes; }, "greatest memory of one call"}}};
+  return type;
 }
 
 Values ledger(Call& call) { return {object(call.session().ledger->report())}; }
@@ -62,11 +51,15 @@ const Class& class_of<LedgerReport>() {
                  {},
                  [](Call& call) -> Values { return {call.self<R>().bytes}; }},
                 {"calls",
-                 "table[]",
-                 "a line per call: call, in_case, times, seconds, transforms, bytes",
+                 "LedgerLine[]",
+                 "a line for each function that was called",
                  {},
-                 calls_of},
-                {"by_effect", "table", "what the pressed contacts cost, effect by effect", {}, effects_of},
+                 [](Call& call) -> Values { return {ledger_line_type().list(call.self<R>().lines)}; }},
+                {"by_effect",
+                 "table<string, Cost>",
+                 "what the pressed contacts cost, effect by effect",
+                 {},
+                 [](Call& call) -> Values { return {cost_by_effect(call.self<R>().by_effect)}; }},
                 {"effects_off",
                  "string[]",
                  "effects that no contact named, for which nothing was done",
@@ -75,6 +68,7 @@ const Class& class_of<LedgerReport>() {
                 {"json", "string", "all of it, as JSON", {}, [](Call& call) -> Values {
                    return {call.self<R>().json().text(2)};
                  }}};
+    c.results = {&ledger_line_type(), &cost_type()};
     c.describe = [](const void* self) {
       std::string text = static_cast<const R*>(self)->text();
       text.pop_back();

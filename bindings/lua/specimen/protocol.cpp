@@ -2,7 +2,9 @@
 #include "bindings/lua/specimen/protocol.hpp"
 
 #include <cmath>
+#include <optional>
 
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/contact.hpp"
@@ -27,43 +29,59 @@ Values make_protocol(Call& call) {
 
 // --- events
 
-std::optional<double> pressed_to(const Protocol::Step& step, PressBy by) {
-  const auto* press = std::get_if<PressRequest>(&step);
+// An event and its place in its protocol.
+struct NumberedEvent {
+  const Protocol* protocol = nullptr;
+  std::size_t k = 0;
+  const Protocol::Event& event() const { return protocol->events()[k]; }
+  const Protocol::Step& step() const { return event().step; }
+};
+
+template <PressBy by>
+std::optional<double> pressed_to(const NumberedEvent& e) {
+  const auto* press = std::get_if<PressRequest>(&e.step());
   return press != nullptr && press->by == by ? std::optional<double>(press->value) : std::nullopt;
+}
+// A member of the step where it is of a kind; one that is optional itself stays so.
+template <class Kind, auto member>
+auto part_of(const NumberedEvent& e) {
+  const auto* step = std::get_if<Kind>(&e.step());
+  return step != nullptr ? std::optional(step->*member) : std::nullopt;
 }
 
 // Every event has every field, so that a script may ask for any; those that do not apply are nil.
-Record event_record(const Protocol& protocol, std::size_t k) {
-  const Protocol::Event& event = protocol.events()[k];
-  const Protocol::Step& step = event.step;
-  const auto* press = std::get_if<PressRequest>(&step);
-  const auto* place = std::get_if<Protocol::Place>(&step);
-  const auto* rotate = std::get_if<Protocol::Rotate>(&step);
-  const auto* shift = std::get_if<Protocol::Shift>(&step);
-  Record record;
-  record.name = "protocol event";
-  record.add("index", static_cast<std::int64_t>(k) + 1)
-      .add("total", static_cast<std::int64_t>(protocol.count()))
-      .add("kind", std::string(kind(step)))
-      .add("text", text(step))
-      .add("time", event.time, dimension::time)
-      .add("pressure", pressed_to(step, PressBy::pressure), dimension::pressure)
-      .add("load", pressed_to(step, PressBy::load), dimension::force)
-      .add("approach", pressed_to(step, PressBy::approach), dimension::length)
-      .add("indentation", pressed_to(step, PressBy::indentation))
-      .add("flatten", pressed_to(step, PressBy::flatten))
-      .add("dwell", press != nullptr ? Value(press->dwell) : Value(), dimension::time)
-      .add("seed", place != nullptr ? Value(static_cast<std::int64_t>(place->seed)) : Value())
-      .add("angle", rotate != nullptr ? Value(rotate->angle) : Value(), dimension::angle)
-      .add("x", shift != nullptr ? Value(shift->x) : Value(), dimension::length)
-      .add("y", shift != nullptr ? Value(shift->y) : Value(), dimension::length);
-  return record;
+const RecordType<NumberedEvent>& event_type() {
+  using E = NumberedEvent;
+  using P = Protocol;
+  static const RecordType<E> type{
+      "ProtocolEvent",
+      "protocol event",
+      "What is done to a contact; what does not apply to an event is nil.",
+      {{"index", [](const E& e) { return e.k + 1; }, "its number, from 1"},
+       {"total", [](const E& e) { return e.protocol->count(); }, "number of events of the protocol"},
+       {"kind", [](const E& e) { return kind(e.step()); },
+        "\"press\", \"release\", \"place\", \"rotate\" or \"shift\""},
+       {"text", [](const E& e) { return text(e.step()); }, "the event in words"},
+       {"time", [](const E& e) { return e.event().time; }, dimension::time,
+        "as recorded; nothing waits for it"},
+       {"pressure", pressed_to<PressBy::pressure>, dimension::pressure, "of a press by pressure"},
+       {"load", pressed_to<PressBy::load>, dimension::force, "of a press by load"},
+       {"approach", pressed_to<PressBy::approach>, dimension::length, "of a press by approach"},
+       {"indentation", pressed_to<PressBy::indentation>, "of a press by indentation"},
+       {"flatten", pressed_to<PressBy::flatten>, "of a press by flattening"},
+       {"dwell", part_of<PressRequest, &PressRequest::dwell>, dimension::time,
+        "of a press: how long the load stays"},
+       {"seed", part_of<P::Place, &P::Place::seed>, "of a placement"},
+       {"angle", part_of<P::Rotate, &P::Rotate::angle>, dimension::angle, "of a turn, counter-clockwise"},
+       {"x", part_of<P::Shift, &P::Shift::x>, dimension::length, "of a shift"},
+       {"y", part_of<P::Shift, &P::Shift::y>, dimension::length, "of a shift"}}};
+  return type;
 }
 
 Values events(Call& call) {
   const Protocol& protocol = call.self<Protocol>();
   List list;
-  for (std::size_t k = 0; k < protocol.count(); ++k) list.items.emplace_back(event_record(protocol, k));
+  for (std::size_t k = 0; k < protocol.count(); ++k) list.items.emplace_back(event_type()({&protocol, k}));
   return {std::move(list)};
 }
 
@@ -80,7 +98,7 @@ Values on(Call& call) {
                       "close it after the loop");
         const std::size_t k = run->next();
         const std::optional<asperity::State> state = run->step(turn.session().monitor());
-        Values values{event_record(run->protocol(), k), state ? object(*state) : Value()};
+        Values values{event_type()({&run->protocol(), k}), state ? object(*state) : Value()};
         if (const auto* press = std::get_if<PressRequest>(&run->protocol().events()[k].step))
           record_press(turn.session(), std::shared_ptr<SpecimenPair>(run, &run->pair()), *press, *state);
         return values;
@@ -90,45 +108,83 @@ Values on(Call& call) {
 
 // --- the recording
 
-Record span_record(const RecordedSpan& span, Dimension unit) {
+struct LoadedSpan : RecordedSpan {
+  Dimension unit{};
+  bool loaded() const { return kind == Kind::hold || kind == Kind::peak; }
+};
+constexpr const char* in_its_unit = ", in Pa, or in N where loads were recorded";
+
+const RecordType<LoadedSpan>& span_type() {
+  using S = LoadedSpan;
+  using Entry = RecordField<S>;
   using Kind = RecordedSpan::Kind;
-  const bool loaded = span.kind == Kind::hold || span.kind == Kind::peak;
-  const auto if_loaded = [loaded](double value) { return loaded ? Value(value) : Value(); };
-  Record record;
-  record.name = "stretch of a recording";
-  record.add("kind", std::string(name(span.kind)))
-      .add("begin", span.begin, dimension::time)
-      .add("end", span.end, dimension::time)
-      .add("load", span.kind == Kind::turn ? Value() : Value(span.load), unit)
-      .add("load_error", if_loaded(span.load_error), unit)
-      .add("dwell_error", if_loaded(span.dwell_error), dimension::time)
-      .add("angle", span.kind == Kind::turn ? Value(span.angle) : Value(), dimension::angle)
-      .add("first_line", static_cast<std::int64_t>(span.first_line))
-      .add("last_line", static_cast<std::int64_t>(span.last_line));
-  return record;
+  static constexpr auto unit = [](const S& s) { return s.unit; };
+  static constexpr auto given = [](bool there, double value) {
+    return there ? std::optional(value) : std::nullopt;
+  };
+  static const RecordType<S> type{
+      "RecordedSpan",
+      "stretch of a recording",
+      "A stretch of a recording in which one thing happens; what does not apply to it is nil.",
+      {{"kind", [](const S& s) { return name(s.kind); },
+        "\"rest\", \"rise\", \"hold\", \"peak\", \"fall\", \"release\" or \"turn\""},
+       {"begin", &S::begin, dimension::time, "time of its first sample"},
+       {"end", &S::end, dimension::time, "time of its last sample"},
+       Entry(
+           "load", [](const S& s) { return given(s.kind != Kind::turn, s.load); },
+           std::string("above the zero: of a hold or peak, or reached by a rise or fall") + in_its_unit)
+           .in(unit),
+       Entry(
+           "load_error", [](const S& s) { return given(s.loaded(), s.load_error); },
+           std::string("standard error of the load of a hold or peak, from the noise") + in_its_unit)
+           .in(unit),
+       {"dwell_error", [](const S& s) { return given(s.loaded(), s.dwell_error); }, dimension::time,
+        "standard error of end - begin of a hold or peak"},
+       {"angle", [](const S& s) { return given(s.kind == Kind::turn, s.angle); }, dimension::angle,
+        "of a turn"},
+       {"first_line", &S::first_line, "of the file"},
+       {"last_line", &S::last_line, "of the file"}}};
+  return type;
+}
+
+Dimension unit_of(const Detection& found) {
+  return found.by == PressBy::load ? dimension::force : dimension::pressure;
+}
+
+const RecordType<Detection>& recording_type() {
+  using D = Detection;
+  const auto load = [](const char* name, double D::*member, const char* sentence) {
+    return RecordField<D>(name, member, std::string(sentence) + in_its_unit).in(unit_of);
+  };
+  static const RecordType<D> type{
+      "Recording",
+      "recording",
+      "What was found in a recording of the load, and by which thresholds.",
+      {{"name", &D::name, "of the file"},
+       {"samples", &D::samples, "number of samples"},
+       {"missing", &D::missing, "rows without a load"},
+       {"interval", &D::interval, dimension::time, "between samples: the median"},
+       load("noise", &D::noise, "standard deviation of a reading"),
+       load("highest", &D::highest, "greatest load above the zero"),
+       load("zero_low", &D::zero_low, "least reading without load"),
+       load("zero_high", &D::zero_high, "greatest reading without load"),
+       {"shortest_hold", &D::shortest_hold, dimension::time, "a shorter one is not taken for a hold"},
+       load("least_load", &D::least_load, "a shortest hold of less may go unseen"),
+       load("least_step", &D::least_step,
+            "a change by less between two holds, one of them as short, may go unseen"),
+       {"spans",
+        [](const D& found) {
+          std::vector<LoadedSpan> spans;
+          for (const RecordedSpan& span : found.spans) spans.push_back({span, unit_of(found)});
+          return spans;
+        },
+        span_type(), "the stretches of the recording, one after another"}}};
+  return type;
 }
 
 Values recording(Call& call) {
   const Detection* found = call.self<Protocol>().recording().get();
-  if (found == nullptr) return {Value()};
-  const Dimension unit = found->by == PressBy::load ? dimension::force : dimension::pressure;
-  List spans;
-  for (const RecordedSpan& span : found->spans) spans.items.emplace_back(span_record(span, unit));
-  Record record;
-  record.name = "recording";
-  record.add("name", found->name)
-      .add("samples", static_cast<std::int64_t>(found->samples))
-      .add("missing", static_cast<std::int64_t>(found->missing))
-      .add("interval", found->interval, dimension::time)
-      .add("noise", found->noise, unit)
-      .add("highest", found->highest, unit)
-      .add("zero_low", found->zero_low, unit)
-      .add("zero_high", found->zero_high, unit)
-      .add("shortest_hold", found->shortest_hold, dimension::time)
-      .add("least_load", found->least_load, unit)
-      .add("least_step", found->least_step, unit)
-      .add("spans", std::move(spans));
-  return {std::move(record)};
+  return {found != nullptr ? Value(recording_type()(*found)) : Value()};
 }
 
 struct ChartKeys {
@@ -214,14 +270,9 @@ const Class& class_of<Protocol>() {
          {},
          [](Call& call) -> Values { return {static_cast<std::int64_t>(call.self<Protocol>().presses())}; }},
         {"recording",
-         "table?",
-         "what was found in the recording that it was detected in, and by which thresholds: name, samples, "
-         "missing, interval, noise, highest, zero_low, zero_high, shortest_hold, least_load and least_step "
-         "(smaller ones may go unseen), and spans, the stretches of the recording with kind (rest, rise, "
-         "hold, "
-         "peak, fall, release, turn), begin, end, load, load_error, dwell_error, angle, first_line, "
-         "last_line; "
-         "nil if there is none",
+         "Recording?",
+         "what was found in the recording that it was detected in, and by which thresholds; nil if there is "
+         "none",
          {},
          recording},
         {"digest", "string", "equal protocols have equal digests", {}, [](Call& call) -> Values {
@@ -231,20 +282,19 @@ const Class& class_of<Protocol>() {
         {.name = "on",
          .body = on,
          .sentence =
-             "Does one event after another to a contact, one a turn of a for loop: an event (index, total, "
-             "kind, text, and pressure, load, approach, indentation, flatten, dwell, seed, angle, x, y, time "
-             "where they apply, else nil) and the state of a press, nil after any other. An event that fails "
+             "Does one event after another to a contact, one a turn of a for loop, which is given the event "
+             "and the state of a press, nil after any other. An event that fails "
              "raises an error, and leaves the contact as it was before that event; a loop that is broken off "
              "leaves the rest undone.",
          .parameters = {{"contact", "Contact", "what it is done to"}},
-         .returns = "iterator<table and State?>",
+         .returns = "iterator<ProtocolEvent and State?>",
          .example =
              "for event, st in protocol:on(c) do if st then print(event.text, st.area_fraction) end end",
          .heavy = true},
         {.name = "events",
          .body = events,
          .sentence = "All events as a list, as p:on gives them.",
-         .returns = "table[]",
+         .returns = "ProtocolEvent[]",
          .example = "for _, event in ipairs(protocol:events()) do print(event.index, event.text) end"},
         {.name = "repeated",
          .body = repeated,
@@ -281,6 +331,7 @@ const Class& class_of<Protocol>() {
          .example = "protocol:write \"press_log.csv\"",
          .heavy = true},
     };
+    c.results = {&recording_type(), &span_type(), &event_type()};
     return c;
   }();
   return type;

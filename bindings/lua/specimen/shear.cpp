@@ -130,10 +130,10 @@ const Class& class_of<PartialSlip>() {
          "d shear stress / d displacement at this force, over the nominal area; 0 where all slips",
          dimension::stiffness, read_slip_number<&S::stiffness>},
         {"cost",
-         "table",
+         "Cost",
          "seconds, transforms and bytes of the second normal solve",
          {},
-         [](Call& call) -> Values { return {cost_record(call.self<S>().cost().total, "cost")}; }},
+         [](Call& call) -> Values { return {cost_type()(call.self<S>().cost().total)}; }},
     };
     c.methods = {
         {.name = "field",

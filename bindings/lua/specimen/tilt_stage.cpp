@@ -2,8 +2,10 @@
 #include "bindings/lua/specimen/tilt_stage.hpp"
 
 #include <numbers>
+#include <optional>
 
 #include "bindings/lua/friction/law.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "engine/specimen/slip_growth.hpp"
@@ -97,24 +99,82 @@ const Block<GrowthKeys>& growth_block() {
   return block;
 }
 
+const RecordType<SlipShare>& slip_share_type() {
+  using S = SlipShare;
+  static const RecordType<S> type{"SlipShare",
+                                  "slip",
+                                  "How far slip has grown inside a contact at an angle of the stage.",
+                                  {{"angle", &S::angle, dimension::angle, "of the stage"},
+                                   {"ratio", &S::ratio, "of the pull over the one that slides, from 0 to 1"},
+                                   {"slip_fraction", &S::slip_fraction, "of the contact area that slips"},
+                                   {"displacement", &S::displacement, dimension::length,
+                                    "of the bodies over each other; nil on a half-space"}}};
+  return type;
+}
+
 Values grow_slip(Call& call) {
   const GrowthKeys keys = call.options(growth_block());
   const TiltStage& stage = call.self<TiltStage>();
   TiltTrialOptions options = stage.options;
   options.seed = keys.seed;
   options.rest = keys.rest;
-  List list;
-  for (const SlipShare& share :
-       slip_growth(*stage.contact, *stage.law, options, keys.steps, call.session().monitor())) {
-    Record record;
-    record.name = "slip";
-    record.add("angle", share.angle, dimension::angle)
-        .add("ratio", share.ratio)
-        .add("slip_fraction", share.slip_fraction)
-        .add("displacement", share.displacement, dimension::length);
-    list.items.emplace_back(std::move(record));
-  }
-  return {std::move(list)};
+  return {slip_share_type().list(
+      slip_growth(*stage.contact, *stage.law, options, keys.steps, call.session().monitor()))};
+}
+
+const RecordType<SlipAngle>& tilt_trial_type() {
+  using T = SlipAngle;
+  static const RecordType<T> type{
+      "TiltTrial",
+      "trial",
+      "One trial of a tilt stage.",
+      {{"angle", &T::angle, dimension::angle, "at which the specimen slides; the limit if it never does"},
+       {"held", &T::held, dimension::angle, "of the last step that held"},
+       {"slipped", &T::slipped, "whether it slid before the limit"}}};
+  return type;
+}
+
+const RecordType<TiltProbe>& tilt_probe_type() {
+  using P = TiltProbe;
+  static const RecordType<P> type{
+      "TiltProbe",
+      "probe",
+      "A pressure at which a trial solved a half-space contact.",
+      {{"pressure", &P::pressure, dimension::pressure, "at which it was solved, level"},
+       {"contacts", &P::contacts, "nodes in contact"},
+       {"area_per_load", &P::area_per_load, "corrected real contact area over the load, 1/Pa"},
+       {"mu", &P::mu, "friction over load, its adhesive part on the corrected area"}}};
+  return type;
+}
+
+const RecordType<TiltResult>& tilt_type() {
+  using T = TiltResult;
+  static const RecordType<T> type =
+      RecordType<T>{
+          "Tilt",
+          "tilt",
+          "What came of raising a stage until its specimen slid, over all trials.",
+          {{"angle", &T::angle, dimension::angle,
+            "at which the specimen slides, exactly: mean over the trials"},
+           {"held", &T::held, dimension::angle, "the last step that held: mean over the trials"},
+           {"mu", &T::mu, "tan(held); infinite at 90 deg"},
+           {"spread", &T::spread, "standard deviation of tan(held) over the trials; 0 for one trial"},
+           {"slipped", &T::slipped,
+            "whether every trial slid; otherwise angle, held and mu are lower bounds"},
+           {"trials", &T::trials, tilt_trial_type(), "each of them, in the order they were made"},
+           {"area_per_load", &T::area_per_load,
+            "corrected real contact area over the load, 1/Pa: mean over the trials; nil but on a half-space"},
+           {"probe_spread", &T::probe_spread,
+            "greatest relative distance of mu at one probe from the mean of its trial: what going down to "
+            "the "
+            "weight may be wrong by; nil where the weight was solved, of one probe, and of boxes"},
+           {"solved_at_weight", [](const T& t) { return !t.at_weight.empty(); },
+            "whether a half-space was solved under the weight itself"},
+           {"probes", &T::probes, tilt_probe_type(), "those of all trials that solved anew"},
+           {"note", [](const T& t) { return t.note.empty() ? std::nullopt : std::optional(t.note); },
+            "what one must know of these numbers, in a sentence; nil if there is nothing"}}}
+          .titled([](const T& t) -> std::string { return t.slipped ? "tilt" : "tilt (does not slip)"; });
+  return type;
 }
 
 Values raise_stage(Call& call) {
@@ -124,40 +184,7 @@ Values raise_stage(Call& call) {
   options.repeats = keys.repeats;
   options.seed = keys.seed;
   options.rest = keys.rest;
-  const TiltResult result = raise(*stage.contact, *stage.law, options, call.session().monitor());
-  List trials;
-  for (const SlipAngle& trial : result.trials) {
-    Record record;
-    record.name = "trial";
-    record.add("angle", trial.angle, dimension::angle)
-        .add("held", trial.held, dimension::angle)
-        .add("slipped", trial.slipped);
-    trials.items.emplace_back(std::move(record));
-  }
-  List probes;
-  for (const TiltProbe& probe : result.probes) {
-    Record record;
-    record.name = "probe";
-    record.add("pressure", probe.pressure, dimension::pressure)
-        .add("contacts", probe.contacts)
-        .add("area_per_load", probe.area_per_load)
-        .add("mu", probe.mu);
-    probes.items.emplace_back(std::move(record));
-  }
-  Record record;
-  record.name = result.slipped ? "tilt" : "tilt (does not slip)";
-  record.add("angle", result.angle, dimension::angle)
-      .add("held", result.held, dimension::angle)
-      .add("mu", result.mu)
-      .add("spread", result.spread)
-      .add("slipped", result.slipped)
-      .add("trials", std::move(trials))
-      .add("area_per_load", Value(result.area_per_load))
-      .add("probe_spread", Value(result.probe_spread))
-      .add("solved_at_weight", !result.at_weight.empty())
-      .add("probes", std::move(probes))
-      .add("note", result.note.empty() ? Value() : Value(result.note));
-  return {std::move(record)};
+  return {tilt_type()(raise(*stage.contact, *stage.law, options, call.session().monitor()))};
 }
 
 std::string describe_stage(const void* self) {
@@ -189,28 +216,26 @@ const Class& class_of<TiltStage>() {
     c.methods = {
         {.name = "raise",
          .body = raise_stage,
-         .sentence =
-             "Raises the stage until the specimen slides, several times. angle is exact; "
-             "held is the last step that "
-             "held, the source paper's measure; mu = tan(held), so mu goes in the steps of the stage "
-             "and tan(angle) does not. trials holds angle and held of each trial, spread the standard "
-             "deviation of their mu.",
+         .sentence = "Raises the stage until the specimen slides, several times. angle is exact; "
+                     "held is the last step that "
+                     "held, the source paper's measure; mu = tan(held), so mu goes in the steps of the stage "
+                     "and tan(angle) does not.",
          .options = &raise_block(),
          .options_optional = true,
-         .returns = "table",
+         .returns = "Tilt",
          .example = "local t = stage:raise{ repeats=5, seed=1 }",
          .heavy = true},
         {.name = "slip_growth",
          .body = grow_slip,
-         .sentence = "Which part of the contact slips at each angle before the specimen slides, as a "
-                     "list of angle, ratio (the pull over the one that slides), slip_fraction and, "
-                     "for boxes, displacement; needs tangential.",
+         .sentence =
+             "Which part of the contact slips at each angle before the specimen slides; needs tangential.",
          .options = &growth_block(),
          .options_optional = true,
-         .returns = "table[]",
+         .returns = "SlipShare[]",
          .example = "for _, at in ipairs(stage:slip_growth{ steps=10 }) do print(at.angle, "
                     "at.slip_fraction) end",
          .heavy = true}};
+    c.results = {&tilt_type(), &tilt_trial_type(), &tilt_probe_type(), &slip_share_type()};
     return c;
   }();
   return type;

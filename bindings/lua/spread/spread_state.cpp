@@ -2,7 +2,7 @@
 // The states of contacts over the ranks of mpirun, as values of the language.
 #include <algorithm>
 
-#include "bindings/lua/contact/state_error.hpp"
+#include "bindings/lua/contact/state_class.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
@@ -29,19 +29,12 @@ void require_plasticity(const Call& call, const char* name) {
                 "name it in `effects` of lab.spread.contact");
 }
 
-Values spread_state_certificate_of(Call& call) {
-  const Certificate& c = answer(call).certificate;
-  Record record;
-  record.name = "certificate";
-  record.add("penetration", c.penetration)
-      .add("tension", c.tension)
-      .add("complementarity", c.complementarity)
-      .add("load", c.load)
-      .add("cap", c.cap);
-  return {std::move(record)};
+const RecordType<Certificate>& spread_certificate_type() {
+  static const RecordType<Certificate> type{
+      "SpreadCertificate", "certificate", "How far the contact conditions are from being met, each relative.",
+      certificate_fields()};
+  return type;
 }
-
-Values spread_state_cost_of(Call& call) { return {cost_record(call.self<SpreadState>().cost, "cost")}; }
 
 Values spread_state_write(Call& call) {
   SpreadState& state = call.self<SpreadState>();
@@ -138,10 +131,10 @@ const Class& class_of<SpreadState>() {
            return {answer(call).plastic_volume};
          }},
         {"certificate",
-         "table",
+         "SpreadCertificate",
          "how far the contact conditions are from being met, each relative",
          {},
-         spread_state_certificate_of},
+         [](Call& call) -> Values { return {spread_certificate_type()(answer(call).certificate)}; }},
         {"residual",
          "number",
          "greatest entry of the certificate",
@@ -164,12 +157,12 @@ const Class& class_of<SpreadState>() {
          {},
          [](Call& call) -> Values { return {std::int64_t{call.self<SpreadState>().ranks}}; }},
         {"cost",
-         "table",
+         "Cost",
          "seconds and transforms; bytes is the most memory that any rank held at once for this press, its "
          "heights "
          "included",
          {},
-         spread_state_cost_of},
+         [](Call& call) -> Values { return {cost_type()(call.self<SpreadState>().cost)}; }},
         {"digest",
          "string",
          "of the surface and the numbers found",
@@ -186,6 +179,7 @@ const Class& class_of<SpreadState>() {
                   .returns = "string",
                   .example = "under:write(\"pressure\", \"pressure.npy\")",
                   .heavy = true}};
+    c.results = {&spread_certificate_type(), &cost_type()};
     return c;
   }();
   return type;

@@ -2,8 +2,10 @@
 // lab.exact: closed-form answers to hold a computed one against. Each call is a few operations, or for a
 // Weierstrass–Mandelbrot height a few thousand cosines.
 #include <limits>
+#include <optional>
 
 #include "bindings/lua/friction/law.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/surface/weierstrass_mandelbrot_keys.hpp"
 #include "engine/study/exact/box_paraboloid.hpp"
 #include "engine/study/exact/hertz.hpp"
@@ -52,25 +54,37 @@ const Block<HertzKeys>& hertz_block() {
       one_of_load_and_approach<K>};
   return block;
 }
+// With a law also what slides it.
+struct HertzContact : exact::Hertz {
+  std::optional<double> force{}, mu{};
+};
+const RecordType<HertzContact>& hertz_type() {
+  using H = HertzContact;
+  using Entry = RecordField<H>;
+  static const RecordType<H> type{
+      "Hertz",
+      "Hertz",
+      "A paraboloid on a half-space.",
+      {{"load", &H::load, dimension::force, "normal force"},
+       {"approach", &H::approach, dimension::length, "from first touch"},
+       {"contact_radius", &H::contact_radius, dimension::length, "of the circle of contact"},
+       {"area", &H::area, dimension::area, "of contact"},
+       {"peak_pressure", &H::peak_pressure, dimension::pressure, "in the middle"},
+       {"energy", &H::energy, dimension::energy, "elastic"},
+       Entry("force", &H::force, dimension::force, "that slides it; with the key `friction`").where_known(),
+       Entry("mu", &H::mu, "that force over the load; with the key `friction`").where_known()}};
+  return type;
+}
 Values hertz(Call& call) {
   const HertzKeys keys = call.options(hertz_block());
-  const exact::Hertz h = keys.load ? exact::hertz_under_load(keys.radius, keys.modulus, *keys.load)
-                                   : exact::hertz_at_approach(keys.radius, keys.modulus, *keys.approach);
-  Record record;
-  record.name = "Hertz";
-  record.add("load", h.load, dimension::force)
-      .add("approach", h.approach, dimension::length)
-      .add("contact_radius", h.contact_radius, dimension::length)
-      .add("area", h.area, dimension::area)
-      .add("peak_pressure", h.peak_pressure, dimension::pressure)
-      .add("energy", h.energy, dimension::energy);
+  HertzContact h{keys.load ? exact::hertz_under_load(keys.radius, keys.modulus, *keys.load)
+                           : exact::hertz_at_approach(keys.radius, keys.modulus, *keys.approach)};
   if (keys.law) {
-    const double force =
-        exact::friction(h, keys.law->tau0(), keys.law->alpha(),
-                        keys.law->tau_max().value_or(std::numeric_limits<double>::infinity()));
-    record.add("force", force, dimension::force).add("mu", force / h.load);
+    h.force = exact::friction(h, keys.law->tau0(), keys.law->alpha(),
+                              keys.law->tau_max().value_or(std::numeric_limits<double>::infinity()));
+    h.mu = *h.force / h.load;
   }
-  return {std::move(record)};
+  return {hertz_type()(h)};
 }
 
 // --- waves
@@ -96,24 +110,31 @@ const Block<WaveKeys>& crossed_waves_block() {
   static const Block<WaveKeys> block = wave_block("lab.exact.crossed_waves");
   return block;
 }
-Values wavy(const char* name, const exact::WavyContact& contact) {
-  Record record;
-  record.name = name;
-  record.add("full_pressure", contact.full_pressure, dimension::pressure)
-      .add("area_fraction", contact.area_fraction)
-      .add("peak_pressure", contact.peak_pressure, dimension::pressure)
-      .add("mean_gap", contact.mean_gap, dimension::length)
-      .add("approach", contact.approach, dimension::length)
-      .add("energy_per_area", contact.energy_per_area, dimension::energy_per_area);
-  return {std::move(record)};
+const RecordType<exact::WavyContact>& wavy_type() {
+  using W = exact::WavyContact;
+  static const RecordType<W> type{
+      "WavyContact",
+      "wave",
+      "A wavy half-space against a flat.",
+      {{"full_pressure", &W::full_pressure, dimension::pressure,
+        "mean pressure from which everything touches"},
+       {"area_fraction", &W::area_fraction, "real contact area over the nominal one"},
+       {"peak_pressure", &W::peak_pressure, dimension::pressure, "greatest pressure"},
+       {"mean_gap", &W::mean_gap, dimension::length, "over the whole tile"},
+       {"approach", &W::approach, dimension::length, "from first touch"},
+       {"energy_per_area", &W::energy_per_area, dimension::energy_per_area,
+        "elastic, over the nominal area"}}};
+  return type;
 }
 Values one_wave(Call& call) {
   const WaveKeys k = call.options(one_wave_block());
-  return wavy("wave", exact::one_wave(k.amplitude, k.wavelength, k.modulus, k.pressure));
+  return {wavy_type()(exact::one_wave(k.amplitude, k.wavelength, k.modulus, k.pressure))};
 }
 Values crossed_waves(Call& call) {
   const WaveKeys k = call.options(crossed_waves_block());
-  return wavy("crossed waves", exact::crossed_waves(k.amplitude, k.wavelength, k.modulus, k.pressure));
+  Record record = wavy_type()(exact::crossed_waves(k.amplitude, k.wavelength, k.modulus, k.pressure));
+  record.name = "crossed waves";
+  return {std::move(record)};
 }
 
 // --- persson
@@ -131,15 +152,20 @@ const Block<PerssonKeys>& persson_block() {
        quantity("hardness", &K::hardness, dimension::pressure, above(0).or_never(), "greatest pressure")}};
   return block;
 }
+const RecordType<exact::PerssonArea>& persson_type() {
+  using P = exact::PerssonArea;
+  static const RecordType<P> type{
+      "PerssonArea",
+      "Persson",
+      "Real contact area by Persson's theory, as shares of the nominal area.",
+      {{"area_fraction", [](const P& p) { return p.elastic + p.capped; }, "all that touches"},
+       {"elastic_fraction", &P::elastic, "below the hardness"},
+       {"plastic_fraction", &P::capped, "at the hardness; 0 without one"}}};
+  return type;
+}
 Values persson(Call& call) {
   const PerssonKeys k = call.options(persson_block());
-  const exact::PerssonArea area = exact::persson_area(k.modulus, k.rms_slope, k.pressure, k.hardness);
-  Record record;
-  record.name = "Persson";
-  record.add("area_fraction", area.elastic + area.capped)
-      .add("elastic_fraction", area.elastic)
-      .add("plastic_fraction", area.capped);
-  return {std::move(record)};
+  return {persson_type()(exact::persson_area(k.modulus, k.rms_slope, k.pressure, k.hardness))};
 }
 
 // --- box elements
@@ -158,18 +184,22 @@ const Block<BoxParaboloidKeys>& box_paraboloid_block() {
       one_of_load_and_approach<K>};
   return block;
 }
+const RecordType<exact::BoxParaboloid>& box_paraboloid_type() {
+  using B = exact::BoxParaboloid;
+  static const RecordType<B> type{"BoxParaboloid",
+                                  "box paraboloid",
+                                  "A paraboloid on independent box elements.",
+                                  {{"load", &B::load, dimension::force, "normal force"},
+                                   {"approach", &B::approach, dimension::length, "from first touch"},
+                                   {"area", &B::area, dimension::area, "of contact"},
+                                   {"energy", &B::energy, dimension::energy, "elastic"}}};
+  return type;
+}
 Values box_paraboloid(Call& call) {
   const BoxParaboloidKeys keys = call.options(box_paraboloid_block());
-  const exact::BoxParaboloid box =
+  return {box_paraboloid_type()(
       keys.load ? exact::box_paraboloid_under_load(keys.radius, keys.stiffness, *keys.load)
-                : exact::box_paraboloid_at_approach(keys.radius, keys.stiffness, *keys.approach);
-  Record record;
-  record.name = "box paraboloid";
-  record.add("load", box.load, dimension::force)
-      .add("approach", box.approach, dimension::length)
-      .add("area", box.area, dimension::area)
-      .add("energy", box.energy, dimension::energy);
-  return {std::move(record)};
+                : exact::box_paraboloid_at_approach(keys.radius, keys.stiffness, *keys.approach))};
 }
 
 // --- weierstrass_mandelbrot
@@ -228,13 +258,13 @@ const Module& exact_module() {
             .sentence =
                 "A paraboloid on an elastic half-space (Hertz 1882), frictionless and without adhesion.",
             .options = &hertz_block(),
-            .returns = "table",
+            .returns = "Hertz",
             .example = "print(lab.exact.hertz{ radius=\"1 mm\", modulus=\"70 GPa\", load=\"1 N\" })"},
            {.name = "wave",
             .body = one_wave,
             .sentence = "A wavy half-space h cos(2 pi x / wavelength) on a flat (Westergaard 1939).",
             .options = &one_wave_block(),
-            .returns = "table",
+            .returns = "WavyContact",
             .example = "print(lab.exact.wave{ amplitude=0.01, wavelength=1, modulus=1, pressure=0.01 })"},
            {.name = "crossed_waves",
             .body = crossed_waves,
@@ -242,7 +272,7 @@ const Module& exact_module() {
                 "h cos(2 pi x / wavelength) cos(2 pi y / wavelength) on a flat, in full contact (Johnson, "
                 "Greenwood & Higginson 1985).",
             .options = &crossed_waves_block(),
-            .returns = "table",
+            .returns = "WavyContact",
             .example =
                 "print(lab.exact.crossed_waves{ amplitude=0.01, wavelength=1, modulus=1, pressure=0.05 })"},
            {.name = "persson",
@@ -253,13 +283,13 @@ const Module& exact_module() {
                 "slope, and 20 % "
                 "at 0.1 E*h'.",
             .options = &persson_block(),
-            .returns = "table",
+            .returns = "PerssonArea",
             .example = "print(lab.exact.persson{ modulus=1, rms_slope=0.1, pressure=0.01 })"},
            {.name = "box_paraboloid",
             .body = box_paraboloid,
             .sentence = "A paraboloid on independent box elements.",
             .options = &box_paraboloid_block(),
-            .returns = "table",
+            .returns = "BoxParaboloid",
             .example = "print(lab.exact.box_paraboloid{ radius=1, stiffness=1, load=1e-3 })"},
            {.name = "weierstrass_mandelbrot",
             .body = height,
@@ -272,6 +302,7 @@ const Module& exact_module() {
                        "node={75, 40} })",
             .heavy = true}},
       .constants = {},
+      .results = {&hertz_type(), &wavy_type(), &persson_type(), &box_paraboloid_type()},
       .call = {},
   };
   return module;

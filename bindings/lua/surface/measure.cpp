@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/surface/measure.hpp"
 
+#include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
@@ -10,62 +13,78 @@
 
 namespace asperity::lua {
 
-Record roughness_record(const Roughness& r, bool areal) {
-  Record record;
-  record.name = "roughness";
-  record.add("Ra", r.Ra, dimension::length)
-      .add("Rq", r.Rq, dimension::length)
-      .add("amplitude", r.amplitude, dimension::length)
-      .add("skewness", r.skewness)
-      .add("kurtosis", r.kurtosis)
-      .add("rms_slope", r.rms_slope)
-      .add("peak", r.peak, dimension::length)
-      .add("valley", r.valley, dimension::length)
-      .add("mean", r.mean, dimension::length);
-  if (areal)
-    record.add("Sa", r.Ra, dimension::length)
-        .add("Sq", r.Rq, dimension::length)
-        .add("Sz", r.amplitude, dimension::length)
-        .add("Ssk", r.skewness)
-        .add("Sku", r.kurtosis)
-        .add("Sdq", r.rms_slope);
-  return record;
+const RecordType<Roughness>& roughness_type(bool areal) {
+  using R = Roughness;
+  using Fields = std::vector<RecordField<R>>;
+  static const Fields both{
+      {"Ra", &R::Ra, dimension::length, "mean magnitude of the heights about their mean"},
+      {"Rq", &R::Rq, dimension::length, "root mean square of the heights about their mean"},
+      {"amplitude", &R::amplitude, dimension::length, "peak to valley"},
+      {"skewness", &R::skewness, "of the heights; 0 where all are equal"},
+      {"kurtosis", &R::kurtosis, "of the heights; 3 of Gaussian ones, 0 where all are equal"},
+      {"rms_slope", &R::rms_slope, "root mean square slope between neighbouring nodes, never across the rim"},
+      {"peak", &R::peak, dimension::length, "the greatest height, as stored"},
+      {"valley", &R::valley, dimension::length, "the least height, as stored"},
+      {"mean", &R::mean, dimension::length, "of the heights, as stored"}};
+  static const Fields areal_names{{"Sa", &R::Ra, dimension::length, "Ra by its areal name"},
+                                  {"Sq", &R::Rq, dimension::length, "Rq by its areal name"},
+                                  {"Sz", &R::amplitude, dimension::length, "amplitude by its areal name"},
+                                  {"Ssk", &R::skewness, "skewness by its areal name"},
+                                  {"Sku", &R::kurtosis, "kurtosis by its areal name"},
+                                  {"Sdq", &R::rms_slope, "rms_slope by its areal name"}};
+  static const RecordType<R> of_profile{"Roughness", "roughness",
+                                        "Amplitude and slope statistics of a profile (ISO 21920-2).", both};
+  static const RecordType<R> of_surface{"ArealRoughness", "roughness",
+                                        "Amplitude and slope statistics of a surface (ISO 25178-2).", [] {
+                                          Fields all = both;
+                                          all.insert(all.end(), areal_names.begin(), areal_names.end());
+                                          return all;
+                                        }()};
+  return areal ? of_surface : of_profile;
 }
 
-namespace {
-Value numbers(const std::vector<double>& values) {
-  return Value::Numbers(std::make_shared<const Array<double>>(values.begin(), values.end()));
+const RecordType<MeasuredSpectrum>& spectrum_type() {
+  using S = MeasuredSpectrum;
+  static const RecordType<S> type{
+      "Spectrum",
+      "spectrum",
+      "Power spectral density, one entry of each list a shell of waves that holds any, by rising q.",
+      {{"q", &S::q, "wave number of each shell, rad/m: the mean over its waves"},
+       {"C", &S::C, "power spectral density of each shell, m^4 of a surface, m^3 of a profile"},
+       {"count", &S::count, "waves of each shell, those of both signs counted"},
+       {"rms_height", &S::rms_height, dimension::length,
+        "root of the power of all waves: Rq without a window"},
+       {"rms_slope", &S::rms_slope, "root mean square slope of the waves that interpolate the heights"},
+       {"window",
+        [](const S& s) {
+          constexpr std::array windows = {"automatic", "none", "hann"};
+          return windows[static_cast<std::size_t>(s.window)];
+        },
+        "the taper that was used, \"none\" or \"hann\""},
+       {"units", [](const S& s) { return s.areal ? "q in rad/m, C in m^4" : "q in rad/m, C in m^3"; },
+        "of q and C, in words"}}};
+  return type;
 }
-}  // namespace
 
-Record spectrum_record(const Spectrum& s, bool areal) {
-  Record record;
-  record.name = "spectrum";
-  List counts;
-  for (const std::int64_t n : s.count) counts.items.emplace_back(n);
-  const char* windows[] = {"automatic", "none", "hann"};
-  record.add("q", numbers(s.q))
-      .add("C", numbers(s.C))
-      .add("count", std::move(counts))
-      .add("rms_height", s.rms_height, dimension::length)
-      .add("rms_slope", s.rms_slope)
-      .add("window", windows[static_cast<int>(s.window)])
-      .add("units", areal ? "q in rad/m, C in m^4" : "q in rad/m, C in m^3");
-  return record;
-}
-
-Record fractal_dimension_record(const FractalDimension& f) {
-  Record record;
-  record.name = "fractal dimension";
-  record.add("D", f.D)
-      .add("error", f.error)
-      .add("lengths", numbers(f.lengths))
-      .add("steps", numbers(f.steps))
-      .add("r_squared", f.r_squared)
-      .add("profiles", f.profiles)
-      .add("resolved", f.resolved)
-      .add("reason", f.reason.empty() ? Value() : Value(f.reason));
-  return record;
+const RecordType<FractalDimension>& fractal_dimension_type() {
+  using F = FractalDimension;
+  static const RecordType<F> type{
+      "FractalDimension",
+      "fractal dimension",
+      "The fractal dimension of profiles, and what it was found from.",
+      {{"D", &F::D, "fractal dimension of the profiles, from 1 to 2"},
+       {"error", &F::error, "standard deviation of D over the profiles; of one, standard error of its line"},
+       {"lengths", &F::lengths,
+        "what the method measures at each step, averaged over the profiles: m^2 of \"structure\" and "
+        "\"psd\", m "
+        "of \"madogram\", plain numbers of the others"},
+       {"steps", &F::steps, "in samples; with \"psd\" wavelengths"},
+       {"r_squared", &F::r_squared, "of the line through the lengths, both on logarithmic axes"},
+       {"profiles", &F::profiles, "how many gave a D"},
+       {"resolved", &F::resolved, "whether D can be believed, as far as the method itself can tell"},
+       {"reason", [](const F& f) { return f.reason.empty() ? std::nullopt : std::optional(f.reason); },
+        "why it is not resolved; nil where it is"}}};
+  return type;
 }
 
 const Block<SpectrumOptions>& spectrum_block() {

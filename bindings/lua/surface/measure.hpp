@@ -4,7 +4,7 @@
 #pragma once
 
 #include "bindings/lua/registry/options.hpp"
-#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "engine/metrology/fractal_dimension.hpp"
 #include "engine/metrology/gaussian_filter.hpp"
 #include "engine/metrology/roughness.hpp"
@@ -12,10 +12,13 @@
 
 namespace asperity::lua {
 
-// Profile names (Ra …), and on surfaces also the areal ones (Sa, Sq, Sz, Ssk, Sku, Sdq).
-Record roughness_record(const Roughness& roughness, bool areal);
-Record spectrum_record(const Spectrum& spectrum, bool areal);
-Record fractal_dimension_record(const FractalDimension& result);
+// Profile names (Ra …), and of surfaces also the areal ones (Sa, Sq, Sz, Ssk, Sku, Sdq).
+const RecordType<Roughness>& roughness_type(bool areal);
+struct MeasuredSpectrum : Spectrum {
+  bool areal = false;
+};
+const RecordType<MeasuredSpectrum>& spectrum_type();
+const RecordType<FractalDimension>& fractal_dimension_type();
 
 struct LevelKeys {
   int degree = 1;

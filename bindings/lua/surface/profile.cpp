@@ -46,12 +46,12 @@ Values outline(Call& call) {
   return {profile_numbers(x), profile_numbers(y)};
 }
 
-Values roughness_of_profile(Call& call) { return {roughness_record(roughness(call.self<Profile>()), false)}; }
+Values roughness_of_profile(Call& call) { return {roughness_type(false)(roughness(call.self<Profile>()))}; }
 Values spectrum_of_profile(Call& call) {
-  return {spectrum_record(spectrum(call.self<Profile>(), call.options(spectrum_block())), false)};
+  return {spectrum_type()({spectrum(call.self<Profile>(), call.options(spectrum_block())), false})};
 }
 Values fractal_dimension_of_profile(Call& call) {
-  return {fractal_dimension_record(
+  return {fractal_dimension_type()(
       fractal_dimension(call.self<Profile>(), call.options(fractal_dimension_block(false))))};
 }
 Values filtered_profile(Call& call) {
@@ -176,24 +176,22 @@ const Class& class_of<Profile>() {
          .example = "local x, y = grain:outline()"},
         {.name = "roughness",
          .body = roughness_of_profile,
-         .sentence =
-             "Amplitude and slope statistics (ISO 21920-2): Ra, Rq, amplitude (peak to valley), skewness, "
-             "kurtosis, rms_slope, peak, valley, mean.",
-         .returns = "table",
+         .sentence = "Amplitude and slope statistics (ISO 21920-2), nothing levelled or filtered first.",
+         .returns = "Roughness",
          .example = "print(p:roughness().Ra)"},
         {.name = "spectrum",
          .body = spectrum_of_profile,
          .sentence = "Power spectral density along the profile.",
          .options = &spectrum_block(),
          .options_optional = true,
-         .returns = "table",
+         .returns = "Spectrum",
          .example = "local c = p:spectrum().C"},
         {.name = "fractal_dimension",
          .body = fractal_dimension_of_profile,
          .sentence = "Fractal dimension of the profile.",
          .options = &fractal_dimension_block(false),
          .options_optional = true,
-         .returns = "table",
+         .returns = "FractalDimension",
          .example = "print(p:fractal_dimension{}.D)"},
         {.name = "filtered",
          .body = filtered_profile,
@@ -232,6 +230,7 @@ const Class& class_of<Profile>() {
          .example = "p:write \"trace.csv\"",
          .heavy = true},
     };
+    c.results = {&roughness_type(false), &spectrum_type(), &fractal_dimension_type()};
     return c;
   }();
   return type;

@@ -29,14 +29,14 @@ Values heights(Call& call) {
   return {Value::Rows(holder, &holder->heights())};
 }
 
-Values roughness_of(Call& call) { return {roughness_record(roughness(call.self<Surface>()), true)}; }
+Values roughness_of(Call& call) { return {roughness_type(true)(roughness(call.self<Surface>()))}; }
 
 Values spectrum_of(Call& call) {
-  return {spectrum_record(spectrum(call.self<Surface>(), call.options(spectrum_block())), true)};
+  return {spectrum_type()({spectrum(call.self<Surface>(), call.options(spectrum_block())), true})};
 }
 
 Values fractal_dimension_of(Call& call) {
-  return {fractal_dimension_record(
+  return {fractal_dimension_type()(
       fractal_dimension(call.self<Surface>(), call.options(fractal_dimension_block(true))))};
 }
 
@@ -157,26 +157,23 @@ const Class& class_of<Surface>() {
         {.name = "roughness",
          .body = roughness_of,
          .sentence =
-             "Amplitude and slope statistics of all nodes (ISO 25178-2), nothing levelled or filtered first: "
-             "Ra, "
-             "Rq, amplitude, skewness, kurtosis, rms_slope, peak, valley, mean, also by their areal names "
-             "Sa, Sq, "
-             "Sz, Ssk, Sku, Sdq. Its amplitude is peak to valley; that of lab.surface.sine is half of it.",
-         .returns = "table",
+             "Amplitude and slope statistics of all nodes (ISO 25178-2), nothing levelled or filtered first. "
+             "Its amplitude is peak to valley; that of lab.surface.sine is half of it.",
+         .returns = "ArealRoughness",
          .example = "print(s:roughness().Ra)"},
         {.name = "spectrum",
          .body = spectrum_of,
          .sentence = "Radially averaged power spectral density.",
          .options = &spectrum_block(),
          .options_optional = true,
-         .returns = "table",
+         .returns = "Spectrum",
          .example = "local c = s:spectrum().C"},
         {.name = "fractal_dimension",
          .body = fractal_dimension_of,
          .sentence = "Fractal dimension of the profiles of the surface, with its scatter over them.",
          .options = &fractal_dimension_block(true),
          .options_optional = true,
-         .returns = "table",
+         .returns = "FractalDimension",
          .example = "print(s:fractal_dimension{ method=\"structure\" }.D)"},
         {.name = "filtered",
          .body = filtered,
@@ -211,6 +208,7 @@ const Class& class_of<Surface>() {
          .example = "s:levelled{ degree=1 }"},
     };
     for (Function& operation : surface_operations()) c.methods.push_back(std::move(operation));
+    c.results = {&roughness_type(true), &spectrum_type(), &fractal_dimension_type()};
     return c;
   }();
   return type;

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The types of results: what a record is called, and of each field its name, its unit, a sentence and where
+// its value comes from, told once beside the binding. The entries fill the record, so that no field can
+// differ from its description, and they drive help, completion, the editor's types, the reference page and
+// the placeholders of a dry run.
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "bindings/lua/registry/registry.hpp"
+
+namespace asperity::lua {
+
+// What is known of a record without its values.
+struct RecordInfo {
+  std::string name{};   // "ArealRoughness": in the types of what gives it
+  std::string title{};  // "roughness": what print() and errors call it
+  std::string sentence{};
+  std::vector<Getter> fields{};  // without bodies
+};
+
+template <class T>
+class RecordType;
+
+namespace detail {
+
+template <class V>
+inline constexpr bool is_optional = false;
+template <class V>
+inline constexpr bool is_optional<std::optional<V>> = true;
+
+// The type of a field that holds a V: "number", "integer[]", "string?".
+template <class V>
+std::string type_of_held() {
+  if constexpr (is_optional<V>)
+    return type_of_held<typename V::value_type>() + "?";
+  else if constexpr (std::same_as<V, bool>)
+    return "boolean";
+  else if constexpr (std::integral<V>)
+    return "integer";
+  else if constexpr (std::floating_point<V>)
+    return "number";
+  else if constexpr (std::convertible_to<V, std::string_view>)
+    return "string";
+  else
+    return type_of_held<typename V::value_type>() + "[]";
+}
+
+template <class V>
+Value value_of_held(const V& held) {
+  if constexpr (is_optional<V>)
+    return held ? value_of_held(*held) : Value();
+  else if constexpr (std::same_as<V, bool> || std::floating_point<V>)
+    return Value(held);
+  else if constexpr (std::integral<V>)
+    return Value(static_cast<std::int64_t>(held));
+  else if constexpr (std::convertible_to<V, std::string_view>)
+    return Value(std::string(held));
+  else if constexpr (std::same_as<typename V::value_type, double>)
+    return Value::Numbers(std::make_shared<const Array<double>>(held.begin(), held.end()));
+  else {
+    List list;
+    for (const auto& item : held) list.items.push_back(value_of_held(item));
+    return list;
+  }
+}
+
+}  // namespace detail
+
+// A field of a record made from a T. `read` is a member of T, a member function or a function of a T; the
+// type of the field follows from what it gives: numbers, texts, optional ones (nil where there is none) and
+// lists of them.
+template <class T>
+class RecordField {
+ public:
+  template <std::invocable<const T&> Read>
+  RecordField(std::string name, Read read, Dimension dimension, std::string sentence)
+      : info{std::move(name), detail::type_of_held<Held<Read>>(), std::move(sentence), dimension},
+        read_([read](const T& of) { return detail::value_of_held(std::invoke(read, of)); }) {}
+  template <std::invocable<const T&> Read>
+  RecordField(std::string name, Read read, std::string sentence)
+      : RecordField(std::move(name), read, dimension::number, std::move(sentence)) {}
+  // One record of another type, or a list of them.
+  template <std::invocable<const T&> Read, class U>
+  RecordField(std::string name, Read read, const RecordType<U>& type, std::string sentence)
+      : info{std::move(name), type.name + (std::same_as<Held<Read>, U> ? "" : "[]"), std::move(sentence), {}},
+        read_([read, &type](const T& of) -> Value {
+          if constexpr (std::same_as<Held<Read>, U>) {
+            return type(std::invoke(read, of));
+          } else {
+            return type.list(std::invoke(read, of));
+          }
+        }) {}
+  // Any other value, of a type as the registry writes it.
+  template <std::invocable<const T&> Read>
+  RecordField(std::string name, std::string type, Read read, std::string sentence)
+      : info{std::move(name), std::move(type), std::move(sentence), {}}, read_(read) {}
+
+  // It is there only with this effect; asked for without it, an error names the effect.
+  RecordField& needs(std::string effect) {
+    where_known();
+    info.sentence += "; needs " + effect;
+    effect_ = std::move(effect);
+    return *this;
+  }
+  // Where it has no value it is not there, rather than nil.
+  RecordField& where_known() {
+    where_known_ = true;
+    if (info.type.ends_with('?')) info.type.pop_back();
+    return *this;
+  }
+  // Its unit differs from record to record, which the sentence has to say.
+  RecordField& in(Dimension (*unit)(const T&)) {
+    unit_ = unit;
+    return *this;
+  }
+
+  void add_to(Record& record, const T& of) const {
+    Value value = read_(of);
+    const Dimension unit = unit_ != nullptr ? unit_(of) : info.dimension;
+    if (!effect_.empty())
+      record.add_if(effect_, info.name, std::move(value), unit);
+    else if (!where_known_ || !value.is_nil())
+      record.add(info.name, std::move(value), unit);
+  }
+
+  Getter info;
+
+ private:
+  template <class Read>
+  using Held = std::remove_cvref_t<std::invoke_result_t<Read, const T&>>;
+
+  std::function<Value(const T&)> read_;
+  std::string effect_{};
+  bool where_known_ = false;
+  Dimension (*unit_)(const T&) = nullptr;
+};
+
+// The records made from a T. Lives as long as the program: records and other types keep its address.
+template <class T>
+class RecordType : public RecordInfo {
+ public:
+  using Field = RecordField<T>;
+
+  RecordType(std::string type_name, std::string print_title, std::string meaning, std::vector<Field> entries)
+      : RecordInfo{std::move(type_name), std::move(print_title), std::move(meaning), {}},
+        entries_(std::move(entries)) {
+    for (const Field& entry : entries_) fields.push_back(entry.info);
+  }
+  // Each is called by its own value.
+  RecordType& titled(std::string (*title_of)(const T&)) {
+    title_of_ = title_of;
+    return *this;
+  }
+
+  Record operator()(const T& of) const {
+    Record record;
+    record.name = title_of_ != nullptr ? title_of_(of) : title;
+    record.type = this;
+    for (const Field& entry : entries_) entry.add_to(record, of);
+    return record;
+  }
+  List list(const std::vector<T>& items) const {
+    List records;
+    for (const T& item : items) records.items.emplace_back((*this)(item));
+    return records;
+  }
+
+ private:
+  std::vector<Field> entries_;
+  std::string (*title_of_)(const T&) = nullptr;
+};
+
+// Every type of record that modules and classes list among their results, each once.
+const std::vector<const RecordInfo*>& record_types();
+const RecordInfo* find_record_type(std::string_view name);
+// Those that a type names: "iterator<ProtocolEvent and State?>", "table<string, Cost>".
+std::vector<const RecordInfo*> record_types_in(std::string_view type);
+
+// That a record, or the first one of a list, is of the type that `giver` declares for it; throws
+// Error{internal} where it is not, or has no type at all.
+void check_declared(std::string_view giver, std::string_view declared, const Value& given);
+
+}  // namespace asperity::lua
