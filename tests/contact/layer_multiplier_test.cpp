@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity::layer_multiplier_test {

@@ -49,9 +49,8 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   ContactPreconditioner preconditioner(grid.nx, grid.ny, aspect, problem.boundary, 1, 4, multiplier);
   preconditioner.set_free(elastic);
   // The pyramid sees nothing of a constant; the longest wave does for it.
-  const double of_longest = multiplier.shares()
-                                ? 1 / multiplier.greatest_from(2 * std::numbers::pi / longest)
-                                : std::numbers::pi / longest;
+  const double of_longest = multiplier.shares() ? 1 / multiplier.greatest_from(2 * std::numbers::pi / longest)
+                                                : std::numbers::pi / longest;
   const double constant = of_longest / std::max(counts[0], 1.0);
   const double yielded_factor = 1 / (give + 4 / std::numbers::pi);
 

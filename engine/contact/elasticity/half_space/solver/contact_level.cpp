@@ -13,13 +13,13 @@ namespace {
 double stiffness_of_short_waves(const LevelShape& shape) {
   const double of_half_space = std::numbers::pi / 4 / std::sqrt(shape.aspect);
   return shape.multiplier.shares() ? of_half_space / shape.multiplier.share(2 * of_half_space)
-                                    : of_half_space;
+                                   : of_half_space;
 }
 
 double compliance_of_long_waves(const LevelShape& shape) {
   const double longest = std::max(static_cast<double>(shape.nx), shape.ny * shape.aspect);
   return shape.multiplier.shares() ? shape.multiplier.greatest_from(2 * std::numbers::pi / longest)
-                                    : longest / std::numbers::pi;
+                                   : longest / std::numbers::pi;
 }
 
 // Of the preconditioner. With four, one random scene in 2000 of ground that hardens weakly stalled.
