@@ -245,10 +245,9 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
   ChosenAccuracy chosen;
   chosen.asked = asked;
   chosen.precision = scene.accuracy.precision;
-  chosen.why_precision = scene.accuracy.precision_named ? "as named"
-                         : std::holds_alternative<BoxOptions>(scene.elasticity)
-                             ? "boxes are solved in no other"
-                             : "single saves no time";
+  chosen.why_precision = scene.accuracy.precision_named               ? "as named"
+                         : !scene.elasticity.model().moves_every_node ? "boxes are solved in no other"
+                                                                      : "single saves no time";
   double tolerance = first_tolerance(asked.error);
   const CostScope scope;
   Cost last;  // of the press that is kept
