@@ -133,7 +133,7 @@ TEST(ComplianceMultiplier, FindsTheSoftestWave) {
 }
 
 // A wave of pressure on cells that are not square, of an even and an odd count.
-TEST(HalfSpaceCompliance, OfALayerTakesEachWaveByItself) {
+TEST(LayerCompliance, TakesEachWaveByItself) {
   for (const auto& [nx, ny] : {std::pair{16, 24}, {15, 11}, {1, 8}}) {
     const double aspect = 1.7;
     const ElasticLayer layer{3e-6, 0.4, LayerBase::bonded};

@@ -219,7 +219,7 @@ TEST_P(LayerContacts, AreTheSameHoweverTheyAreAskedFor) {
   }
 }
 
-TEST_P(LayerContacts, AreSolvedOnNestedGridsInATensOfTransforms) {
+TEST_P(LayerContacts, AreSolvedOnNestedGridsInSomeTensOfTransforms) {
   const HalfSpaceProblem problem = rough(128, 1e-6);
   const double before = cost::transforms();
   const HalfSpaceAnswer by_pressure = solve(problem, 0.02);

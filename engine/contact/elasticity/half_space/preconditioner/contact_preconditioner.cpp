@@ -285,8 +285,11 @@ void ContactPreconditioner::Parts::gather_along_lines(const Keep& keep) {
     std::copy(spread_.begin(), spread_.end(), gathered_.begin());
     lines_->gather(gathered_);
   } else {
-    const std::uint8_t* const free = tiles_.marks(0);
-    for (std::size_t k = 0; k < gathered_.size(); ++k) gathered_[k] = free[k] != 0 ? spread_[k] : 0.0f;
+    parallel_for(ny_, [&](std::int64_t j) {
+      const std::size_t begin = node(0, static_cast<int>(j)), end = begin + static_cast<std::size_t>(nx_);
+      const std::uint8_t* const free = tiles_.marks(0);
+      for (std::size_t k = begin; k < end; ++k) gathered_[k] = free[k] != 0 ? spread_[k] : 0.0f;
+    });
   }
   for (int j = 0; j < ny_; ++j)
     keep(0, node(0, j), static_cast<std::size_t>(nx_), gathered_.data() + node(0, j), grow_);
