@@ -21,15 +21,17 @@ struct Plan;
 struct Scene;
 
 struct ElasticModel {
-  std::string_view name;  // "half_space", as a script names it
-  std::string_view noun;  // "a half-space", in sentences
-  std::string sentence;   // what it is, lower case, no full stop
+  std::string_view name;    // "half_space", as a script names it
+  std::string_view noun;    // "a half-space", in sentences
+  std::string_view called;  // the same without an article
+  std::string sentence;     // what it is, lower case, no full stop
   // Whether every pressure moves every node, so that a press is solved by iterations and feels what lies
   // across the rim of a periodic tile. Else the nodes are solved one by one, in closed form.
   bool moves_every_node = false;
   std::any defaults;  // the struct of its options
   std::vector<OptionRow> options;
-  std::string boundary{};   // what is said where a scene gives none; empty: it may
+  std::string boundary{};  // what is said where a scene gives none; empty: it may
+  bool periodic_only = false;
   bool over_ranks = false;  // whether lab.spread computes it
   // Throws Error for what it cannot be computed with; the ranges of the options were checked before. May be
   // null.

@@ -240,11 +240,10 @@ void SpecimenPair::warn_of_a_step_at_the_rim(Monitor& monitor) {
     bodies.emplace_back("upper");
   if (bodies.empty()) return;
   warned_of_rim_ = true;
-  const bool layer = std::holds_alternative<LayerOptions>(scene_.elasticity);
+  const ElasticModel& model = scene_.elasticity.model();
   monitor.warn("the " + joined(bodies, " and the ") + (bodies.size() > 1 ? " bodies do" : " body does") +
-               " not continue across the rim of the tile, so on a periodic " +
-               (layer ? "layer the step there presses too"
-                      : "half-space the step there presses too; boundary=\"free\" has none"));
+               " not continue across the rim of the tile, so on a periodic " + std::string(model.called) +
+               " the step there presses too" + (model.periodic_only ? "" : "; boundary=\"free\" has none"));
 }
 
 void SpecimenPair::carry(const State& state, const PressRequest& request) {

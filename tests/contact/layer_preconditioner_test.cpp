@@ -10,6 +10,7 @@
 
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
+#include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/core/arithmetic/random.hpp"
 
 namespace asperity::layer_preconditioner_test {
@@ -47,7 +48,7 @@ TEST(LayerPreconditioner, OnALayerIsCloseToTheInverseOfItsCompliance) {
   for (const LayerBase base : {LayerBase::bonded, LayerBase::frictionless})
     for (const double poisson : {0.2, 0.5})
       for (const double thickness : {1.5, 2.5, 4.0, 11.0, 100.0}) {
-        const Ratios found = ratios_of(64, 48, {thickness, poisson, base, 0});
+        const Ratios found = ratios_of(64, 48, in_cells(wave_share({thickness, poisson, base}), 1, false));
         EXPECT_GT(found.least, 0.45) << thickness << " " << poisson;
         EXPECT_LT(found.greatest, 1.4) << thickness << " " << poisson;
       }
@@ -56,18 +57,19 @@ TEST(LayerPreconditioner, OnALayerIsCloseToTheInverseOfItsCompliance) {
 TEST(LayerPreconditioner, OnAThinLayerIsTheInverseOfItsCompliance) {
   for (const double poisson : {0.2, 0.5})
     for (const double thickness : {0.02, 1.0}) {
-      const Ratios found = ratios_of(32, 32, {thickness, poisson, LayerBase::bonded, 0});
+      const Ratios found =
+          ratios_of(32, 32, in_cells(wave_share({thickness, poisson, LayerBase::bonded}), 1, false));
       EXPECT_NEAR(found.least, 1, 1e-5);
       EXPECT_NEAR(found.greatest, 1, 1e-5);
     }
 }
 
 TEST(LayerPreconditioner, HoldsWhatItSaysOnALayer) {
-  const ComplianceMultiplier thin{0.5, 0.3, LayerBase::bonded, 0};
+  const ComplianceMultiplier thin = in_cells(wave_share({0.5, 0.3, LayerBase::bonded}), 1, false);
   EXPECT_GT(HalfOrderPyramid::bytes(256, 256, 1, Boundary::periodic, thin),
             HalfOrderPyramid::bytes(256, 256, 1, Boundary::periodic));
   EXPECT_EQ(HalfOrderPyramid(256, 256, 1, Boundary::periodic, 1, thin).transform_share(), 1);
-  const ComplianceMultiplier thick{200, 0.3, LayerBase::bonded, 0};
+  const ComplianceMultiplier thick = in_cells(wave_share({200, 0.3, LayerBase::bonded}), 1, false);
   EXPECT_EQ(HalfOrderPyramid::bytes(256, 256, 1, Boundary::periodic, thick),
             HalfOrderPyramid::bytes(256, 256, 1, Boundary::periodic));
 }
@@ -75,7 +77,8 @@ TEST(LayerPreconditioner, HoldsWhatItSaysOnALayer) {
 TEST(LayerPreconditioner, IsSymmetricOnTheFreeSet) {
   for (const double thickness : {0.5, 5.0, 50.0}) {
     const int nx = 40, ny = 36;
-    ContactPreconditioner m(nx, ny, 1, Boundary::periodic, 1, 4, {thickness, 0.4, LayerBase::bonded, 0});
+    ContactPreconditioner m(nx, ny, 1, Boundary::periodic, 1, 4,
+                            in_cells(wave_share({thickness, 0.4, LayerBase::bonded}), 1, false));
     const std::size_t n = nx * ny;
     const Stream stream(3, "residuals on a layer");
     std::vector<std::uint8_t> free(n);

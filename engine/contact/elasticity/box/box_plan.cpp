@@ -118,6 +118,7 @@ const ElasticModel& box_model() {
   static const ElasticModel record{
       .name = "box",
       .noun = "box elements",
+      .called = "box elements",
       .sentence = "independent elements over the nodes, pressure in proportion to their shortening",
       .defaults = O{},
       .options = {quantity_row("stiffness", &O::stiffness, dimension::stiffness, above(0),
@@ -134,6 +135,7 @@ const ElasticModel& BoxOptions::model() { return box_model(); }
 const ElasticModel& rigid_model() {
   static const ElasticModel record{.name = "rigid",
                                    .noun = "rigid bodies",
+                                   .called = "rigid bodies",
                                    .sentence = "no elastic deformation; the bodies rest on what has yielded",
                                    .defaults = RigidOptions{},
                                    .options = {},

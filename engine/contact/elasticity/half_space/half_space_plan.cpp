@@ -89,6 +89,7 @@ const ElasticModel& half_space_model() {
   static const ElasticModel record{
       .name = "half_space",
       .noun = "a half-space",
+      .called = "half-space",
       .sentence = "every pressure moves every node, as on an elastic half-space",
       .moves_every_node = true,
       .defaults = HalfSpaceOptions{},

@@ -79,6 +79,7 @@ const ElasticModel& layer_model() {
   static const ElasticModel record{
       .name = "layer",
       .noun = "a layer",
+      .called = "layer",
       .sentence =
           "an elastic layer on a rigid base, the lower body, under a rigid one; every pressure moves "
           "every node",
@@ -94,6 +95,7 @@ const ElasticModel& layer_model() {
                              {{"bonded", LayerBase::bonded}, {"frictionless", LayerBase::frictionless}},
                              "how the layer lies on its rigid base; of model=\"layer\" alone")},
       .boundary = "a layer needs boundary=\"periodic\": the tile goes on beyond its rim",
+      .periodic_only = true,
       .check = check_layer,
       .plan = plan_layer,
       .solver = half_space_solver};
