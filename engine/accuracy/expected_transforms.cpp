@@ -204,7 +204,7 @@ Tried try_press(const Grid& grid, const Field& heights, const Scene& scene, cons
 
 PressRequest request_times(PressRequest request, double factor) {
   request.value *= factor;
-  for (double& turn : request.drawn_from) turn *= factor;
+  for (double& turn : request.preload) turn *= factor;
   return request;
 }
 

@@ -11,7 +11,7 @@ ClosedSolution::ClosedSolution(const Solution& solution)
       approach_(solution.approach()),
       attraction_(solution.attraction()),
       peak_pressure_(solution.peak_pressure()),
-      drawn_from_(solution.drawn_from().begin(), solution.drawn_from().end()),
+      preload_(solution.preload().begin(), solution.preload().end()),
       contacts_(solution.contacts()),
       yielded_(solution.yielded()),
       iterations_(solution.iterations()),

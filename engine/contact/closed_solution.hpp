@@ -19,7 +19,7 @@ class ClosedSolution final : public Solution {
   double pressure() const override { return pressure_; }
   double approach() const override { return approach_; }
   double attraction() const override { return attraction_; }
-  std::span<const double> drawn_from() const override { return drawn_from_; }
+  std::span<const double> preload() const override { return preload_; }
   std::int64_t contacts() const override { return contacts_; }
   double peak_pressure() const override { return peak_pressure_; }
   int iterations() const override { return iterations_; }
@@ -47,7 +47,7 @@ class ClosedSolution final : public Solution {
   [[noreturn]] static void not_read(std::string_view what);
 
   double load_, pressure_, approach_, attraction_, peak_pressure_;
-  std::vector<double> drawn_from_;
+  std::vector<double> preload_;
   std::int64_t contacts_, yielded_;
   int iterations_;
   std::string solver_;

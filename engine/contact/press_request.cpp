@@ -42,9 +42,9 @@ void check_numbers(const PressRequest& request) {
   if (request.by == PressBy::flatten && !(request.value >= 0 && request.value <= 1))
     throw Error(ErrorCode::bad_value, "`flatten` is " + format_short(request.value),
                 "it is a fraction of the peak-to-valley: give a number from 0 to 1");
-  for (const double turn : request.drawn_from)
+  for (const double turn : request.preload)
     if (!std::isfinite(turn))
-      throw Error(ErrorCode::bad_value, "`drawn_from` is " + format_short(turn), "give a finite value");
+      throw Error(ErrorCode::bad_value, "`preload` is " + format_short(turn), "give a finite value");
   if (request.dwell && !(*request.dwell >= 0))
     throw Error(ErrorCode::bad_value, "`dwell` is " + format_short(*request.dwell) + " s",
                 "give a time from zero up");
@@ -58,13 +58,13 @@ void check(const PressRequest& request, bool attracts) {
     throw Error(ErrorCode::bad_value, "`flatten` of bodies that attract each other is not computed",
                 "press by `pressure`, `load`, `approach` or `indentation`");
   check_numbers(request);
-  const std::vector<double>& turns = request.drawn_from;
+  const std::vector<double>& turns = request.preload;
   if (!turns.empty() && !attracts)
-    throw Error(ErrorCode::bad_value, "`drawn_from` is given, and nothing attracts the bodies",
+    throw Error(ErrorCode::bad_value, "`preload` is given, and nothing attracts the bodies",
                 "name `adhesion` or `capillarity`, or leave it out: without them a state has no history");
   if (turns.size() == 1 && turns.front() < request.value)
     throw Error(ErrorCode::bad_value,
-                "`drawn_from` is " + format_short(turns.front()) + ", below the " + quoted(name(request.by)) +
+                "`preload` is " + format_short(turns.front()) + ", below the " + quoted(name(request.by)) +
                     " of " + format_short(request.value),
                 "bodies are drawn back from a greater value");
 }

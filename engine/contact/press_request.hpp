@@ -23,7 +23,7 @@ struct PressRequest {
   std::optional<double> dwell{};  // s; read by creep alone, so without that effect it changes nothing
   // Of bodies that attract each other: values of the same quantity, gone to one after another before this
   // one. Empty for bodies that are brought together from apart.
-  std::vector<double> drawn_from{};
+  std::vector<double> preload{};
 };
 
 // The script key: "pressure", "load", …
@@ -33,10 +33,10 @@ std::string_view name(PressBy by);
 // `flatten` outside 0 … 1, a negative `dwell`.
 void check_numbers(const PressRequest& request);
 // Those, and what a contact does not take whose bodies attract each other or do not: a negative value and
-// `drawn_from` where nothing attracts, `flatten` where something does, and one `drawn_from` below the value.
+// `preload` where nothing attracts, `flatten` where something does, and one `preload` below the value.
 void check(const PressRequest& request, bool attracts = false);
 
-// Where `value` is drawn from when `visited` was gone through before it, in this order: the turns that still
+// The preload of `value` when `visited` was gone through before it, in this order: the turns that still
 // tell, a greatest value, the least after it, the greatest after that, … Going past an earlier turn wipes it
 // out, since the branches of a contact are monotone (return-point memory; Sethna et al. 1993). O(n²) at most.
 std::vector<double> turns_before(std::span<const double> visited, double value);

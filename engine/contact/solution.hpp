@@ -49,7 +49,7 @@ class Solution {
   // N on the tile that an attraction across the gap adds to the load on the junctions.
   virtual double attraction() const { return 0; }
   // Values of the prescribed quantity that were gone to before: the branch it is on.
-  virtual std::span<const double> drawn_from() const { return {}; }
+  virtual std::span<const double> preload() const { return {}; }
   virtual std::int64_t contacts() const = 0;  // nodes with p > 0
   virtual double peak_pressure() const = 0;   // Pa
   virtual int iterations() const = 0;

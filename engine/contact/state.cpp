@@ -168,9 +168,9 @@ bool State::closed() const {
 double State::load() const { return shared_->now()->load(); }
 double State::pressure() const { return shared_->now()->pressure(); }
 double State::attraction() const { return shared_->now()->attraction(); }
-std::vector<double> State::drawn_from() const {
+std::vector<double> State::preload() const {
   const std::shared_ptr<const Solution> solution = shared_->now();
-  const std::span<const double> turns = solution->drawn_from();
+  const std::span<const double> turns = solution->preload();
   return {turns.begin(), turns.end()};
 }
 double State::approach() const { return shared_->now()->approach(); }

@@ -44,7 +44,7 @@ class State {
   double attraction() const;
   // Of such bodies: values of the prescribed quantity gone to in turn before this one. Empty where they were
   // brought together from apart.
-  std::vector<double> drawn_from() const;
+  std::vector<double> preload() const;
   double approach() const;    // m from first touch
   double separation() const;  // m, of the mean planes of the undeformed bodies, where they face each other
   // approach / peak-to-valley of the combined heights; throws Error{bad_state} for pressed flats, which have

@@ -31,7 +31,7 @@ std::string bench_log_text(const SpecimenPair& pair) {
     Protocol::Event event{done.step, done.time};
     std::vector<std::optional<double>> values(results.size());
     if (auto* press = std::get_if<PressRequest>(&event.step)) {
-      if (press->value == 0 && press->drawn_from.empty()) {
+      if (press->value == 0 && press->preload.empty()) {
         event.step = Protocol::Release{};
       } else if (!as_asked) {
         press->by = PressBy::pressure;

@@ -64,8 +64,8 @@ class Gatherer {
       if (by && *by != press->by)
         refuse(k, event.step,
                "it has a column of pressures or one of loads, and events before give the other");
-      if (press->value < 0 || !press->drawn_from.empty())
-        refuse(k, event.step, "a log holds neither pulls nor what a press was drawn from");
+      if (press->value < 0 || !press->preload.empty())
+        refuse(k, event.step, "a log holds neither pulls nor preloads");
       if (!(press->value > 0)) refuse(k, event.step, "zero stands for a release there", "use a release");
       by = press->by;
       begin(event);

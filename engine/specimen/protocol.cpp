@@ -52,8 +52,8 @@ struct Kind {
 struct Detail {
   std::string operator()(const PressRequest& s) const {
     std::string text = " " + load_text(s);
-    for (std::size_t k = 0; k < s.drawn_from.size(); ++k)
-      text += (k == 0 ? " drawn from " : " and then ") + load_text({s.by, s.drawn_from[k]});
+    for (std::size_t k = 0; k < s.preload.size(); ++k)
+      text += (k == 0 ? " preloaded to " : " and then ") + load_text({s.by, s.preload[k]});
     return text + (s.dwell ? " for " + duration(*s.dwell) : "");
   }
   std::string operator()(const Protocol::Release&) const { return ""; }
@@ -88,7 +88,7 @@ struct Adder {
   void operator()(const PressRequest& s) const {
     digester.add(name(s.by)).add(s.value);
     if (s.dwell) digester.add("dwell").add(*s.dwell);
-    for (const double turn : s.drawn_from) digester.add("drawn_from").add(turn);
+    for (const double turn : s.preload) digester.add("preload").add(turn);
   }
   void operator()(const Protocol::Release&) const {}
   void operator()(const Protocol::Place& s) const { digester.add(static_cast<std::int64_t>(s.seed)); }

@@ -99,15 +99,15 @@ TEST(Adhesion, TurnsGoneThroughBeforeTellTheBranch) {
     return contact->press({PressBy::approach, -0.065, {}, std::move(turns)});
   };
   const State coming = at({}), leaving = at({0.05}), back = at({0.05, -0.07}), lost = at({0.05, -0.3});
-  EXPECT_EQ(coming.drawn_from(), std::vector<double>{});
-  EXPECT_EQ(back.drawn_from(), (std::vector<double>{0.05, -0.07}));
+  EXPECT_EQ(coming.preload(), std::vector<double>{});
+  EXPECT_EQ(back.preload(), (std::vector<double>{0.05, -0.07}));
   EXPECT_EQ(coming.contacts(), 0);
   EXPECT_GT(back.contacts(), 0);
   EXPECT_LE(back.contacts(), leaving.contacts());
   EXPECT_NEAR(back.load(), leaving.load(), 0.1 * std::abs(leaving.load()));
   EXPECT_EQ(lost.contacts(), 0);
   EXPECT_NEAR(lost.load(), coming.load(), 1e-3 * std::abs(coming.load()));
-  EXPECT_EQ(contact->press({PressBy::load, -0.01, {}}).drawn_from(), std::vector<double>{0});
+  EXPECT_EQ(contact->press({PressBy::load, -0.01, {}}).preload(), std::vector<double>{0});
 }
 
 // The turn that is kept changes no bit.
@@ -205,9 +205,8 @@ TEST(Adhesion, RequestsThatMakeNoSenseAreRefused) {
   EXPECT_NE(refused(*contact, {PressBy::flatten, 0.5, {}}).find("`flatten` of bodies that attract"),
             std::string::npos);
   EXPECT_NE(refused(*contact, {PressBy::load, std::nan(""), {}}).find("`load` is nan N"), std::string::npos);
-  EXPECT_NE(
-      refused(*contact, {PressBy::load, 1, {}, {0.5}}).find("`drawn_from` is 0.5, below the `load` of 1"),
-      std::string::npos);
+  EXPECT_NE(refused(*contact, {PressBy::load, 1, {}, {0.5}}).find("`preload` is 0.5, below the `load` of 1"),
+            std::string::npos);
   EXPECT_NE(refused(*plain, {PressBy::load, 1, {}, {2}}).find("nothing attracts the bodies"),
             std::string::npos);
   EXPECT_NE(refused(*plain, {PressBy::load, -1, {}}).find("without adhesion"), std::string::npos);

@@ -42,7 +42,7 @@ TEST(PressRequest, NumbersMayBePullsUntilAContactIsPulled) {
   const auto refused = [](const PressRequest& request) { return error_of([&] { check_numbers(request); }); };
   EXPECT_EQ(refused({PressBy::load, -1, {}, {2}}), "");
   EXPECT_NE(refused({PressBy::load, -inf}).find("`load` is -inf N"), std::string::npos);
-  EXPECT_NE(refused({PressBy::load, 0, {}, {inf}}).find("`drawn_from` is inf"), std::string::npos);
+  EXPECT_NE(refused({PressBy::load, 0, {}, {inf}}).find("`preload` is inf"), std::string::npos);
   EXPECT_NE(refused({PressBy::flatten, -0.1}).find("`flatten` is -0.1"), std::string::npos);
   EXPECT_EQ(error_of([] { check({PressBy::load, 2, {}, {3, 1}}, true); }), "");
 }

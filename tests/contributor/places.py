@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What an addition touches, counted from the worked examples of docs/contributor.md: new files, and places in files that are
-there (`<!-- row: PATH -->`, `<!-- place: PATH -->`). The table stands in that page.
+there (`<!-- row: PATH -->`, `<!-- place: PATH -->`). `<!-- there: PATH -->` is a file of an addition that the project has. The table
+stands in that page.
 
 usage: places.py [FOLDER]           say whether the table is what is counted
        places.py --write [FOLDER]   write it
@@ -16,7 +17,7 @@ BEGIN, END = "<!-- places: tests/contributor/places.py --write -->\n", "<!-- /pl
 def table(text):
     rows = ["| addition | new files | of these tests | places in others |", "| --- | ---: | ---: | ---: |"]
     for title, body in re.findall(r"^## A worked example: a new (.*?)\n(.*?)(?=^## |\Z)", text, re.M | re.S):
-        files = re.findall(r"^<!-- file: (\S+) -->", body, re.M)
+        files = re.findall(r"^<!-- (?:file|there): (\S+) -->", body, re.M)
         places = re.findall(r"^<!-- (?:row|place): (\S+) -->", body, re.M)
         tests = sum(path.startswith("tests/") for path in files)
         rows.append(f"| {title} | {len(files)} | {tests} | {len(places)} in {len(set(places))} file{'s' * (len(set(places)) != 1)} |")
@@ -33,6 +34,10 @@ def main(arguments):
     if "--write" in arguments:
         page.write_text(before + begin + table(text) + end + after, encoding="utf-8")
         return 0
+    for path in re.findall(r"^<!-- (?:there|row|place): (\S+) -->", text, re.M):
+        if not (folder / path).exists():
+            print(f"docs/contributor.md: {path} is not there")
+            return 1
     if not begin or not end or old != table(text):
         print("docs/contributor.md: the table of places is old: tests/contributor/places.py --write")
         return 1

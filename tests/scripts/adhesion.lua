@@ -19,29 +19,29 @@ end
 local c = bench{ adhesion={ work=0.01, range=0.05 } }
 local held = c:press{ load=-0.03 }
 assert(held.load == -0.03 and held.contacts > 0 and held.attraction > 0.03)
-assert(#held.drawn_from == 1 and held.drawn_from[1] == 0)
+assert(#held.preload == 1 and held.preload[1] == 0)
 refused(function() c:press{ load=-0.1 } end, "the bodies separate")
 assert(c:press{ load=-0.03 }.digest == held.digest)
 
 -- A sweep goes along its branch.
 local states = {}
 for st in c:sweep{ approach={ -0.3, -0.02, 0.02, -0.02, -0.01, -0.3 } } do table.insert(states, st) end
-assert(#states[2].drawn_from == 0 and #states[3].drawn_from == 0)
-assert(#states[4].drawn_from == 1 and states[4].drawn_from[1] == 0.02)
-assert(#states[5].drawn_from == 2 and states[5].drawn_from[2] == -0.02)
+assert(#states[2].preload == 0 and #states[3].preload == 0)
+assert(#states[4].preload == 1 and states[4].preload[1] == 0.02)
+assert(#states[5].preload == 2 and states[5].preload[2] == -0.02)
 assert(states[4].contacts >= states[2].contacts and states[6].contacts == 0)
-assert(c:press{ approach=-0.01, drawn_from={ 0.02, -0.02 } }.digest == states[5].digest)
+assert(c:press{ approach=-0.01, preload={ 0.02, -0.02 } }.digest == states[5].digest)
 
 -- A protocol pulls too.
-local p = lab.protocol{ { press={ load=0.01 } }, { press={ load=-0.02, drawn_from="10 mN" } }, { release=true } }
-assert(tostring(p):find("press -20 mN drawn from 10 mN", 1, true), tostring(p))
+local p = lab.protocol{ { press={ load=0.01 } }, { press={ load=-0.02, preload="10 mN" } }, { release=true } }
+assert(tostring(p):find("press -20 mN preloaded to 10 mN", 1, true), tostring(p))
 local loads = {}
 for event, st in p:on(c) do if st then table.insert(loads, st.load) end end
 assert(loads[1] == 0.01 and loads[2] == -0.02)
 refused(function() p:write "pull.csv" end, "a log holds neither pulls")
 local plain = bench{}
 refused(function() for _ in p:on(plain) do end end, "event 2", "a contact without adhesion")
-refused(function() plain:press{ load=0, drawn_from=0.01 } end, "`drawn_from` is given, and nothing attracts")
+refused(function() plain:press{ load=0, preload=0.01 } end, "`preload` is given, and nothing attracts")
 
 -- Each effect has a line of its own in the ledger.
 local both = bench{ adhesion={ work=0.01, range=0.05 }, capillarity={ pressure=0.05, surface_tension=0.002 } }
@@ -77,8 +77,10 @@ end
 refused(function() bench({ adhesion=some }, { precision="single" }) end, "`precision`")
 refused(function() bench({ adhesion=some }, { estimate=true }) end, "estimate")
 refused(function() c:press{ flatten=0.5 } end, "`flatten`")
-refused(function() c:press{ load=1, drawn_from=0.5 } end, "`drawn_from` is 0.5, below the `load` of 1")
-refused(function() c:press{ load=1, drawn_from="2 um" } end, "`drawn_from`")
+refused(function() c:press{ load=1, preload=0.5 } end, "`preload` is 0.5, below the `load` of 1")
+refused(function() c:press{ load=1, preload="2 um" } end, "`preload`")
+refused(function() c:press{ load=1, drawn_from=2 } end, "unknown key `drawn_from`, which is called `preload` now")
+refused(function() return held.drawn_from end, "`drawn_from`, which is called `preload` now")
 
 -- A grid too coarse for the zone that pulls is warned of, once.
 local coarse = bench{ adhesion={ work=0.01, range=0.01 } }

@@ -44,7 +44,7 @@ TEST(Protocol, ReadsAsAListing) {
             "  9  press to `flatten` 1");
   EXPECT_EQ(Protocol({{Protocol::Release{}}}).text(), "protocol of 1 event\n  1  release");
   EXPECT_EQ(Protocol({{PressRequest{PressBy::load, -1, {}, {2, 0.5}}}}).text(),
-            "protocol of 1 event\n  1  press -1 N drawn from 2 N and then 500 mN");
+            "protocol of 1 event\n  1  press -1 N preloaded to 2 N and then 500 mN");
 }
 
 TEST(Protocol, LongListingsLeaveOutTheMiddle) {

@@ -218,12 +218,12 @@ const Class& class_of<asperity::State>() {
                               (quantity.effect.empty() ? "" : "; needs " + std::string(quantity.effect)),
                           quantity.dimension, quantity_value});
     const std::vector<Getter> others = {
-        {"drawn_from",
+        {"preload",
          "number[]",
          "the branch of bodies that attract each other: values of the prescribed quantity gone to in turn "
          "before this one; empty where they were brought together from apart",
          {},
-         [](Call& call) -> Values { return {state_numbers(call.self<S>().drawn_from())}; }},
+         [](Call& call) -> Values { return {state_numbers(call.self<S>().preload())}; }},
         {"iterations",
          "integer",
          "of the solver; 0 for a closed form",

@@ -12,6 +12,7 @@
 #include <concepts>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,6 +56,10 @@ using Resolved = std::vector<std::pair<std::string, std::string>>;
 
 // A problem is a sentence about one key, without its line.
 using Problems = std::vector<std::string>;
+
+// What is meant by a name that is not among these: what one of the language is called since it was renamed,
+// or the nearest; "" for neither.
+std::string meant_by(std::string_view name, std::span<const std::string> names);
 
 namespace detail {
 // Reads a number or a quantity; appends a problem and returns nothing if it cannot be had.

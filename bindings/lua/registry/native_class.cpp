@@ -36,7 +36,7 @@ int guarded_field(lua_State* L, const Class& type) {
     }
     throw Error(ErrorCode::unknown_name, type.article_name + " has no field " +
                                              quoted(key.text().substr(0, 40)) +
-                                             did_you_mean(key.text(), type.names()));
+                                             meant_by(key.text(), type.names()));
   });
 }
 

@@ -2,9 +2,11 @@
 #include "bindings/lua/registry/options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/refinement.hpp"
@@ -12,6 +14,14 @@
 #include "bindings/lua/registry/variation.hpp"
 
 namespace asperity::lua {
+
+std::string meant_by(std::string_view name, std::span<const std::string> names) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 1> renamed{{{"drawn_from", "preload"}}};
+  for (const auto& [old, now] : renamed)
+    if (name == old && std::ranges::find(names, now) != names.end())
+      return ", which is called " + quoted(now) + " now";
+  return did_you_mean(name, names);
+}
 
 namespace detail {
 
@@ -170,8 +180,7 @@ void read_table(const Argument& table, const std::string& caller,
       }
       const auto found = std::find(names.begin(), names.end(), key.text());
       if (found == names.end())
-        unknown.push_back("unknown key " + quoted(key.text().substr(0, 40)) +
-                          did_you_mean(key.text(), names));
+        unknown.push_back("unknown key " + quoted(key.text().substr(0, 40)) + meant_by(key.text(), names));
       else
         seen[static_cast<std::size_t>(found - names.begin())] = true;
     });

@@ -63,8 +63,8 @@ const Block<PressKeys>& press_block() {
     options.push_back(quantity("dwell", &PressKeys::dwell, dimension::time, at_least(0),
                                "how long the load stays; read by creep alone"));
     // Of the dimension of the quantity it goes with, which stands before it in the block.
-    auto drawn_from = custom<PressKeys>(
-        "drawn_from", "number|string|(number|string)[]",
+    auto preload = custom<PressKeys>(
+        "preload", "number|string|(number|string)[]",
         "of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from "
         "there; or a list of values gone to in turn",
         [](const Argument& value, const OptionInfo& info, PressKeys& keys, Problems& problems) {
@@ -72,17 +72,17 @@ const Block<PressKeys>& press_block() {
           for (const auto& entry : press_keys)
             if (entry.by == keys.request.by) same.dimension = entry.dimension;
           const auto read_one = [&](const Argument& one) {
-            if (auto v = detail::read_quantity(one, same, any(), problems)) keys.drawn_from.push_back(*v);
+            if (auto v = detail::read_quantity(one, same, any(), problems)) keys.preload.push_back(*v);
           };
           if (!value.is_table()) return read_one(value);
           for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, read_one);
         });
-    drawn_from.show = [](const PressKeys& keys) {
+    preload.show = [](const PressKeys& keys) {
       std::vector<std::string> turns;
-      for (const double turn : keys.drawn_from) turns.push_back(format_exact(turn));
+      for (const double turn : keys.preload) turns.push_back(format_exact(turn));
       return turns.size() > 1 ? "{" + joined(turns, ", ") + "}" : joined(turns, "");
     };
-    options.push_back(std::move(drawn_from));
+    options.push_back(std::move(preload));
     return Block<PressKeys>("press", std::move(options), [](PressKeys& keys, Problems& problems) {
       if (keys.given != 1)
         problems.push_back(
@@ -97,7 +97,7 @@ namespace {
 
 PressRequest request_of(PressKeys keys) {
   keys.request.dwell = keys.dwell;
-  keys.request.drawn_from = std::move(keys.drawn_from);
+  keys.request.preload = std::move(keys.preload);
   return std::move(keys.request);
 }
 
@@ -160,7 +160,7 @@ Values sweep(Call& call) {
                      const bool by_load = request.by == PressBy::load || request.by == PressBy::pressure;
                      if (k == 0 && by_load && request.value < 0)
                        visited.push_back(0);  // a pull starts from no load
-                     if (pair->plan().attracts()) request.drawn_from = turns_before(visited, request.value);
+                     if (pair->plan().attracts()) request.preload = turns_before(visited, request.value);
                      const asperity::State state = pair->press(request, step.session().monitor());
                      record_press(step.session(), pair, request, state);
                      visited.push_back(request.value);
@@ -201,7 +201,7 @@ void record_press(const Session& session, const std::shared_ptr<SpecimenPair>& p
                   const PressRequest& request, const asperity::State& state) {
   const Object self{&class_of<SpecimenPair>(), pair, false};
   record_call(session, "contact:press", &self,
-              press_block().resolved({1, request, request.dwell, request.drawn_from}),
+              press_block().resolved({1, request, request.dwell, request.preload}),
               {object(asperity::State(state))});
 }
 

@@ -22,7 +22,7 @@ struct PressKeys {
   int given = 0;  // ways to say how far; exactly one is
   PressRequest request;
   std::optional<double> dwell;
-  std::vector<double> drawn_from;
+  std::vector<double> preload;
 };
 const Block<PressKeys>& press_block();
 // What a call of c:press or c:sweep, which `function` is, asks for; none where a dry run does not know it,

@@ -156,7 +156,7 @@ class EventReader {
       read_table(press_block(), name, value, [](const PressKeys& keys) {
         PressRequest request = keys.request;
         request.dwell = keys.dwell;
-        request.drawn_from = keys.drawn_from;
+        request.preload = keys.preload;
         return request;
       });
     } else if (name == "place") {

@@ -37,7 +37,7 @@ void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& ge
     if (!plan.attracts()) {
       const auto field = static_cast<std::int64_t>(grid.nodes() * sizeof(double));
       plan.buffers.push_back({"attraction of each state", field});
-      plan.buffers.push_back({"turn that presses are drawn from", 3 * field});
+      plan.buffers.push_back({"preload from which presses go on", 3 * field});
       plan.buffers.push_back({"work of the tangents", 5 * field, false});
       plan.solver = "tangents of the attraction, each a contact by preconditioned descent";
       // Of 60 contacts that attract each other, balls and rough ground on 64 x 64 cells: 161 by approach, 228

@@ -29,7 +29,7 @@ local book = lab.notebook "adhesion"
 for _, model in ipairs{ "exponential", "dugdale" } do
   local c, least = contact(144, 0.9, 0.009, model), 0
   for _, approach in ipairs{ -0.03, -0.0358988, -0.042 } do
-    least = math.min(least, c:press{ approach = approach, drawn_from = 0.02 }.load)
+    least = math.min(least, c:press{ approach = approach, preload = 0.02 }.load)
   end
   book:write{ law = model, limit = "JKR", tabor = (0.01 ^ 2 / 0.009 ^ 3) ^ (1 / 3), pull = least,
     exact = -0.0471238898, error = math.abs(least / -0.0471238898 - 1) }
@@ -54,7 +54,7 @@ case:expect(book, "error", { at_most = 0.03 })
 local c = contact(96, 0.9, 0.02, "exponential")
 local branches = lab.notebook "branches"
 for _, approach in ipairs{ 0.02, -0.065, -0.3 } do
-  local together, apart = c:press{ approach = approach }, c:press{ approach = approach, drawn_from = 0.05 }
+  local together, apart = c:press{ approach = approach }, c:press{ approach = approach, preload = 0.05 }
   branches:write{ approach = approach, together = together.contacts, apart = apart.contacts,
     two = together.contacts == apart.contacts and 0 or 1 }
 end
@@ -70,7 +70,7 @@ case:refused("no range", function() contact(16, 1, 0, "dugdale") end, "range")
 case:refused("negative work", function() contact(16, 1, 1, "dugdale", -1) end, "work")
 case:refused("a flattening", function() contact(16, 1, 1, "dugdale"):press{ flatten = 0.5 } end, "`flatten`")
 case:refused("drawn back from where nothing attracts", function()
-  contact(16, 1, 1, "dugdale", 0):press{ approach = 0, drawn_from = 1 }
+  contact(16, 1, 1, "dugdale", 0):press{ approach = 0, preload = 1 }
 end, "nothing attracts")
 assert(tostring(contact(144, 0.9, 0.009, "dugdale"):explain()):find("under four", 1, true),
   "no warning of a coarse grid")

@@ -87,20 +87,20 @@ end
 sweep("work", function(row, boundary)
   for decade = -30, 30, 4 do
     adhering(row, boundary, 10.0 ^ decade, 0.1, { load = 0.01 })
-    adhering(row, boundary, 10.0 ^ decade, 0.1, { approach = -0.05, drawn_from = 0.02 })
+    adhering(row, boundary, 10.0 ^ decade, 0.1, { approach = -0.05, preload = 0.02 })
   end
 end)
 sweep("range", function(row, boundary)
   for decade = -30, 30, 4 do
     adhering(row, boundary, 0.01, 10.0 ^ decade, { load = 0.01 })
-    adhering(row, boundary, 10.0 ^ (decade - 1), 10.0 ^ decade, { approach = -0.01, drawn_from = 0.02 })
+    adhering(row, boundary, 10.0 ^ (decade - 1), 10.0 ^ decade, { approach = -0.01, preload = 0.02 })
   end
 end)
 sweep("traction", function(row, boundary)
   for _, traction in ipairs{ 1, 10, 100 } do
     for _, range in ipairs{ 1, 0.1, 0.01, 1e-3, 1e-5 } do
       adhering(row, boundary, traction * range, range, { load = 0.01 })
-      adhering(row, boundary, traction * range, range, { approach = -0.01, drawn_from = 0.01 })
+      adhering(row, boundary, traction * range, range, { approach = -0.01, preload = 0.01 })
     end
   end
 end)
@@ -154,7 +154,7 @@ local c = lab.contact{ lower = lab.surface.from_function{ cells = 48, size = 0.9
   boundary = "free", accuracy = { tolerance = 1e-4 },
   effects = { elasticity = "half_space", adhesion = { work = 0.01, range = 0.02 } } }
 for st in c:sweep{ approach = there } do
-  loop:write{ approach = st.approach, turns = #st.drawn_from, contacts = st.contacts, load = st.load }
+  loop:write{ approach = st.approach, turns = #st.preload, contacts = st.contacts, load = st.load }
 end
 case:evidence(loop, "A sweep of a paraboloid that adheres: together, apart and together again.",
   { { "approach", "%.3f" }, { "turns", "%d", "turns drawn from" }, { "contacts", "%d" }, { "load", "%.4f" } })

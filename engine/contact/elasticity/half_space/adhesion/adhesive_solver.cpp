@@ -37,7 +37,7 @@ struct AdhesiveSolver::Ready {
   AdhesiveProblem problem;
   StateCost cost;
 
-  // Where the last press was drawn from.
+  // The preload of the last press.
   struct Turn {
     bool by_load = false;
     std::vector<double> values;
@@ -50,17 +50,14 @@ struct AdhesiveSolver::Ready {
 class AdhesiveSolver::UnderLoad final : public Solution {
  public:
   UnderLoad(std::shared_ptr<const Ready> ready, AdhesiveAnswer answer, bool by_load,
-            std::vector<double> drawn_from)
-      : ready_(std::move(ready)),
-        at_(std::move(answer)),
-        by_load_(by_load),
-        drawn_from_(std::move(drawn_from)) {}
+            std::vector<double> preload)
+      : ready_(std::move(ready)), at_(std::move(answer)), by_load_(by_load), preload_(std::move(preload)) {}
 
   const ContactGeometry& geometry() const override { return *ready_->geometry; }
   double load() const override { return at_.contact.mean_pressure * grid().area(); }
   double pressure() const override { return at_.contact.mean_pressure; }
   double attraction() const override { return at_.mean_attraction * grid().area(); }
-  std::span<const double> drawn_from() const override { return drawn_from_; }
+  std::span<const double> preload() const override { return preload_; }
   double approach() const override { return at_.contact.approach; }
   std::int64_t contacts() const override { return at_.contact.contacts; }
   double peak_pressure() const override { return at_.contact.peak_pressure; }
@@ -173,7 +170,7 @@ class AdhesiveSolver::UnderLoad final : public Solution {
   std::shared_ptr<const Ready> ready_;
   AdhesiveAnswer at_;
   bool by_load_;
-  std::vector<double> drawn_from_;
+  std::vector<double> preload_;
 };
 
 AdhesiveSolver::AdhesiveSolver(const Plan& plan, const HalfSpaceOperator& half_space,
@@ -226,7 +223,7 @@ State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const
     whole += solved.cost;
     return std::move(solved.result);
   };
-  std::vector<double> turns = request.drawn_from;
+  std::vector<double> turns = request.preload;
   if (by_load && (turns.empty() ? request.value : turns.front()) < 0) turns.insert(turns.begin(), 0.0);
   Cost contacts;  // of the first tangents
   std::shared_ptr<const Ready::Turn> from;

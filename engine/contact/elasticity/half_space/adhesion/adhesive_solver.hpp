@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two elastic half-spaces whose faces attract each other: adhesive_solve.hpp for the bodies of a contact as
 // they lie. Loads and approaches may be below zero. Bodies are brought together from apart, or, where the
-// request says `drawn_from`, taken there first, turn by turn. Under a pull they are pressed by no load
+// request says `preload`, taken there first, turn by turn. Under a pull they are pressed by no load
 // first: a pull brings nothing together. The last turn is kept, so that requests drawn from the same turns,
 // as those of a sweep are, go there once; no bit depends on it. Of what a press costs, the first contact of
 // each turn is elasticity's; the tangents are the attractions', parted by what each pulls in the end.
