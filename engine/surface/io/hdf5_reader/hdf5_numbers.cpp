@@ -164,15 +164,16 @@ class Chunks {
     // Made when the first chunk has shown itself to be as large as it claims.
     if (values_.empty()) values_.resize(dataset_.shape.count(file_) * width_);
     const std::size_t last = rank_ - 1;
-    for (std::uint64_t row = 0; row < rows; ++row) {
-      std::uint64_t from = 0, to = place[last], rest = row, chunk_step = chunk[last], step = sizes[last];
-      for (std::size_t k = last; k-- > 0; chunk_step *= chunk[k], step *= sizes[k]) {
-        const std::uint64_t at = rest % inside[k];
-        rest /= inside[k];
-        from += at * chunk_step;
-        to += (place[k] + at) * step;
+    std::vector<std::uint64_t> at(last, 0);  // of a row in the chunk
+    while (rows-- > 0) {
+      std::uint64_t from = 0, to = 0;
+      for (std::size_t k = 0; k < last; ++k) {
+        from = from * chunk[k] + at[k];
+        to = to * sizes[k] + place[k] + at[k];
       }
-      std::memcpy(values_.data() + to * width_, bytes.data() + from * width_, inside[last] * width_);
+      std::memcpy(values_.data() + (to * sizes[last] + place[last]) * width_,
+                  bytes.data() + from * chunk[last] * width_, inside[last] * width_);
+      for (std::size_t k = last; k-- > 0 && ++at[k] == inside[k];) at[k] = 0;
     }
   }
 
