@@ -14,7 +14,6 @@
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5/write_call.hpp"
-#include "engine/surface/io/hdf5_reader/hdf5_data.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 #include "engine/surface/io/source_file.hpp"
 
@@ -100,33 +99,40 @@ void check_names(const Hdf5Content& content) {
     if (groups.count(name) != 0) twice(name);
 }
 
+// The second of the pair that `name` begins; null where there is none.
+template <class T>
+const T* named(const std::vector<std::pair<std::string, T>>& pairs, std::string_view name) {
+  const auto found = std::ranges::find(pairs, name, &std::pair<std::string, T>::first);
+  return found == pairs.end() ? nullptr : &found->second;
+}
+
 // The walk over a file's groups.
 class Reader {
  public:
   Reader(const SourceFile& file, Monitor& monitor)
-      : root_(open_hdf5(file)), room_(root_.file.bytes.size()), monitor_(monitor) {}
+      : file_(open_hdf5(file)), room_(file_.bytes.size()), monitor_(monitor) {}
 
   Hdf5Content read() {
-    visit("", root_.address, 0);
+    visit("", file_.root, 0);
     return std::move(content_);
   }
 
  private:
   void visit(const std::string& name, std::uint64_t address, int depth) {
     constexpr int deepest = 64;
-    if (depth > deepest) root_.file.refuse("is damaged, or has groups in groups more than 64 deep");
+    if (depth > deepest) refuse_file(file_.file, "is damaged, or has groups in groups more than 64 deep");
     if (!seen_.insert(address).second) {
       content_.unread.push_back(quoted(name) + ": another name of something read already");
       return;
     }
-    const Hdf5Header header = read_header(root_.file, address);
+    const Hdf5Header header = read_header(file_, address);
     if (header.find(Hdf5MessageKind::layout) != nullptr) {
       read_array(name, header);
       return;
     }
     if (depth == 0) read_attributes(header);
-    for (const Hdf5Link& link : read_members(root_.file, header, content_.unread)) {
-      if (!is_name(link.name)) root_.file.refuse("is damaged: a member has a name that is none");
+    for (const Hdf5Link& link : read_members(file_, header, content_.unread)) {
+      if (!is_name(link.name)) file_.damaged("a member has a name that is none");
       visit(name.empty() ? link.name : name + "/" + link.name, link.address, depth + 1);
     }
   }
@@ -139,10 +145,10 @@ class Reader {
   void read_attributes(const Hdf5Header& header) {
     for (const Hdf5Message& message : header.messages) {
       if (message.kind != Hdf5MessageKind::attribute) continue;
-      const Hdf5Attribute attribute = read_attribute(root_.file, message.body);
-      if (const auto text = text_of(root_.file, attribute)) {
+      const Hdf5Attribute attribute = read_attribute(file_, message.body);
+      if (const auto text = text_of(file_, attribute)) {
         content_.texts.emplace_back(attribute.name, *text);
-      } else if (const auto number = number_of(root_.file, attribute)) {
+      } else if (const auto number = number_of(file_, attribute)) {
         content_.numbers.emplace_back(attribute.name, *number);
       } else {
         content_.unread.push_back(quoted(attribute.name) + ": an attribute that is neither text nor number");
@@ -155,38 +161,36 @@ class Reader {
     const Hdf5Message* const type = header.find(Hdf5MessageKind::datatype);
     const Hdf5Message* const layout = header.find(Hdf5MessageKind::layout);
     const Hdf5Message* const filters = header.find(Hdf5MessageKind::filters);
-    if (space == nullptr || type == nullptr)
-      root_.file.refuse("is damaged: " + quoted(name) + " has no shape or no type");
+    if (space == nullptr || type == nullptr) file_.damaged(quoted(name) + " has no shape or no type");
     if (space->shared || type->shared || (filters != nullptr && filters->shared)) {
       content_.unread.push_back(quoted(name) + ": values of a type kept elsewhere in the file");
       return;
     }
-    Hdf5Dataset dataset{name, read_shape(root_.file, space->body), read_type(root_.file, type->body), {}, {}};
-    dataset.layout = read_layout(root_.file, layout->body, dataset.shape.sizes.size());
-    if (filters != nullptr) dataset.filters = read_filters(root_.file, filters->body);
+    Hdf5Dataset dataset{name, read_shape(file_, space->body), read_type(file_, type->body), {}, {}};
+    dataset.layout = read_layout(file_, layout->body, dataset.shape.sizes.size());
+    if (filters != nullptr) dataset.filters = read_filters(file_, filters->body);
     if (const std::string reason = why_unread(dataset); !reason.empty()) {
       content_.unread.push_back(quoted(name) + ": " + reason);
       return;
     }
-    Hdf5Array array = read_numbers(root_.file, dataset, room_, monitor_);
+    Hdf5Array array = read_numbers(file_, dataset, room_, monitor_);
     std::optional<std::string> digest;
     for (const Hdf5Message& message : header.messages) {
       if (message.kind != Hdf5MessageKind::attribute) continue;
-      const Hdf5Attribute attribute = read_attribute(root_.file, message.body);
+      const Hdf5Attribute attribute = read_attribute(file_, message.body);
       if (attribute.name == "unit" || (attribute.name == "units" && array.unit.empty()))
-        array.unit = text_of(root_.file, attribute).value_or("");
-      if (attribute.name == "digest") digest = text_of(root_.file, attribute);
+        array.unit = text_of(file_, attribute).value_or("");
+      if (attribute.name == "digest") digest = text_of(file_, attribute);
     }
     // Only the digests of this program can be checked, and are known by their length.
     constexpr std::size_t digits = 32;
     if (digest && digest->size() == digits && *digest != digest_of(array))
-      root_.file.refuse("is damaged: the numbers of " + quoted(name) +
-                            " do not have the digest that they were written with",
-                        "the file was altered after it was written");
+      file_.damaged("the numbers of " + quoted(name) + " do not have the digest that they were written with",
+                    "the file was altered after it was written");
     content_.arrays.push_back(std::move(array));
   }
 
-  Hdf5Root root_;
+  Hdf5Bytes file_;
   std::uint64_t room_;
   Monitor& monitor_;
   std::set<std::uint64_t> seen_;
@@ -196,21 +200,13 @@ class Reader {
 }  // namespace
 
 const Hdf5Array* Hdf5Content::array(std::string_view name) const {
-  const auto found =
-      std::find_if(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == name; });
+  const auto found = std::ranges::find(arrays, name, &Hdf5Array::name);
   return found == arrays.end() ? nullptr : &*found;
 }
 
-const std::string* Hdf5Content::text(std::string_view name) const {
-  const auto found = std::find_if(texts.begin(), texts.end(), [&](const auto& t) { return t.first == name; });
-  return found == texts.end() ? nullptr : &found->second;
-}
+const std::string* Hdf5Content::text(std::string_view name) const { return named(texts, name); }
 
-const double* Hdf5Content::number(std::string_view name) const {
-  const auto found =
-      std::find_if(numbers.begin(), numbers.end(), [&](const auto& n) { return n.first == name; });
-  return found == numbers.end() ? nullptr : &found->second;
-}
+const double* Hdf5Content::number(std::string_view name) const { return named(numbers, name); }
 
 void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content) {
   std::vector<AsperityHdf5Text> texts;

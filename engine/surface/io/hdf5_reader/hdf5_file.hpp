@@ -4,8 +4,14 @@
 // texts and single numbers are attributes of the root. What is written carries checksums of its structure
 // (HDF5's own) and of each array (attribute "digest"), so that a damaged file is told from a whole one. Files
 // are written by the HDF5 library, which is loaded at the first of them; they are read by code of this
-// project, because a damaged file may crash that library. Other programs' files are read as far as that code
-// knows them.
+// project, other programs' as far as that code knows them.
+//
+// Why not by the library (1.10.8) too, in a child process that may fail? Measured on two busy processors by
+// bench/hdf5_by_library.cpp: of 10 000 files with changed bytes 2 killed the child, and 116 gave numbers
+// where this reader finds the file damaged (what is missing of a file that is cut short comes as zeros). A
+// reading takes 19 to 31 ms more for a small map, 28 to 47 ms for 1024², and 37 to 63 ms where the file is
+// in memory, as it is once its format is known. And a confined run may start no process: it could read no
+// file at all.
 #pragma once
 
 #include <cstdint>
