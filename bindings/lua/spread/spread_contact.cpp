@@ -44,11 +44,19 @@ const Block<Accuracy>& spread_accuracy_block() {
 void read_effect(const std::string& name, const Argument& given, spread_SceneKeys& keys, Problems& problems) {
   const Effect* effect = require_effect(name);
   if (effect == nullptr) {
-    if (given.is_text() && require_elastic_model(given.text()).over_ranks)
-      keys.elastic = true;
-    else
+    std::string model(given.is_text() ? given.text() : "");
+    if (given.is_table())
+      with_key(given, "model", [&](const Argument& named) {
+        if (named.is_text()) model = named.text();
+      });
+    if (model.empty())
       problems.push_back("`effects.elasticity` is " + given.describe() +
                          "; over ranks it is \"half_space\", and lab.contact computes the others");
+    else if (const ElasticModel& known = require_elastic_model(model); !known.over_ranks)
+      problems.push_back("`effects.elasticity` is " + std::string(known.noun) +
+                         ", which is not computed over ranks; give \"half_space\", or use lab.contact");
+    else
+      keys.elastic = true;
   } else if (!effect->over_ranks) {
     std::vector<std::string> computed{std::string(elasticity_effect)};
     for (const Effect* known : known_effects())
