@@ -91,8 +91,8 @@ fails("`effects.creep` is not computed over ranks", lab.spread.contact,
   scene{ effects = { elasticity = "half_space", plasticity = {}, creep = {} } })
 fails("did you mean `plasticity`", lab.spread.contact,
   scene{ effects = { elasticity = "half_space", plastisity = {} } })
-fails("over ranks it is \"half_space\"", lab.spread.contact, scene{ effects = { elasticity = "box" } })
-fails("is a layer, which is not computed over ranks", lab.spread.contact, scene{ effects = { elasticity = { model = "layer", thickness = "1 mm" } } })
+fails("names box elements, not computed over ranks; give \"half_space\"", lab.spread.contact, scene{ effects = { elasticity = "box" } })
+fails("names a layer, not computed over ranks", lab.spread.contact, scene{ effects = { elasticity = { model = "layer", thickness = "1 mm" } } })
 fails("names no elasticity", lab.spread.contact, scene{ effects = {} })
 fails("`effects.plasticity.hardening` is not computed over ranks", lab.spread.contact,
   scene{ effects = { elasticity = "half_space", plasticity = { hardening = 1e14 } } })

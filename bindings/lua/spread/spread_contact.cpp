@@ -53,8 +53,8 @@ void read_effect(const std::string& name, const Argument& given, spread_SceneKey
       problems.push_back("`effects.elasticity` is " + given.describe() +
                          "; over ranks it is \"half_space\", and lab.contact computes the others");
     else if (const ElasticModel& known = require_elastic_model(model); !known.over_ranks)
-      problems.push_back("`effects.elasticity` is " + std::string(known.noun) +
-                         ", which is not computed over ranks; give \"half_space\", or use lab.contact");
+      problems.push_back("`effects.elasticity` names " + std::string(known.noun) +
+                         ", not computed over ranks; give \"half_space\", or use lab.contact");
     else
       keys.elastic = true;
   } else if (!effect->over_ranks) {
@@ -121,16 +121,15 @@ const Block<spread_SceneKeys>& spread_scene_block() {
                          value, info, "a material or lab.rigid; over ranks the upper body is flat", problems);
                  })
            .required(),
-       custom<K>(
-           "boundary", "\"periodic\"", "the tile goes on beyond its rim",
-           [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
-             if (value.is_text() && value.text() == "free")
-               problems.push_back(
-                   "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or use "
-                   "lab.contact");
-             else if (!value.is_text() || value.text() != "periodic")
-               detail::wrong_type(value, info, "\"periodic\"", problems);
-           })
+       custom<K>("boundary", "\"periodic\"", "the tile goes on beyond its rim",
+                 [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
+                   if (value.is_text() && value.text() == "free")
+                     problems.push_back(
+                         "`boundary` is \"free\", not computed over ranks; give \"periodic\", or use "
+                         "lab.contact");
+                   else if (!value.is_text() || value.text() != "periodic")
+                     detail::wrong_type(value, info, "\"periodic\"", problems);
+                 })
            .required(),
        custom<K>(
            "effects", "table",
