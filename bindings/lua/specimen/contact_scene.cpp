@@ -184,7 +184,7 @@ const Block<AccuracyKeys>& accuracy_block() {
            "later take it back; \"single\" rounds them on any grid and saves memory on a periodic tile. The "
            "certificate is double always. A periodic tile of odd `nx`, or of a side with a prime factor over "
            "7, stays in "
-           "double; boxes refuse it; with `error` it is chosen where it is not named")
+           "double; boxes refuse it")
            .shown_by([](const K& keys) {
              return std::string(keys.precision == O::Precision::single ? "\"single\"" : "\"double\"");
            })
@@ -203,8 +203,7 @@ const Block<AccuracyKeys>& accuracy_block() {
            .shown_by([](const K& keys) { return std::string(estimate_text(keys.estimate)); })
            .defaults_to("false"),
        number("error", &K::error, {1e-6, 1, false, true, false},
-              "relative error to be met instead of a tolerance: the first press chooses cells, tolerance and "
-              "precision"),
+              "relative error to be met instead of a tolerance: the first press chooses cells and tolerance"),
        custom<K>("of", "string|string[]", "quantities of a state whose error that is", read_effect_names)
            .defaults_to("\"corrected_area_fraction\"")},
       finish_accuracy};
