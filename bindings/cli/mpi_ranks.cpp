@@ -17,8 +17,8 @@
 #include <utility>
 
 #include "bindings/cli/watchdog.hpp"
-#include "engine/core/byte_string.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/byte_string.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/mpi/messages.hpp"

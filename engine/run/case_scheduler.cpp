@@ -13,10 +13,10 @@
 #include <thread>
 #include <utility>
 
-#include "engine/core/byte_string.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/byte_string.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/ranks.hpp"

@@ -12,8 +12,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
-#include "engine/core/patient_lock.hpp"
 #include "engine/core/text.hpp"
+#include "engine/run/patient_lock.hpp"
 
 namespace asperity {
 

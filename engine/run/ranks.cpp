@@ -5,8 +5,8 @@
 #include <chrono>
 #include <thread>
 
-#include "engine/core/byte_string.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/byte_string.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
 

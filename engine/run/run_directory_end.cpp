@@ -10,8 +10,8 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
-#include "engine/core/patient_lock.hpp"
 #include "engine/core/text.hpp"
+#include "engine/run/patient_lock.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
 

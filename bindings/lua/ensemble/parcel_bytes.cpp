@@ -7,7 +7,7 @@
 #include "bindings/lua/registry/value_visitor.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "engine/core/byte_string.hpp"
+#include "engine/core/files/byte_string.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {

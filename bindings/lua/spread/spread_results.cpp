@@ -5,8 +5,8 @@
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/spread/spread.hpp"
-#include "engine/core/byte_string.hpp"
 #include "engine/core/digest.hpp"
+#include "engine/core/files/byte_string.hpp"
 #include "engine/run/ranks.hpp"
 
 namespace asperity::lua {

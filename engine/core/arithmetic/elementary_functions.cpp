@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "engine/core/arithmetic/elementary_tables.hpp"
-#include "engine/core/pairs.hpp"
+#include "engine/core/arithmetic/pairs.hpp"
 
 namespace asperity::elementary {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include "engine/core/pairs.hpp"
+#include "engine/core/arithmetic/pairs.hpp"
 
 namespace asperity::elementary_tables {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A lock waited for with patience: had at once when free, given up when held, had when let go in time.
-#include "engine/core/patient_lock.hpp"
+#include "engine/run/patient_lock.hpp"
 
 #include <gtest/gtest.h>
 
