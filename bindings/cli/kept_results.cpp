@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bindings/lua/runtime/version.hpp"
-#include "engine/core/build_identity.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/program_identity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_folder.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/option_row.hpp"
+#include "engine/core/options.hpp"
 
 namespace asperity {
 

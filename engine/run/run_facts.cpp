@@ -12,10 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "engine/core/build_identity.hpp"
-#include "engine/core/c_library_identity.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/program_identity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

@@ -15,7 +15,7 @@ namespace asperity {
 std::string utc_now();
 
 // Processor and its vector instructions, number of processors, memory in bytes, operating system; C library
-// and how its functions round here (c_library_identity.hpp), identity of the build. What cannot be found is
+// and how its functions round here (program_identity.hpp), identity of the build. What cannot be found is
 // left out. Found out once: a process that will be shut off from /proc asks before.
 Json machine_facts();
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <limits>
 
-#include "engine/core/build_identity.hpp"
+#include "engine/core/program_identity.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::result_files_test {

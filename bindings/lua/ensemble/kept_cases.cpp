@@ -6,10 +6,10 @@
 #include <filesystem>
 
 #include "bindings/lua/registry/session.hpp"
-#include "engine/core/c_library_identity.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/files/byte_string.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/core/program_identity.hpp"
 #include "engine/run/ranks.hpp"
 #include "engine/run/run_facts.hpp"
 

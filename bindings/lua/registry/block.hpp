@@ -20,7 +20,7 @@
 
 #include "bindings/lua/registry/argument.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/number_range.hpp"
+#include "engine/core/options.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 

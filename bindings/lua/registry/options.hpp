@@ -15,7 +15,7 @@
 #include "bindings/lua/registry/block.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
-#include "engine/core/number_range.hpp"
+#include "engine/core/options.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A block whose options the engine tells (core/option_row.hpp): read, reported and documented as every other
+// A block whose options the engine tells (core/options.hpp): read, reported and documented as every other
 // block, into the struct of whoever told them.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bindings/lua/registry/block.hpp"
-#include "engine/core/option_row.hpp"
+#include "engine/core/options.hpp"
 
 namespace asperity::lua {
 

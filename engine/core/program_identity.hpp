@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What runs: the identity that the linker stamped on the object which holds this code (the GNU build id, a
+// digest of its machine code), for two builds of one version may round differently; and the C library, with
+// how its sines, exponentials and powers round here: it chooses them by the processor when the program
+// starts. Results of the engine do not depend on it (arithmetic/elementary_functions.hpp); what a script
+// computes itself by `^` and `math`, and contacts spread over ranks, do.
+#pragma once
+
+#include <string>
+
+namespace asperity {
+
+// Of the build, hexadecimal digits; "" where the linker stamped none.
+std::string build_identity();
+
+// "glibc 2.36"; "" where the library does not say.
+std::string c_library_version();
+
+// A digest of values of its functions, 32 hexadecimal digits: equal where scripts find the same numbers. Made
+// at the first call, in about a millisecond. Thread-safe.
+const std::string& c_library_functions();
+
+}  // namespace asperity
