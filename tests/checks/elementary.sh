@@ -13,7 +13,7 @@ names="$names|hypot|cbrt|erf|erfc|tgamma|lgamma|polar|arg|sincos|cyl_bessel_[a-z
 names="$names|(comp_)?ellint_[123]|riemann_zeta|beta|legendre|laguerre|hermite"
 found=0
 if grep -rnE "(std|__builtin)(::|_)($names)[fl]?\b *\(" engine bindings/lua --include='*.cpp' --include='*.hpp' |
-  grep -v '^engine/core/c_library_identity\.cpp:'; then
+  grep -v '^engine/core/program_identity\.cpp:'; then
   echo "use elementary:: of engine/core/arithmetic/elementary_functions.hpp: the C library rounds by the processor"
   found=1
 fi
