@@ -544,7 +544,7 @@ function Profile:write(path) end
 ---@field indentation? number approach over the peak-to-valley of the combined heights (number)
 ---@field flatten? number share of the peak-to-valley pressed away (number from 0 to 1)
 ---@field dwell? number|string how long the load stays; read by creep alone (a time at least 0)
----@field drawn_from? number|string|any|any[] of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from there; or a list of values gone to in turn (number|string|(number|string)[])
+---@field preload? number|string|any|any[] of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from there; or a list of values gone to in turn (number|string|(number|string)[])
 
 ---@class asperity.options.contact.sweep
 ---@field pressure? number|string[] a list: mean pressure over the tile (a pressure[])
@@ -572,7 +572,7 @@ function Profile:write(path) end
 ---@field indentation? number approach over the peak-to-valley of the combined heights (number)
 ---@field flatten? number share of the peak-to-valley pressed away (number from 0 to 1)
 ---@field dwell? number|string how long the load stays; read by creep alone (a time at least 0)
----@field drawn_from? number|string|any|any[] of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from there; or a list of values gone to in turn (number|string|(number|string)[])
+---@field preload? number|string|any|any[] of bodies that attract each other: pressed to this first, in the same quantity, and drawn back from there; or a list of values gone to in turn (number|string|(number|string)[])
 
 ---Two specimens on the bench, how the upper lies on the lower, and what the scene computes: the one value that changes.
 ---@class asperity.Contact
@@ -658,12 +658,12 @@ function Contact:close() end
 ---@field peak_pressure number greatest pressure (Pa)
 ---@field separation number of the mean planes of the bodies where they face each other, undeformed, as they stand under this load (m)
 ---@field mean_gap number mean of the gap, 0 in contact, over the part of the tile where the bodies face each other (m)
----@field stiffness number d pressure / d approach at this contact set; math.huge where all of a periodic tile touches (Pa/m)
+---@field stiffness number d pressure / d approach at this contact set; math.huge where all of a periodic half-space touches (Pa/m)
 ---@field secant_stiffness number pressure over approach; math.huge of flats that carry a load and come no nearer (Pa/m)
 ---@field energy number elastic energy in the tile (J)
 ---@field plastic_volume number volume this press took from both bodies; needs plasticity (m^3)
 ---@field plastic_fraction number share of the tile at the cap; needs plasticity
----@field drawn_from number[] the branch of bodies that attract each other: values of the prescribed quantity gone to in turn before this one; empty where they were brought together from apart
+---@field preload number[] the branch of bodies that attract each other: values of the prescribed quantity gone to in turn before this one; empty where they were brought together from apart
 ---@field iterations integer of the solver; 0 for a closed form
 ---@field residual number greatest entry of the certificate
 ---@field certificate asperity.Certificate how far the contact conditions are from being met, each relative; with `adhesion` these bound tractions and not lengths: gaps and approaches may be off by more
@@ -672,7 +672,7 @@ function Contact:close() end
 ---@field effects_run string[] effects that were computed
 ---@field effects_off string[] effects that the scene does not name
 ---@field error asperity.StateError how far these numbers are from exact
----@field chosen asperity.ChosenAccuracy|nil cells, tolerance and precision that were chosen for accuracy={ error= }, and why; nil otherwise
+---@field chosen asperity.ChosenAccuracy|nil cells and tolerance that were chosen for accuracy={ error= }, and why; nil otherwise
 ---@field cost asperity.StateCost seconds, transforms, bytes, and by effect
 ---@field digest string of pressures and approach
 local State = {}

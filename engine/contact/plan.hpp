@@ -64,7 +64,7 @@ struct Plan {
   std::string press{};                // which press that is of and how it is known; empty: none was named
   double seconds = 0;                 // expected for the first press, a rough guess
   Accuracy accuracy;
-  std::string choice;    // of cells, tolerance and precision for an error that was asked for; empty: none
+  std::string choice;    // of cells and tolerance for an error that was asked for; empty: none
   std::string estimate;  // what is solved beside it for the discretisation error; empty: nothing
   Effects effects;       // of the scene, with what their defaults come to here
   std::vector<std::string> effects_run;

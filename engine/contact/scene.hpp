@@ -36,10 +36,10 @@ struct Accuracy {
   // The other cells on which each press is solved as well, for an estimate of the error of the grid.
   enum class Estimate { none, coarser, finer };
   Estimate estimate = Estimate::none;
-  // Choose cells, tolerance and precision for this error (accuracy/accuracy_choice.hpp); a solver does not
+  // Choose cells and tolerance for this error (accuracy/accuracy_choice.hpp); a solver does not
   // read it.
   std::optional<AskedError> asked{};
-  bool chosen = false;  // cells, tolerance and precision are those that were chosen for it
+  bool chosen = false;  // cells and tolerance are those that were chosen for it
 };
 
 struct Scene {
