@@ -6,6 +6,7 @@
 // Needs an installed Asperity: Debian's way, libasperity-dev, or `cmake --install` and CMAKE_PREFIX_PATH.
 #include <cstdio>
 
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 

@@ -108,7 +108,7 @@ TEST(Completion, OffersTheKeysThatACallStillTakes) {
   EXPECT_EQ(keys, (Names{"lower", "upper", "boundary", "effects", "accuracy"}));
   EXPECT_EQ(texts("lab.contact{ lower=s, upper = lab.rigid, |"), (Names{"boundary", "effects", "accuracy"}));
   EXPECT_EQ(texts("lab.contact{ lower=s, |, accuracy={} }"), (Names{"upper", "boundary", "effects"}));
-  EXPECT_EQ(texts("local c = lab.contact{}\nc:press{ pre|"), Names{"pressure"});
+  EXPECT_EQ(texts("local c = lab.contact{}\nc:press{ pres|"), Names{"pressure"});
   const Candidate pressure = found("local c = lab.contact{}\nc:press{ |", "pressure");
   EXPECT_EQ(pressure.kind, "key");
   EXPECT_NE(pressure.detail.find("in Pa"), std::string::npos) << pressure.detail;

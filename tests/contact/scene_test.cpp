@@ -44,9 +44,10 @@ TEST(Scene, AreasAreWithinTheRangeOfADouble) {
 TEST(Scene, StiffnessMustBeFiniteAndPositive) {
   for (const double stiffness :
        {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_NE(
-        error_of([&] { check(test::boxes(random_surface(2, 2, 1), stiffness)); }).find("`stiffness` is "),
-        std::string::npos);
+    EXPECT_NE(error_of([&] {
+                check(test::boxes(random_surface(2, 2, 1), stiffness));
+              }).find("`stiffness` of elasticity=\"box\" is "),
+              std::string::npos);
 }
 
 TEST(Scene, ToleranceAndPrecisionAreChecked) {

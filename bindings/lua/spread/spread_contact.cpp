@@ -121,15 +121,16 @@ const Block<spread_SceneKeys>& spread_scene_block() {
                          value, info, "a material or lab.rigid; over ranks the upper body is flat", problems);
                  })
            .required(),
-       custom<K>("boundary", "\"periodic\"", "the tile goes on beyond its rim",
-                 [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
-                   if (value.is_text() && value.text() == "free")
-                     problems.push_back(
-                         "`boundary` is \"free\", not computed over ranks; give \"periodic\", or use "
-                         "lab.contact");
-                   else if (!value.is_text() || value.text() != "periodic")
-                     detail::wrong_type(value, info, "\"periodic\"", problems);
-                 })
+       custom<K>(
+           "boundary", "\"periodic\"", "the tile goes on beyond its rim",
+           [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
+             if (value.is_text() && value.text() == "free")
+               problems.push_back(
+                   "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or use "
+                   "lab.contact");
+             else if (!value.is_text() || value.text() != "periodic")
+               detail::wrong_type(value, info, "\"periodic\"", problems);
+           })
            .required(),
        custom<K>(
            "effects", "table",
