@@ -101,7 +101,7 @@ SHARED_BY_REPRODUCTIONS = ("tests/reproductions/beginning.sh", "tests/reproducti
 USED_BY_REPRODUCTIONS = ("tests/scripts/runner/run_script", "tests/scripts/runner/process", "tests/scripts/runner/saying",
                          "tests/web/client", "tests/page/browser", "tests/page/mock_server", "tests/page/run")
 # What runs over the ranks of mpirun.
-RANKS = re.compile("slab|mpi|spread|ranks|ensemble|scheduler|parcel|^engine/core/|^bindings/(cli/|main)")
+RANKS = re.compile("slab|mpi|spread|ranks|ensemble|scheduler|packed_value|^engine/core/|^bindings/(cli/|main)")
 # Files of the build: what differs there may change anything.
 BUILD = re.compile(r"\.ci/|cmake/|tests/support/|(?!examples/)(.*/)?CMakeLists\.txt$|.*\.cmake$|(CMakePresets\.json|lab|\.clang-format)$")
 # Says which commit was checked as a whole, and nothing else.

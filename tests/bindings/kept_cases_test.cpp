@@ -24,8 +24,8 @@ class Bench {
   Bench() : session_(Monitor::silent()), state_(make_state(session_, "")) {}
   lua_State* L() const { return state_.get(); }
 
-  // What a chunk returns, as a parcel.
-  std::shared_ptr<const Parcel> value(const std::string& chunk, Cargo cargo = Cargo::data) const {
+  // What a chunk returns, as a packed value.
+  std::shared_ptr<const PackedValue> value(const std::string& chunk, Cargo cargo = Cargo::data) const {
     lua_settop(L(), 0);
     const std::string text = "local lab = require 'asperity' " + chunk;
     if (luaL_loadbufferx(L(), text.data(), text.size(), "=chunk", "t") != LUA_OK ||
@@ -34,7 +34,7 @@ class Bench {
     return pack(L(), -1, cargo, "run(case)", "");
   }
   // Whether a chunk given the value returns true.
-  bool holds(const std::shared_ptr<const Parcel>& value, const std::string& condition) const {
+  bool holds(const std::shared_ptr<const PackedValue>& value, const std::string& condition) const {
     lua_settop(L(), 0);
     const std::string text = "local r = ... return " + condition;
     EXPECT_EQ(luaL_loadbufferx(L(), text.data(), text.size(), "=condition", "t"), LUA_OK);
@@ -51,8 +51,8 @@ class Bench {
   State state_;
 };
 
-std::shared_ptr<const Parcel> again(const std::shared_ptr<const Parcel>& value) {
-  return Parcel::from_bytes(value->bytes("run(case)"));
+std::shared_ptr<const PackedValue> again(const std::shared_ptr<const PackedValue>& value) {
+  return PackedValue::from_bytes(value->bytes("run(case)"));
 }
 
 TEST(ParcelBytes, KeepNumbersToTheBit) {
@@ -129,14 +129,14 @@ TEST(ParcelBytes, AnyDamageIsAnErrorOrAValue) {
       bench.value("return { 1, 'x', { a = lab.material{ young = 1, poisson = 0.3 }, b = -0.0 } }")
           ->bytes("run(case)");
   for (std::size_t length = 0; length < bytes.size(); ++length)
-    EXPECT_THROW((void)Parcel::from_bytes(std::string_view(bytes).substr(0, length)), Error) << length;
-  EXPECT_THROW((void)Parcel::from_bytes(bytes + '\0'), Error);
+    EXPECT_THROW((void)PackedValue::from_bytes(std::string_view(bytes).substr(0, length)), Error) << length;
+  EXPECT_THROW((void)PackedValue::from_bytes(bytes + '\0'), Error);
   for (std::size_t k = 0; k < bytes.size(); ++k)
     for (const unsigned bit : {0U, 3U, 7U}) {
       std::string torn = bytes;
       torn[k] = static_cast<char>(static_cast<unsigned char>(torn[k]) ^ (1U << bit));
       try {
-        (void)Parcel::from_bytes(torn);
+        (void)PackedValue::from_bytes(torn);
       } catch (const Error& error) {
         EXPECT_TRUE(error.code() == ErrorCode::bad_file || error.code() == ErrorCode::bad_value);
       }
@@ -184,7 +184,7 @@ TEST(CaseBytes, KeepAFailure) {
 }
 
 // Digests of rows stand in journals, which later versions replay.
-TEST(ParcelDigest, IsThatOfEarlierJournals) {
+TEST(PackedValueDigest, IsThatOfEarlierJournals) {
   const Bench bench;
   Record record;
   record.name = "roughness";
@@ -242,7 +242,7 @@ TEST(ParcelContent, F12IsTheSameHoweverTheScriptIsNamed) {
     return pack(L, -1, Cargo::functions, "run", "")->content(session.script);
   };
   const std::string plain = "return function(case) return { y = 2 * case.k } end";
-  const Parcel::Content first = content(typed[0], plain);
+  const PackedValue::Content first = content(typed[0], plain);
   for (const Typed& other : typed) {
     EXPECT_EQ(content(other, plain).digest, first.digest) << other.script.path;
     EXPECT_EQ(content(other, plain).lines, first.lines) << other.script.path;

@@ -181,7 +181,7 @@ bool has_drawn(lua_State* L, int random, lua_Integer first) {
   return drawn;
 }
 
-std::shared_ptr<const Parcel> call_run(lua_State* L, const CaseSetup& setup, CaseNotes& notes) {
+std::shared_ptr<const PackedValue> call_run(lua_State* L, const CaseSetup& setup, CaseNotes& notes) {
   const lua_Integer first = first_draw(L, setup.seed);
   const int random = lua_gettop(L) - 1;
   lua_pushcfunction(L, traceback_handler);

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "bindings/lua/ensemble/parcel.hpp"
+#include "bindings/lua/ensemble/packed_value.hpp"
 #include "bindings/lua/registry/case_input.hpp"
 #include "bindings/lua/registry/lua_api.hpp"
 #include "engine/run/case_scheduler.hpp"
@@ -28,12 +28,12 @@ class Variation;
 
 struct CaseValue {
   std::string key;
-  std::shared_ptr<const Parcel> value;
+  std::shared_ptr<const PackedValue> value;
   std::string text;  // "2.5", "\"cold\"", "a surface"
 };
 
 struct CaseSetup {
-  std::shared_ptr<const Parcel> run;
+  std::shared_ptr<const PackedValue> run;
   std::vector<CaseValue> values;  // in the order in which messages name them
   std::uint64_t seed = 1;
   bool trusted = false;
@@ -49,8 +49,8 @@ struct CaseSetup {
 };
 
 struct CaseResult : FinishedCase {
-  std::shared_ptr<const Parcel> row;  // null if it failed
-  std::string digest;                 // of the row
+  std::shared_ptr<const PackedValue> row;  // null if it failed
+  std::string digest;                      // of the row
   std::vector<CaseInput> inputs;
   bool drew = false;  // random numbers, which its seed decides
   double seconds = 0;

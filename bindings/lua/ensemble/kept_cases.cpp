@@ -86,7 +86,7 @@ CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>&
   ByteReader in(bytes);
   if (in.text() != case_form) ByteReader::damaged();
   CaseResult result;
-  if (in.truth()) result.row = Parcel::from_bytes(in.text(), natives(given));
+  if (in.truth()) result.row = PackedValue::from_bytes(in.text(), natives(given));
   for (std::string* text : {&result.digest, &result.failure, &result.output}) *text = in.text();
   for (std::size_t left = in.count(); left > 0; --left) result.warnings.push_back(in.text());
   for (std::size_t left = in.count(); left > 0; --left) {
@@ -108,7 +108,7 @@ ResultStore* results_for_cases(const Session& session) {
   return session.ranks != nullptr ? session.ranks->own_store : session.monitor().results();
 }
 
-KeptCases::KeptCases(const Session& session, const Parcel& run) {
+KeptCases::KeptCases(const Session& session, const PackedValue& run) {
   if (session.dry_run) return;
   if (session.trusted || session.refinement != nullptr || session.variation != nullptr) return;
   store_ = results_for_cases(session);
@@ -125,7 +125,7 @@ std::string KeptCases::key_of(const CaseSetup& setup, bool drew) const {
   digester.add(static_cast<std::int64_t>(setup.values.size()));
   bool whole = content_.whole;
   for (const CaseValue& value : setup.values) {
-    const Parcel::Content content = value.value->content();
+    const PackedValue::Content content = value.value->content();
     whole = whole && content.whole;
     digester.add(value.key).add(content.digest);
   }

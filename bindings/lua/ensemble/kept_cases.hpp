@@ -30,7 +30,7 @@ ResultStore* results_for_cases(const Session& session);
 // Of one ensemble. Thread-safe.
 class KeptCases {
  public:
-  KeptCases(const Session& session, const Parcel& run);
+  KeptCases(const Session& session, const PackedValue& run);
 
   // None where it is not kept or no longer holds. A failure counts only `with_failures`.
   std::optional<CaseResult> find(const CaseSetup& setup, bool with_failures) const;
@@ -41,7 +41,7 @@ class KeptCases {
   std::string key_of(const CaseSetup& setup, bool drew) const;
 
   ResultStore* store_ = nullptr;
-  Parcel::Content content_;
+  PackedValue::Content content_;
   std::string folder_;  // of the script
   std::string script_;  // what else the key holds where values cannot be told by their digest
 };

@@ -61,20 +61,20 @@ std::string kind_of_userdata(const Argument& value) {
 // value itself stays on the Lua stack at the frame's index, so nothing is recursive.
 class Packer {
  public:
-  Packer(lua_State* state, Parcel& parcel, Cargo cargo, std::string name, std::string hint)
+  Packer(lua_State* state, PackedValue& packed, Cargo cargo, std::string name, std::string hint)
       : L(state),
-        parcel_(parcel),
+        packed_(packed),
         cargo_(cargo),
         name_(std::move(name)),
         hint_(std::move(hint)),
         base_(state) {}
 
-  void pack_root(int index) { parcel_.root_ = pack(index); }
+  void pack_root(int index) { packed_.root_ = pack(index); }
 
-  Parcel::Item pack(int index) {
+  PackedValue::Item pack(int index) {
     const Argument::StackGuard guard(L);
     lua_pushvalue(L, index);
-    Parcel::Item root = take();
+    PackedValue::Item root = take();
     while (!frames_.empty()) advance();
     return root;
   }
@@ -83,7 +83,7 @@ class Packer {
   void pack_additions() {
     with_globals([&](const Argument& globals) {
       const Argument::StackGuard guard(L);
-      parcel_.strict_globals_ = lua_getmetatable(L, globals.index()) != 0;
+      packed_.strict_globals_ = lua_getmetatable(L, globals.index()) != 0;
       pack_additions(globals, {"_G", ""});
       for (const std::string_view library : base_libraries)
         with_key(globals, library, [&](const Argument& table) {
@@ -104,10 +104,10 @@ class Packer {
 
   // The value on top of the stack as an item. It is popped, unless it opens a frame, which pops it
   // when it is done.
-  Parcel::Item take() {
+  PackedValue::Item take() {
     if (lua_checkstack(L, 16) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
     const Argument value(L, -1);
-    Parcel::Item item;
+    PackedValue::Item item;
     switch (lua_type(L, -1)) {
       case LUA_TNIL:
         break;
@@ -133,10 +133,10 @@ class Packer {
     return item;
   }
 
-  Parcel::Item take_object(const Argument& value) {
+  PackedValue::Item take_object(const Argument& value) {
     const void* identity = lua_topointer(L, -1);
     if (const auto known = seen_.find(identity); known != seen_.end())
-      return popped(Parcel::NodeId{known->second});
+      return popped(PackedValue::NodeId{known->second});
     if (const BasePath* path = base_.find(L, -1)) {
       if (cargo_ == Cargo::data) refuse("a part of Lua's library");
       return popped(base(*path));
@@ -147,10 +147,10 @@ class Packer {
           if (cargo_ == Cargo::data) refuse("a part of the laboratory");
           return popped(module);
         }
-        return open(identity, Parcel::Table{static_cast<std::uint32_t>(std::min<lua_Unsigned>(
-                                                lua_rawlen(L, -1), lua_Unsigned{1} << 26)),
-                                            {},
-                                            {}});
+        return open(identity, PackedValue::Table{static_cast<std::uint32_t>(std::min<lua_Unsigned>(
+                                                     lua_rawlen(L, -1), lua_Unsigned{1} << 26)),
+                                                 {},
+                                                 {}});
       case LUA_TFUNCTION:
         if (cargo_ == Cargo::data) refuse("a function");
         return lua_iscfunction(L, -1) != 0 ? take_host_function(identity) : take_function(identity);
@@ -161,14 +161,14 @@ class Packer {
     }
   }
 
-  Parcel::Item take_function(const void* identity) {
-    Parcel::ScriptFunction function;
+  PackedValue::Item take_function(const void* identity) {
+    PackedValue::ScriptFunction function;
     if (lua_dump(L, append_code, &function.code, 0) != 0)
       throw Error(ErrorCode::out_of_memory, "there is no memory for the code of a function");
     return open(identity, std::move(function));
   }
 
-  Parcel::Item take_host_function(const void* identity) {
+  PackedValue::Item take_host_function(const void* identity) {
     const lua_CFunction function = lua_tocfunction(L, -1);
     const bool has_state = lua_getupvalue(L, -1, 1) != nullptr;
     if (has_state) lua_pop(L, 1);
@@ -176,10 +176,10 @@ class Packer {
     const BasePath* path = base_function(function);
     if (path != nullptr && (has_state || *path == BasePath{"_G", "print"})) return popped(base(*path));
     if (!has_state) return popped(function);
-    return open(identity, Parcel::HostFunction{function, {}});
+    return open(identity, PackedValue::HostFunction{function, {}});
   }
 
-  Parcel::Item take_userdata(const void* identity, const Argument& value) {
+  PackedValue::Item take_userdata(const void* identity, const Argument& value) {
     if (const Object* object = value.as_any_object()) {
       if (object->closed) refuse(object->type->article_name + " that was closed");
       if (!object->type->shareable) refuse(object->type->article_name);
@@ -198,21 +198,21 @@ class Packer {
   }
 
   template <class T>
-  Parcel::Item popped(T item) {
+  PackedValue::Item popped(T item) {
     lua_pop(L, 1);
-    return Parcel::Item(std::move(item));
+    return PackedValue::Item(std::move(item));
   }
 
-  Parcel::NodeId add_node(const void* identity, Parcel::Node node) {
-    const auto index = static_cast<std::uint32_t>(parcel_.nodes_.size());
-    parcel_.nodes_.push_back(std::move(node));
+  PackedValue::NodeId add_node(const void* identity, PackedValue::Node node) {
+    const auto index = static_cast<std::uint32_t>(packed_.nodes_.size());
+    packed_.nodes_.push_back(std::move(node));
     seen_.emplace(identity, index);
     order_.push_back(identity);
     return {index};
   }
 
-  Parcel::Item open(const void* identity, Parcel::Node node) {
-    const Parcel::NodeId id = add_node(identity, std::move(node));
+  PackedValue::Item open(const void* identity, PackedValue::Node node) {
+    const PackedValue::NodeId id = add_node(identity, std::move(node));
     frames_.push_back({Frame::Phase::begin, id.index, lua_gettop(L), 0});
     return id;
   }
@@ -222,10 +222,10 @@ class Packer {
     frames_.pop_back();
   }
 
-  Parcel::BaseId base(const BasePath& path) {
-    const auto found = std::find(parcel_.bases_.begin(), parcel_.bases_.end(), path);
-    const auto index = static_cast<std::uint32_t>(found - parcel_.bases_.begin());
-    if (found == parcel_.bases_.end()) parcel_.bases_.push_back(path);
+  PackedValue::BaseId base(const BasePath& path) {
+    const auto found = std::find(packed_.bases_.begin(), packed_.bases_.end(), path);
+    const auto index = static_cast<std::uint32_t>(found - packed_.bases_.begin());
+    if (found == packed_.bases_.end()) packed_.bases_.push_back(path);
     return {index};
   }
 
@@ -233,17 +233,19 @@ class Packer {
   // reference across it.
   void advance() {
     const std::uint32_t node = frames_.back().node;
-    if (std::holds_alternative<Parcel::Table>(parcel_.nodes_[node]))
+    if (std::holds_alternative<PackedValue::Table>(packed_.nodes_[node]))
       advance_table(node);
     else
       advance_function(node);
   }
 
   void advance_table(std::uint32_t node) {
-    const auto table = [&]() -> Parcel::Table& { return std::get<Parcel::Table>(parcel_.nodes_[node]); };
+    const auto table = [&]() -> PackedValue::Table& {
+      return std::get<PackedValue::Table>(packed_.nodes_[node]);
+    };
     const std::size_t depth = frames_.size();
     const int index = frames_.back().index;
-    Parcel::Item item;
+    PackedValue::Item item;
     switch (frames_.back().phase) {
       case Frame::Phase::begin:
         frames_.back().phase = Frame::Phase::entries;
@@ -288,29 +290,29 @@ class Packer {
 
   void advance_function(std::uint32_t node) {
     const std::size_t depth = frames_.size();
-    const bool script = std::holds_alternative<Parcel::ScriptFunction>(parcel_.nodes_[node]);
+    const bool script = std::holds_alternative<PackedValue::ScriptFunction>(packed_.nodes_[node]);
     while (frames_.size() == depth) {
       const int index = frames_.back().index;
       const int upvalue = ++frames_.back().upvalue;
       if (lua_getupvalue(L, index, upvalue) == nullptr) return close();
       if (!script) {
-        Parcel::Item item = take();
-        std::get<Parcel::HostFunction>(parcel_.nodes_[node]).upvalues.push_back(std::move(item));
+        PackedValue::Item item = take();
+        std::get<PackedValue::HostFunction>(packed_.nodes_[node]).upvalues.push_back(std::move(item));
         continue;
       }
       const void* identity = lua_upvalueid(L, index, upvalue);
       const auto [known, is_new] =
-          cell_of_.try_emplace(identity, static_cast<std::uint32_t>(parcel_.cells_.size()));
+          cell_of_.try_emplace(identity, static_cast<std::uint32_t>(packed_.cells_.size()));
       const std::uint32_t cell = known->second;
-      std::get<Parcel::ScriptFunction>(parcel_.nodes_[node]).cells.push_back(cell);
+      std::get<PackedValue::ScriptFunction>(packed_.nodes_[node]).cells.push_back(cell);
       if (!is_new) {
         lua_pop(L, 1);
         continue;
       }
       cell_order_.push_back(identity);
-      parcel_.cells_.push_back({{}, node, upvalue});
-      Parcel::Item item = take();
-      parcel_.cells_[cell].value = std::move(item);
+      packed_.cells_.push_back({{}, node, upvalue});
+      PackedValue::Item item = take();
+      packed_.cells_[cell].value = std::move(item);
     }
   }
 
@@ -350,19 +352,19 @@ class Packer {
     table.each([&](const Argument& key, const Argument& value) {
       if (!key.is_text() && !key.is_number()) return;
       if (is_original(value, path.library, key)) return;
-      const std::size_t nodes = parcel_.nodes_.size(), cells = parcel_.cells_.size();
+      const std::size_t nodes = packed_.nodes_.size(), cells = packed_.cells_.size();
       name_ = path.library + step_of(key);
       if (path.library == "_G") name_.erase(0, name_.starts_with("_G.") ? 3 : 2);
       try {
-        Parcel::Item item = pack(value.index());
-        Parcel::Item name = key.is_text()   ? Parcel::Item(std::string(key.text()))
-                            : key.integer() ? Parcel::Item(*key.integer())
-                                            : Parcel::Item(key.number());
-        parcel_.additions_.push_back({base(path), {std::move(name), std::move(item)}});
+        PackedValue::Item item = pack(value.index());
+        PackedValue::Item name = key.is_text()   ? PackedValue::Item(std::string(key.text()))
+                                 : key.integer() ? PackedValue::Item(*key.integer())
+                                                 : PackedValue::Item(key.number());
+        packed_.additions_.push_back({base(path), {std::move(name), std::move(item)}});
       } catch (const Error& error) {
         if (error.code() != ErrorCode::not_permitted) throw;
         forget(nodes, cells);
-        if (path.library == "_G" && key.is_text()) parcel_.left_behind_.emplace(key.text(), error.sentence());
+        if (path.library == "_G" && key.is_text()) packed_.left_behind_.emplace(key.text(), error.sentence());
       }
     });
   }
@@ -385,12 +387,12 @@ class Packer {
     frames_.clear();
     for (; order_.size() > nodes; order_.pop_back()) seen_.erase(order_.back());
     for (; cell_order_.size() > cells; cell_order_.pop_back()) cell_of_.erase(cell_order_.back());
-    parcel_.nodes_.resize(nodes, Parcel::Node(Value()));
-    parcel_.cells_.resize(cells);
+    packed_.nodes_.resize(nodes, PackedValue::Node(Value()));
+    packed_.cells_.resize(cells);
   }
 
   lua_State* L;
-  Parcel& parcel_;
+  PackedValue& packed_;
   Cargo cargo_;
   std::string name_, hint_;
   BaseLibrary base_;
@@ -399,13 +401,13 @@ class Packer {
   std::vector<const void*> order_, cell_order_;
 };
 
-std::shared_ptr<const Parcel> pack(lua_State* L, int index, Cargo cargo, const std::string& name,
-                                   const std::string& hint) {
-  auto parcel = std::make_shared<Parcel>();
-  Packer packer(L, *parcel, cargo, name, hint);
+std::shared_ptr<const PackedValue> pack(lua_State* L, int index, Cargo cargo, const std::string& name,
+                                        const std::string& hint) {
+  auto packed = std::make_shared<PackedValue>();
+  Packer packer(L, *packed, cargo, name, hint);
   packer.pack_root(index);
   if (cargo == Cargo::functions) packer.pack_additions();
-  return parcel;
+  return packed;
 }
 
 }  // namespace asperity::lua

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "bindings/lua/ensemble/parcel.hpp"
+#include "bindings/lua/ensemble/packed_value.hpp"
 #include "bindings/lua/registry/lua_api.hpp"
 
 namespace asperity::lua {
@@ -22,7 +22,7 @@ enum class Cargo {
 // Packs the value at an index, which the messages call `name`; `hint` ends them. Reads without raising
 // and runs no Lua code. Cost: linear in what is reached, with no limit on depth. Throws
 // Error{not_permitted} for what cannot travel, Error{out_of_memory}.
-std::shared_ptr<const Parcel> pack(lua_State* L, int index, Cargo cargo, const std::string& name,
-                                   const std::string& hint);
+std::shared_ptr<const PackedValue> pack(lua_State* L, int index, Cargo cargo, const std::string& name,
+                                        const std::string& hint);
 
 }  // namespace asperity::lua

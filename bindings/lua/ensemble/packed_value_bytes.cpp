@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "bindings/lua/ensemble/parcel.hpp"
+#include "bindings/lua/ensemble/packed_value.hpp"
 #include "bindings/lua/registry/value_visitor.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/surface.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view form = "asperity value 1";
 // Results within results: more than any has, and less than the stack holds.
-constexpr int deepest_parcel = 200;
+constexpr int deepest_packed = 200;
 
 enum class Tag : std::uint8_t {
   nil,
@@ -57,16 +57,16 @@ const Value* same_object(const Object& object, const std::vector<Value>& given, 
 
 }  // namespace
 
-struct Parcel::Writer : ValueVisitor {
-  const Parcel& parcel;
+struct PackedValue::Writer : ValueVisitor {
+  const PackedValue& packed;
   const std::string& name;
   const std::vector<Value>& given;
   ByteWriter out{};
   std::uint32_t node = 0;  // being written
   int depth = 0;
 
-  Writer(const Parcel& written, const std::string& called, const std::vector<Value>& at_hand)
-      : parcel(written), name(called), given(at_hand) {}
+  Writer(const PackedValue& written, const std::string& called, const std::vector<Value>& at_hand)
+      : packed(written), name(called), given(at_hand) {}
 
   void tag(Tag value) { out.number(static_cast<std::uint8_t>(value)); }
   template <class T>
@@ -77,11 +77,11 @@ struct Parcel::Writer : ValueVisitor {
 
   // "run(case).bench": through the tables that lead to a node.
   std::string path_to(std::uint32_t to, int steps = 0) const {
-    if (const auto* root = std::get_if<NodeId>(&parcel.root_);
+    if (const auto* root = std::get_if<NodeId>(&packed.root_);
         steps > 50 || (root != nullptr && root->index == to))
       return name;
-    for (std::uint32_t k = 0; k < parcel.nodes_.size(); ++k) {
-      const auto* table = std::get_if<Table>(&parcel.nodes_[k]);
+    for (std::uint32_t k = 0; k < packed.nodes_.size(); ++k) {
+      const auto* table = std::get_if<Table>(&packed.nodes_[k]);
       if (table == nullptr || k == to) continue;
       for (const Entry& entry : table->entries) {
         const auto* id = std::get_if<NodeId>(&entry.value);
@@ -142,8 +142,8 @@ struct Parcel::Writer : ValueVisitor {
     }
   }
   void begin(const Value&) {
-    if (++depth > deepest_parcel)
-      refuse("results within results, more than " + std::to_string(deepest_parcel) + " deep");
+    if (++depth > deepest_packed)
+      refuse("results within results, more than " + std::to_string(deepest_packed) + " deep");
   }
   void end() { --depth; }
   void named(std::size_t count) { out.number(static_cast<std::uint64_t>(count)); }
@@ -221,14 +221,14 @@ struct Parcel::Writer : ValueVisitor {
 
   std::string all() {
     out.text(form);
-    out.number(static_cast<std::uint64_t>(parcel.nodes_.size()));
-    for (node = 0; node < parcel.nodes_.size(); ++node) {
-      if (const auto* value = std::get_if<Value>(&parcel.nodes_[node])) {
+    out.number(static_cast<std::uint64_t>(packed.nodes_.size()));
+    for (node = 0; node < packed.nodes_.size(); ++node) {
+      if (const auto* value = std::get_if<Value>(&packed.nodes_[node])) {
         out.number(false);
         visit_value(*value, *this);
         continue;
       }
-      const auto* table = std::get_if<Table>(&parcel.nodes_[node]);
+      const auto* table = std::get_if<Table>(&packed.nodes_[node]);
       if (table == nullptr || !std::holds_alternative<std::monostate>(table->metatable)) refuse("a function");
       out.number(true);
       out.number(table->length);
@@ -238,12 +238,12 @@ struct Parcel::Writer : ValueVisitor {
         write(entry.value);
       }
     }
-    write(parcel.root_);
+    write(packed.root_);
     return out.take();
   }
 };
 
-struct Parcel::Reader {
+struct PackedValue::Reader {
   ByteReader in;
   const std::vector<Value>& given;
   std::size_t nodes = 0;
@@ -328,7 +328,7 @@ struct Parcel::Reader {
   }
   Value value() { return value(tag()); }
   Value value(Tag kind) {
-    if (++depth > deepest_parcel) ByteReader::damaged();
+    if (++depth > deepest_packed) ByteReader::damaged();
     Value result = [&]() -> Value {
       switch (kind) {
         case Tag::nil:
@@ -395,13 +395,13 @@ struct Parcel::Reader {
         plain.data);
   }
 
-  std::shared_ptr<const Parcel> all() {
+  std::shared_ptr<const PackedValue> all() {
     if (in.text() != form) ByteReader::damaged();
-    auto parcel = std::make_shared<Parcel>();
+    auto packed = std::make_shared<PackedValue>();
     nodes = in.count(2);
     for (std::size_t k = 0; k < nodes; ++k) {
       if (!in.truth()) {
-        parcel->nodes_.emplace_back(value());
+        packed->nodes_.emplace_back(value());
         continue;
       }
       Table table;
@@ -416,19 +416,20 @@ struct Parcel::Reader {
         entry.value = item();
         table.entries.push_back(std::move(entry));
       }
-      parcel->nodes_.emplace_back(std::move(table));
+      packed->nodes_.emplace_back(std::move(table));
     }
-    parcel->root_ = item();
+    packed->root_ = item();
     if (!in.at_end()) ByteReader::damaged();
-    return parcel;
+    return packed;
   }
 };
 
-std::string Parcel::bytes(const std::string& name, const std::vector<Value>& given) const {
+std::string PackedValue::bytes(const std::string& name, const std::vector<Value>& given) const {
   return Writer(*this, name, given).all();
 }
 
-std::shared_ptr<const Parcel> Parcel::from_bytes(std::string_view bytes, const std::vector<Value>& given) {
+std::shared_ptr<const PackedValue> PackedValue::from_bytes(std::string_view bytes,
+                                                           const std::vector<Value>& given) {
   return Reader{ByteReader(bytes), given}.all();
 }
 

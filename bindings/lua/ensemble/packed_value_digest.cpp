@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Digests of a parcel: of a row, which journals hold; and of what a function and everything it reaches would
-// do, which other processes of this build come to as well. Nothing in them depends on addresses or on the
-// order of keys in memory: what is met is numbered in the order in which sorted keys and upvalues lead to it.
+// Digests of a packed value: of a row, which journals hold; and of what a function and everything it reaches
+// would do, which other processes of this build come to as well. Nothing in them depends on addresses or on
+// the order of keys in memory: what is met is numbered in the order in which sorted keys and upvalues lead to
+// it.
 #include <dlfcn.h>
 
 #include <algorithm>
 #include <optional>
 #include <type_traits>
 
-#include "bindings/lua/ensemble/parcel.hpp"
+#include "bindings/lua/ensemble/packed_value.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/value_visitor.hpp"
 #include "bindings/lua/runtime/code_digest.hpp"
@@ -57,7 +58,7 @@ class MetOrder {
 
 }  // namespace
 
-bool Parcel::before(const Entry& a, const Entry& b) {
+bool PackedValue::before(const Entry& a, const Entry& b) {
   const auto rank = [](const Item& item) {
     return std::holds_alternative<std::int64_t>(item) || std::holds_alternative<double>(item) ? 0
            : std::holds_alternative<std::string>(item)                                        ? 1
@@ -79,18 +80,18 @@ bool Parcel::before(const Entry& a, const Entry& b) {
 }
 
 // Keys that have no order of their own keep that of memory: two runs may then differ, and not find.
-Array<Parcel::Entry> Parcel::in_order(Array<Entry> entries) {
+Array<PackedValue::Entry> PackedValue::in_order(Array<Entry> entries) {
   std::sort(entries.begin(), entries.end(), before);
   return entries;
 }
 
-struct Parcel::RowDigest : ValueVisitor {
-  const Parcel& parcel;
+struct PackedValue::RowDigest : ValueVisitor {
+  const PackedValue& packed;
   Digester digester{};
-  MetOrder nodes{parcel.nodes_.size()};
+  MetOrder nodes{packed.nodes_.size()};
   const Value* value = nullptr;  // being visited
 
-  explicit RowDigest(const Parcel& row) : parcel(row) {}
+  explicit RowDigest(const PackedValue& row) : packed(row) {}
 
   void begin(const Value& visited) { value = &visited; }
   using ValueVisitor::enter;
@@ -126,7 +127,7 @@ struct Parcel::RowDigest : ValueVisitor {
                                std::is_same_v<Held, std::string>) {
             digester.add(held);
           } else if constexpr (std::is_same_v<Held, NodeId>) {
-            if (const Value* native = std::get_if<Value>(&parcel.nodes_[held.index]))
+            if (const Value* native = std::get_if<Value>(&packed.nodes_[held.index]))
               visit_value(*native, *this);
             else
               digester.add(nodes.number(held.index));
@@ -138,9 +139,9 @@ struct Parcel::RowDigest : ValueVisitor {
   }
 
   std::string all() {
-    add(parcel.root_);
+    add(packed.root_);
     while (const auto node = nodes.next()) {
-      const Table* table = std::get_if<Table>(&parcel.nodes_[*node]);
+      const Table* table = std::get_if<Table>(&packed.nodes_[*node]);
       if (table == nullptr) continue;
       digester.add(static_cast<std::int64_t>(table->entries.size()));
       for (const Entry& entry : in_order(table->entries)) {
@@ -152,18 +153,18 @@ struct Parcel::RowDigest : ValueVisitor {
   }
 };
 
-std::string Parcel::digest() const { return RowDigest(*this).all(); }
+std::string PackedValue::digest() const { return RowDigest(*this).all(); }
 
-struct Parcel::ContentDigest : ValueVisitor {
-  const Parcel& parcel;
+struct PackedValue::ContentDigest : ValueVisitor {
+  const PackedValue& packed;
   const ScriptSpelling& spelling;
   Digester digester{}, lines{};
   bool whole = true;
-  MetOrder nodes{parcel.nodes_.size()}, cells{parcel.cells_.size()};
+  MetOrder nodes{packed.nodes_.size()}, cells{packed.cells_.size()};
   std::optional<std::uint32_t> arguments{};  // the node of `arg`, where only its name leads there
   bool names_arguments = false;
 
-  ContentDigest(const Parcel& reached, const ScriptSpelling& names) : parcel(reached), spelling(names) {}
+  ContentDigest(const PackedValue& reached, const ScriptSpelling& names) : packed(reached), spelling(names) {}
 
   // A function of the program: where it lies in the file it was loaded from.
   void add_place(const void* address) {
@@ -230,7 +231,7 @@ struct Parcel::ContentDigest : ValueVisitor {
           } else if constexpr (std::is_same_v<Held, NodeId>) {
             digester.add(nodes.number(held.index));
           } else if constexpr (std::is_same_v<Held, BaseId>) {
-            add(parcel.bases_[held.index]);
+            add(packed.bases_[held.index]);
           } else if constexpr (std::is_same_v<Held, const Module*>) {
             digester.add(held->path);
           } else if constexpr (std::is_same_v<Held, lua_CFunction>) {
@@ -260,14 +261,14 @@ struct Parcel::ContentDigest : ValueVisitor {
     return key != nullptr && *key == 0 && name != nullptr && *name == spelling.path;
   }
   bool is_arguments(const Addition& addition) const {
-    const BasePath& base = parcel.bases_[addition.table.index];
+    const BasePath& base = packed.bases_[addition.table.index];
     const auto* key = std::get_if<std::string>(&addition.entry.key);
     return base.library == "_G" && base.key.empty() && key != nullptr && *key == "arg" &&
            std::holds_alternative<NodeId>(addition.entry.value);
   }
   // The path of `require` as a script's state begins with it.
   bool is_path_of_script(const Addition& addition) const {
-    const BasePath& base = parcel.bases_[addition.table.index];
+    const BasePath& base = packed.bases_[addition.table.index];
     const auto *key = std::get_if<std::string>(&addition.entry.key),
                *path = std::get_if<std::string>(&addition.entry.value);
     return base.library == "package" && base.key.empty() && key != nullptr && *key == "path" &&
@@ -306,13 +307,13 @@ struct Parcel::ContentDigest : ValueVisitor {
   void everything_reached() {
     for (;;) {
       if (const auto node = nodes.next()) {
-        const Table* table = std::get_if<Table>(&parcel.nodes_[*node]);
+        const Table* table = std::get_if<Table>(&packed.nodes_[*node]);
         if (table != nullptr && arguments == *node && !names_arguments)
           add(*table, true);
         else
-          std::visit([&](const auto& held) { add(held); }, parcel.nodes_[*node]);
+          std::visit([&](const auto& held) { add(held); }, packed.nodes_[*node]);
       } else if (const auto cell = cells.next()) {
-        add(parcel.cells_[*cell].value);
+        add(packed.cells_[*cell].value);
       } else {
         return;
       }
@@ -320,13 +321,13 @@ struct Parcel::ContentDigest : ValueVisitor {
   }
 
   Content all() {
-    add(parcel.root_);
+    add(packed.root_);
     everything_reached();
-    digester.add(parcel.strict_globals_ ? 1 : 0);
+    digester.add(packed.strict_globals_ ? 1 : 0);
     std::vector<const Addition*> additions;
-    for (const Addition& addition : parcel.additions_) additions.push_back(&addition);
+    for (const Addition& addition : packed.additions_) additions.push_back(&addition);
     std::ranges::sort(additions, [&](const Addition* a, const Addition* b) {
-      const BasePath &first = parcel.bases_[a->table.index], &second = parcel.bases_[b->table.index];
+      const BasePath &first = packed.bases_[a->table.index], &second = packed.bases_[b->table.index];
       if (first.library != second.library) return first.library < second.library;
       return before(a->entry, b->entry);
     });
@@ -338,7 +339,7 @@ struct Parcel::ContentDigest : ValueVisitor {
         last = addition;
         continue;
       }
-      add(parcel.bases_[addition->table.index]);
+      add(packed.bases_[addition->table.index]);
       add(addition->entry.key);
       add(addition->entry.value);
     }
@@ -346,7 +347,7 @@ struct Parcel::ContentDigest : ValueVisitor {
     if (last == nullptr) return {digester.hex(), lines.hex(), whole};
     const std::uint32_t node = std::get<NodeId>(last->entry.value).index;
     if (!nodes.knows(node)) arguments = node;
-    add(parcel.bases_[last->table.index]);
+    add(packed.bases_[last->table.index]);
     add(last->entry.key);
     add(last->entry.value);
     everything_reached();
@@ -354,7 +355,7 @@ struct Parcel::ContentDigest : ValueVisitor {
   }
 };
 
-Parcel::Content Parcel::content(const ScriptSpelling& spelling) const {
+PackedValue::Content PackedValue::content(const ScriptSpelling& spelling) const {
   return ContentDigest(*this, spelling).all();
 }
 

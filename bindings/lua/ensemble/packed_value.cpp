@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/ensemble/parcel.hpp"
+#include "bindings/lua/ensemble/packed_value.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -36,11 +36,11 @@ int clipped(std::size_t n) { return static_cast<int>(std::min<std::size_t>(n, 1 
 }  // namespace
 
 // Lua may raise out of any of these calls, so nothing here owns anything.
-struct Parcel::Pusher {
-  const Parcel& parcel;
+struct PackedValue::Pusher {
+  const PackedValue& packed;
   lua_State* L;
   int made;   // list of the nodes
-  int bases;  // list of the values of Lua's library that the parcel refers to
+  int bases;  // list of the values of Lua's library that the packed value refers to
 
   void item(const Item& value) const {
     std::visit(
@@ -85,7 +85,7 @@ struct Parcel::Pusher {
   }
   void fill(const ScriptFunction& function, std::size_t node) const {
     for (std::size_t k = 0; k < function.cells.size(); ++k) {
-      const Cell& cell = parcel.cells_[function.cells[k]];
+      const Cell& cell = packed.cells_[function.cells[k]];
       const int upvalue = static_cast<int>(k) + 1;
       if (cell.node == node && cell.upvalue == upvalue) {
         item(cell.value);
@@ -107,21 +107,21 @@ struct Parcel::Pusher {
 
   void everything() const {
     // Lua's own values first: the script may have put others in their place.
-    for (std::size_t k = 0; k < parcel.bases_.size(); ++k) {
-      push_base(L, parcel.bases_[k]);
+    for (std::size_t k = 0; k < packed.bases_.size(); ++k) {
+      push_base(L, packed.bases_[k]);
       lua_rawseti(L, bases, static_cast<lua_Integer>(k) + 1);
     }
-    for (std::size_t k = 0; k < parcel.nodes_.size(); ++k) {
-      std::visit([&](const auto& node) { make(node); }, parcel.nodes_[k]);
+    for (std::size_t k = 0; k < packed.nodes_.size(); ++k) {
+      std::visit([&](const auto& node) { make(node); }, packed.nodes_[k]);
       lua_rawseti(L, made, static_cast<lua_Integer>(k) + 1);
     }
-    for (std::size_t k = 0; k < parcel.nodes_.size(); ++k) {
-      if (std::holds_alternative<Value>(parcel.nodes_[k])) continue;
+    for (std::size_t k = 0; k < packed.nodes_.size(); ++k) {
+      if (std::holds_alternative<Value>(packed.nodes_[k])) continue;
       lua_rawgeti(L, made, static_cast<lua_Integer>(k) + 1);
-      std::visit([&](const auto& node) { fill(node, k); }, parcel.nodes_[k]);
+      std::visit([&](const auto& node) { fill(node, k); }, packed.nodes_[k]);
       lua_pop(L, 1);
     }
-    for (const Addition& addition : parcel.additions_) {
+    for (const Addition& addition : packed.additions_) {
       item(addition.table);
       item(addition.entry.key);
       item(addition.entry.value);
@@ -131,7 +131,7 @@ struct Parcel::Pusher {
   }
 };
 
-void Parcel::push(lua_State* L) const {
+void PackedValue::push(lua_State* L) const {
   luaL_checkstack(L, 16, "a value is too large");
   if (!strict_globals_) {
     lua_pushglobaltable(L);
@@ -157,7 +157,7 @@ std::string step_text(std::string_view key) {
   return name ? "." + std::string(key) : "[\"" + std::string(key.substr(0, 40)) + "\"]";
 }
 
-const Value* Parcel::native() const {
+const Value* PackedValue::native() const {
   const auto* id = std::get_if<NodeId>(&root_);
   return id == nullptr ? nullptr : std::get_if<Value>(&nodes_[id->index]);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A Lua value outside any Lua state: a graph of tables, functions and native values that can be put
 // into other states, as often as wanted, each time as a fresh copy. Identity is kept within one
-// parcel: a table met twice is one table, local functions that share an upvalue go on sharing it,
-// cycles stay cycles. Native values are shared, never copied. Parcels are filled by pack() of
+// packed value: a table met twice is one table, local functions that share an upvalue go on sharing it,
+// cycles stay cycles. Native values are shared, never copied. Packed values are filled by pack() of
 // transfer.hpp and are immutable from then on; any number of threads may put one into their states.
 #pragma once
 
@@ -27,11 +27,11 @@ struct Module;
 // How a table leads on to what it holds under a text, in the words of an error: ".bench", "[\"two words\"]".
 std::string step_text(std::string_view key);
 
-class Parcel final : public StoredValue {
+class PackedValue final : public StoredValue {
  public:
   // Makes the value in a state and leaves it on the stack; one made by make_state if functions came
   // along. What the script added to the globals and to Lua's own tables is made there too. Cost: linear
-  // in the parcel. Raises on lack of memory: call inside protect().
+  // in the packed value. Raises on lack of memory: call inside protect().
   void push(lua_State* L) const override;
 
   // Of the content of data: the same for equal values, whatever the order of keys in memory.
@@ -43,8 +43,8 @@ class Parcel final : public StoredValue {
   // Cost: linear. bytes() throws Error{not_permitted} for what bytes cannot carry, saying how it is reached
   // from `name`; from_bytes() Error{bad_file} for anything that bytes() did not write.
   std::string bytes(const std::string& name, const std::vector<Value>& given = {}) const;
-  static std::shared_ptr<const Parcel> from_bytes(std::string_view bytes,
-                                                  const std::vector<Value>& given = {});
+  static std::shared_ptr<const PackedValue> from_bytes(std::string_view bytes,
+                                                       const std::vector<Value>& given = {});
   // The native value that is the whole of it; null where it is something else.
   const Value* native() const;
 
