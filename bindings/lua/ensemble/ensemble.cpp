@@ -374,7 +374,7 @@ Values ensemble(Call& call) {
       one.seed = seeds.bits(k);
       return one;
     };
-    const KeptCases kept(session, *common.run);
+    const StoredCases kept(session, *common.run);
     std::string place = where(call.L);
     place = place.empty() ? "of the script" : "at " + place.substr(0, place.size() - 2);
     std::vector<CaseResult> results = run_cases(keys.count(), setup, kept, place, session);

@@ -12,7 +12,8 @@ namespace {
 
 class ScriptedCases final : public EnsembleCases {
  public:
-  ScriptedCases(std::size_t count, const std::function<CaseSetup(std::size_t)>& setup, const KeptCases& kept)
+  ScriptedCases(std::size_t count, const std::function<CaseSetup(std::size_t)>& setup,
+                const StoredCases& kept)
       : count_(count), setup_(setup), kept_(kept) {}
 
   std::size_t count() const override { return count_; }
@@ -47,14 +48,14 @@ class ScriptedCases final : public EnsembleCases {
  private:
   const std::size_t count_;
   const std::function<CaseSetup(std::size_t)>& setup_;
-  const KeptCases& kept_;
+  const StoredCases& kept_;
   RunningStates states_;
 };
 
 }  // namespace
 
 std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
-                                  const KeptCases& kept, const std::string& place, Session& session) {
+                                  const StoredCases& kept, const std::string& place, Session& session) {
   ScriptedCases scripted(cases, setup, kept);
   CaseSchedule schedule{session.monitor()};
   schedule.place = place;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bindings/lua/ensemble/ensemble_case.hpp"
-#include "bindings/lua/ensemble/kept_cases.hpp"
+#include "bindings/lua/ensemble/stored_cases.hpp"
 #include "bindings/lua/registry/session.hpp"
 
 namespace asperity::lua {
@@ -17,6 +17,6 @@ namespace asperity::lua {
 // setup(k) describes case k and is called from several threads at once. Throws what run_cases of the
 // scheduler throws; `place` is that of the ensemble in the script.
 std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
-                                  const KeptCases& kept, const std::string& place, Session& session);
+                                  const StoredCases& kept, const std::string& place, Session& session);
 
 }  // namespace asperity::lua

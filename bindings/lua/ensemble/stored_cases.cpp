@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/ensemble/kept_cases.hpp"
+#include "bindings/lua/ensemble/stored_cases.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -108,7 +108,7 @@ ResultStore* results_for_cases(const Session& session) {
   return session.ranks != nullptr ? session.ranks->own_store : session.monitor().results();
 }
 
-KeptCases::KeptCases(const Session& session, const PackedValue& run) {
+StoredCases::StoredCases(const Session& session, const PackedValue& run) {
   if (session.dry_run) return;
   if (session.trusted || session.refinement != nullptr || session.variation != nullptr) return;
   store_ = results_for_cases(session);
@@ -118,7 +118,7 @@ KeptCases::KeptCases(const Session& session, const PackedValue& run) {
   if (!content_.whole) script_ = session.script_digest + " " + std::to_string(session.ensembles);
 }
 
-std::string KeptCases::key_of(const CaseSetup& setup, bool drew) const {
+std::string StoredCases::key_of(const CaseSetup& setup, bool drew) const {
   Digester digester;
   // A case's own arithmetic is the C library's: machines where that rounds otherwise do not share cases.
   digester.add(case_form).add(c_library_functions()).add(content_.digest).add(setup.depth);
@@ -136,7 +136,7 @@ std::string KeptCases::key_of(const CaseSetup& setup, bool drew) const {
   return "case " + digester.hex();
 }
 
-std::optional<CaseResult> KeptCases::find(const CaseSetup& setup, bool with_failures) const {
+std::optional<CaseResult> StoredCases::find(const CaseSetup& setup, bool with_failures) const {
   if (store_ == nullptr) return {};
   for (const bool drew : {false, true}) {
     try {
@@ -158,7 +158,7 @@ std::optional<CaseResult> KeptCases::find(const CaseSetup& setup, bool with_fail
   return {};
 }
 
-void KeptCases::keep(const CaseSetup& setup, const CaseResult& result, bool always) const {
+void StoredCases::keep(const CaseSetup& setup, const CaseResult& result, bool always) const {
   if (store_ == nullptr || (result.row == nullptr && !always)) return;
   std::string bytes;
   try {

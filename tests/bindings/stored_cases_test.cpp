@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of cases as bytes, bit for bit; what bytes cannot carry; and what decides whether two functions are
 // the same.
-#include "bindings/lua/ensemble/kept_cases.hpp"
+#include "bindings/lua/ensemble/stored_cases.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/error.hpp"
 
-namespace asperity::lua::kept_cases_test {
+namespace asperity::lua::stored_cases_test {
 namespace {
 
 class Bench {
@@ -273,4 +273,4 @@ TEST(CodeDigest, TakesWhatItDoesNotUnderstandAsItIs) {
 }
 
 }  // namespace
-}  // namespace asperity::lua::kept_cases_test
+}  // namespace asperity::lua::stored_cases_test

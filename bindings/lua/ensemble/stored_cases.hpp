@@ -28,9 +28,9 @@ CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>&
 ResultStore* results_for_cases(const Session& session);
 
 // Of one ensemble. Thread-safe.
-class KeptCases {
+class StoredCases {
  public:
-  KeptCases(const Session& session, const PackedValue& run);
+  StoredCases(const Session& session, const PackedValue& run);
 
   // None where it is not kept or no longer holds. A failure counts only `with_failures`.
   std::optional<CaseResult> find(const CaseSetup& setup, bool with_failures) const;
