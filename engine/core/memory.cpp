@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <string>
 
+#include "engine/core/block_pool.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/kept_blocks.hpp"
 #include "engine/core/sanitizers.hpp"
 #include "engine/core/text.hpp"
 
@@ -28,8 +28,8 @@ constexpr double mebibyte = 1024.0 * 1024.0;
 
 // Enough for the fields of a solve on 1024². Nothing is kept from a sanitizer, which is to see what is used
 // after it was released. Never destroyed: arrays of static lifetime are released after all else.
-KeptBlocks& kept() {
-  static KeptBlocks& blocks = *new KeptBlocks(sanitized ? 0 : std::size_t{128} << 20);
+BlockPool& kept() {
+  static BlockPool& blocks = *new BlockPool(sanitized ? 0 : std::size_t{128} << 20);
   return blocks;
 }
 

@@ -10,13 +10,13 @@
 
 namespace asperity::memory {
 
-class KeptBlocks {
+class BlockPool {
  public:
   // Blocks are of std::malloc's family.
-  explicit KeptBlocks(std::size_t most_bytes) : most_bytes_(most_bytes) {}
-  ~KeptBlocks() { drop(); }
-  KeptBlocks(const KeptBlocks&) = delete;
-  KeptBlocks& operator=(const KeptBlocks&) = delete;
+  explicit BlockPool(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+  ~BlockPool() { drop(); }
+  BlockPool(const BlockPool&) = delete;
+  BlockPool& operator=(const BlockPool&) = delete;
 
   // Worth keeping: small ones are kept by std::malloc, and one great one would put out all others.
   bool takes(std::size_t bytes) const { return bytes >= least_bytes && bytes <= most_bytes_ / 4; }

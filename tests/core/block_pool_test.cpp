@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/kept_blocks.hpp"
+#include "engine/core/block_pool.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,15 +8,15 @@
 #include <thread>
 #include <vector>
 
-namespace asperity::memory::kept_blocks_test {
+namespace asperity::memory::block_pool_test {
 namespace {
 
 constexpr std::size_t kibibyte = 1024, page = 64 * kibibyte;
 
 void* block(std::size_t bytes) { return std::aligned_alloc(64, bytes); }
 
-TEST(KeptBlocks, GiveBackTheLastOfTheSameSize) {
-  KeptBlocks kept(1024 * kibibyte);
+TEST(BlockPool, GiveBackTheLastOfTheSameSize) {
+  BlockPool kept(1024 * kibibyte);
   void* const first = block(page);
   void* const second = block(page);
   void* const other = block(2 * page);
@@ -32,8 +32,8 @@ TEST(KeptBlocks, GiveBackTheLastOfTheSameSize) {
   std::free(second);
 }
 
-TEST(KeptBlocks, HoldNoMoreThanTheyMayAndTheNewest) {
-  KeptBlocks kept(8 * page);
+TEST(BlockPool, HoldNoMoreThanTheyMayAndTheNewest) {
+  BlockPool kept(8 * page);
   std::vector<void*> all;
   for (int k = 0; k < 20; ++k) {
     all.push_back(block(page));
@@ -49,8 +49,8 @@ TEST(KeptBlocks, HoldNoMoreThanTheyMayAndTheNewest) {
   EXPECT_EQ(kept.take(page), nullptr);
 }
 
-TEST(KeptBlocks, LeaveSmallAndGreatOnesAlone) {
-  KeptBlocks kept(8 * page), none(0);
+TEST(BlockPool, LeaveSmallAndGreatOnesAlone) {
+  BlockPool kept(8 * page), none(0);
   void* const small = block(kibibyte);
   void* const great = block(3 * page);
   EXPECT_FALSE(kept.give(small, kibibyte));
@@ -61,8 +61,8 @@ TEST(KeptBlocks, LeaveSmallAndGreatOnesAlone) {
   std::free(great);
 }
 
-TEST(KeptBlocks, AreDroppedWhenMemoryIsWanted) {
-  KeptBlocks kept(8 * page);
+TEST(BlockPool, AreDroppedWhenMemoryIsWanted) {
+  BlockPool kept(8 * page);
   ASSERT_TRUE(kept.give(block(page), page));
   kept.drop();
   EXPECT_EQ(kept.bytes(), 0U);
@@ -70,8 +70,8 @@ TEST(KeptBlocks, AreDroppedWhenMemoryIsWanted) {
 }
 
 // No two hold the same block at once.
-TEST(KeptBlocks, ServeManyThreads) {
-  KeptBlocks kept(8 * page);
+TEST(BlockPool, ServeManyThreads) {
+  BlockPool kept(8 * page);
   std::vector<int> torn(4, 0);
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t)
@@ -90,4 +90,4 @@ TEST(KeptBlocks, ServeManyThreads) {
 }
 
 }  // namespace
-}  // namespace asperity::memory::kept_blocks_test
+}  // namespace asperity::memory::block_pool_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/kept_blocks.hpp"
+#include "engine/core/block_pool.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -7,7 +7,7 @@
 
 namespace asperity::memory {
 
-void* KeptBlocks::take(std::size_t bytes) {
+void* BlockPool::take(std::size_t bytes) {
   if (!takes(bytes)) return nullptr;
   const std::lock_guard lock(mutex_);
   const auto found = std::find_if(blocks_.rbegin(), blocks_.rend(),
@@ -19,7 +19,7 @@ void* KeptBlocks::take(std::size_t bytes) {
   return block;
 }
 
-bool KeptBlocks::give(void* block, std::size_t bytes) noexcept {
+bool BlockPool::give(void* block, std::size_t bytes) noexcept {
   if (!takes(bytes)) return false;
   const std::lock_guard lock(mutex_);
   try {
@@ -32,17 +32,17 @@ bool KeptBlocks::give(void* block, std::size_t bytes) noexcept {
   return true;
 }
 
-void KeptBlocks::drop() noexcept {
+void BlockPool::drop() noexcept {
   const std::lock_guard lock(mutex_);
   while (!blocks_.empty()) drop_oldest();
 }
 
-std::size_t KeptBlocks::bytes() const {
+std::size_t BlockPool::bytes() const {
   const std::lock_guard lock(mutex_);
   return bytes_;
 }
 
-void KeptBlocks::drop_oldest() noexcept {
+void BlockPool::drop_oldest() noexcept {
   std::free(blocks_.front().at);
   bytes_ -= blocks_.front().bytes;
   blocks_.pop_front();
