@@ -186,10 +186,10 @@ std::vector<Grid> grids_to_try(const Grid& given, const Grid& finest) {
 }
 
 // The trial before, and the finer of the two grids that it was compared with.
-std::shared_ptr<const OtherGrids> coarser_than(const PressRequest& request, const State& before) {
-  std::vector<OtherGrids::Level> levels{{before.beside(nullptr), 2.0},
-                                        before.other_grids()->levels().front()};
-  return std::make_shared<const OtherGrids>(request, std::move(levels));
+std::shared_ptr<const CompanionGrids> coarser_than(const PressRequest& request, const State& before) {
+  std::vector<CompanionGrids::Level> levels{{before.beside(nullptr), 2.0},
+                                            before.companion_grids()->levels().front()};
+  return std::make_shared<const CompanionGrids>(request, std::move(levels));
 }
 
 [[noreturn]] void refuse(const ChosenAccuracy& reached, const std::string& where) {

@@ -43,7 +43,7 @@ double lacks_by_touch(const State& state, const StateQuantity& quantity) {
 }
 
 bool follows_touch(const State& state, const StateQuantity& quantity) {
-  return state.other_grids()->request().by == PressBy::approach && lacks_by_touch(state, quantity) != 0;
+  return state.companion_grids()->request().by == PressBy::approach && lacks_by_touch(state, quantity) != 0;
 }
 
 struct Differences {
@@ -53,7 +53,7 @@ struct Differences {
 
 Differences differences(const State& state, const StateQuantity& quantity, double order,
                         bool mended = false) {
-  const auto levels = state.other_grids()->levels();
+  const auto levels = state.companion_grids()->levels();
   const auto of = [&](const State& grid) {
     return quantity.of(grid) + (mended ? lacks_by_touch(grid, quantity) : 0.0);
   };
@@ -90,7 +90,7 @@ double area_unit(const State& state, const StateQuantity& quantity) {
 void estimate_by_finer(const State& state, const StateQuantity& quantity, bool by_approach, bool wraps,
                        DiscretisationEstimate& result) {
   const CellError& cells = *quantity.cells;
-  const State& finer = state.other_grids()->levels().front().state;
+  const State& finer = state.companion_grids()->levels().front().state;
   const double value = result.value;
   result.margin = cells.finer_margin;
   double better = quantity.of(finer);
@@ -102,7 +102,7 @@ void estimate_by_finer(const State& state, const StateQuantity& quantity, bool b
   }
   if (cells.kind == Kind::approach && !by_approach)
     better += rise_between_nodes(finer.geometry().combined(), wraps);
-  if (state.other_grids()->request().by == PressBy::approach) better += lacks_by_touch(finer, quantity);
+  if (state.companion_grids()->request().by == PressBy::approach) better += lacks_by_touch(finer, quantity);
   if (better == value) return;  // infinite ones too
   result.error = cells.growth * std::abs(value - better);
   if (cells.kind == Kind::corrected)
@@ -176,21 +176,21 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
                     did_you_mean(name, estimated_quantities()),
                 "there is one of " + joined(estimated_quantities()));
   const CellError& cells = *found->cells;
-  if (!state.other_grids())
+  if (!state.companion_grids())
     throw Error(ErrorCode::bad_state,
                 "the discretisation error of " + quoted(name) + " was not estimated in this press",
                 "give lab.contact accuracy={ estimate=true }, which solves coarser grids as well");
-  if (is_prescribed(name, state.other_grids()->request().by) || state.load() == 0) {
+  if (is_prescribed(name, state.companion_grids()->request().by) || state.load() == 0) {
     const double value = found->of(state);
     return {value, 0, value, cells.margin};
   }
-  const bool by_approach = prescribes_approach(state.other_grids()->request().by);
+  const bool by_approach = prescribes_approach(state.companion_grids()->request().by);
   const auto wraps = state.geometry().boundary() == Boundary::periodic;
   DiscretisationEstimate result;
   if (found->name == "secant_stiffness" && std::isinf(state.secant_stiffness()))
     return {state.secant_stiffness(), 0, state.secant_stiffness(), cells.margin};
-  if (found->name == "secant_stiffness" && state.other_grids()->request().by != PressBy::flatten &&
-      state.other_grids()->request().by != PressBy::indentation) {
+  if (found->name == "secant_stiffness" && state.companion_grids()->request().by != PressBy::flatten &&
+      state.companion_grids()->request().by != PressBy::indentation) {
     // The error of what is not prescribed of its two.
     const auto part = discretisation_estimate(state, by_approach ? "pressure" : "approach");
     result.value = result.extrapolated = state.secant_stiffness();
@@ -203,7 +203,7 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
   result.margin = cells.margin;
   result.value = found->of(state);
   result.extrapolated = result.value;
-  if (state.other_grids()->finer()) {
+  if (state.companion_grids()->finer()) {
     estimate_by_finer(state, *found, by_approach, wraps, result);
     return result;
   }
@@ -257,7 +257,7 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
 }
 
 std::string discretisation_text(const State& state) {
-  if (!state.other_grids()) return {};
+  if (!state.companion_grids()) return {};
   const auto error = [&](const char* name) { return discretisation_estimate(state, name).error; };
   std::string text = "error of the grid, estimated: approach " +
                      format_quantity(error("approach"), dimension::length, 2) + ", area fraction " +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far the numbers of a state are from those of an ever finer grid: an estimate, by Richardson (1911),
-// from the same press of the same bodies on other grids. A quantity that errs by C h^p changes by
+// from the same press of the same bodies on companion grids. A quantity that errs by C h^p changes by
 // C h^p (r^p - 1) to a grid r times coarser, and p is fixed for each quantity by measurement; but much of
 // what cells do to a contact is chance. The area is judged by its own outline, and the first touch, the top
 // of the highest peak between its nodes, by the parabola through them. An estimate is no bound; of 100 scenes
@@ -30,7 +30,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/accuracy/other_grids.hpp"
+#include "engine/accuracy/companion_grids.hpp"
 #include "engine/contact/state.hpp"
 
 namespace asperity {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/accuracy/other_grids.hpp"
+#include "engine/accuracy/companion_grids.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"

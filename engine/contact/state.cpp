@@ -137,9 +137,9 @@ State State::costing_also(const StateCost& more) const {
   return result;
 }
 
-State State::beside(std::shared_ptr<const OtherGrids> other_grids) const {
+State State::beside(std::shared_ptr<const CompanionGrids> companion_grids) const {
   State result = *this;
-  result.other_grids_ = std::move(other_grids);
+  result.companion_grids_ = std::move(companion_grids);
   return result;
 }
 

@@ -22,7 +22,7 @@
 namespace asperity {
 
 struct ChosenAccuracy;
-class OtherGrids;
+class CompanionGrids;
 struct Plan;
 
 struct StateCost {
@@ -86,11 +86,11 @@ class State {
   const StateCost& cost() const;  // of the press, not of what was asked afterwards
   // The same state, its cost increased by what was done for it beforehand or afterwards.
   State costing_also(const StateCost& more) const;
-  // The same press on other grids, from which discretisation_error.hpp estimates the error of the grid, and
-  // the accuracy that was chosen for an error asked for. Null where the scene did not ask for them.
-  const std::shared_ptr<const OtherGrids>& other_grids() const { return other_grids_; }
+  // The same press on companion grids, from which discretisation_error.hpp estimates the error of the grid,
+  // and the accuracy that was chosen for an error asked for. Null where the scene did not ask for them.
+  const std::shared_ptr<const CompanionGrids>& companion_grids() const { return companion_grids_; }
   const std::shared_ptr<const ChosenAccuracy>& chosen() const { return chosen_; }
-  State beside(std::shared_ptr<const OtherGrids> other_grids) const;
+  State beside(std::shared_ptr<const CompanionGrids> companion_grids) const;
   State chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const;
   const std::string& digest() const;  // of pressures, load and approach
 
@@ -134,7 +134,7 @@ class State {
  private:
   std::shared_ptr<Shared> shared_;
   std::shared_ptr<const StateCost> cost_;
-  std::shared_ptr<const OtherGrids> other_grids_;
+  std::shared_ptr<const CompanionGrids> companion_grids_;
   std::shared_ptr<const ChosenAccuracy> chosen_;
 };
 

@@ -35,7 +35,7 @@ Plan planned(const Scene& scene, const ContactGeometry& geometry) {
   return plan;
 }
 
-// Solves the other grids of the estimate; what they cost is counted as `estimate`.
+// Solves the companion grids of the estimate; what they cost is counted as `estimate`.
 State with_estimate(const Scene& scene, const ContactGeometry& geometry, const Plan& plan,
                     const PressRequest& request, State state, const ChosenAccuracy* chosen,
                     Monitor& monitor) {

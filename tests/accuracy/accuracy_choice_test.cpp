@@ -272,7 +272,7 @@ TEST(SpecimenPair, AnEstimateIsPartOfThePress) {
   EXPECT_FALSE(watcher.falls_);
   EXPECT_GE(watcher.last_, 0.75);
   EXPECT_EQ(state.digest(), bare.digest());
-  EXPECT_EQ(bare.other_grids(), nullptr);
+  EXPECT_EQ(bare.companion_grids(), nullptr);
   ASSERT_EQ(state.cost().by_effect.size(), 2u);
   EXPECT_EQ(state.cost().by_effect[1].first, "estimate");
   EXPECT_EQ(state.cost().by_effect[0].second.transforms, bare.cost().total.transforms);
@@ -293,7 +293,7 @@ TEST(SpecimenPair, AnEstimateFromAFinerGridIsPartOfThePress) {
   EXPECT_EQ(state.cost().by_effect[1].first, "estimate");
   EXPECT_EQ(state.cost().by_effect[0].second.transforms, bare.cost().total.transforms);
   EXPECT_GT(state.cost().by_effect[1].second.transforms, 7 * bare.cost().total.transforms);
-  EXPECT_EQ(state.other_grids()->levels()[0].state.geometry().grid().nx, 192);
+  EXPECT_EQ(state.companion_grids()->levels()[0].state.geometry().grid().nx, 192);
 }
 
 TEST(SpecimenPair, APressWhoseFinerGridFailsLeavesThePair) {

@@ -232,7 +232,7 @@ TEST(EstimateFromAFinerGrid, HertzErrorsAreWithinAFactorOfThree) {
   for (const double a : {0.13, 0.21, 0.31}) {
     const State state =
         pressed_beside_finer(half_space(paraboloid(64), Boundary::free), {PressBy::load, hertz_load(a), {}});
-    EXPECT_EQ(state.other_grids()->levels()[0].state.geometry().grid().nx, 192);
+    EXPECT_EQ(state.companion_grids()->levels()[0].state.geometry().grid().nx, 192);
     const double area = std::numbers::pi * a * a;
     const std::pair<const char*, double> exact[] = {
         {"area_fraction", area}, {"approach", a * a / 10}, {"energy", 0.4 * hertz_load(a) * a * a / 10}};
@@ -344,7 +344,7 @@ TEST(DiscretisationEstimate, SaysWhatIsMissing) {
   Scene scene = half_space(paraboloid(32), Boundary::free);
   scene.accuracy.estimate = Accuracy::Estimate::none;
   const State state = test::press(scene, PressBy::load, hertz_load(0.2));
-  EXPECT_EQ(state.other_grids(), nullptr);
+  EXPECT_EQ(state.companion_grids(), nullptr);
   EXPECT_EQ(error_of([&] { discretisation_estimate(state, "approach"); }),
             "the discretisation error of `approach` was not estimated in this press; give lab.contact "
             "accuracy={ estimate=true }, which solves coarser grids as well");

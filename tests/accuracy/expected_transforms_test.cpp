@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "engine/accuracy/other_grids.hpp"
+#include "engine/accuracy/companion_grids.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/laws_met.hpp"

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "engine/accuracy/companion_grids.hpp"
 #include "engine/accuracy/discretisation_error.hpp"
-#include "engine/accuracy/other_grids.hpp"
 #include "engine/contact/effects/adhesion.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/box/box_plan.hpp"
@@ -343,7 +343,7 @@ TEST(OverhangingBodies, EstimatesGoOverTheOverlap) {
     for (const auto& other :
          {solve_coarser(scene, *turned.geometry, turned.plan, request, Monitor::silent()),
           solve_finer(scene, *turned.geometry, turned.plan, request, Monitor::silent())}) {
-      for (const OtherGrids::Level& level : other->levels()) {
+      for (const CompanionGrids::Level& level : other->levels()) {
         expect_nothing_off_the_overlap(level.state, std::to_string(level.state.grid().nx));
         EXPECT_NEAR(level.state.overlap_fraction(), state.overlap_fraction(), 0.12);
       }

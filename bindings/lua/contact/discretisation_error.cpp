@@ -24,12 +24,13 @@ Values extrapolated(Call& call) {
 
 std::string describe_error(const void* self) {
   const auto& state = static_cast<const DiscretisationError*>(self)->state;
-  if (!state.other_grids())
+  if (!state.companion_grids())
     return "discretisation error: not estimated; give lab.contact accuracy={ estimate=true }";
   std::string text = "discretisation error, estimated from";
-  for (const OtherGrids::Level& level : state.other_grids()->levels()) {
+  for (const CompanionGrids::Level& level : state.companion_grids()->levels()) {
     const Grid& grid = level.state.geometry().grid();
-    text += (&level == state.other_grids()->levels().data() ? " " : " and ") + cells_text(grid.nx, grid.ny);
+    text +=
+        (&level == state.companion_grids()->levels().data() ? " " : " and ") + cells_text(grid.nx, grid.ny);
   }
   for (const std::string_view name :
        {"approach", "area_fraction", "corrected_area_fraction", "peak_pressure", "mean_gap", "energy"}) {

@@ -18,15 +18,15 @@
 
 namespace asperity {
 
-// The same press on other grids than that of a state: on one or two coarser ones, the finer first, or on one
-// finer grid.
-class OtherGrids {
+// The same press on companion grids than that of a state: on one or two coarser ones, the finer first, or on
+// one finer grid.
+class CompanionGrids {
  public:
   struct Level {
     State state;
     double ratio = 2;  // width of a cell over that of the next finer grid; below 1 of a finer grid
   };
-  OtherGrids(const PressRequest& request, std::vector<Level> levels)
+  CompanionGrids(const PressRequest& request, std::vector<Level> levels)
       : request_(request), levels_(std::move(levels)) {}
 
   const PressRequest& request() const { return request_; }
@@ -48,17 +48,17 @@ std::vector<Grid> coarser_grids(const Grid& grid);
 // of the press, in time and in transforms of the finest grid. Throws what a press throws, and
 // Error{bad_value} naming `estimate` where there are too few cells; a coarser grid that misses its tolerance
 // counts with the best it reached.
-std::shared_ptr<const OtherGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
-                                                const Plan& plan, const PressRequest& request,
-                                                Monitor& monitor = Monitor::silent());
+std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
+                                                    const Plan& plan, const PressRequest& request,
+                                                    Monitor& monitor = Monitor::silent());
 
 // The same on thrice the cells a side (finer_heights.hpp), to a tolerance of 1e-6 or that of the scene,
 // whichever is looser. Costs nine to twelve times the press; throws what finer_grid throws.
-std::shared_ptr<const OtherGrids> solve_finer(const Scene& scene, const ContactGeometry& geometry,
-                                              const Plan& plan, const PressRequest& request,
-                                              Monitor& monitor = Monitor::silent());
+std::shared_ptr<const CompanionGrids> solve_finer(const Scene& scene, const ContactGeometry& geometry,
+                                                  const Plan& plan, const PressRequest& request,
+                                                  Monitor& monitor = Monitor::silent());
 
-// Memory that a state's solution keeps, and those of the same press on other grids.
+// Memory that a state's solution keeps, and those of the same press on companion grids.
 std::int64_t bytes_held_with_other_grids(const State& state);
 
 // The same on `grid`, of these combined heights, missing (NaN) where nothing faces the lower body; to a

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact on other cells is made of the combined heights as they lie, under a body without heights that
 // keeps the material of the upper one: no turn or shift has to be found again on other cells.
-#include "engine/accuracy/other_grids.hpp"
+#include "engine/accuracy/companion_grids.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -166,12 +166,12 @@ void check_estimate(const Grid& grid) {
                     std::to_string(2 * fewest_cells) + " along x or y, or leave `estimate` out");
 }
 
-std::shared_ptr<const OtherGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
-                                                const Plan& plan, const PressRequest& request,
-                                                Monitor& monitor) {
+std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
+                                                    const Plan& plan, const PressRequest& request,
+                                                    Monitor& monitor) {
   check_estimate(geometry.grid());
   const std::vector<Grid> grids = coarser_grids(geometry.grid());
-  std::vector<OtherGrids::Level> levels;
+  std::vector<CompanionGrids::Level> levels;
   Grid finer = geometry.grid();
   for (const Grid& grid : grids) {
     Field heights = combined_on_cells(geometry, grid, periodic_together(scene));
@@ -181,23 +181,23 @@ std::shared_ptr<const OtherGrids> solve_coarser(const Scene& scene, const Contac
     levels.push_back({std::move(state), std::max(across, up)});
     finer = grid;
   }
-  return std::make_shared<const OtherGrids>(request, std::move(levels));
+  return std::make_shared<const CompanionGrids>(request, std::move(levels));
 }
 
-std::shared_ptr<const OtherGrids> solve_finer(const Scene& scene, const ContactGeometry& geometry,
-                                              const Plan& plan, const PressRequest& request,
-                                              Monitor& monitor) {
+std::shared_ptr<const CompanionGrids> solve_finer(const Scene& scene, const ContactGeometry& geometry,
+                                                  const Plan& plan, const PressRequest& request,
+                                                  Monitor& monitor) {
   const Grid grid = finer_grid(geometry.grid());
   State state = press_on(grid, finer_heights(scene, geometry, monitor), close_enough, scene, geometry, plan,
                          request, monitor);
-  return std::make_shared<const OtherGrids>(
-      request, std::vector<OtherGrids::Level>{{std::move(state), 1.0 / times_finer}});
+  return std::make_shared<const CompanionGrids>(
+      request, std::vector<CompanionGrids::Level>{{std::move(state), 1.0 / times_finer}});
 }
 
 std::int64_t bytes_held_with_other_grids(const State& state) {
   std::int64_t bytes = state.bytes_held();
-  if (state.other_grids())
-    for (const OtherGrids::Level& level : state.other_grids()->levels())
+  if (state.companion_grids())
+    for (const CompanionGrids::Level& level : state.companion_grids()->levels())
       bytes += bytes_held_with_other_grids(level.state);
   return bytes;
 }
