@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/recording/hidden_ramp.hpp"
+#include "engine/recording/ramp_in_noise.hpp"
 #include "engine/recording/recording_marks.hpp"
 
 namespace asperity {
@@ -79,8 +79,8 @@ void RecordingMarks::drop_stairs() {
     const std::span<const double> y(y_), t(t_);
     const double stairs = step_misfit(y.subspan(first, middle - first + 1), a.line.y, b.line.y) +
                           step_misfit(y.subspan(middle + 1, last - middle), b.line.y, c.line.y);
-    const HiddenRamp ramp = fit_hidden_ramp(t.subspan(first, last - first + 1),
-                                            y.subspan(first, last - first + 1), a.line.y, c.line.y);
+    const RampInNoise ramp = fit_hidden_ramp(t.subspan(first, last - first + 1),
+                                             y.subspan(first, last - first + 1), a.line.y, c.line.y);
     if (ramp.misfit > stairs + evidence_ * piece_noise() * piece_noise()) {
       ++k;
       continue;
@@ -146,8 +146,8 @@ void RecordingMarks::time_each() {
     const auto [first, last] = window(a, b);
     if (last < first + 4) continue;
     const std::span<const double> y(y_), t(t_);
-    const HiddenRamp ramp = fit_hidden_ramp(t.subspan(first, last - first + 1),
-                                            y.subspan(first, last - first + 1), a.line.y, b.line.y);
+    const RampInNoise ramp = fit_hidden_ramp(t.subspan(first, last - first + 1),
+                                             y.subspan(first, last - first + 1), a.line.y, b.line.y);
     a.end = ramp.begin;
     b.begin = ramp.end;
     const double samples = (ramp.end - ramp.begin) / interval_;

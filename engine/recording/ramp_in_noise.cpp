@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/recording/hidden_ramp.hpp"
+#include "engine/recording/ramp_in_noise.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ double misfit(std::span<const double> time, std::span<const double> value, doubl
 
 }  // namespace
 
-HiddenRamp fit_hidden_ramp(std::span<const double> time, std::span<const double> value, double from,
-                           double to) {
+RampInNoise fit_hidden_ramp(std::span<const double> time, std::span<const double> value, double from,
+                            double to) {
   const double first = time.front(), last = time.back(), whole = last - first;
   double best_centre = 0.5 * (first + last), best_half = 0;
   double least = misfit(time, value, from, to, best_centre, best_half);

@@ -8,14 +8,14 @@
 
 namespace asperity {
 
-struct HiddenRamp {
+struct RampInNoise {
   double begin = 0, end = 0;  // s
   double misfit = 0;          // squares, summed over the samples given
 };
 
 // Of the samples given, in time; three or more.
-HiddenRamp fit_hidden_ramp(std::span<const double> time, std::span<const double> value, double from,
-                           double to);
+RampInNoise fit_hidden_ramp(std::span<const double> time, std::span<const double> value, double from,
+                            double to);
 
 // Least squared misfit of the two levels that pass into each other at once, where that fits best.
 double step_misfit(std::span<const double> value, double from, double to);
