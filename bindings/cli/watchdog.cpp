@@ -86,7 +86,7 @@ void Watchdog::guard(std::optional<double> limit_seconds) {
       int none = 0;
       met_signal.compare_exchange_strong(none, signal);
       const bool waited = patience_ends.has_value() && Clock::now() >= *patience_ends;
-      end_now = patience_ends.has_value() && (ctrl_c_ != CtrlC::is_patient || signal != SIGINT || waited);
+      end_now = patience_ends.has_value() && (ctrl_c_ != CtrlC::waits || signal != SIGINT || waited);
       if (signal != SIGINT) terminated_.store(true);
       ask(StopReason::interrupt);
     } else if (limit_seconds && !patience_ends &&
@@ -94,7 +94,7 @@ void Watchdog::guard(std::optional<double> limit_seconds) {
       ask(StopReason::time_limit);
     }
     if (stop_flag().reason() != StopReason::none && !patience_ends) patience_ends = Clock::now() + grace;
-    const bool patient = ctrl_c_ == CtrlC::is_patient && stop_flag().reason() == StopReason::interrupt;
+    const bool patient = ctrl_c_ == CtrlC::waits && stop_flag().reason() == StopReason::interrupt;
     if (patience_ends && (end_now || (!patient && Clock::now() >= *patience_ends))) {
       const StopReason reason = stop_flag().reason();
       last_words_(reason);

@@ -23,7 +23,7 @@ class Watchdog {
  public:
   // Blocks the signals in the calling thread and those it starts: construct it before any other
   // thread. `last_words` is called from the watchdog's thread before the process is ended.
-  enum class CtrlC { ends_within_grace, is_patient };
+  enum class CtrlC { ends_within_grace, waits };
   Watchdog(std::optional<double> limit_seconds, std::function<void(StopReason)> last_words,
            CtrlC ctrl_c = CtrlC::ends_within_grace);
   ~Watchdog();

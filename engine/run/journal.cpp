@@ -13,7 +13,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/text.hpp"
-#include "engine/run/patient_lock.hpp"
+#include "engine/run/timed_lock.hpp"
 
 namespace asperity {
 

@@ -5,7 +5,7 @@
 
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
-#include "engine/run/patient_lock.hpp"
+#include "engine/run/timed_lock.hpp"
 
 namespace asperity {
 

@@ -11,9 +11,9 @@
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/text.hpp"
-#include "engine/run/patient_lock.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
+#include "engine/run/timed_lock.hpp"
 
 namespace asperity {
 

@@ -93,7 +93,7 @@ class Conversation {
                          reason_text(reason).c_str());
             finish(RunStatus::killed, reason_text(reason), std::chrono::milliseconds(500));
           },
-          reader_.terminal() ? Watchdog::CtrlC::is_patient : Watchdog::CtrlC::ends_within_grace);
+          reader_.terminal() ? Watchdog::CtrlC::waits : Watchdog::CtrlC::ends_within_grace);
       const Watchdog::Watching watching(watchdog, state_.get());
       outcome = prompt_->take(line, number);
       stopped = stop_flag().reason();

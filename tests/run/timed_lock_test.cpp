@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A lock waited for with patience: had at once when free, given up when held, had when let go in time.
-#include "engine/run/patient_lock.hpp"
+#include "engine/run/timed_lock.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-namespace asperity::patient_lock_test {
+namespace asperity::timed_lock_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -43,4 +43,4 @@ TEST(PatientLockThreads, IsHadWhenLetGoInTime) {
 }
 
 }  // namespace
-}  // namespace asperity::patient_lock_test
+}  // namespace asperity::timed_lock_test
