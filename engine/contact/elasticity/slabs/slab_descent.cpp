@@ -18,7 +18,8 @@ namespace asperity {
 namespace {
 using namespace descent_rules;
 
-constexpr int steps_a_slab_pass = 2;  // applications of K, as of a dear pass in half_space/set_descent.cpp
+constexpr int steps_a_slab_pass =
+    2;  // applications of K, as of a dear pass in half_space/active_set_descent.cpp
 
 class SlabDescent {
  public:

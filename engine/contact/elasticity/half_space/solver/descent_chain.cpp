@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/half_space/solver/descent_chain.hpp"
 
-#include "engine/contact/elasticity/half_space/solver/set_descent.hpp"
+#include "engine/contact/elasticity/half_space/solver/active_set_descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/spectral_gradient.hpp"
 
 namespace asperity {
@@ -18,7 +18,7 @@ ChainEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance,
       end.stage = spectral_gradient(level, fields, tolerance, shake);
       end.name = "spectral projected gradients";
     } else {
-      end.stage = set_descent(level, fields, tolerance, quick, effort != ChainEffort::start);
+      end.stage = active_set_descent(level, fields, tolerance, quick, effort != ChainEffort::start);
       end.name = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
     }
     if (end.stage.converged) break;

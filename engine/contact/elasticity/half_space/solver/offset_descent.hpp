@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact at a given offset δ, on one grid: 0 <= p <= H with g = K p − h − δ (and what yielded) as the
 // law of the pressure has it, and no load to keep. Preconditioned conjugate gradients on the free set,
-// pressures being allowed outside their bounds until the next pass, as in set_descent.hpp; there the load
-// balances the gaps of the free nodes, here these are brought to δ itself. So no load is sought, and one that
-// hardly tells offsets apart, or hardly depends on them, costs no more than another. Where that stalls,
+// pressures being allowed outside their bounds until the next pass, as in active_set_descent.hpp; there the
+// load balances the gaps of the free nodes, here these are brought to δ itself. So no load is sought, and one
+// that hardly tells offsets apart, or hardly depends on them, costs no more than another. Where that stalls,
 // passes that each lower the energy ½ p·Kp − (h + δ)·p take over, for a while.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/half_space/solver/set_descent.hpp"
+#include "engine/contact/elasticity/half_space/solver/active_set_descent.hpp"
 
 #include <algorithm>
 #include <array>
@@ -414,8 +414,8 @@ StageEnd Descent<Limit, Stored>::run() {
 }
 }  // namespace
 
-StageEnd set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications,
-                     bool exact) {
+StageEnd active_set_descent(ContactLevel& level, DescentFields& fields, double tolerance,
+                            int most_applications, bool exact) {
   const auto run = [&]<class Stored>(const auto& limit, Stored) {
     return Descent<std::remove_cvref_t<decltype(limit)>, Stored>(level, limit, fields, tolerance,
                                                                  most_applications, exact)

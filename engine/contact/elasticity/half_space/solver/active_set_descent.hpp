@@ -14,7 +14,7 @@ namespace asperity {
 
 // From fields.pressure, feasible. Ends converged (residual < tolerance) or with feasible pressures. `exact`:
 // pressures that converged are feasible, too, and their gap is computed afresh.
-StageEnd set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications,
-                     bool exact);
+StageEnd active_set_descent(ContactLevel& level, DescentFields& fields, double tolerance,
+                            int most_applications, bool exact);
 
 }  // namespace asperity
