@@ -23,7 +23,13 @@ namespace {
 class ElasticityBlock final : public BlockInfo {
  public:
   ElasticityBlock() {
-    infos_.push_back({"model", "string", {}, "", "", "how the bodies give way", true});
+    std::string type, sentence = "how the bodies give way";
+    for (const ElasticModel* model : elastic_models()) {
+      const std::string word = "\"" + std::string(model->name) + "\"";
+      type += (type.empty() ? "" : "|") + word;
+      sentence += (type == word ? ": " : "; ") + word + ", " + model->sentence;
+    }
+    infos_.push_back({"model", type, {}, "", "", sentence, true});
     for (const ElasticModel* model : elastic_models())
       for (std::size_t k = 0; k < model->options.size(); ++k) {
         infos_.push_back(row_info(model->options[k], model->defaults));

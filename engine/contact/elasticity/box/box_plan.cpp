@@ -119,7 +119,9 @@ const ElasticModel& box_model() {
       .name = "box",
       .noun = "box elements",
       .called = "box elements",
-      .sentence = "independent elements over the nodes, pressure in proportion to their shortening",
+      .sentence =
+          "a Winkler foundation: independent elements over the nodes, pressure in proportion to their "
+          "shortening",
       .defaults = O{},
       .options = {quantity_row("stiffness", &O::stiffness, dimension::stiffness, above(0),
                                "pressure per shortening of a box element; of model=\"box\" alone")
@@ -136,7 +138,7 @@ const ElasticModel& rigid_model() {
   static const ElasticModel record{.name = "rigid",
                                    .noun = "rigid bodies",
                                    .called = "rigid bodies",
-                                   .sentence = "no elastic deformation; the bodies rest on what has yielded",
+                                   .sentence = "no elastic deformation, the bodies rest on what has yielded",
                                    .defaults = RigidOptions{},
                                    .options = {},
                                    .check = check_rigid,

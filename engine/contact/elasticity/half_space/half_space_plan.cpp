@@ -90,7 +90,7 @@ const ElasticModel& half_space_model() {
       .name = "half_space",
       .noun = "a half-space",
       .called = "half-space",
-      .sentence = "every pressure moves every node, as on an elastic half-space",
+      .sentence = "elastic half-spaces, on which every pressure moves every node",
       .moves_every_node = true,
       .defaults = HalfSpaceOptions{},
       .options = {},

@@ -80,9 +80,7 @@ const ElasticModel& layer_model() {
       .name = "layer",
       .noun = "a layer",
       .called = "layer",
-      .sentence =
-          "an elastic layer on a rigid base, the lower body, under a rigid one; every pressure moves "
-          "every node",
+      .sentence = "an elastic layer on a rigid base, the lower body, under a rigid one",
       .moves_every_node = true,
       .defaults = O{},
       .options = {quantity_row(
