@@ -19,7 +19,7 @@ refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="rigid" } } end, "rigid", "does not name `plasticity`")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="box", adhesion={ work=1, range=1 } } } end, "adhesion", "not computed")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity="rigid", plasticity={ hardness=math.huge } } } end, "their `hardness` is infinite")
-refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity={ model="rigid", stiffness=1e9 }, plasticity={} } } end, "`effects.elasticity.stiffness` is of model=\"box\", and the model is \"rigid\"")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, effects={ elasticity={ model="rigid", stiffness=1e9 }, plasticity={} } } end, "`effects.elasticity`: `stiffness` is of model=\"box\", and the model is \"rigid\"")
 local function layer(keys)
   keys.model = "layer"
   return { elasticity=keys }
@@ -28,8 +28,8 @@ refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", e
 refused(function() lab.contact{ lower=s, upper=lab.rigid, effects=layer{ thickness="1 mm" } } end, "a layer needs boundary=\"periodic\"")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="free", effects=layer{ thickness="1 mm" } } end, "`boundary` is \"free\" on a layer")
 refused(function() lab.contact{ lower=s, upper=steel, boundary="periodic", effects=layer{ thickness="1 mm" } } end, "the upper body is of `steel`", "lab.rigid")
-refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects=layer{ thickness="1 mm", stiffness=1e9 } } end, "`effects.elasticity.stiffness` is of model=\"box\", and the model is \"layer\"")
-refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects={ elasticity={ model="half_space", base="bonded" } } } end, "`effects.elasticity.base` is of model=\"layer\"")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects=layer{ thickness="1 mm", stiffness=1e9 } } end, "`effects.elasticity`: `stiffness` is of model=\"box\", and the model is \"layer\"")
+refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects={ elasticity={ model="half_space", base="bonded" } } } end, "`effects.elasticity`: `base` is of model=\"layer\"")
 refused(function() lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects=layer{ thickness="1 mm", base="glued" } } end, "base", "frictionless")
 refused(function() lab.contact{ lower=bare, upper=lab.rigid, effects=box } end, "elasticity", "the lower body", "no material")
 refused(function() lab.contact{ lower=s, upper=S.flat{ cells=8, size="1 mm", material=steel }, effects=box } end, "16 x 16 cells", "8 x 8 cells", "resampled")

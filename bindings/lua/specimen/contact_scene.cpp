@@ -76,9 +76,8 @@ class ElasticityBlock final : public BlockInfo {
                    Problems& problems) const {
     if (model == nullptr) return;  // that is said
     if (places_[k - 1].model == model) return read_row(row(k), infos_[k], value, options, problems);
-    problems.push_back("`effects.elasticity." + infos_[k].name + "` is of model=\"" +
-                       std::string(places_[k - 1].model->name) + "\", and the model is \"" +
-                       std::string(model->name) + "\"; leave one of both out");
+    problems.push_back(quoted(infos_[k].name) + " is of model=\"" + std::string(places_[k - 1].model->name) +
+                       "\", and the model is \"" + std::string(model->name) + "\"; leave one of both out");
   }
 
   std::string name_{elasticity_effect};
@@ -313,7 +312,7 @@ void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys
     });
   }
   if (std::find(names.begin(), names.end(), elasticity_effect) == names.end())
-    problems.push_back("`effects` names no elasticity; give elasticity=\"half_space\", \"box\" or \"rigid\"");
+    problems.push_back("`effects` names no elasticity; give elasticity=" + joined(ways_to_write(), " or "));
 }
 
 Option<SceneKeys> effects() {
