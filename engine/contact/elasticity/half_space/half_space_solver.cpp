@@ -7,9 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "engine/contact/bodies/deformed_bodies.hpp"
-#include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
 #include "engine/contact/elasticity/half_space/error/half_space_error.hpp"
+#include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/recalled_solve.hpp"
 #include "engine/contact/elasticity/half_space/solver/approach_solve.hpp"
@@ -77,27 +76,18 @@ struct HalfSpaceSolver::Ready {
   }
 };
 
-class HalfSpaceSolver::UnderLoad final : public Solution {
+class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
  public:
   // `problem` with the yield law that held; `factor` the softening by creep; `asked` what error() is about.
   UnderLoad(std::shared_ptr<const Ready> ready, HalfSpaceProblem problem, HalfSpaceAnswer answer,
             double factor, const Reported& asked)
-      : ready_(std::move(ready)),
-        problem_(std::move(problem)),
-        at_(std::move(answer)),
+      : HalfSpaceSolution(ready->geometry, std::move(problem), std::move(answer),
+                          ready->half_space.lower_share),
+        ready_(std::move(ready)),
         factor_(factor),
         asked_(asked),
         fits_(ready_->yield && covered(ready_->yield->carried, carried())) {}
 
-  const ContactGeometry& geometry() const override { return *ready_->geometry; }
-  double load() const override { return at_.mean_pressure * problem_.grid.area(); }
-  double pressure() const override { return at_.mean_pressure; }
-  double approach() const override { return at_.approach; }
-  std::int64_t contacts() const override { return at_.contacts; }
-  double peak_pressure() const override { return at_.peak_pressure; }
-  int iterations() const override { return at_.iterations; }
-  std::string_view solver() const override { return at_.solver; }
-  Certificate certificate() const override { return at_.certificate; }
   SolutionError error() const override {
     Reported reported = asked_;
     reported.mean_gap = mean_gap();
@@ -105,17 +95,8 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
     reported.plastic_volume = plastic_volume();
     return half_space_error(problem_, at_, reported);
   }
-  double stiffness() const override {
-    return at_.contacts > 0 ? contact_stiffness(problem_, at_, Monitor::silent()) : 0.0;
-  }
   double flatten() const override { return std::max(0.0, flattened(problem_, at_)); }  // rounding apart
-  double mean_gap() const override {
-    return sum([&](std::size_t k) { return faces(k) ? std::max(0.0, at_.gap[k]) : 0.0; }) /
-           static_cast<double>(geometry().facing());
-  }
   double energy() const override;
-  PressureSplit split(double threshold) const override;
-
   std::int64_t bytes() const override {
     return static_cast<std::int64_t>((at_.pressure.size() + at_.gap.size()) * sizeof(double));
   }
@@ -125,62 +106,21 @@ class HalfSpaceSolver::UnderLoad final : public Solution {
   }
   std::optional<PlasticChange> plastic_change() const override;
 
-  Array<std::uint8_t> contact_mask() const override {
-    Array<std::uint8_t> mask(at_.pressure.size());
-    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = at_.pressure[k] > 0 ? 1 : 0;
-    return mask;
-  }
-  Field pressure_field() const override { return at_.pressure; }
-  Field gap_field() const override {
-    return field([&](std::size_t k) { return at_.pressure[k] > 0 ? 0.0 : std::max(0.0, at_.gap[k]); });
-  }
-  Field displacement_field() const override {
-    Field u = field([&](std::size_t k) { return displacement(k); });
-    if (!problem_.overhangs) return u;
-    // Ground that nothing faces sinks with the rest.
-    const Field all = displacement_under(problem_, at_.pressure);
-    for (std::size_t k = 0; k < u.size(); ++k)
-      if (!faces(k)) u[k] = all[k];
-    return u;
-  }
-  Field lower_under_load() const override { return lower_heights(geometry(), ready_->yield, deformation()); }
-  Field upper_under_load() const override { return upper_heights(geometry(), ready_->yield, deformation()); }
-
  private:
-  double nodes() const { return static_cast<double>(at_.pressure.size()); }
-  bool faces(std::size_t k) const { return !problem_.overhangs || !std::isnan((*problem_.heights)[k]); }
-  // The elastic displacement of both bodies: what K p gives. Near a light contact all terms are small.
-  double displacement(std::size_t k) const {
-    return at_.gap[k] + (at_.approach - (geometry().combined_range().max - (*problem_.heights)[k]));
-  }
-  Deformation deformation() const {
-    return {displacement_field(), ready_->half_space.lower_share, plastic_change()};
-  }
+  const std::optional<PlannedYield>& limit() const override { return ready_->yield; }
   CarriedLoad carried() const { return {at_.mean_pressure, factor_}; }
   // w: what the limit on the pressure leaves open.
   double yielded(std::size_t k) const {
     if (fits_) return 0;
     const YieldLaw& law = problem_.yield;
     if (law.hardens()) {
-      const double limit = law.yield ? (*law.yield)[k] : law.cap;
-      return at_.pressure[k] > limit ? (at_.pressure[k] - limit) / law.hardening : 0.0;
+      const double most = law.yield ? (*law.yield)[k] : law.cap;
+      return at_.pressure[k] > most ? (at_.pressure[k] - most) / law.hardening : 0.0;
     }
     return at_.pressure[k] >= law.cap ? std::max(0.0, -at_.gap[k]) : 0.0;
   }
-  template <class Function>
-  Field field(Function function) const {
-    Field result(problem_.grid.nx, problem_.grid.ny);
-    for (std::size_t k = 0; k < result.size(); ++k) result[k] = function(k);
-    return result;
-  }
-  template <class Function>
-  double sum(Function function) const {
-    return block_sum(field(function).values());
-  }
 
   std::shared_ptr<const Ready> ready_;
-  HalfSpaceProblem problem_;
-  HalfSpaceAnswer at_;
   double factor_;
   Reported asked_;
   bool fits_;  // the bodies have carried this load as they lie
@@ -204,22 +144,6 @@ double HalfSpaceSolver::UnderLoad::energy() const {
   const double twice = sum([&](std::size_t k) { return faces(k) ? pressure[k] * displacement(k) : 0.0; });
   return 0.5 * uniform +
          std::max(0.0, 0.5 * twice * problem_.grid.cell_area());  // a sum of squares, but for rounding
-}
-
-PressureSplit HalfSpaceSolver::UnderLoad::split(double threshold) const {
-  PressureSplit result;
-  for (const double p : at_.pressure.values()) {
-    if (!(p > 0)) continue;
-    if (p >= threshold)
-      ++result.above;
-    else
-      ++result.below;
-  }
-  result.sum_below = sum([&](std::size_t k) {
-    const double p = at_.pressure[k];
-    return p > 0 && p < threshold ? p : 0.0;
-  });
-  return result;
 }
 
 std::optional<PlasticChange> HalfSpaceSolver::UnderLoad::plastic_change() const {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
+#include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/recalled_solve.hpp"
 #include "engine/core/error.hpp"
@@ -47,23 +47,18 @@ struct AdhesiveSolver::Ready {
   mutable std::shared_ptr<const Turn> turn;
 };
 
-class AdhesiveSolver::UnderLoad final : public Solution {
+class AdhesiveSolver::UnderLoad final : public HalfSpaceSolution {
  public:
-  UnderLoad(std::shared_ptr<const Ready> ready, AdhesiveAnswer answer, bool by_load,
-            std::vector<double> preload)
-      : ready_(std::move(ready)), at_(std::move(answer)), by_load_(by_load), preload_(std::move(preload)) {}
+  UnderLoad(const Ready& ready, AdhesiveAnswer answer, bool by_load, std::vector<double> preload)
+      : HalfSpaceSolution(ready.geometry, ready.problem.contact, std::move(answer.contact),
+                          ready.half_space.lower_share),
+        attraction_(std::move(answer.attraction)),
+        mean_attraction_(answer.mean_attraction),
+        by_load_(by_load),
+        preload_(std::move(preload)) {}
 
-  const ContactGeometry& geometry() const override { return *ready_->geometry; }
-  double load() const override { return at_.contact.mean_pressure * grid().area(); }
-  double pressure() const override { return at_.contact.mean_pressure; }
-  double attraction() const override { return at_.mean_attraction * grid().area(); }
+  double attraction() const override { return mean_attraction_ * problem_.grid.area(); }
   std::span<const double> preload() const override { return preload_; }
-  double approach() const override { return at_.contact.approach; }
-  std::int64_t contacts() const override { return at_.contact.contacts; }
-  double peak_pressure() const override { return at_.contact.peak_pressure; }
-  int iterations() const override { return at_.contact.iterations; }
-  std::string_view solver() const override { return at_.contact.solver; }
-  Certificate certificate() const override { return at_.contact.certificate; }
   // The problem is not convex: nothing is bounded but what was asked for.
   SolutionError error() const override {
     constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -74,101 +69,32 @@ class AdhesiveSolver::UnderLoad final : public Solution {
     error.may_differ = error.contacts.high;
     return error;
   }
-  // Of the contacts, the attraction held.
-  double stiffness() const override {
-    return contacts() > 0 ? contact_stiffness(ready_->problem.contact, at_.contact, Monitor::silent()) : 0.0;
-  }
   double flatten() const override {
     const double height = geometry().peak_to_valley();
     if (!(height > 0)) return 0;
-    const auto ends = over_nodes<0, 2>(at_.contact.gap.size(), [&](std::size_t k, double* v) {
-      const double gap = faces(k) ? at_.contact.gap[k] : std::numeric_limits<double>::quiet_NaN();
+    const auto ends = over_nodes<0, 2>(at_.gap.size(), [&](std::size_t k, double* v) {
+      const double gap = faces(k) ? at_.gap[k] : std::numeric_limits<double>::quiet_NaN();
       v[0] = gap;  // a minimum goes over what is a number
       v[1] = -gap;
     });
     return 1 - (-ends[1] - ends[0]) / height;
   }
-  double mean_gap() const override {
-    return sum([&](std::size_t k) { return faces(k) ? std::max(0.0, at_.contact.gap[k]) : 0.0; }) /
-           static_cast<double>(geometry().facing());
-  }
   double energy() const override {
-    return 0.5 * grid().cell_area() * sum([&](std::size_t k) {
-             return faces(k) ? (at_.contact.pressure[k] - at_.attraction[k]) * displacement(k) : 0.0;
+    return 0.5 * problem_.grid.cell_area() * sum([&](std::size_t k) {
+             return faces(k) ? (at_.pressure[k] - attraction_[k]) * displacement(k) : 0.0;
            });
   }
-  PressureSplit split(double threshold) const override {
-    PressureSplit result;
-    for (const double p : at_.contact.pressure.values())
-      if (p > 0) ++(p >= threshold ? result.above : result.below);
-    result.sum_below = sum([&](std::size_t k) {
-      const double p = at_.contact.pressure[k];
-      return p > 0 && p < threshold ? p : 0.0;
-    });
-    return result;
-  }
   std::int64_t bytes() const override {
-    return static_cast<std::int64_t>(3 * grid().nodes() * sizeof(double));
-  }
-  Array<std::uint8_t> contact_mask() const override {
-    Array<std::uint8_t> mask(grid().nodes());
-    for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = at_.contact.pressure[k] > 0 ? 1 : 0;
-    return mask;
-  }
-  Field pressure_field() const override { return at_.contact.pressure; }
-  Field gap_field() const override {
-    return field(
-        [&](std::size_t k) { return at_.contact.pressure[k] > 0 ? 0.0 : std::max(0.0, at_.contact.gap[k]); });
-  }
-  Field displacement_field() const override {
-    Field u = field([&](std::size_t k) { return displacement(k); });
-    if (!geometry().overhangs()) return u;
-    // Ground that nothing faces moves with the rest.
-    const Field all =
-        displacement_under(ready_->problem.contact,
-                           field([&](std::size_t k) { return at_.contact.pressure[k] - at_.attraction[k]; }));
-    for (std::size_t k = 0; k < u.size(); ++k)
-      if (!faces(k)) u[k] = all[k];
-    return u;
-  }
-  Field lower_under_load() const override {
-    Field z = geometry().lower().heights();
-    const double share = ready_->half_space.lower_share;
-    const Field u = displacement_field();
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * u[k];
-    return z;
-  }
-  Field upper_under_load() const override {
-    const auto* rough = std::get_if<Surface>(&geometry().upper());
-    Field z = rough ? rough->heights() : Field(grid().nx, grid().ny);
-    const double share = 1 - ready_->half_space.lower_share;
-    if (share == 0) return z;
-    const Field own = geometry().pose().to_upper(displacement_field(), grid());
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] -= share * own[k];
-    return z;
+    return static_cast<std::int64_t>(3 * problem_.grid.nodes() * sizeof(double));
   }
 
  private:
-  const Grid& grid() const { return ready_->problem.contact.grid; }
-  bool faces(std::size_t k) const { return !geometry().overhangs() || !std::isnan(geometry().combined()[k]); }
-  // K (p − σ) of both bodies.
-  double displacement(std::size_t k) const {
-    return at_.contact.gap[k] +
-           (at_.contact.approach - (geometry().combined_range().max - geometry().combined()[k]));
-  }
-  template <class Function>
-  Field field(Function function) const {
-    Field result(grid().nx, grid().ny);
-    for (std::size_t k = 0; k < result.size(); ++k) result[k] = function(k);
-    return result;
-  }
-  template <class Function>
-  double sum(Function function) const {
-    return block_sum(field(function).values());
+  Field moving_pressures() const override {
+    return field([&](std::size_t k) { return at_.pressure[k] - attraction_[k]; });
   }
 
-  std::shared_ptr<const Ready> ready_;
-  AdhesiveAnswer at_;
+  Field attraction_;
+  double mean_attraction_;
   bool by_load_;
   std::vector<double> preload_;
 };
@@ -257,8 +183,8 @@ State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const
     ready_->turn = std::move(from);
   }
   const StateCost cost = parted(whole, contacts, answer);
-  return State(std::make_shared<const UnderLoad>(ready_, std::move(answer), by_load, std::move(turns)), plan_,
-               cost);
+  return State(std::make_shared<const UnderLoad>(*ready_, std::move(answer), by_load, std::move(turns)),
+               plan_, cost);
 }
 
 StateCost AdhesiveSolver::parted(const Cost& whole, const Cost& contacts,

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every solved contact of half-spaces answers alike, whether the bodies attract each other or not: the
+// numbers of the solve, and the fields that follow from pressures, gaps and heights.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "engine/contact/bodies/deformed_bodies.hpp"
+#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
+#include "engine/contact/solution.hpp"
+
+namespace asperity {
+
+class HalfSpaceSolution : public Solution {
+ public:
+  const ContactGeometry& geometry() const override { return *geometry_; }
+  double load() const override { return at_.mean_pressure * problem_.grid.area(); }
+  double pressure() const override { return at_.mean_pressure; }
+  double approach() const override { return at_.approach; }
+  std::int64_t contacts() const override { return at_.contacts; }
+  double peak_pressure() const override { return at_.peak_pressure; }
+  int iterations() const override { return at_.iterations; }
+  std::string_view solver() const override { return at_.solver; }
+  Certificate certificate() const override { return at_.certificate; }
+  // Of the contacts; an attraction is held.
+  double stiffness() const override;
+  double mean_gap() const override;
+  PressureSplit split(double threshold) const override;
+  Array<std::uint8_t> contact_mask() const override;
+  Field pressure_field() const override { return at_.pressure; }
+  Field gap_field() const override;
+  Field displacement_field() const override;
+  Field lower_under_load() const override;
+  Field upper_under_load() const override;
+
+ protected:
+  // `lower_share`: of the displacement, that the lower body takes.
+  HalfSpaceSolution(std::shared_ptr<const ContactGeometry> geometry, HalfSpaceProblem problem,
+                    HalfSpaceAnswer answer, double lower_share);
+
+  // What moves the bodies: the pressures, less what attracts.
+  virtual Field moving_pressures() const { return at_.pressure; }
+  // What limits the pressures; none where nothing yields.
+  virtual const std::optional<PlannedYield>& limit() const;
+
+  double nodes() const { return static_cast<double>(at_.pressure.size()); }
+  bool faces(std::size_t k) const { return !problem_.overhangs || !std::isnan((*problem_.heights)[k]); }
+  // The elastic displacement of both bodies, K p. Near a light contact all terms are small.
+  double displacement(std::size_t k) const {
+    return at_.gap[k] + (at_.approach - (geometry().combined_range().max - (*problem_.heights)[k]));
+  }
+  template <class Function>
+  Field field(Function function) const {
+    Field result(problem_.grid.nx, problem_.grid.ny);
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] = function(k);
+    return result;
+  }
+  template <class Function>
+  double sum(Function function) const {
+    return block_sum(field(function).values());
+  }
+
+  HalfSpaceProblem problem_;
+  HalfSpaceAnswer at_;
+
+ private:
+  Deformation deformation() const { return {displacement_field(), lower_share_, plastic_change()}; }
+
+  std::shared_ptr<const ContactGeometry> geometry_;
+  double lower_share_;
+};
+
+}  // namespace asperity
