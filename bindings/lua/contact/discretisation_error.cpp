@@ -104,7 +104,7 @@ const RecordType<ChosenAccuracy>& chosen_accuracy_type() {
   static const RecordType<C> type{
       "ChosenAccuracy",
       "chosen accuracy",
-      "Cells, tolerance and precision that were chosen for an error, and why.",
+      "Cells and tolerance that were chosen for an error, and why, with the precision of the solves.",
       {{"cells",
         [](const C& c) {
           return std::array{c.nx, c.ny};
