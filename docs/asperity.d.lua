@@ -95,7 +95,7 @@
 ---@field cap number greatest excess of the pressure over its cap, over the cap; 0 without one
 ---@field attraction number greatest distance of the attraction from its law, over its greatest; 0 without attraction across the gap
 
----Cells, tolerance and precision that were chosen for an error, and why.
+---Cells and tolerance that were chosen for an error, and why, with the precision of the solves.
 ---@class asperity.ChosenAccuracy
 ---@field cells integer[] along x and y
 ---@field tolerance number of the solve
