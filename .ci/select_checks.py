@@ -21,7 +21,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 # Rooms and those they are built on, as CMake links them.
 CORE = ("engine/core",)
-SURFACE = CORE + ("engine/surface",)
+STATISTICS = CORE + ("engine/statistics",)
+SURFACE = STATISTICS + ("engine/surface",)
 METROLOGY = SURFACE + ("engine/metrology",)
 CONTACT = SURFACE + ("engine/contact",)
 PLOT = SURFACE + ("engine/plot",)
@@ -37,6 +38,7 @@ WEB = PROGRAM + ("bindings/web",)
 # Tests of CTest: what their names begin with, the rooms they are made of, and where they stand.
 GROUPS = {
     "core": ("core: ?", CORE, ("tests/core",)),
+    "statistics": ("statistics: ?", STATISTICS, ("tests/statistics",)),
     "surface": ("surface: ?", SURFACE, ("tests/surface",)),
     "metrology": ("metrology: ?", METROLOGY, ("tests/metrology",)),
     "contact": ("contact: ?", CONTACT + ("engine/accuracy",), ("tests/contact",)),
@@ -71,6 +73,7 @@ GROUPS = {
 # The rooms above meet the change in the release build's tests.
 SANITIZED = {
     "core": ("engine/core",),
+    "statistics": ("engine/statistics",),
     "surface": ("engine/surface",),
     "metrology": ("engine/metrology",),
     "contact": ("engine/contact",),
@@ -91,7 +94,8 @@ SANITIZED_TARGETS = {"bindings": ("test_bindings_c",)}
 THREADED = ("core", "surface", "metrology", "contact", "run", "bindings", "dignity")
 # Readers, by the room that reads.
 FUZZED = {"core": ("engine/core/files/json",),
-          "surface": ("engine/surface/io", "engine/core/text", "engine/core/quantity"),
+          "surface": ("engine/surface/io", "engine/core/text", "engine/core/quantity", "engine/core/files/source_file",
+                      "engine/core/files/text_table"),
           "recording": ("engine/recording",),
           "bindings": ("bindings/lua",)}
 # What several reproductions and claims have in common; any other file of theirs is one test.

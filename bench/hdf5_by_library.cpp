@@ -23,8 +23,8 @@
 
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace {
 

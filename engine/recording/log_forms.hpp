@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/files/source_file.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/surface/io/source_file.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/core/files/table.hpp"
-#include "engine/core/files/table_filter.hpp"
+#include "engine/statistics/table.hpp"
+#include "engine/statistics/table_filter.hpp"
 
 namespace asperity {
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <string_view>
 
-#include "engine/core/files/table.hpp"
 #include "engine/run/expectation.hpp"
 #include "engine/run/expectation_log.hpp"
 #include "engine/run/journal.hpp"
+#include "engine/statistics/table.hpp"
 
 namespace asperity {
 

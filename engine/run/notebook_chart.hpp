@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/core/files/table.hpp"
-#include "engine/core/files/table_filter.hpp"
 #include "engine/plot/chart.hpp"
 #include "engine/run/notebook.hpp"
 #include "engine/run/run_directory.hpp"
+#include "engine/statistics/table.hpp"
+#include "engine/statistics/table_filter.hpp"
 
 namespace asperity {
 

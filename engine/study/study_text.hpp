@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/core/files/json.hpp"
-#include "engine/core/files/table.hpp"
+#include "engine/statistics/table.hpp"
 #include "engine/study/study_result.hpp"
 
 namespace asperity {

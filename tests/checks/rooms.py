@@ -13,7 +13,7 @@ import pathlib
 import re
 import sys
 
-NUMERICS = "engine/core engine/surface"
+NUMERICS = "engine/core engine/statistics engine/surface"
 MECHANICS = NUMERICS + " engine/contact engine/friction engine/accuracy engine/specimen"
 ENGINE = MECHANICS + " engine/metrology engine/plot engine/recording engine/run engine/study"
 # Each sees those before it; the list of modules and the root of the language, bindings/lua itself, sees all.
@@ -24,7 +24,8 @@ IN_LUA = " ".join([ENGINE, *(f"bindings/lua/{room}" for room in LUA_ROOMS)])
 # Each room, with the rooms it sees.
 SEES = {
     "engine/core": "",
-    "engine/surface": "engine/core",
+    "engine/statistics": "engine/core",
+    "engine/surface": "engine/core engine/statistics",
     "engine/metrology": NUMERICS,
     "engine/contact": NUMERICS,
     "engine/plot": NUMERICS,

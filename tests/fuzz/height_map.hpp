@@ -8,8 +8,8 @@
 #include <cmath>
 #include <string>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace asperity::fuzz {

@@ -3,7 +3,7 @@
 // protocol.
 #include "engine/recording/press_log.hpp"
 
-#include "engine/surface/io/source_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "tests/fuzz/target.hpp"
 
 static void fuzz_press_log(const std::uint8_t* data, std::size_t size) {

@@ -3,9 +3,9 @@
 // press log, which reads back as it was.
 #include "engine/recording/press_recording.hpp"
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/recording/event_detection.hpp"
 #include "engine/recording/press_log.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "tests/fuzz/target.hpp"
 
 static void fuzz_press_recording(const std::uint8_t* data, std::size_t size) {

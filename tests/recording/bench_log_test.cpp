@@ -5,10 +5,10 @@
 
 #include <numbers>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/recording/event_detection.hpp"
 #include "engine/recording/press_log.hpp"
 #include "engine/specimen/protocol_run.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "tests/contact/contacts.hpp"
 #include "tests/recording/synthetic_recording.hpp"
 #include "tests/support/run_fixture.hpp"

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <numbers>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/recording/press_recording.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "tests/recording/synthetic_recording.hpp"
 #include "tests/support/run_fixture.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/surface/io/source_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::press_recording_test {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Headers that claim more than there is: a reader allocates for the bytes of a file, never for what they
 // say of themselves.
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/surface/io/read.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "tests/surface/files.hpp"
 
 namespace asperity::claims_test {

@@ -5,8 +5,8 @@
 
 #include <functional>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 

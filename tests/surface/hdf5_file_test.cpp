@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "engine/core/error.hpp"
-#include "engine/surface/io/source_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "tests/surface/files.hpp"
 
 namespace asperity::hdf5_file_test {

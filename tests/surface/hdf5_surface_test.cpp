@@ -6,8 +6,8 @@
 
 #include <pugixml.hpp>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "engine/surface/io/write.hpp"
 #include "engine/surface/io/xdmf.hpp"
 #include "tests/surface/files.hpp"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/warnings.hpp"
 

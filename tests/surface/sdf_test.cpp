@@ -3,8 +3,8 @@
 
 #include <limits>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 

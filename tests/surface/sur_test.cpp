@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
+#include "engine/core/files/text_table.hpp"
 #include "engine/surface/io/read.hpp"
-#include "engine/surface/io/text_table.hpp"
 #include "tests/surface/files.hpp"
 
 namespace asperity::text_matrix_test {

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <string>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/read.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/warnings.hpp"
 

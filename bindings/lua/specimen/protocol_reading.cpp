@@ -6,11 +6,11 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/recording/event_detection.hpp"
 #include "engine/recording/press_log.hpp"
 #include "engine/recording/press_recording.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace asperity::lua {
 

@@ -7,10 +7,10 @@
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/metrology/levelling.hpp"
 #include "engine/plot/picture_profile.hpp"
 #include "engine/surface/io/read.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "engine/surface/io/write.hpp"
 #include "engine/surface/operations.hpp"
 

@@ -6,12 +6,12 @@
 #include "bindings/lua/surface/surface.hpp"
 #include "bindings/lua/surface/surface_keys.hpp"
 #include "bindings/lua/surface/weierstrass_mandelbrot_keys.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/surface/generators/bead_blasted.hpp"
 #include "engine/surface/generators/flat.hpp"
 #include "engine/surface/generators/grain_profile.hpp"
 #include "engine/surface/generators/sphere.hpp"
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace asperity::lua {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/surface/io/text_table.hpp"
+#include "engine/core/files/text_table.hpp"
 
 namespace asperity {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace asperity {
 

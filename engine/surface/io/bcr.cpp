@@ -12,11 +12,11 @@
 #include <map>
 #include <utility>
 
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/binary_cursor.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/length_unit.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace asperity {
 

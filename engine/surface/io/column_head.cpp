@@ -5,9 +5,9 @@
 #include <cctype>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/surface/io/length_unit.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

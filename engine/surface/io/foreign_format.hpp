@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/surface/io/source_file.hpp"
+#include "engine/core/files/source_file.hpp"
 
 namespace asperity {
 

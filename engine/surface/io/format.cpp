@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/foreign_format.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace asperity {
 

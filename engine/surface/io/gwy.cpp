@@ -14,11 +14,11 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/binary_cursor.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

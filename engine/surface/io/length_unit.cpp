@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

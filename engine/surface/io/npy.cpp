@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/npy_header.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/surface/io/source_file.hpp"
+#include "engine/core/files/source_file.hpp"
 
 namespace asperity {
 

@@ -8,10 +8,10 @@
 #include <array>
 #include <cmath>
 
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/binary_cursor.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

@@ -9,10 +9,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/binary_cursor.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

@@ -11,11 +11,11 @@
 #include <optional>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/laws_met.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

@@ -9,10 +9,10 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/gwy.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
-#include "engine/surface/io/source_file.hpp"
 #include "engine/surface/io/x3p_writer.hpp"
 
 namespace asperity {

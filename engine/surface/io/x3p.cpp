@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/surface/io/archive.hpp"
 #include "engine/surface/io/format.hpp"
-#include "engine/surface/io/text_table.hpp"
 
 namespace asperity {
 

@@ -12,8 +12,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/archive.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace asperity {
 

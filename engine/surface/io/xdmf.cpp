@@ -5,8 +5,8 @@
 #include <array>
 
 #include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace asperity {
 

@@ -11,11 +11,11 @@
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/hdf5/write_call.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace asperity {
 

@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_file.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace asperity {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table: free columns in order of appearance, units, CSV as in RFC 4180.
-#include "engine/core/files/table.hpp"
+#include "engine/statistics/table.hpp"
 #include "engine/core/constants.hpp"
 
 #include <cmath>

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/files/source_file.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
-#include "engine/surface/io/source_file.hpp"
 
 namespace asperity {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One pass over the bytes; no regular expressions, no locale. Numbers go through std::from_chars,
 // which rounds correctly.
-#include "engine/surface/io/text_table.hpp"
+#include "engine/core/files/text_table.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a file in pieces so that a stop flag is seen and no size field of the file system is
 // trusted for more than a first guess.
-#include "engine/surface/io/source_file.hpp"
+#include "engine/core/files/source_file.hpp"
 
 #include <algorithm>
 #include <cctype>

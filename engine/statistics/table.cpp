@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/core/files/table.hpp"
+#include "engine/statistics/table.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which rows a `where` speaks of.
-#include "engine/core/files/table_filter.hpp"
+#include "engine/statistics/table_filter.hpp"
 
 #include "tests/support/run_fixture.hpp"
 

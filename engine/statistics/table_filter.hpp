@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/files/table.hpp"
+#include "engine/statistics/table.hpp"
 
 namespace asperity {
 
