@@ -3,6 +3,9 @@
 // value, cheap to copy: copies share the heights. What a generator or a file knows beyond the
 // heights (material, periodicity, variance past Nyquist) travels with it. A generated surface also knows
 // how to be made again on other cells: it is one continuous surface, of which the heights are samples.
+// A measured map may have holes, points that were not measured: nothing fills them unless asked. Whoever
+// needs every point asks for heights(), which refuses a map with holes; whoever knows what to do with
+// holes asks for measured_heights(), where they are NaN.
 #pragma once
 
 #include <functional>
@@ -32,15 +35,24 @@ class Surface {
   // Throws Error{bad_value} naming the first node whose height is not finite, or when the field does
   // not fit the grid.
   Surface(const Grid& grid, Field heights, SurfaceTraits traits = {});
+  // The same of a map of which points may be missing: NaN is a point that was not measured. Without any it is
+  // the surface that the constructor makes, to the digest. Throws Error{bad_value} for infinite heights and
+  // where nothing was measured.
+  static Surface with_holes(const Grid& grid, Field heights, SurfaceTraits traits = {});
 
   const Grid& grid() const;
+  // Throws Error{bad_value} for a surface with holes: how many, the first, and the cure.
   const Field& heights() const;
+  // NaN at the nodes that were not measured, and only there.
+  const Field& measured_heights() const;
+  std::size_t measured() const;  // nodes
+  bool complete() const { return measured() == measured_heights().size(); }
   const SurfaceTraits& traits() const { return traits_; }
   const std::optional<Material>& material() const { return traits_.material; }
 
-  // Height of node (i, j), m. Throws Error{bad_value} outside the grid.
+  // Height of node (i, j), m; NaN where it was not measured. Throws Error{bad_value} outside the grid.
   double height(double i, double j) const;
-  Range height_range() const;  // m; computed once
+  Range height_range() const;  // of the measured nodes, m; computed once
   double peak_to_valley() const { return height_range().span(); }
 
   // The same heights with another material.
@@ -55,12 +67,13 @@ class Surface {
   // the surface.
   std::optional<Surface> remade(int nx, int ny, Monitor& monitor = Monitor::silent()) const;
 
-  // Digest of grid and heights; material and traits do not enter. Computed once, thread-safe.
+  // Digest of grid, heights and holes; material and traits do not enter. Computed once, thread-safe.
   const std::string& digest() const;
 
  private:
   struct Heights;  // grid, field and the facts computed once from them
   Surface(std::shared_ptr<const Heights> heights, SurfaceTraits traits);
+  Surface(const Grid& grid, Field heights, SurfaceTraits traits, bool holes);
 
   std::shared_ptr<const Heights> data_;
   SurfaceTraits traits_;

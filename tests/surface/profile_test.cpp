@@ -60,5 +60,19 @@ TEST(Profile, DigestSeesSpacingAndHeights) {
   EXPECT_NE(Profile(1, {1, std::nextafter(2.0, 3.0)}).digest(), digest);
 }
 
+TEST(Profile, HolesAreKeptCountedAndRefusedWhereEverySampleIsNeeded) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Profile profile = Profile::with_holes(1e-6, {1e-6, nan, 3e-6, nan});
+  EXPECT_EQ(profile.size(), 4);
+  EXPECT_EQ(profile.measured(), 2u);
+  EXPECT_FALSE(profile.complete());
+  EXPECT_EQ(profile.height_range().max, 3e-6);
+  EXPECT_THROW(static_cast<void>(profile.heights()), Error);
+  EXPECT_EQ(Profile::with_holes(1e-6, {1e-6, 2e-6}).digest(), Profile(1e-6, {1e-6, 2e-6}).digest());
+  EXPECT_NE(Profile::with_holes(1e-6, {1e-6, nan}).digest(), Profile::with_holes(1e-6, {nan, 1e-6}).digest());
+  EXPECT_THROW(Profile(1e-6, {1e-6, nan}), Error);
+  EXPECT_THROW(Profile::with_holes(1e-6, {nan}), Error);
+}
+
 }  // namespace
 }  // namespace asperity::profile_test

@@ -105,6 +105,54 @@ TEST(Surface, DigestSeesHeightsAndGrid) {
   EXPECT_NE(Surface(Grid{2, 3, 3e-6, 2e-6}, other).digest(), digest);
 }
 
+TEST(Surface, HolesAreKeptAndCounted) {
+  Field field = ramp();
+  field(2, 1) = -std::numeric_limits<double>::quiet_NaN();
+  const Surface surface = Surface::with_holes(grid, field);
+  EXPECT_EQ(surface.measured(), 5u);
+  EXPECT_FALSE(surface.complete());
+  EXPECT_TRUE(std::isnan(surface.measured_heights()(2, 1)));
+  EXPECT_TRUE(std::isnan(surface.height(2, 1)));
+  EXPECT_EQ(surface.height(1, 1), ramp()(1, 1));
+  EXPECT_EQ(surface.height_range().max, ramp()(1, 1));
+  // Another hole is another surface; the sign of a NaN is nothing measured.
+  Field other = field;
+  other(2, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(Surface::with_holes(grid, other).digest(), surface.digest());
+  other(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(Surface::with_holes(grid, other).digest(), surface.digest());
+}
+
+TEST(Surface, WithoutHolesIsTheSameSurfaceMadeEitherWay) {
+  const Surface surface = Surface::with_holes(grid, ramp());
+  EXPECT_TRUE(surface.complete());
+  EXPECT_EQ(surface.measured(), 6u);
+  EXPECT_EQ(surface.digest(), Surface(grid, ramp()).digest());
+  EXPECT_EQ(&surface.heights(), &surface.measured_heights());
+}
+
+TEST(Surface, WhatNeedsEveryPointRefusesHoles) {
+  Field field = ramp();
+  field(1, 0) = field(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  const Surface surface = Surface::with_holes(grid, field);
+  try {
+    surface.heights();
+    FAIL() << "a surface with holes gave all its heights";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::bad_value);
+    EXPECT_EQ(error.sentence(),
+              "2 of the 6 points of the surface were not measured, the first at node (1, 0), and this needs "
+              "every point");
+  }
+}
+
+TEST(Surface, HolesAreNoNumberAndNotAllThereIs) {
+  Field field = ramp();
+  field(1, 0) = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(Surface::with_holes(grid, field), Error);
+  EXPECT_THROW(Surface::with_holes(grid, Field(3, 2, std::numeric_limits<double>::quiet_NaN())), Error);
+}
+
 TEST(Surface, OfOneNode) {
   const Surface surface(Grid{1, 1, 1, 1}, Field(1, 1, -3.0));
   EXPECT_EQ(surface.height_range().min, -3.0);
