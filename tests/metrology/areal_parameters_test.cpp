@@ -16,6 +16,7 @@
 #include "engine/metrology/parameters/autocorrelation.hpp"
 #include "engine/metrology/parameters/hills.hpp"
 #include "engine/metrology/parameters/material_ratio.hpp"
+#include "engine/metrology/parameters/scale_dependence.hpp"
 #include "engine/metrology/parameters/texture_direction.hpp"
 
 namespace asperity::areal_parameters_test {
@@ -114,9 +115,11 @@ std::map<std::string, double> reference(const std::string& map) {
 
 class ArealParametersOfMap : public testing::TestWithParam<const char*> {
  protected:
-  static Surface surface() {
-    const std::string name = GetParam();
-    return name == "P1" ? p1() : name == "P2" ? p2() : name == "P3" ? p3() : name == "P4" ? p4() : p5();
+  // Each made once.
+  static const Surface& surface() {
+    static const std::map<std::string, Surface> maps{
+        {"P1", p1()}, {"P2", p2()}, {"P3", p3()}, {"P4", p4()}, {"P5", p5()}};
+    return maps.at(GetParam());
   }
 };
 
@@ -126,7 +129,7 @@ void expect_near(double value, double wanted, double relative, const char* name)
 }
 
 TEST_P(ArealParametersOfMap, CurveSlopesAndHillsAreTheReferences) {
-  const Surface s = surface();
+  const Surface& s = surface();
   auto wanted = reference(GetParam());
   ASSERT_GT(wanted.size(), 40u);
   EXPECT_EQ(static_cast<double>(s.measured()), wanted["n_measured"]);
@@ -169,7 +172,7 @@ TEST_P(ArealParametersOfMap, CurveSlopesAndHillsAreTheReferences) {
 }
 
 TEST_P(ArealParametersOfMap, TextureIsTheReferences) {
-  const Surface s = surface();
+  const Surface& s = surface();
   auto wanted = reference(GetParam());
   const TextureAspect texture = Autocorrelation(s).texture();
   expect_near(texture.Sal.value(), wanted["Sal"], 1e-3, "Sal");
@@ -180,6 +183,25 @@ TEST_P(ArealParametersOfMap, TextureIsTheReferences) {
   const double wave = texture_direction(s).wave * 180 / pi;
   EXPECT_LE(std::min(std::abs(wave - wanted["Std_wave"]), 180 - std::abs(wave - wanted["Std_wave"])),
             .5 + 1e-9);
+}
+
+TEST_P(ArealParametersOfMap, ScalesAreTheReferences) {
+  const Surface& s = surface();
+  auto wanted = reference(GetParam());
+  const ScaleDependence slope = scale_dependence(s, ScaleQuantity::slope, ScaleAxis::x, {1, 4, 16}),
+                        curvature = scale_dependence(s, ScaleQuantity::curvature, ScaleAxis::x, {1, 4, 16});
+  expect_near(slope.value[0], wanted["slope_x_lag1"], 1e-9, "slope over a cell");
+  expect_near(slope.value[1], wanted["slope_x_lag4"], 1e-9, "slope over four");
+  expect_near(slope.value[2], wanted["slope_x_lag16"], 1e-9, "slope over sixteen");
+  expect_near(curvature.value[0], wanted["curv_x_stencil2"], 1e-9, "curvature over two");
+  expect_near(curvature.value[1], wanted["curv_x_stencil8"], 1e-9, "curvature over eight");
+  expect_near(curvature.value[2], wanted["curv_x_stencil32"], 1e-9, "curvature over 32");
+  EXPECT_EQ(curvature.distance[2], 32 * s.grid().hx());
+  expect_near(height_in_blocks(s, 1), wanted["vb_rms_1x1"], 1e-9, "one block");
+  expect_near(height_in_blocks(s, 4), wanted["vb_rms_4x4"], 1e-9, "blocks of a quarter");
+  expect_near(height_in_blocks(s, 16), wanted["vb_rms_16x16"], 1e-9, "blocks of a sixteenth");
+  EXPECT_NEAR(tip_cut_off(s, ScaleAxis::x, 10), wanted["tip_cutoff_R10"], 1e-9);
+  EXPECT_NEAR(tip_cut_off(s, ScaleAxis::x, 100), wanted["tip_cutoff_R100"], 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Maps, ArealParametersOfMap, testing::Values("P1", "P2", "P3", "P4", "P5"),
@@ -269,6 +291,16 @@ TEST(ArealGauges, CurveOfGaussianHeights) {
   expect_near(volumes.Vvc, 1.21722487375, 1e-9, "Vvc");
   for (const double p : {.1, .37, .8})
     EXPECT_NEAR(curve.void_volume(p) - curve.material_volume(p), curve.height(p), 8.0 / 65536) << p;
+}
+
+TEST(ArealGauges, SlopesOfAPeriodicMapAreThoseOfItsWaves) {
+  SurfaceTraits periodic;
+  periodic.periodic = true;
+  const Surface s(Grid{256, 256, 256, 256}, p1().heights(), periodic);
+  const ScaleDependence slope = scale_dependence(s, ScaleQuantity::slope, ScaleAxis::x, {1, 2, 4, 8, 16, 32});
+  const double wanted[] = {0.38639446750056,  0.383788557209058, 0.375004196181624,
+                           0.351184643285137, 0.294457319365672, 0.17960528694111};
+  for (std::size_t k = 0; k < 6; ++k) expect_near(slope.value[k], wanted[k], 1e-12, "slope");
 }
 
 // --- what is not defined
