@@ -12,6 +12,7 @@
 #include <string>
 
 #include "engine/core/error.hpp"
+#include "engine/metrology/parameters/areal_parameters.hpp"
 #include "engine/metrology/parameters/areal_slopes.hpp"
 #include "engine/metrology/parameters/autocorrelation.hpp"
 #include "engine/metrology/parameters/hills.hpp"
@@ -320,6 +321,20 @@ TEST(ArealParameters, WhatIsNotDefinedIsNoNumber) {
   EXPECT_FALSE(areal_slopes(row).Sdr);
   EXPECT_EQ(areal_slopes(row).Sdq.value(), 1);
   EXPECT_THROW(Autocorrelation{row}, Error);
+}
+
+TEST(ArealParameters, OnlyWhatIsReadIsComputed) {
+  const ArealParameters p(p2());
+  EXPECT_EQ(p.groups_computed(), 0);
+  p.heights();
+  EXPECT_EQ(p.groups_computed(), 1);
+  p.core();  // and the curve under it
+  p.volumes();
+  EXPECT_EQ(p.groups_computed(), 4);
+  const ArealParameters copy = p;
+  copy.curve();
+  copy.heights();
+  EXPECT_EQ(p.groups_computed(), 4);
 }
 
 TEST(ArealParameters, OneSpikeTakesTheHillsWithIt) {

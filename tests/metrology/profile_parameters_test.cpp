@@ -11,7 +11,6 @@
 #include <numbers>
 
 #include "engine/core/error.hpp"
-#include "engine/metrology/gaussian_filter.hpp"
 #include "engine/metrology/levelling.hpp"
 #include "engine/surface/io/read.hpp"
 
@@ -74,6 +73,20 @@ TEST(ProfileParameters, WhatIsNotDefinedIsNoNumber) {
   EXPECT_THROW(profile_parameters(sine(0), {.sections = 0}), Error);
 }
 
+TEST(ProfileParameters, SectionsAreTakenFromTheMiddleOnceTheEndsAreCut) {
+  const PreparedProfile prepared = prepared_profile(sine(0), {.F = 1, .S = .5, .section = 50, .sections = 5});
+  EXPECT_EQ(prepared.sections, 5);
+  EXPECT_EQ(prepared.profile.size(), 2500);
+  // Half a section is 25 m; of the 450 m between, the middle 250.
+  EXPECT_NEAR(profile_parameters(prepared.profile).Rsm.value(), 10, 1e-6);
+  EXPECT_EQ(prepared_profile(sine(0), {.F = {}, .S = {}, .section = 150, .sections = 5}).sections, 2);
+  EXPECT_THROW(prepared_profile(sine(0), {.F = {}, .S = {}, .section = 260}), Error);
+  EXPECT_THROW(prepared_profile(sine(0), {.F = {}, .S = {}, .section = .9}), Error);
+  EXPECT_THROW(prepared_profile(sine(0), {.F = {}, .S = 60.0, .section = 50}), Error);
+  EXPECT_EQ(setting_class("Sc3")->section, .8e-3);
+  EXPECT_FALSE(setting_class("Sc6"));
+}
+
 TEST(ProfileParameters, HolesAreLeftOut) {
   Array<double> z(5000);
   const Profile whole = sine(.05);
@@ -124,9 +137,10 @@ TEST(ProfileParameters, OfAMeasuredTrace) {
 
   // The roughness profile with Nic 250 um, 125 um cut from each end. The reference cuts its kernel at ±Nic:
   // 1e-6.
-  const Profile filtered = gaussian_filtered(trace, {.short_wave = {}, .long_wave = 250 * um});
-  const auto z = filtered.heights().subspan(800, 8000);
-  const ProfileParameters rough = profile_parameters(Profile(.15625e-6, Array<double>(z.begin(), z.end())));
+  const PreparedProfile prepared = prepared_profile(trace, {.F = {}, .S = {}, .section = 250 * um});
+  EXPECT_EQ(prepared.sections, 5);
+  EXPECT_EQ(prepared.profile.size(), 8000);
+  const ProfileParameters rough = profile_parameters(prepared.profile);
   expect_near(rough.Ra.value / um, 0.00460915454129, 1e-5, "Ra");
   expect_near(rough.Rz.value / um, 0.106504309175, 1e-5, "Rz");
   expect_near(rough.Rsm.value() / um, 47.5030062605, 1e-3, "Rsm");

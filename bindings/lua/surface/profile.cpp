@@ -5,6 +5,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/measure.hpp"
+#include "bindings/lua/surface/profile_parameters.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/files/source_file.hpp"
@@ -230,7 +231,9 @@ const Class& class_of<Profile>() {
          .example = "p:write \"trace.csv\"",
          .heavy = true},
     };
-    c.results = {&roughness_type(false), &spectrum_type(), &fractal_dimension_type()};
+    c.methods.push_back(profile_parameters_method());
+    c.results = {&roughness_type(false), &spectrum_type(), &fractal_dimension_type(),
+                 &profile_parameters_result()};
     return c;
   }();
   return type;

@@ -5,6 +5,7 @@
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
+#include "bindings/lua/surface/areal_parameters.hpp"
 #include "bindings/lua/surface/known_body.hpp"
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/picture.hpp"
@@ -208,7 +209,9 @@ const Class& class_of<Surface>() {
          .example = "s:levelled{ degree=1 }"},
     };
     for (Function& operation : surface_operations()) c.methods.push_back(std::move(operation));
+    for (Function& parameters : parameter_methods()) c.methods.push_back(std::move(parameters));
     c.results = {&roughness_type(true), &spectrum_type(), &fractal_dimension_type()};
+    for (const RecordInfo* result : parameter_results()) c.results.push_back(result);
     return c;
   }();
   return type;

@@ -9,6 +9,8 @@
 
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/metrology/gaussian_filter.hpp"
+#include "engine/metrology/levelling.hpp"
 
 namespace asperity {
 
@@ -129,6 +131,59 @@ SectionedValue over_sections(int sections, const Of& of) {
 }
 
 }  // namespace
+
+std::optional<ProfilePreparation> setting_class(std::string_view name) {
+  // Limits of Rz in um: to 0.16, 0.8, 16, 80, above; sections in mm: 0.08, 0.25, 0.8, 2.5, 8.
+  struct Class {
+    std::string_view name;
+    double S, section;
+  };
+  static constexpr Class classes[] = {{"Sc1", 2.5e-6, 0.08e-3},
+                                      {"Sc2", 2.5e-6, 0.25e-3},
+                                      {"Sc3", 2.5e-6, 0.8e-3},
+                                      {"Sc4", 8e-6, 2.5e-3},
+                                      {"Sc5", 25e-6, 8e-3}};
+  for (const Class& c : classes)
+    if (c.name == name) {
+      ProfilePreparation preparation;
+      preparation.S = c.S;
+      preparation.section = c.section;
+      return preparation;
+    }
+  return {};
+}
+
+PreparedProfile prepared_profile(const Profile& trace, const ProfilePreparation& preparation) {
+  require_positive("section", preparation.section, "m");
+  require(preparation.sections >= 1, "sections", preparation.sections, "",
+          "give the number of sections, 1 or more");
+  if (trace.closed()) refuse("a closed outline has no sections", "give a profile along a line");
+  if (preparation.S && !(*preparation.S < preparation.section))
+    refuse("the nesting index `S`, " + metres(*preparation.S) + ", is not below the `section`, " +
+               metres(preparation.section),
+           "waves between the two are kept, so `S` must be the smaller");
+  const double h = trace.spacing(), samples = preparation.section / h;
+  if (samples < 10)
+    refuse(
+        "a `section` of " + metres(preparation.section) + " has under ten samples, " + metres(h) + " apart",
+        "give a longer `section`");
+  const auto half = static_cast<std::size_t>(std::round(samples / 2));
+  const auto n = static_cast<std::size_t>(trace.size());
+  const double whole = n > 2 * half ? std::floor(static_cast<double>(n - 2 * half) / samples + 1e-6) : 0;
+  if (whole < 1)
+    refuse("the trace of " + metres(trace.length()) + " holds no section of " + metres(preparation.section) +
+               " once half a section is cut off at either end",
+           "give a longer trace or a shorter `section`");
+  const int sections = static_cast<int>(std::min<double>(preparation.sections, whole));
+  Profile profile = trace;
+  if (preparation.F) profile = levelled(profile, *preparation.F);
+  if (preparation.S) profile = gaussian_filtered(profile, {.short_wave = preparation.S, .long_wave = {}});
+  profile = gaussian_filtered(profile, {.short_wave = {}, .long_wave = preparation.section});
+  const auto length = std::min(n - 2 * half, static_cast<std::size_t>(std::round(sections * samples)));
+  const std::size_t first = half + (n - 2 * half - length) / 2;
+  const std::span<const double> z = profile.measured_heights().subspan(first, length);
+  return {Profile::with_holes(h, Array<double>(z.begin(), z.end())), sections};
+}
 
 ProfileParameters profile_parameters(const Profile& profile, const ProfileSettings& settings) {
   require(settings.sections >= 1, "sections", settings.sections, "",

@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 
 #include "engine/metrology/parameters/material_ratio.hpp"
 #include "engine/surface/profile.hpp"
@@ -48,6 +49,27 @@ struct ProfileParameters {
   double Rdc = 0;                            // m, c(2.5 %) - c(50 %)
   std::size_t measured = 0;
 };
+
+// What ISO 21920-3 has done to a primary trace before: F, the polynomial taken away; S, the low-pass of the
+// nesting index Nis; L, less the low-pass of the nesting index Nic, which is also the length of a section.
+// Half a section is then cut off at either end, where the filter feels the rim, and `sections` sections are
+// taken from the middle.
+struct ProfilePreparation {
+  std::optional<int> F;
+  std::optional<double> S;  // m
+  double section = 0;       // m
+  int sections = 5;
+};
+struct PreparedProfile {
+  Profile profile;
+  int sections;  // as many of those asked for as the trace holds
+};
+// The class Sc1 … Sc5 of ISO 21920-3 by its name: `S` and `section`. Nothing where there is no such class.
+std::optional<ProfilePreparation> setting_class(std::string_view name);
+
+// A closed outline is refused; so are sections under ten samples, a trace that holds no section once its ends
+// are cut, and S not below the section: Error{bad_value}.
+PreparedProfile prepared_profile(const Profile& trace, const ProfilePreparation& preparation);
 
 // Throws Error{bad_value} for a profile of equal heights, for fewer than two samples a section, for a section
 // without any measured, and for settings outside their ranges. Differences count where their samples were
