@@ -120,7 +120,7 @@ std::string describe_profile(const void* self) {
          format_quantity(p.height_range().span(), dimension::length);
 }
 std::size_t bytes_of_profile(const void* self) {
-  return static_cast<const Profile*>(self)->heights().size_bytes();
+  return static_cast<const Profile*>(self)->measured_heights().size_bytes();
 }
 bool equal_profiles(const void* a, const void* b) {
   return static_cast<const Profile*>(a)->digest() == static_cast<const Profile*>(b)->digest();

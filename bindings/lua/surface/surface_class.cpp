@@ -82,7 +82,7 @@ std::string describe_surface(const void* self) {
 }
 
 std::size_t bytes_of_surface(const void* self) {
-  return static_cast<const Surface*>(self)->heights().size() * sizeof(double);
+  return static_cast<const Surface*>(self)->measured_heights().size() * sizeof(double);
 }
 bool equal_surfaces(const void* a, const void* b) {
   return static_cast<const Surface*>(a)->digest() == static_cast<const Surface*>(b)->digest();
@@ -184,9 +184,11 @@ const Class& class_of<Surface>() {
          .example = "s:filtered{ short_wave=\"2.5 um\", long_wave=\"0.8 mm\" }"},
         {.name = "write",
          .body = write_surface,
-         .sentence = "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
-                     "(Gwyddion), .txt, "
-                     ".asc or .csv by the extension of the path. All read back bit for bit.",
+         .sentence =
+             "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
+             "(Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit, "
+             "points that were not measured too. .sur (Digital Surf) rounds heights to 2^-30 of the "
+             "greatest and the size to single precision.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",
          .example = "s:write \"specimen.x3p\"",
