@@ -142,11 +142,11 @@ std::string line_name(const NotebookChart& options, const std::string& y, const 
                       const Table& table, const Columns& columns) {
   std::string name = options.y.size() > 1 ? y : "";
   if (!columns.line) return name;
-  const double* number = std::get_if<double>(&line.value);
+  const std::optional<double> number = is_number(line.value) ? number_in(line.value) : std::nullopt;
   const std::string& unit = table.columns()[*columns.line].unit;
   if (!name.empty()) name += ", ";
   return name +
-         (number != nullptr && !unit.empty() ? printed_quantity(*number, unit, 4) : short_text(line.value));
+         (number && !unit.empty() ? printed_quantity(*number, unit, 4) : short_text(line.value));
 }
 
 }  // namespace

@@ -100,8 +100,8 @@ TEST_F(Answers, EveryErrorNamesTheLineOfTheScript) {
   refuses("local x = '1 um' + 1", "quantities are strings where a key takes them");
   refuses("local x = 2 * '1 um'", "the string \"1 um\" was used in arithmetic");
   EXPECT_EQ(value("'10' + 1"), "11");
-  refuses("lab.material{ hardness='100 HV' }",
-          "`HV` is a scale of hardness, and hardness is a pressure; write HV x 9.807 MPa");
+  refuses("lab.material{ hardness='100 HB' }",
+          "`HB` is a scale of hardness, and hardness is a pressure; write HB x 9.807 MPa");
 }
 
 TEST_F(Answers, NumbersInStringsFollowOneRule) {

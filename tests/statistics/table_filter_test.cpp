@@ -36,6 +36,20 @@ TEST(TableFilter, TakesNoRowForNoAcceptedValue) {
   EXPECT_EQ(TableFilter({{"D", {3.0}}}).rows(cases()), Rows{});
 }
 
+TEST(TableFilter, CountsQuantitiesInTheUnitOfTheColumn) {
+  const Table loads({{"load", "kN"}, {"tag", ""}}, {{3.0, "3 kN"}, {0.5, "new"}, {"broken", "worn"}});
+  EXPECT_EQ(TableFilter({{"load", {"3000 N"}}}).rows(loads), (Rows{0}));
+  EXPECT_EQ(TableFilter({{"load", {"0.5 kN", 3.0}}}).rows(loads), (Rows{0, 1}));
+  EXPECT_EQ(TableFilter({{"load", {"broken"}}}).rows(loads), (Rows{2}));
+  EXPECT_EQ(TableFilter({{"tag", {"3 kN"}}}).rows(loads), (Rows{0}));
+  EXPECT_EQ(
+      error_of([&] {
+        TableFilter({{"load", {"3 MPa"}}}).rows(loads);
+      }),
+      "bad_unit: `where.load`: \"3 MPa\": a pressure where a number in kN is wanted; write it such as \"1 "
+      "kN\"");
+}
+
 TEST(TableFilter, NamesTheNearestColumn) {
   EXPECT_EQ(error_of([] {
               TableFilter({{"sed", {1.0}}}).rows(cases());
