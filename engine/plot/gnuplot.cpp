@@ -213,8 +213,7 @@ std::string gnuplot_terminal(PictureFormat format, int width, int height, double
     return "set terminal pngcairo size " + size + look + " background '#ffffff'\n";
   if (format == PictureFormat::pdf) {
     // Its points are 72 to the inch, and a pixel is a hundredth of one.
-    const std::string inches =
-        format_short(0.01 * width, 6) + "in," + format_short(0.01 * height, 6) + "in";
+    const std::string inches = format_short(0.01 * width, 6) + "in," + format_short(0.01 * height, 6) + "in";
     return "set terminal pdfcairo size " + inches + look + " fontscale 0.72 background '#ffffff'\n";
   }
   return "set terminal svg size " + size + " dynamic" + look + " background '#ffffff'\n";

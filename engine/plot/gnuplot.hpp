@@ -2,7 +2,8 @@
 // Runs gnuplot (a separate program, without a shell) on a script and returns the picture it drew.
 // Text reaches the script only through gnuplot_text, as a single-quoted string in which gnuplot
 // substitutes nothing; numbers only through gnuplot_number. Bulk data go as attached files. The same
-// script and data give the same bytes: no user settings are read, and the date that a PDF bears is a fixed one.
+// script and data give the same bytes: no user settings are read, and the date that a PDF bears is a fixed
+// one.
 #pragma once
 
 #include <filesystem>
@@ -52,8 +53,8 @@ using GnuplotDrawer = GnuplotResult(std::string_view script, std::span<const Gnu
 // From now on, in the whole process; not while a picture is drawn.
 void draw_pictures_by(std::function<GnuplotDrawer> drawer);
 
-// A PDF with its date of making (D:yyyymmddhhmmss) replaced by the first second of 2000, so that replay gives the
-// same bytes; any other picture as it is.
+// A PDF with its date of making (D:yyyymmddhhmmss) replaced by the first second of 2000, so that replay gives
+// the same bytes; any other picture as it is.
 std::string without_date(std::string picture);
 
 // The script as gnuplot reads it, to leave its picture in the file `picture` of its working directory.

@@ -81,8 +81,8 @@ std::vector<double> edges_of(const std::vector<double>& sorted, const HistogramB
 
 }  // namespace
 
-Histogram histogram(std::span<const double> values, const HistogramBins& bins) {
-  Histogram found;
+ValueHistogram value_histogram(std::span<const double> values, const HistogramBins& bins) {
+  ValueHistogram found;
   std::vector<double> sorted;
   for (const double value : values)
     if (std::isfinite(value)) sorted.push_back(value);

@@ -17,7 +17,7 @@ struct HistogramBins {
   std::vector<double> edges{};  // or these, ascending
 };
 
-struct Histogram {
+struct ValueHistogram {
   std::vector<double> edges;  // one more than bins
   std::vector<std::size_t> counts;
   std::vector<double> density;       // share of the values per width: integrates to 1 over the bins
@@ -29,6 +29,6 @@ struct Histogram {
 
 // Throws Error{bad_value} when no value is finite, when all values are equal and no edges are given, for
 // edges that do not ascend, and for fewer than 1 or more than 10000 bins. Cost: n log n.
-Histogram histogram(std::span<const double> values, const HistogramBins& bins = {});
+ValueHistogram value_histogram(std::span<const double> values, const HistogramBins& bins = {});
 
 }  // namespace asperity

@@ -8,6 +8,17 @@
 
 namespace asperity {
 
+bool comes_before(const Cell& a, const Cell& b) {
+  const auto rank = [](const Cell& cell) {
+    return is_empty(cell) ? 0 : is_number(cell) ? 1 : std::holds_alternative<bool>(cell) ? 2 : 3;
+  };
+  if (rank(a) != rank(b)) return rank(a) < rank(b);
+  if (!is_number(a)) return a < b;
+  const double x = *number_in(a), y = *number_in(b);
+  if (std::isnan(x) || std::isnan(y)) return std::isnan(y) && !std::isnan(x);
+  return x < y;
+}
+
 NumberColumns number_columns(const Table& table,
                              const std::vector<std::pair<std::string, std::string>>& named) {
   std::vector<std::size_t> places;

@@ -13,6 +13,9 @@
 
 namespace asperity {
 
+// The order of groups and lines: numbers first, whole or not, in ascending order, then booleans, then texts.
+bool comes_before(const Cell& a, const Cell& b);
+
 struct NumberColumns {
   std::vector<std::vector<double>> values;  // of each column, equally long
   std::vector<std::size_t> rows;            // of the table, from 0

@@ -79,12 +79,9 @@ void add_log_interval(SampleMean& of, std::span<const double> values) {
   of.method = "log interval of Cox, " + degrees_text(of.count) + "; assumes that the logarithms are normal";
 }
 
-// Numbers first in ascending order, then booleans and text.
 bool cells_before(const std::vector<Cell>& a, const std::vector<Cell>& b) {
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    if (same_cell(a[k], b[k])) continue;
-    return a[k].index() != b[k].index() ? a[k].index() < b[k].index() : a[k] < b[k];
-  }
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (!same_cell(a[k], b[k])) return comes_before(a[k], b[k]);
   return false;
 }
 

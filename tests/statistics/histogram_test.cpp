@@ -21,7 +21,7 @@ std::vector<double> counting(int n) {
 
 TEST(Histogram, FreedmanDiaconisByDefault) {
   // Quartiles 25 and 75 of 0..100: width 100/101^(1/3) = 21.47, five bins of 20.
-  const Histogram found = histogram(counting(101));
+  const ValueHistogram found = value_histogram(counting(101));
   EXPECT_EQ(found.rule, "Freedman-Diaconis");
   EXPECT_EQ(found.edges, (std::vector<double>{0, 20, 40, 60, 80, 100}));
   EXPECT_EQ(found.counts, (std::vector<std::size_t>{20, 20, 20, 20, 21}));
@@ -32,7 +32,7 @@ TEST(Histogram, FreedmanDiaconisByDefault) {
 
 TEST(Histogram, EdgesBelongToTheBinAboveAndTheLastToBoth) {
   const HistogramBins bins{{}, {0, 1, 2}};
-  const Histogram found = histogram(
+  const ValueHistogram found = value_histogram(
       std::vector<double>{-0.1, 0, std::nextafter(1.0, 0.0), 1, 2, std::nextafter(2.0, 3.0), 9}, bins);
   EXPECT_EQ(found.counts, (std::vector<std::size_t>{2, 2}));
   EXPECT_EQ(found.below, 1U);
@@ -45,7 +45,7 @@ TEST(Histogram, NumberOfBinsAndMissingValues) {
   std::vector<double> values = counting(10);
   values.push_back(std::nan(""));
   values.push_back(std::numeric_limits<double>::infinity());
-  const Histogram found = histogram(values, {3, {}});
+  const ValueHistogram found = value_histogram(values, {3, {}});
   EXPECT_EQ(found.counts, (std::vector<std::size_t>{3, 3, 4}));
   EXPECT_EQ(found.left_out, 2U);
   EXPECT_EQ(found.rule, "3 bins as given");
@@ -54,22 +54,22 @@ TEST(Histogram, NumberOfBinsAndMissingValues) {
 TEST(Histogram, TwoLevelsHaveNoQuartileWidth) {
   std::vector<double> values(10, 1.0);
   values.push_back(2);
-  const Histogram found = histogram(values);
+  const ValueHistogram found = value_histogram(values);
   EXPECT_TRUE(found.rule.starts_with("Sturges"));
   EXPECT_EQ(found.counts.front(), 10U);
   EXPECT_EQ(found.counts.back(), 1U);
 }
 
 TEST(Histogram, Refuses) {
-  EXPECT_THROW(histogram(std::vector<double>{}), Error);
-  EXPECT_THROW(histogram(std::vector<double>{std::nan("")}), Error);
-  EXPECT_THROW(histogram(std::vector<double>{3, 3, 3}), Error);
-  EXPECT_EQ(histogram(std::vector<double>{3, 3, 3}, {{}, {0, 5}}).counts.at(0), 3U);
-  EXPECT_THROW(histogram(counting(5), {0, {}}), Error);
-  EXPECT_THROW(histogram(counting(5), {20'000, {}}), Error);
-  EXPECT_THROW(histogram(counting(5), {{}, {1}}), Error);
-  EXPECT_THROW(histogram(counting(5), {{}, {1, 1}}), Error);
-  EXPECT_THROW(histogram(counting(5), {{}, {1, std::nan("")}}), Error);
+  EXPECT_THROW(value_histogram(std::vector<double>{}), Error);
+  EXPECT_THROW(value_histogram(std::vector<double>{std::nan("")}), Error);
+  EXPECT_THROW(value_histogram(std::vector<double>{3, 3, 3}), Error);
+  EXPECT_EQ(value_histogram(std::vector<double>{3, 3, 3}, {{}, {0, 5}}).counts.at(0), 3U);
+  EXPECT_THROW(value_histogram(counting(5), {0, {}}), Error);
+  EXPECT_THROW(value_histogram(counting(5), {20'000, {}}), Error);
+  EXPECT_THROW(value_histogram(counting(5), {{}, {1}}), Error);
+  EXPECT_THROW(value_histogram(counting(5), {{}, {1, 1}}), Error);
+  EXPECT_THROW(value_histogram(counting(5), {{}, {1, std::nan("")}}), Error);
 }
 
 }  // namespace
