@@ -173,6 +173,21 @@ void refuse_undetermined(const Tangent& at, std::span<const FitStart> start) {
                 "fix all but one of them, or measure where they act differently");
 }
 
+// Where the sum falls for ever: the points want the limit of the model, in which parameters are not apart.
+void refuse_runaways(const std::vector<double>& values, const std::vector<double>& natural,
+                     std::span<const FitStart> start) {
+  constexpr double far = 1e6;
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < values.size(); ++p)
+    if (std::abs(values[p]) > far * natural[p]) names.push_back(quoted(start[p].name));
+  if (!names.empty())
+    throw Error(
+        ErrorCode::infeasible,
+        "the points do not determine " + joined(names, " and ") + ": the sum of squares falls for ever as " +
+            (names.size() == 1 ? "it grows" : "they grow"),
+        "the points may show less than the model has, as a straight line where it bends: fit a simpler one");
+}
+
 std::vector<std::vector<double>> covariance_of(const Tangent& at) {
   const std::size_t n = at.column_lengths.size();
   std::vector<std::vector<double>> covariance(n, std::vector<double>(n));
@@ -263,6 +278,7 @@ LeastSquares least_squares(const UsedPoints& points, const CurveModel& model,
     }
     if (!moved || found.iterations >= most_steps) {
       refuse_undetermined(tangent, start);
+      refuse_runaways(found.values, natural, start);
       throw Error(ErrorCode::not_converged,
                   "the fit found no least sum of squares" +
                       (moved ? " in " + std::to_string(most_steps) + " steps" : std::string()) +

@@ -229,7 +229,8 @@ std::string Table::digest() const {
   for (std::size_t row = 0; row < rows_.size(); ++row)
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       const Cell& one = cell(row, k);
-      digester.add(static_cast<std::int64_t>(one.index()));
+      // A whole number is the number that it is.
+      digester.add(static_cast<std::int64_t>(is_number(one) ? Cell(0.0).index() : one.index()));
       if (const auto number = number_in(one)) digester.add(*number);
       if (const auto* text = std::get_if<std::string>(&one)) digester.add(*text);
     }

@@ -190,6 +190,21 @@ TEST(CurveFit, NamesWhatThePointsDoNotDetermine) {
       "values of x");
 }
 
+TEST(CurveFit, SaysWhatRunsAwayWhereTheModelHasNoBest) {
+  // Points that bend upwards, and a model that bends downwards: it is best as a straight line, at infinity.
+  const FitPoints points = {{1, 2, 4, 7, 10, 25, 60},
+                            {0.0031, 0.0058, 0.0122, 0.0199, 0.0311, 0.0702, 0.178}};
+  const CurveModel bent = [](double x, std::span<const double> q) {
+    return q[0] * (1 - std::exp(-x / q[1]));
+  };
+  EXPECT_EQ(
+      error_of([&] {
+        fit_model(points, bent, std::vector<FitStart>{{"s", 1}, {"p0", 300}});
+      }),
+      "the points do not determine `s` and `p0`: the sum of squares falls for ever as they grow; the points "
+      "may show less than the model has, as a straight line where it bends: fit a simpler one");
+}
+
 TEST(CurveFit, RefusesWhatCannotBeFitted) {
   EXPECT_EQ(
       error_of([] {

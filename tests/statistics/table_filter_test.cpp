@@ -37,15 +37,17 @@ TEST(TableFilter, TakesNoRowForNoAcceptedValue) {
 }
 
 TEST(TableFilter, CountsQuantitiesInTheUnitOfTheColumn) {
-  const Table loads({{"load", "kN"}, {"tag", ""}}, {{3.0, "3 kN"}, {0.5, "new"}, {"broken", "worn"}});
-  EXPECT_EQ(TableFilter({{"load", {"3000 N"}}}).rows(loads), (Rows{0}));
-  EXPECT_EQ(TableFilter({{"load", {"0.5 kN", 3.0}}}).rows(loads), (Rows{0, 1}));
-  EXPECT_EQ(TableFilter({{"load", {"broken"}}}).rows(loads), (Rows{2}));
-  EXPECT_EQ(TableFilter({{"tag", {"3 kN"}}}).rows(loads), (Rows{0}));
+  const Table loads({{"load", "kN"}, {"tag", ""}},
+                    {{3.0, std::string("3 kN")}, {0.5, std::string("new")}, {std::string("broken"), Cell()}});
+  const auto rows = [&](const char* column, std::vector<Cell> accepted) {
+    return TableFilter(std::vector<Condition>{{column, std::move(accepted)}}).rows(loads);
+  };
+  EXPECT_EQ(rows("load", {std::string("3000 N")}), (Rows{0}));
+  EXPECT_EQ(rows("load", {std::string("0.5 kN"), 3.0}), (Rows{0, 1}));
+  EXPECT_EQ(rows("load", {std::string("broken")}), (Rows{2}));
+  EXPECT_EQ(rows("tag", {std::string("3 kN")}), (Rows{0}));
   EXPECT_EQ(
-      error_of([&] {
-        TableFilter({{"load", {"3 MPa"}}}).rows(loads);
-      }),
+      error_of([&] { rows("load", {std::string("3 MPa")}); }),
       "bad_unit: `where.load`: \"3 MPa\": a pressure where a number in kN is wanted; write it such as \"1 "
       "kN\"");
 }

@@ -482,6 +482,7 @@ local spread = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary="period
                                    effects={ elasticity="half_space" } }
 local under = spread:press{ pressure="10 MPa" }
 s:write "specimen.txt" p:write "scan.csv" protocol:write "press_log.csv"
+lab.table.from{ { ["force"]=3, mu=0.42 } }:write "mu.csv"
 )";
   return text;
 }

@@ -5,6 +5,7 @@
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_analysis.hpp"
+#include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "engine/core/files/atomic_file.hpp"
@@ -55,27 +56,13 @@ Values cells_of_column(Call& call) {
   return {std::move(list)};
 }
 
-void read_names(const Argument& value, const OptionInfo& info, std::vector<std::string>& names,
-                Problems& problems) {
-  const auto take = [&](const Argument& part) {
-    if (part.is_text())
-      names.emplace_back(part.text());
-    else if (!part.is_unknown())
-      detail::wrong_type(part, info, "a column's name", problems);
-  };
-  if (value.is_text()) return take(value);
-  if (!value.is_table() || value.length() == 0)
-    return detail::wrong_type(value, info, "a column's name or a list of them", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
-}
-
 const Block<Join>& join_block() {
   static const Block<Join> block{
       "joined",
       {custom<Join>("by", "string|string[]",
                     "the column, or columns, in which rows that belong together are equal",
                     [](const Argument& value, const OptionInfo& info, Join& join, Problems& problems) {
-                      read_names(value, info, join.by, problems);
+                      read_texts(value, info, join.by, problems);
                     })
            .required(),
        text("suffix", &Join::suffix,

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // lab.table: how tables come to be.
-#include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/table.hpp"
+#include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
+#include "bindings/lua/runtime/files.hpp"
+#include "engine/core/files/text_encoding.hpp"
 #include "engine/statistics/table_operations.hpp"
+#include "engine/statistics/table_reader.hpp"
+#include "engine/surface/io/foreign_format.hpp"
 
 namespace asperity::lua {
 
@@ -17,27 +23,45 @@ struct FromKeys {
   std::vector<std::string> columns;
 };
 
-void read_columns(const Argument& value, const OptionInfo& info, std::vector<std::string>& columns,
-                  Problems& problems) {
-  if (!value.is_table() || value.length() == 0)
-    return detail::wrong_type(value, info, "a list of names", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k)
-    value.element(k, [&](const Argument& part) {
-      if (part.is_text())
-        columns.emplace_back(part.text());
-      else
-        detail::wrong_type(part, info, "a column's name", problems);
-    });
-}
-
 const Block<FromKeys>& from_block() {
   static const Block<FromKeys> block{
       "from",
       {custom<FromKeys>("columns", "string[]", "the names of columns in the order in which they stand",
                         [](const Argument& value, const OptionInfo& info, FromKeys& keys,
-                           Problems& problems) { read_columns(value, info, keys.columns, problems); })
+                           Problems& problems) { read_texts(value, info, keys.columns, problems); })
            .defaults_to("in the order of their names, as rows bring them")}};
   return block;
+}
+
+struct ReadKeys : TableForm {};
+
+const Block<ReadKeys>& read_block() {
+  static const Block<ReadKeys> block = [] {
+    std::vector<Option<ReadKeys>> keys(table_form_keys().begin(), table_form_keys().end());
+    keys.push_back(custom<TableForm>(
+        "text", "string|string[]", "columns that hold texts, whatever their cells look like",
+        [](const Argument& value, const OptionInfo& info, TableForm& form, Problems& problems) {
+          read_texts(value, info, form.texts, problems);
+        }));
+    keys.push_back(
+        choice("stamps", &TableForm::stamps_since_1970, {{"first", false}, {"1970", true}},
+               "what dates and times of day are counted from, in seconds: the first one of their column, "
+               "or the beginning of 1970"));
+    return Block<ReadKeys>("read", std::move(keys));
+  }();
+  return block;
+}
+
+Values read_table_file(Call& call) {
+  const std::string path = readable_path(call, call.text(1, "path"));
+  const TableForm form = call.options(read_block(), 2);
+  Monitor& monitor = call.session().monitor();
+  const SourceFile file(path, monitor);
+  note_input(call, path);
+  if (!utf8_of_utf16(file.bytes().substr(0, 64)))
+    if (const std::optional<ForeignFormat> foreign = foreign_format(file))
+      refuse_file(file, "is not text that can be read: it is " + foreign->what, foreign->cure);
+  return {object(read_measured_table(file, form, monitor))};
 }
 
 Values table_from(Call& call) {
@@ -72,6 +96,23 @@ const Module& table_module() {
     m.path = "lab.table";
     m.sentence = "Tables of measured or computed numbers under named columns with units.";
     m.functions = {
+        {.name = "read",
+         .body = read_table_file,
+         .sentence = "A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Latin-1): a line "
+                     "of heads, then "
+                     "rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. "
+                     "Units stand in the "
+                     "heads, load [N], load (N), load / N, or in the line below, or in the cells; numbers "
+                     "with a unit come "
+                     "in SI. Dates and times of day become seconds, ISO 8601 and local forms; columns of "
+                     "words are texts. "
+                     "What may be read in two ways is an error that names the key that decides.",
+         .parameters = {{"path", "string", "the file"}},
+         .options = &read_block(),
+         .options_optional = true,
+         .returns = "Table",
+         .example = "local t = lab.table.read(\"mu.csv\", { unit={ force=\"N\" } })",
+         .heavy = true},
         {.name = "from",
          .body = table_from,
          .sentence =
