@@ -86,7 +86,7 @@ struct Losses {
 
 std::string tic_command(std::string_view axis, const AxisLayout& layout) {
   std::string text = "set " + std::string(axis) + "tics nomirror out scale 0.8,0.4 ";
-  if (layout.slanted && axis == "x") text += "rotate by 35 right ";
+  if (layout.slanted && axis == "x") text += "rotate by 45 right ";
   text += "textcolor rgb '#202020' (";
   for (std::size_t k = 0; k < layout.tics.size(); ++k) {
     const Tic& tic = layout.tics[k];
@@ -171,7 +171,7 @@ void take_references(const LineChart& chart, Content& content, std::vector<std::
     }
     (along ? content.ends.y : content.ends.x).push_back(at);
     content.keyed |= !line.name.empty();
-    content.longest_name = std::max(content.longest_name, line.name.size());
+    content.longest_name = std::max(content.longest_name, characters_of(line.name));
   }
 }
 
@@ -191,9 +191,9 @@ Content gathered(const LineChart& chart, std::vector<std::string>& warnings) {
         content.ends.y.insert(content.ends.y.end(), {point.y, point.low, point.high});
       }
     content.keyed |= !series.name.empty();
-    content.longest_name = std::max(content.longest_name, series.name.size());
+    content.longest_name = std::max(content.longest_name, characters_of(series.name));
   }
-  content.longest_name = std::max(content.longest_name, chart.key_title.size());
+  content.longest_name = std::max(content.longest_name, characters_of(chart.key_title));
   for (const ChartBar& bar : chart.bars) {
     content.ends.x.insert(content.ends.x.end(), {bar.left, bar.right});
     content.ends.y.insert(content.ends.y.end(), {0, bar.height});
@@ -252,7 +252,28 @@ std::string bar_data(const LineChart& chart, const Axes& axes, const std::string
   return text + "EOD\n";
 }
 
-std::string look_commands(const LineChart& chart, const Axes& axes, bool keyed) {
+// Pixels from the left at which the axis begins, so that no slanted name begins left of the canvas; 0: as
+// gnuplot finds it. Measured on text of 16 points.
+double left_rim(const LineChart& chart, const AxisLayout& x) {
+  constexpr double usual = 125, character = 11.8, share_along = 0.71, reserved = 160;
+  if (!x.slanted) return 0;
+  const double step = (chart.width - usual - reserved) / static_cast<double>(x.tics.size());
+  double rim = usual;
+  for (std::size_t k = 0; k < x.tics.size(); ++k)
+    rim = std::max(rim, character * share_along * static_cast<double>(characters_of(x.tics[k].label)) -
+                            (static_cast<double>(k) + 0.5) * step);
+  return rim;
+}
+
+// Where the key of a panel stands: beside the plot, whose right rim all panels share.
+std::string key_command(const std::optional<double>& right_rim) {
+  if (!right_rim) return "set key outside right top Left reverse samplen 2.6 spacing 1.25\n";
+  return "set key at screen " + gnuplot_number(*right_rim + 0.015) +
+         ", graph 1 left top Left reverse samplen 2.6 spacing 1.25\n";
+}
+
+std::string look_commands(const LineChart& chart, const Axes& axes, bool keyed,
+                          const std::optional<double>& right_rim) {
   std::string script =
       "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
       "set grid xtics ytics mxtics mytics linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc', "
@@ -260,7 +281,7 @@ std::string look_commands(const LineChart& chart, const Axes& axes, bool keyed) 
   script += axis_command("x", axes.x, chart.x.logarithmic) + axis_command("y", axes.y, chart.y.logarithmic);
   if (!chart.title.empty()) script += "set title " + gnuplot_text(chart.title) + " font ',18'\n";
   if (chart.equal_axes) script += "set size ratio -1\n";
-  script += keyed ? "set key outside right top Left reverse samplen 2.6 spacing 1.25\n" : "set key off\n";
+  script += keyed ? key_command(right_rim) : "set key off\n";
   if (keyed && !chart.key_title.empty())
     script += "set key title " + gnuplot_text(chart.key_title) + " left\n";
   for (const ChartLabel& label : chart.labels)
@@ -317,8 +338,8 @@ void add_series(const ChartSeries& series, int k, int lines, const Content& cont
 }
 
 // The commands that draw a chart on a canvas that is open. `prefix` keeps the data of panels apart.
-std::string body_of(const LineChart& chart, const Content& content, const std::string& prefix) {
-  const Axes axes = axes_of(chart, content);
+std::string body_of(const LineChart& chart, const Content& content, const Axes& axes,
+                    const std::string& prefix, const std::optional<double>& right_rim) {
   std::string script;
   for (std::size_t k = 0; k < content.points.size(); ++k) {
     const std::string number = std::to_string(k);
@@ -327,7 +348,7 @@ std::string body_of(const LineChart& chart, const Content& content, const std::s
     script += data_block(prefix + "cloud" + number, content.clouds[k], axes.x, axes.y, false);
   }
   script += reference_data(chart, axes, prefix) + bar_data(chart, axes, prefix);
-  script += look_commands(chart, axes, content.keyed);
+  script += look_commands(chart, axes, content.keyed, right_rim);
 
   Layers layers;
   if (!chart.bars.empty())
@@ -357,7 +378,13 @@ bool share_x(const LineChart& a, const LineChart& b) {
 
 std::string chart_script(const LineChart& chart, PictureFormat format, std::vector<std::string>& warnings) {
   const Content content = gathered(chart, warnings);
-  return gnuplot_terminal(format, chart.width, chart.height, 16) + body_of(chart, content, "");
+  const Axes axes = axes_of(chart, content);
+  std::string script = gnuplot_terminal(format, chart.width, chart.height, 16);
+  if (const double rim = left_rim(chart, axes.x); rim > 0) {
+    script += "set lmargin at screen " + gnuplot_number(rim / chart.width) + "\n";
+    if (!content.keyed) script += "set rmargin at screen 0.97\n";
+  }
+  return script + body_of(chart, content, axes, "", {});
 }
 
 std::string chart_script(std::span<const LineChart> panels, PictureFormat format,
@@ -379,19 +406,32 @@ std::string chart_script(std::span<const LineChart> panels, PictureFormat format
         contents[k].ends.x.insert(contents[k].ends.x.end(), reach.begin(), reach.end());
       }
   const int width = panels.front().width;
+  std::vector<Axes> axes;
+  double left = 0.13 * width;
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    axes.push_back(axes_of(panels[k], contents[k]));
+    left = std::max(left, left_rim(panels[k], axes.back().x));
+  }
+  // Names are written once, below the last panel that has them.
+  for (std::size_t k = 0; k + 1 < panels.size(); ++k)
+    if (!panels[k].x.names.empty() && share_x(panels[k], panels[k + 1])) {
+      axes[k].x.label.clear();
+      axes[k].x.slanted = false;
+      for (Tic& tic : axes[k].x.tics) tic.label = " ";
+    }
   // Room for the longest name and its sample of a line, for all panels, so that their axes stand in one line.
-  const double right =
-      longest == 0 ? 0.97 : 1 - std::min(0.45, (85 + 9.6 * static_cast<double>(longest)) / width);
+  const double beside = 85 + 11.0 * static_cast<double>(longest);
+  const double right = longest == 0 ? 0.97 : 1 - std::min(0.45, beside / width);
   std::string script = gnuplot_terminal(format, width, height, 16);
-  script += "set multiplot layout " + std::to_string(panels.size()) + ",1\nset lmargin at screen 0.13\n";
-  script += "set rmargin at screen " + gnuplot_number(right) + "\n";
+  script += "set multiplot layout " + std::to_string(panels.size()) + ",1\nset lmargin at screen " +
+            gnuplot_number(left / width) + "\nset rmargin at screen " + gnuplot_number(right) + "\n";
   for (std::size_t k = 0; k < panels.size(); ++k) {
     // Nothing of the panel above stays.
     if (k > 0)
       script +=
-          "unset logscale\nunset label\nunset title\nset size noratio\nset key notitle\n"
+          "unset logscale\nunset label\nunset title\nset size noratio\nset key default\n"
           "set xtics norotate autojustify\n";
-    script += body_of(panels[k], contents[k], k == 0 ? "" : "panel" + std::to_string(k));
+    script += body_of(panels[k], contents[k], axes[k], k == 0 ? "" : "panel" + std::to_string(k), right);
   }
   return script + "unset multiplot\n";
 }

@@ -159,17 +159,17 @@ std::string printed_quantity(double value, std::string_view unit, int digits) {
   return scale.unit.empty() ? number : number + " " + scale.unit;
 }
 
-namespace {
-
-std::size_t characters_in(std::string_view text) {
+std::size_t characters_of(std::string_view text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
+namespace {
+
 // The first of it, where it is longer than an axis has room for.
 std::string shortened(std::string_view text) {
-  constexpr std::size_t longest = 28;
-  if (characters_in(text) <= longest) return std::string(text);
+  constexpr std::size_t longest = 24;
+  if (characters_of(text) <= longest) return std::string(text);
   std::size_t end = 0;
   for (std::size_t count = 0; count < longest; ++count) do {
       ++end;
@@ -178,7 +178,7 @@ std::string shortened(std::string_view text) {
 }
 
 AxisLayout names_layout(const ChartAxis& axis) {
-  constexpr double plot_width = 620, character = 9.5, between = 14;  // pixels, on the usual canvas
+  constexpr double plot_width = 620, character = 11.8, between = 14;  // pixels, on the usual canvas
   AxisLayout layout;
   layout.label = axis.label;
   layout.low = -0.5;
@@ -186,7 +186,7 @@ AxisLayout names_layout(const ChartAxis& axis) {
   const double room = plot_width / static_cast<double>(axis.names.size());
   for (std::size_t k = 0; k < axis.names.size(); ++k) {
     const std::string name = shortened(axis.names[k]);
-    layout.slanted |= character * static_cast<double>(characters_in(name)) + between > room;
+    layout.slanted |= character * static_cast<double>(characters_of(name)) + between > room;
     layout.tics.push_back({static_cast<double>(k), name});
   }
   return layout;

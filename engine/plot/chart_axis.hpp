@@ -51,6 +51,9 @@ std::string printed_unit(std::string_view unit);
 // The value in its own unit with the prefix that suits it: "20 µm".
 std::string printed_quantity(double value, std::string_view unit, int digits = 3);
 
+// Of UTF-8, as printed.
+std::size_t characters_of(std::string_view text);
+
 // The greatest of 1, 2, 5 × 10^k that is not above `value` > 0.
 double round_below(double value);
 

@@ -23,10 +23,6 @@ Function chart_method();
 const RecordInfo& histogram_type();
 std::vector<const RecordInfo*> fit_types();
 
-// The name of a column or a list of them.
-void read_column_names(const Argument& value, const OptionInfo& info, std::vector<std::string>& names,
-                       Problems& problems);
-
 // A fit as a record of t:fit holds it; nothing for any other value.
 std::optional<FittedCurve> fitted_curve_of(const Argument& value);
 

@@ -6,6 +6,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table_analysis.hpp"
+#include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "engine/run/run_directory.hpp"
@@ -31,7 +32,7 @@ void read_interval(const Argument& value, const OptionInfo& info, C& c, Problems
   if (!value.is_table() || value.length() != 2)
     return detail::wrong_type(value, info, "two columns' names, as in {\"low\", \"high\"}", problems);
   std::vector<std::string> names;
-  read_column_names(value, info, names, problems);
+  read_texts(value, info, names, problems);
   if (names.size() != 2) return;
   c.low = names[0];
   c.high = names[1];
@@ -135,7 +136,7 @@ std::vector<Option<C>> panel_keys(bool first) {
   keys.push_back(first ? std::move(x).required() : std::move(x).defaults_to("that of the panel above"));
   keys.push_back(custom<C>("y", "string|string[]", "the column, or columns of one unit, up",
                            [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
-                             read_column_names(value, info, c.y, problems);
+                             read_texts(value, info, c.y, problems);
                            })
                      .required());
   keys.push_back(text("one_line_per", &C::one_line_per, "a column; one line for each of its values"));

@@ -5,6 +5,7 @@
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_analysis.hpp"
+#include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "engine/run/run_directory.hpp"
@@ -35,7 +36,7 @@ const Block<MeanKeys>& mean_block() {
       {custom<K>("by", "string|string[]",
                  "a column, or columns: one mean for the rows that are equal in them",
                  [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   read_column_names(value, info, keys.by, problems);
+                   read_texts(value, info, keys.by, problems);
                  }),
        where_key(&K::where),
        number("confidence", &K::confidence, inside(0, 1), "the share of such intervals that hold the mean"),
@@ -203,20 +204,6 @@ Values histogram_of_column(Call& call) {
 }  // namespace
 
 const RecordInfo& histogram_type() { return histogram_record(); }
-
-void read_column_names(const Argument& value, const OptionInfo& info, std::vector<std::string>& names,
-                       Problems& problems) {
-  const auto take = [&](const Argument& part) {
-    if (part.is_text())
-      names.emplace_back(part.text());
-    else if (!part.is_unknown())
-      detail::wrong_type(part, info, "a column's name", problems);
-  };
-  if (value.is_text()) return take(value);
-  if (!value.is_table() || value.length() == 0)
-    return detail::wrong_type(value, info, "a column's name or a list of them", problems);
-  for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
-}
 
 Function mean_method() {
   return {
