@@ -136,13 +136,16 @@ class RecordingReader {
   void spread_equal_times() {
     if (equal_rows_ == 0) return;
     Array<double>& time = recording_.time;
-    double spacing = 0;
     for (std::size_t first = 0, end = 0; first < time.size(); first = end) {
       while (end < time.size() && time[end] == time[first]) ++end;
-      const auto rows = static_cast<double>(end - first);
-      if (end < time.size()) spacing = (time[end] - time[first]) / rows;
-      if (spacing == 0) refuse_file(file_, "has the same time in all of its rows");
       const double begin = time[first];
+      double spacing = 0;
+      if (end < time.size())
+        spacing = (time[end] - begin) / static_cast<double>(end - first);
+      else if (first > 0)
+        spacing = (begin - time.front()) / static_cast<double>(first);
+      else
+        refuse_file(file_, "has the same time in all of its rows");
       for (std::size_t k = first; k < end; ++k) time[k] = begin + static_cast<double>(k - first) * spacing;
     }
     monitor_.warn(file_name(file_.path()) + ": " + std::to_string(equal_rows_) +

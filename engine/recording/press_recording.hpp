@@ -34,7 +34,7 @@ struct PressRecording {
 // Rows with the same time, as a logger writes them that is faster than its clock tells.
 enum class EqualTimes {
   refuse,
-  spread,  // evenly until the next time; the last of them at the spacing of those before
+  spread,  // evenly until the next time; the last of them at the mean spacing of those before
 };
 
 // Throws Error{bad_file} with every problem of the file by line and column: what log_table.hpp refuses, no

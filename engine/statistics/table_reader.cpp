@@ -234,7 +234,7 @@ class MeasuredTable {
         const bool words = std::ranges::none_of(cells, [](const TableCell& cell) {
           return read_cell(cell.text, Separator::blank).kind == CellKind::number;
         });
-        if (words && lines_.at_end_of_table()) {
+        if (words && !rows_.empty() && lines_.at_end_of_table()) {
           monitor_.warn(file_name(file_.path()) + ": what stands below the table, from " + lines_.here() +
                         " on, is left out");
           break;
@@ -337,7 +337,8 @@ class MeasuredTable {
       if (counts.filled > 0 && counts.truths == counts.filled) {
         for (std::size_t row = 0; row < rows.size(); ++row) {
           const std::string text = text_of(cell(row, k));
-          rows[row].push_back(is_truth(text) ? Cell(text == "true") : Cell());
+          rows[row].emplace_back();
+          if (is_truth(text)) rows[row].back() = text == "true";
         }
         return "";
       }
@@ -359,7 +360,8 @@ class MeasuredTable {
     for (std::size_t row = 0; row < rows.size(); ++row) {
       const TableCell& from = cell(row, k);
       const bool nothing = from.text.empty() && !from.quoted;
-      rows[row].push_back(nothing ? Cell() : Cell(utf8_or_latin1(without_guard(text_of(from)))));
+      rows[row].emplace_back();
+      if (!nothing) rows[row].back() = utf8_or_latin1(without_guard(text_of(from)));
     }
   }
 
@@ -438,8 +440,9 @@ class MeasuredTable {
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const std::string text = text_of(cell(row, k));
       const auto quantity = quantity_in_cell(text);
-      rows[row].push_back(quantity ? Cell(quantity->value) : Cell());
+      rows[row].emplace_back();
       if (!quantity) continue;
+      rows[row].back() = quantity->value;
       if (!dimension) dimension = quantity->dimension;
       if (quantity->dimension != *dimension)
         problems_.add(place(row, k), shown(text) + " is " + describe(quantity->dimension) +
@@ -464,7 +467,8 @@ class MeasuredTable {
       }
       const StampColumn::Reading reading = stamps.read(text);
       if (!reading.seconds) problems_.add(place(row, k), reading.complaint);
-      rows[row].push_back(reading.seconds ? Cell(*reading.seconds) : Cell());
+      rows[row].emplace_back();
+      if (reading.seconds) rows[row].back() = *reading.seconds;
     }
     return "s";
   }
