@@ -151,10 +151,11 @@ TEST_F(Answers, AStateThatIsPrintedSaysWhatItIsToBeDoubtedFor) {
             std::string::npos);
 }
 
-TEST_F(Answers, AnAxisOfNamesSaysThatItHoldsNames) {
+TEST_F(Answers, NamesStandAlongXAndNotUp) {
   EXPECT_EQ(run("book = lab.notebook 'grits' book:write{ grit='P80', Ra=1 } book:write{ grit='P120', Ra=2 }"),
             "");
-  refuses("book:chart{ x='grit', y='Ra' }", "`grit` holds names, such as \"P80\"");
+  EXPECT_EQ(run("book:chart{ x='grit', y='Ra' }"), "");
+  refuses("book:chart{ x='Ra', y='grit' }", "`grit` holds names, such as \"P80\"; names stand along x");
 }
 
 // M2: the height at the last node continues in the first.

@@ -42,4 +42,5 @@ refused("HBW", lab.material, { hardness="100 HBW" })
 local book = lab.notebook "grits"
 book:write{ grit="P80", Ra=1 }
 book:write{ grit="P120", Ra=2 }
-refused("holds names", book.chart, book, { x="grit", y="Ra" })
+book:chart{ x="grit", y="Ra" }
+refused("holds names", book.chart, book, { x="Ra", y="grit" })

@@ -6,6 +6,7 @@
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/table.hpp"
+#include "bindings/lua/run/table_analysis.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "engine/run/notebook_chart.hpp"
 #include "engine/run/run_directory.hpp"
@@ -105,13 +106,6 @@ Values expect(Call& call) {
   return {call.self<Notebook>().expect(expectation).passed};
 }
 
-Values chart_rows(Call& call) {
-  const NotebookChart options = call.options(notebook_chart_block());
-  const DrawnChart drawn = draw_chart(run_of(call), call.self<Notebook>(), options);
-  for (const std::string& warning : drawn.warnings) call.session().monitor().warn(warning);
-  return {drawn.file.string()};
-}
-
 std::string describe_notebook(const void* self) {
   const auto& book = *static_cast<const Notebook*>(self);
   const Table table = book.table();
@@ -120,47 +114,6 @@ std::string describe_notebook(const void* self) {
 }
 
 }  // namespace
-
-const Block<NotebookChart>& notebook_chart_block() {
-  using C = NotebookChart;
-  static const Block<C> block{
-      "chart",
-      {text("x", &C::x, "the column along").required(),
-       custom<C>("y", "string|string[]", "the column, or columns of one unit, up",
-                 [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
-                   if (value.is_text()) return c.y.push_back(std::string(value.text()));
-                   if (!value.is_table() || value.length() == 0)
-                     return detail::wrong_type(value, info, "a column's name or a list of them", problems);
-                   for (std::int64_t k = 1; k <= value.length(); ++k)
-                     value.element(k, [&](const Argument& part) {
-                       if (part.is_text())
-                         c.y.emplace_back(part.text());
-                       else
-                         detail::wrong_type(part, info, "a column's name", problems);
-                     });
-                 })
-           .required(),
-       text("one_line_per", &C::one_line_per, "a column; one line for each of its values"),
-       custom<C>("spread", "boolean|string",
-                 "error bars: true for the scatter of rows that share x, or a column that holds them",
-                 [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
-                   if (value.is_boolean())
-                     c.spread = value.boolean();
-                   else if (value.is_text())
-                     c.spread_column = std::string(value.text());
-                   else
-                     detail::wrong_type(value, info, "true or a column's name", problems);
-                 }),
-       where_key(&C::where), flag("log_x", &C::log_x, "logarithmic axis along"),
-       flag("log_y", &C::log_y, "logarithmic axis up"),
-       flag("in_order", &C::in_order, "join rows as they were written, for loops that come back"),
-       flag("lines", &C::lines, "join the points"), flag("points", &C::points, "mark the points"),
-       text("title", &C::title, "above the chart"),
-       text("x_label", &C::x_label, "instead of the column's name"),
-       text("y_label", &C::y_label, "instead of the column's name"),
-       text("file", &C::file, "an .svg or .png under the run directory; default <notebook>-<y>-<x>.svg")}};
-  return block;
-}
 
 Function notebook_function() {
   return {
@@ -226,15 +179,10 @@ const Class& class_of<Notebook>() {
          .returns = "boolean",
          .example = "book:expect(\"mu\", { where={N=1}, near=0.4, within=0.05 })",
          .heavy = true},
-        {.name = "chart",
-         .body = chart_rows,
-         .sentence = "Draws columns against a column; returns the file.",
-         .options = &notebook_chart_block(),
-         .returns = "string",
-         .example = "book:chart{ x=\"D\", y=\"mu\", one_line_per=\"r\" }",
-         .heavy = true},
     };
-    for (Function& method : table_methods()) c.methods.push_back(std::move(method));
+    for (auto* methods : {table_methods, table_analysis_methods})
+      for (Function& method : methods()) c.methods.push_back(std::move(method));
+    c.results = table_analysis_results();
     return c;
   }();
   return type;

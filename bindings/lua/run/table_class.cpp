@@ -4,6 +4,7 @@
 
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
+#include "bindings/lua/run/table_analysis.hpp"
 #include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
@@ -201,7 +202,9 @@ const Class& class_of<asperity::Table>() {
          .example = "t:write \"angles.csv\"",
          .heavy = true},
     };
-    for (Function& method : table_methods()) c.methods.push_back(std::move(method));
+    for (auto* methods : {table_methods, table_analysis_methods})
+      for (Function& method : methods()) c.methods.push_back(std::move(method));
+    c.results = table_analysis_results();
     return c;
   }();
   return type;
