@@ -28,6 +28,7 @@ struct ChartSeries {
   bool points = true;
   std::vector<double> x_low = {}, x_high = {};  // ends of a bar along x at each point; or both empty
   PointShape shape = PointShape::of_line;       // any other is drawn in grey, with a thin line
+  bool gaps = false;                            // a value that is NaN breaks the line, and is no loss
 };
 
 // Words at a place of the plot, centred above it, or below.

@@ -2,6 +2,7 @@
 #include "engine/plot/picture_profile.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -15,11 +16,21 @@ namespace {
 constexpr int most_stretches = 2000;  // about two a pixel
 
 void add_trace(const Profile& profile, ChartSeries& series) {
-  const auto heights = profile.heights();
+  const auto heights = profile.measured_heights();
   const auto at = [&](std::size_t k) { return static_cast<double>(k) * profile.spacing(); };
   const auto add = [&](std::size_t k) {
     series.x.push_back(at(k));
     series.y.push_back(heights[k]);
+  };
+  // The highest and the lowest that were measured, then the gap.
+  const auto add_stretch_with_gap = [&](std::span<const double> part, std::size_t from, std::size_t known) {
+    const Range r = known_range(part);
+    std::size_t gap = from;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      if (std::isnan(part[k])) gap = from + k;
+      if (known > 0 && (part[k] == r.min || part[k] == r.max)) add(from + k);
+    }
+    add(gap);
   };
   if (heights.size() <= 2 * most_stretches) {
     for (std::size_t k = 0; k < heights.size(); ++k) add(k);
@@ -29,6 +40,10 @@ void add_trace(const Profile& profile, ChartSeries& series) {
     const std::size_t from = stretch * heights.size() / most_stretches;
     const std::size_t to = (stretch + 1) * heights.size() / most_stretches;
     const auto part = heights.subspan(from, to - from);
+    if (const std::size_t known = known_count(part); known < part.size()) {
+      add_stretch_with_gap(part, from, known);
+      continue;
+    }
     const auto [low, high] = std::ranges::minmax_element(part);
     const auto a = from + static_cast<std::size_t>(low - part.begin());
     const auto b = from + static_cast<std::size_t>(high - part.begin());
@@ -38,7 +53,7 @@ void add_trace(const Profile& profile, ChartSeries& series) {
 }
 
 void add_outline(const Profile& profile, ChartSeries& series) {
-  const auto heights = profile.heights();
+  const auto heights = profile.measured_heights();
   const double radius = *profile.closed_radius();
   // The first point again at the end closes the line.
   for (std::size_t k = 0; k <= heights.size(); ++k) {
@@ -68,7 +83,8 @@ LineChart profile_chart(std::span<const NamedProfile> profiles, std::string titl
                   "draw them apart");
     ChartSeries series;
     series.name = item.name;
-    series.points = item.profile.size() == 1;
+    series.points = item.profile.measured() == 1;
+    series.gaps = !item.profile.complete();
     if (closed) {
       add_outline(item.profile, series);
     } else {
