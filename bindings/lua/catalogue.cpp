@@ -40,7 +40,7 @@ const std::vector<const Class*>& classes() {
       &class_of<Profile>(),         &class_of<SpecimenPair>(),
       &class_of<asperity::State>(), &class_of<StateError>(),
       &class_of<StateBounds>(),     &class_of<DiscretisationError>(),
-      &class_of<StateField>(),      &class_of<Plan>(),
+      &class_of<NamedField>(),      &class_of<Plan>(),
       &class_of<LedgerReport>(),    &class_of<Stylus>(),
       &class_of<Protocol>(),        &class_of<JunctionLaw>(),
       &class_of<PartialSlip>(),     &class_of<TiltStage>(),
