@@ -22,15 +22,19 @@ void add_trace(const Profile& profile, ChartSeries& series) {
     series.x.push_back(at(k));
     series.y.push_back(heights[k]);
   };
-  // The highest and the lowest that were measured, then the gap.
-  const auto add_stretch_with_gap = [&](std::span<const double> part, std::size_t from, std::size_t known) {
-    const Range r = known_range(part);
-    std::size_t gap = from;
+  // The highest and the lowest that were measured, and the gap where it begins.
+  const auto add_stretch_with_gap = [&](std::span<const double> part, std::size_t from) {
+    std::size_t low = part.size(), high = part.size(), gap = part.size();
     for (std::size_t k = 0; k < part.size(); ++k) {
-      if (std::isnan(part[k])) gap = from + k;
-      if (known > 0 && (part[k] == r.min || part[k] == r.max)) add(from + k);
+      if (std::isnan(part[k])) {
+        gap = std::min(gap, k);
+        continue;
+      }
+      if (low == part.size() || part[k] < part[low]) low = k;
+      if (high == part.size() || part[k] > part[high]) high = k;
     }
-    add(gap);
+    for (std::size_t k = 0; k < part.size(); ++k)
+      if (k == low || k == high || k == gap) add(from + k);
   };
   if (heights.size() <= 2 * most_stretches) {
     for (std::size_t k = 0; k < heights.size(); ++k) add(k);
@@ -40,8 +44,8 @@ void add_trace(const Profile& profile, ChartSeries& series) {
     const std::size_t from = stretch * heights.size() / most_stretches;
     const std::size_t to = (stretch + 1) * heights.size() / most_stretches;
     const auto part = heights.subspan(from, to - from);
-    if (const std::size_t known = known_count(part); known < part.size()) {
-      add_stretch_with_gap(part, from, known);
+    if (known_count(part) < part.size()) {
+      add_stretch_with_gap(part, from);
       continue;
     }
     const auto [low, high] = std::ranges::minmax_element(part);
