@@ -150,7 +150,8 @@ std::string class_help(const Class& type) {
     text += "  " + padded(method.name, width) + "  " + method.sentence + "\n";
   if (!type.operators.empty()) text += "\nOperators:\n";
   for (const Operator& operation : type.operators)
-    text += "  " + padded(operation.form, width) + "  " + operation.sentence + "\n";
+    text += "  " + padded(operation.form, width) + "  " + operation.sentence + " E.g. " + operation.example +
+            "\n";
   return text;
 }
 
@@ -339,10 +340,10 @@ void fields_reference(std::string& page, const std::vector<Getter>& fields) {
 
 void operators_reference(std::string& page, const std::vector<Operator>& operators) {
   if (operators.empty()) return;
-  page += "| operator | gives | meaning |\n|---|---|---|\n";
+  page += "| operator | gives | meaning | example |\n|---|---|---|---|\n";
   for (const Operator& operation : operators)
-    page +=
-        "| `" + operation.form + "` | " + cell(operation.returns) + " | " + cell(operation.sentence) + " |\n";
+    page += "| `" + operation.form + "` | " + cell(operation.returns) + " | " + cell(operation.sentence) +
+            " | `" + operation.example + "` |\n";
   page += "\n";
 }
 

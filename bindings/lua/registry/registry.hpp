@@ -75,6 +75,7 @@ struct Operator {
   std::string operand{};  // the type of the other side, "Surface|number"; "" of one with a single side
   std::string sentence{};
   std::string returns{};  // "Surface"
+  std::string example{};  // required, as of a function
   Body body = nullptr;    // its arguments are the two sides in order, the one side twice
 };
 

@@ -314,14 +314,40 @@ std::vector<Function> surface_operations() {
 }
 
 std::vector<Operator> surface_operators() {
-  return {
-      {"__add", "a + b", "Surface", "The sum of two surfaces, as plus gives it.", "Surface", sum_of},
-      {"__sub", "a - b", "Surface", "The difference of two surfaces, as minus gives it.", "Surface",
-       difference_of},
-      {"__unm", "-a", "", "The surface with every height of the other sign.", "Surface", negative_of},
-      {"__mul", "a * 2", "number", "The surface with every height times a number; or 2 * a.", "Surface",
-       multiple_of},
-      {"__div", "a / 2", "number", "The surface with every height divided by a number.", "Surface", part_of}};
+  return {{.event = "__add",
+           .form = "a + b",
+           .operand = "Surface",
+           .sentence = "The sum of two surfaces, as plus gives it.",
+           .returns = "Surface",
+           .example = "local both = s + fine",
+           .body = sum_of},
+          {.event = "__sub",
+           .form = "a - b",
+           .operand = "Surface",
+           .sentence = "The difference of two surfaces, as minus gives it.",
+           .returns = "Surface",
+           .example = "local worn = s - fine",
+           .body = difference_of},
+          {.event = "__unm",
+           .form = "-a",
+           .sentence = "The surface with every height of the other sign.",
+           .returns = "Surface",
+           .example = "local below = -s",
+           .body = negative_of},
+          {.event = "__mul",
+           .form = "a * 2",
+           .operand = "number",
+           .sentence = "The surface with every height times a plain number, on either side: 2 * a.",
+           .returns = "Surface",
+           .example = "local steep = 2 * s",
+           .body = multiple_of},
+          {.event = "__div",
+           .form = "a / 2",
+           .operand = "number",
+           .sentence = "The surface with every height divided by a plain number.",
+           .returns = "Surface",
+           .example = "local middle = (s + fine) / 2",
+           .body = part_of}};
 }
 
 }  // namespace asperity::lua
