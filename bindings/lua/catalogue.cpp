@@ -49,7 +49,7 @@ const std::vector<const Class*>& classes() {
       &class_of<StateError>(),
       &class_of<StateBounds>(),
       &class_of<DiscretisationError>(),
-      &class_of<StateField>(),
+      &class_of<NamedField>(),
       &class_of<Plan>(),
       &class_of<LedgerReport>(),
       &class_of<Stylus>(),

@@ -45,6 +45,7 @@ bool drawable(double value, const ChartAxis& axis) {
 
 struct Point {
   double x, y, low, high, left, right;
+  bool after_gap = false;
 };
 
 std::string count_sentence(std::size_t lost, std::size_t all, std::string_view why) {
@@ -115,7 +116,12 @@ std::vector<Point> points_of(const ChartSeries& series, const LineChart& chart, 
                     " y values",
                 "give as many of one as of the other, and as many errors or none");
   std::vector<Point> points;
+  bool gap = false;
   for (std::size_t k = 0; k < series.x.size(); ++k) {
+    if (series.gaps && (std::isnan(series.x[k]) || std::isnan(series.y[k]))) {
+      gap = !points.empty();
+      continue;
+    }
     if (!losses.keep(series.x[k], series.y[k], chart)) continue;
     const double error = series.y_error.empty() || !std::isfinite(series.y_error[k]) ? 0 : series.y_error[k];
     double left = series.x[k], right = left;
@@ -128,7 +134,8 @@ std::vector<Point> points_of(const ChartSeries& series, const LineChart& chart, 
       low = series.y_low[k];
       high = series.y_high[k];
     }
-    points.push_back({series.x[k], series.y[k], low, high, left, right});
+    points.push_back({series.x[k], series.y[k], low, high, left, right, gap});
+    gap = false;
   }
   return points;
 }
@@ -141,6 +148,7 @@ std::string data_block(const std::string& name, const std::vector<Point>& points
                        const AxisLayout& y, bool across) {
   std::string text = "$" + name + " << EOD\n";
   for (const Point& point : points) {
+    if (point.after_gap) text += "\n";  // an empty line breaks the line of a plot
     // The foot of a bar that reaches past zero ends at the rim of a logarithmic axis.
     const double low = std::max(point.low / y.factor, y.low), high = std::min(point.high / y.factor, y.high);
     text += gnuplot_number(point.x / x.factor) + " " + gnuplot_number(point.y / y.factor) + " " +

@@ -33,6 +33,7 @@ struct ChartSeries {
   PointShape shape = PointShape::of_line;       // any other is drawn in grey, with a thin line
   std::vector<double> y_low = {}, y_high = {};  // ends of a bar along y at each point; or both empty
   bool band = false;                            // y_low and y_high bound a shaded band instead
+  bool gaps = false;                            // a value that is NaN breaks the line, and is no loss
 };
 
 // A line across the plot at one x or one y, named in the key.
