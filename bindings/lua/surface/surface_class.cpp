@@ -8,6 +8,7 @@
 #include "bindings/lua/surface/known_body.hpp"
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/picture.hpp"
+#include "bindings/lua/surface/registration.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "bindings/lua/surface/surface_operations.hpp"
 #include "engine/metrology/levelling.hpp"
@@ -207,8 +208,10 @@ const Class& class_of<Surface>() {
          .returns = "Surface",
          .example = "s:levelled{ degree=1 }"},
     };
+    c.methods.push_back(registered_to_method());
     for (Function& operation : surface_operations()) c.methods.push_back(std::move(operation));
     c.results = {&roughness_type(true), &spectrum_type(), &fractal_dimension_type()};
+    for (const RecordInfo* type_of_result : registration_types()) c.results.push_back(type_of_result);
     return c;
   }();
   return type;
