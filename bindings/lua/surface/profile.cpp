@@ -5,6 +5,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/measure.hpp"
+#include "bindings/lua/surface/profile_parameters.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/files/source_file.hpp"
@@ -119,7 +120,7 @@ std::string describe_profile(const void* self) {
          format_quantity(p.height_range().span(), dimension::length);
 }
 std::size_t bytes_of_profile(const void* self) {
-  return static_cast<const Profile*>(self)->heights().size_bytes();
+  return static_cast<const Profile*>(self)->measured_heights().size_bytes();
 }
 bool equal_profiles(const void* a, const void* b) {
   return static_cast<const Profile*>(a)->digest() == static_cast<const Profile*>(b)->digest();
@@ -230,7 +231,9 @@ const Class& class_of<Profile>() {
          .example = "p:write \"trace.csv\"",
          .heavy = true},
     };
-    c.results = {&roughness_type(false), &spectrum_type(), &fractal_dimension_type()};
+    c.methods.push_back(profile_parameters_method());
+    c.results = {&roughness_type(false), &spectrum_type(), &fractal_dimension_type(),
+                 &profile_parameters_result()};
     return c;
   }();
   return type;

@@ -5,6 +5,7 @@
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
+#include "bindings/lua/surface/areal_parameters.hpp"
 #include "bindings/lua/surface/known_body.hpp"
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/picture.hpp"
@@ -82,7 +83,7 @@ std::string describe_surface(const void* self) {
 }
 
 std::size_t bytes_of_surface(const void* self) {
-  return static_cast<const Surface*>(self)->heights().size() * sizeof(double);
+  return static_cast<const Surface*>(self)->measured_heights().size() * sizeof(double);
 }
 bool equal_surfaces(const void* a, const void* b) {
   return static_cast<const Surface*>(a)->digest() == static_cast<const Surface*>(b)->digest();
@@ -184,9 +185,11 @@ const Class& class_of<Surface>() {
          .example = "s:filtered{ short_wave=\"2.5 um\", long_wave=\"0.8 mm\" }"},
         {.name = "write",
          .body = write_surface,
-         .sentence = "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
-                     "(Gwyddion), .txt, "
-                     ".asc or .csv by the extension of the path. All read back bit for bit.",
+         .sentence =
+             "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
+             "(Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit, "
+             "points that were not measured too. .sur (Digital Surf) rounds heights to 2^-30 of the "
+             "greatest and the size to single precision.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",
          .example = "s:write \"specimen.x3p\"",
@@ -210,8 +213,10 @@ const Class& class_of<Surface>() {
     };
     c.methods.push_back(registered_to_method());
     for (Function& operation : surface_operations()) c.methods.push_back(std::move(operation));
+    for (Function& parameters : parameter_methods()) c.methods.push_back(std::move(parameters));
     c.results = {&roughness_type(true), &spectrum_type(), &fractal_dimension_type()};
-    for (const RecordInfo* type_of_result : registration_types()) c.results.push_back(type_of_result);
+    for (const RecordInfo* result : parameter_results()) c.results.push_back(result);
+    for (const RecordInfo* result : registration_types()) c.results.push_back(result);
     return c;
   }();
   return type;
