@@ -181,13 +181,13 @@ Values autocorrelation_of(Call& call) { return {object(Autocorrelation(call.self
 
 // --- by scale
 
-struct ScaleKeys {
+struct ScaleDependenceKeys {
   ScaleQuantity of = ScaleQuantity::slope;
   ScaleAxis along = ScaleAxis::x;
   std::vector<int> cells;
 };
-const Block<ScaleKeys>& scale_block() {
-  using O = ScaleKeys;
+const Block<ScaleDependenceKeys>& scale_dependence_block() {
+  using O = ScaleDependenceKeys;
   static const Block<O> block{
       "scale_dependence",
       {choice("of", &O::of,
@@ -210,7 +210,7 @@ const Block<ScaleKeys>& scale_block() {
   return block;
 }
 
-const RecordType<ScaleDependence>& scale_type() {
+const RecordType<ScaleDependence>& scale_dependence_type() {
   using S = ScaleDependence;
   static const RecordType<S> type{
       "ScaleDependence",
@@ -224,7 +224,7 @@ const RecordType<ScaleDependence>& scale_type() {
 }
 
 Values scale_dependence_of(Call& call) {
-  ScaleKeys keys = call.options(scale_block());
+  ScaleDependenceKeys keys = call.options(scale_dependence_block());
   const Surface& surface = call.self<Surface>();
   const int along = keys.along == ScaleAxis::x ? surface.grid().nx : surface.grid().ny;
   if (keys.cells.empty())
@@ -234,7 +234,7 @@ Values scale_dependence_of(Call& call) {
     std::sort(keys.cells.rbegin(), keys.cells.rend());
   else
     std::sort(keys.cells.begin(), keys.cells.end());
-  return {scale_type()(scale_dependence(surface, keys.of, keys.along, keys.cells))};
+  return {scale_dependence_type()(scale_dependence(surface, keys.of, keys.along, keys.cells))};
 }
 
 struct ReliabilityKeys {
@@ -340,7 +340,7 @@ std::vector<Function> parameter_methods() {
       {.name = "scale_dependence",
        .body = scale_dependence_of,
        .sentence = "Slope, curvature or height by scale (Sanner et al. 2022).",
-       .options = &scale_block(),
+       .options = &scale_dependence_block(),
        .options_optional = true,
        .returns = "ScaleDependence",
        .example = "local d = s:scale_dependence{ of=\"slope\" }"},
@@ -353,7 +353,7 @@ std::vector<Function> parameter_methods() {
   };
 }
 
-std::vector<const RecordInfo*> parameter_results() { return {&scale_type(), &reliability_type()}; }
+std::vector<const RecordInfo*> parameter_results() { return {&scale_dependence_type(), &reliability_type()}; }
 
 template <>
 const Class& class_of<ArealParameters>() {

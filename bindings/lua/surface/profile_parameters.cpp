@@ -12,7 +12,7 @@ namespace asperity::lua {
 
 namespace {
 
-struct ProfileKeys {
+struct ProfileParameterKeys {
   std::optional<int> F;
   std::optional<double> S, section;
   std::optional<std::string> setting;
@@ -20,8 +20,8 @@ struct ProfileKeys {
   double threshold = 0.1;
 };
 
-const Block<ProfileKeys>& profile_block() {
-  using O = ProfileKeys;
+const Block<ProfileParameterKeys>& profile_parameters_block() {
+  using O = ProfileParameterKeys;
   static const Block<O> block{
       "profile_parameters",
       {quantity("section", &O::section, dimension::length, above(0),
@@ -44,7 +44,7 @@ struct MeasuredProfile {
   double section;
 };
 
-const RecordType<MeasuredProfile>& profile_type() {
+const RecordType<MeasuredProfile>& profile_parameters_type() {
   using M = MeasuredProfile;
   const auto sectioned = [](SectionedValue ProfileParameters::*member) {
     return [member](const M& m) { return (m.values.*member).value; };
@@ -107,7 +107,7 @@ const RecordType<MeasuredProfile>& profile_type() {
 }
 
 Values profile_parameters_of(Call& call) {
-  const ProfileKeys keys = call.options(profile_block());
+  const ProfileParameterKeys keys = call.options(profile_parameters_block());
   if (keys.section.has_value() == keys.setting.has_value())
     refuse(keys.section ? "both `section` and `class` are given" : "neither `section` nor `class` is given",
            "give the length of a section, as in `section=\"0.8 mm\"`, or a class, `class=\"Sc3\"`");
@@ -137,7 +137,7 @@ Values profile_parameters_of(Call& call) {
          metres(*preparation.S));
   ProfileParameters values =
       profile_parameters(prepared.profile, {.sections = prepared.sections, .threshold = keys.threshold});
-  return {profile_type()({std::move(values), std::move(prepared), preparation.section})};
+  return {profile_parameters_type()({std::move(values), std::move(prepared), preparation.section})};
 }
 
 }  // namespace
@@ -149,10 +149,10 @@ Function profile_parameters_method() {
               "The parameters of ISO 21920-2: the trace is filtered, half a section cut off at either end, "
               "and the "
               "rest evaluated in sections. Neither section nor class is guessed.",
-          .options = &profile_block(),
+          .options = &profile_parameters_block(),
           .returns = "ProfileParameters",
           .example = "print(p:profile_parameters{ class=\"Sc3\", F=1 }.Rz)"};
 }
-const RecordInfo& profile_parameters_result() { return profile_type(); }
+const RecordInfo& profile_parameters_result() { return profile_parameters_type(); }
 
 }  // namespace asperity::lua
