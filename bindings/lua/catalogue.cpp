@@ -14,6 +14,7 @@
 #include "bindings/lua/specimen/tilt_stage.hpp"
 #include "bindings/lua/spread/spread.hpp"
 #include "bindings/lua/study/study.hpp"
+#include "bindings/lua/surface/areal_parameters.hpp"
 #include "bindings/lua/surface/material.hpp"
 #include "bindings/lua/surface/surface.hpp"
 
@@ -36,17 +37,31 @@ const std::vector<const Module*>& modules() {
 
 const std::vector<const Class*>& classes() {
   static const std::vector<const Class*> all = {
-      &class_of<Material>(),        &class_of<Surface>(),
-      &class_of<Profile>(),         &class_of<SpecimenPair>(),
-      &class_of<asperity::State>(), &class_of<StateError>(),
-      &class_of<StateBounds>(),     &class_of<DiscretisationError>(),
-      &class_of<NamedField>(),      &class_of<Plan>(),
-      &class_of<LedgerReport>(),    &class_of<Stylus>(),
-      &class_of<Protocol>(),        &class_of<JunctionLaw>(),
-      &class_of<PartialSlip>(),     &class_of<TiltStage>(),
-      &class_of<Notebook>(),        &class_of<Study>(),
-      &class_of<StudyChoice>(),     &class_of<SlabSurface>(),
-      &class_of<SpreadContact>(),   &class_of<SpreadState>(),
+      &class_of<Material>(),
+      &class_of<Surface>(),
+      &class_of<Profile>(),
+      &class_of<ArealParameters>(),
+      &class_of<MaterialRatioCurve>(),
+      &class_of<Autocorrelation>(),
+      &class_of<SpecimenPair>(),
+      &class_of<asperity::State>(),
+      &class_of<StateError>(),
+      &class_of<StateBounds>(),
+      &class_of<DiscretisationError>(),
+      &class_of<NamedField>(),
+      &class_of<Plan>(),
+      &class_of<LedgerReport>(),
+      &class_of<Stylus>(),
+      &class_of<Protocol>(),
+      &class_of<JunctionLaw>(),
+      &class_of<PartialSlip>(),
+      &class_of<TiltStage>(),
+      &class_of<Notebook>(),
+      &class_of<Study>(),
+      &class_of<StudyChoice>(),
+      &class_of<SlabSurface>(),
+      &class_of<SpreadContact>(),
+      &class_of<SpreadState>(),
   };
   return all;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The readers of measured files share their questions: as a surface and as a profile, with nothing said
-// in the call, with what is usual, and with sizes at the ends of the doubles. What comes out has finite
-// heights on a grid of positive size.
+// in the call, with what is usual, with sizes at the ends of the doubles, and with holes left as they are.
+// What comes out has finite heights, or holes where these are not filled, on a grid of positive size.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,14 @@
 
 namespace asperity::fuzz {
 
-inline void require_finite(std::span<const double> heights) {
+inline void require_heights(std::span<const double> heights, std::size_t measured, bool filled) {
   require(!heights.empty(), "there are heights");
-  require(std::all_of(heights.begin(), heights.end(), [](double h) { return std::isfinite(h); }),
-          "heights are finite");
+  const auto finite =
+      std::count_if(heights.begin(), heights.end(), [](double h) { return std::isfinite(h); });
+  const auto missing = std::count_if(heights.begin(), heights.end(), [](double h) { return std::isnan(h); });
+  require(static_cast<std::size_t>(finite + missing) == heights.size(), "heights are finite or missing");
+  require(static_cast<std::size_t>(finite) == measured && finite > 0, "what was measured is counted");
+  require(!filled || missing == 0, "no hole is left where they are filled");
 }
 
 struct Knobs {
@@ -35,13 +39,14 @@ inline void read_every_way(std::string_view bytes, const Knobs& knobs) {
   ReadProfileOptions profile;
   surface.format = profile.format = knobs.format;
   // Nothing, what is usual, and what nobody means but may write.
-  for (const int told : {0, 1, 2, 3}) {
+  for (const int told : {0, 1, 2, 3, 4}) {
     if (told > 0) {
-      surface.size_x = told == 1 ? 1e-3 : 5e-324;
-      surface.size_y = told == 1 ? 1e-3 : 1e308;
-      surface.unit = profile.unit = told == 1 ? 1e-6 : 1.0;
+      const bool usual = told == 1 || told == 4;
+      surface.size_x = usual ? 1e-3 : 5e-324;
+      surface.size_y = usual ? 1e-3 : 1e308;
+      surface.unit = profile.unit = usual ? 1e-6 : 1.0;
       profile.spacing = surface.size_x;
-      surface.fill = profile.fill = knobs.fill;
+      surface.fill = profile.fill = told == 4 ? HoleFill{} : knobs.fill;
     }
     if (told == 3) {  // of files that hold positions
       surface.size_x.reset();
@@ -49,17 +54,19 @@ inline void read_every_way(std::string_view bytes, const Knobs& knobs) {
       profile.spacing.reset();
       surface.unit_xy = profile.unit_xy = 1e-6;
     }
+    const bool filled = surface.fill.kind != HoleFill::Kind::none;
+    if (told == 4) surface.unit_xy = profile.unit_xy = std::nullopt;
     refused(room, [&] {
       const Surface found = read_surface(SourceFile(knobs.name, bytes), surface, monitor);
       const Grid& grid = found.grid();
       require(grid.nx >= 1 && grid.ny >= 1 && grid.hx() > 0 && grid.hy() > 0, "the grid has cells");
-      require(grid.nodes() == found.heights().size(), "the heights fill the grid");
-      require_finite(found.heights().values());
+      require(grid.nodes() == found.measured_heights().size(), "the heights fill the grid");
+      require_heights(found.measured_heights().values(), found.measured(), filled);
     });
     refused(room, [&] {
       const Profile found = read_profile(SourceFile(knobs.name, bytes), profile, monitor);
       require(found.spacing() > 0 && std::isfinite(found.spacing()), "the spacing is a length");
-      require_finite(found.heights());
+      require_heights(found.measured_heights(), found.measured(), filled);
     });
   }
 }

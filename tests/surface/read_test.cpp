@@ -125,15 +125,15 @@ TEST(Read, MaterialTravelsAndIsChecked) {
   EXPECT_TRUE(error_of([&] { read_surface(sample("instrument.txt"), options); }));
 }
 
-TEST(Read, HolesAreAnErrorUnlessFilled) {
+TEST(Read, HolesStayHolesUnlessFilled) {
   const Scratch scratch;
   const std::string path = scratch.write("holes.txt", "1 2 3\n4 nan 6\n7 8 bad\n");
   ReadOptions options = square(3e-6, 1e-6);
-  const auto error = error_of([&] { read_surface(path, options); });
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->code(), ErrorCode::bad_value);
-  EXPECT_EQ(error->sentence(), "\"" + path + "\" has 2 missing heights of 9, the first at node (1, 1)");
-  EXPECT_NE(error->hint().find("`fill` = \"interpolate\""), std::string::npos);
+  const Surface holed = read_surface(path, options);
+  EXPECT_EQ(holed.measured(), 7U);
+  EXPECT_TRUE(std::isnan(holed.height(1, 1)));
+  EXPECT_TRUE(std::isnan(holed.height(2, 2)));
+  EXPECT_EQ(holed.height(1, 2), 8e-6);
   options.fill = HoleFill::with(0.25);
   EXPECT_EQ(read_surface(path, options).height(1, 1), 0.25);
   options.fill = HoleFill::interpolate();
@@ -205,8 +205,13 @@ TEST(Read, ProfileFromEveryShape) {
   EXPECT_NE(
       message_of([&] { read_profile(sample("instrument.txt")); }).find("holds a surface of 4 x 3 heights"),
       std::string::npos);
+  const std::string gap = scratch.write("gap.txt", "1 nan nan 4\n");
+  const Profile holed = read_profile(gap, options);
+  EXPECT_EQ(holed.measured(), 2U);
+  EXPECT_TRUE(std::isnan(holed.measured_heights()[2]));
+  EXPECT_EQ(holed.measured_heights()[3], 4e-6);
   options.fill = HoleFill::interpolate();
-  const Profile filled = read_profile(scratch.write("gap.txt", "1 nan nan 4\n"), options);
+  const Profile filled = read_profile(gap, options);
   EXPECT_NEAR(filled.heights()[1], 2e-6, 1e-17);
   EXPECT_NEAR(filled.heights()[2], 3e-6, 1e-17);
 }

@@ -58,7 +58,10 @@ TEST(StylusCsv, UnevenOrCutShort) {
   EXPECT_NE(refusal("0,1\n1").find("has no height in line 4"), std::string::npos);
   EXPECT_NE(refusal("2,1\n1,1\n").find("do not increase"), std::string::npos);
   EXPECT_NE(refusal("0,1\nx,1\n").find("has no position in line 4: \"x\""), std::string::npos);
-  EXPECT_NE(refusal("0,1\n1,\n2,3\n").find("1 missing height of 3"), std::string::npos);
+  EXPECT_NE(refusal("0,\n1,\n2,\n").find("holds no height"), std::string::npos);
+  const Profile holed = read_profile(scratch.write("t.csv", "Scan Data\nLateral um,Raw um\n0,1\n1,\n2,3\n"));
+  EXPECT_EQ(holed.measured(), 2U);
+  EXPECT_EQ(holed.measured_heights()[2], 3e-6);
   EXPECT_NE(message_of([&] { read_profile(scratch.write("t.csv", "Scan Data\n\n")); }).find("ends after"),
             std::string::npos);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <bit>
 #include <cmath>
 
 #include "engine/core/memory.hpp"
@@ -106,10 +107,9 @@ TEST(X3p, HeightsInTheXml) {
   recipe.content =
       "<DataList><Datum>0</Datum><Datum/><Datum>2</Datum><Datum>3</Datum><Datum>4</Datum><Datum>5</Datum>"
       "</DataList>";
-  EXPECT_NE(message_of([&] {
-              read_x3p(zip_of({{"main.xml", recipe.xml()}}));
-            }).find("the first at node (1, 0)"),
-            std::string::npos);
+  const Surface holed = read_x3p(zip_of({{"main.xml", recipe.xml()}}));
+  EXPECT_TRUE(std::isnan(holed.height(1, 0)));
+  EXPECT_EQ(holed.measured(), 5U);
   recipe.columns = "4";
   EXPECT_NE(message_of([&] {
               read_x3p(zip_of({{"main.xml", recipe.xml()}}));
@@ -118,19 +118,74 @@ TEST(X3p, HeightsInTheXml) {
 }
 
 TEST(X3p, HolesByNanAndByMask) {
-  EXPECT_NE(message_of([] {
-              read_with({}, raw(std::vector<double>{0, 1, 2, 3, NAN, 5}));
-            }).find("1 missing height of 6, the first at node (1, 1)"),
-            std::string::npos);
+  const Surface by_nan = read_with({}, raw(std::vector<double>{0, 1, 2, 3, NAN, 5}));
+  EXPECT_EQ(by_nan.measured(), 5U);
+  EXPECT_TRUE(std::isnan(by_nan.height(1, 1)));
   Recipe recipe;
   recipe.content =
       "<DataLink><PointDataLink>bindata/data.bin</PointDataLink><ValidPointsLink>bindata/valid.bin"
       "</ValidPointsLink></DataLink>";
-  EXPECT_NE(message_of([&] {
-              read_x3p(zip_of(
-                  {{"main.xml", recipe.xml()}, {"bindata/data.bin", six}, {"bindata/valid.bin", "\x3B"}}));
-            }).find("1 missing height of 6, the first at node (2, 0)"),
+  const auto with_mask = [&](const std::string& mask) {
+    return read_x3p(
+        zip_of({{"main.xml", recipe.xml()}, {"bindata/data.bin", six}, {"bindata/valid.bin", mask}}));
+  };
+  const Surface by_mask = with_mask("\x3B");
+  EXPECT_EQ(by_mask.measured(), 5U);
+  EXPECT_TRUE(std::isnan(by_mask.height(2, 0)));
+  EXPECT_EQ(by_mask.height(1, 1), 4);
+  // Bits past the last point say nothing.
+  EXPECT_EQ(with_mask("\xFB").digest(), by_mask.digest());
+  EXPECT_TRUE(with_mask("\x3F").complete());
+}
+
+// A mask that is cut, too long, gone, or leaves nothing.
+TEST(X3p, MasksThatCannotBeAreRefused) {
+  Recipe recipe;
+  recipe.columns = "30";
+  recipe.content =
+      "<DataLink><PointDataLink>bindata/data.bin</PointDataLink><ValidPointsLink>bindata/valid.bin"
+      "</ValidPointsLink></DataLink>";
+  const std::string data = raw(std::vector<double>(60, 1e-6));
+  const auto answer = [&](const std::vector<std::pair<std::string, std::string>>& mask) {
+    std::vector<std::pair<std::string, std::string>> entries{{"main.xml", recipe.xml()},
+                                                             {"bindata/data.bin", data}};
+    entries.insert(entries.end(), mask.begin(), mask.end());
+    return message_of([&] { read_x3p(zip_of(entries)); });
+  };
+  EXPECT_EQ(answer({{"bindata/valid.bin", std::string(8, '\x55')}}), "no error");
+  EXPECT_NE(answer({{"bindata/valid.bin", std::string(7, '\xFF')}})
+                .find("has too few bits in its valid-points entry"),
             std::string::npos);
+  EXPECT_NE(answer({{"bindata/valid.bin", ""}}).find("has too few bits in its valid-points entry"),
+            std::string::npos);
+  EXPECT_NE(answer({{"bindata/valid.bin", std::string(1000, '\xFF')}}), "no error");
+  EXPECT_NE(answer({}).find("has no entry \"bindata/valid.bin\", which its main.xml names"),
+            std::string::npos);
+  EXPECT_NE(
+      answer({{"bindata/valid.bin", std::string(8, '\0')}}).find("holds no height, only missing points"),
+      std::string::npos);
+}
+
+// Integers have no NaN: only the mask tells which of them are no heights.
+TEST(X3p, MaskOfIntegersAndNanOfAnyBits) {
+  Recipe recipe;
+  recipe.z = "<AxisType>A</AxisType><DataType>I</DataType><Increment>1e-9</Increment>";
+  recipe.content =
+      "<DataLink><PointDataLink>bindata/data.bin</PointDataLink><ValidPointsLink>bindata/valid.bin"
+      "</ValidPointsLink></DataLink>";
+  const Surface integers =
+      read_x3p(zip_of({{"main.xml", recipe.xml()},
+                       {"bindata/data.bin", raw(std::vector<std::int16_t>{1, 2, 0, 4, 5, 6})},
+                       {"bindata/valid.bin", "\x3B"}}));
+  EXPECT_TRUE(std::isnan(integers.height(2, 0)));
+  EXPECT_DOUBLE_EQ(integers.height(2, 1), 6e-9);
+  std::vector<double> heights{0, 1, 2, 3, NAN, 5};
+  const std::string digest = read_with({}, raw(heights)).digest();
+  for (const std::uint64_t bits : {0x7FF8000000000001U, 0xFFF8000000000000U, 0x7FF0000000000001U}) {
+    heights[4] = std::bit_cast<double>(bits);
+    EXPECT_EQ(read_with({}, raw(heights)).digest(), digest) << bits;
+  }
+  EXPECT_EQ(read_with({}, raw(std::vector<double>{0, 1, 2, 3, -INFINITY, 5})).digest(), digest);
 }
 
 TEST(X3p, Md5IsCompared) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of cases as bytes: how they travel between processes and into files.
+// Rows of cases as bytes: how they travel between processes and into files. A point of a surface that was not
+// measured is NaN among its heights.
 #include <algorithm>
 #include <type_traits>
 
@@ -125,7 +126,7 @@ struct PackedValue::Writer : ValueVisitor {
       out.number(surface.grid().ny);
       out.number(surface.grid().size_x);
       out.number(surface.grid().size_y);
-      out.numbers(surface.heights().values());
+      out.numbers(surface.measured_heights().values());
       out.number(surface.traits().periodic);
       optional(surface.traits().aliased_share);
       out.number(surface.material().has_value());
@@ -134,7 +135,7 @@ struct PackedValue::Writer : ValueVisitor {
       const auto& profile = *static_cast<const Profile*>(object.pointer.get());
       tag(Tag::profile);
       out.number(profile.spacing());
-      out.numbers(profile.heights());
+      out.numbers(profile.measured_heights());
       optional(profile.closed_radius());
     } else {
       tag(Tag::material);
@@ -289,12 +290,12 @@ struct PackedValue::Reader {
     traits.periodic = in.truth();
     traits.aliased_share = optional<double>();
     if (in.truth()) traits.material = material();
-    return object(Surface(grid, std::move(heights), std::move(traits)));
+    return object(Surface::with_holes(grid, std::move(heights), std::move(traits)));
   }
   Value profile() {
     const auto spacing = in.number<double>();
     Array<double> heights = numbers();
-    return object(Profile(spacing, std::move(heights), optional<double>()));
+    return object(Profile::with_holes(spacing, std::move(heights), optional<double>()));
   }
   Value record() {
     Record result;

@@ -47,7 +47,7 @@ void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Pr
 template <class O>
 Option<O> fill_key(HoleFill O::*member) {
   return custom<O>("fill", "\"interpolate\"|a length",
-                   "what missing points become; without it they are an error",
+                   "what points that were not measured become; without it they stay missing",
                    [member](const Argument& value, const OptionInfo& info, O& options, Problems& problems) {
                      read_fill(value, info, options.*member, problems);
                    });

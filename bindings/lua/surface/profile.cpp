@@ -6,6 +6,7 @@
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/missing_points.hpp"
+#include "bindings/lua/surface/profile_parameters.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/files/source_file.hpp"
@@ -237,7 +238,9 @@ const Class& class_of<Profile>() {
          .heavy = true},
     };
     for (Function& method : missing_point_methods_of_profile()) c.methods.push_back(std::move(method));
-    c.results = {&roughness_type(false), &spectrum_type(), &fractal_dimension_type(), &outliers_type(false)};
+    c.methods.push_back(profile_parameters_method());
+    c.results = {&roughness_type(false), &spectrum_type(), &fractal_dimension_type(), &outliers_type(false),
+                 &profile_parameters_result()};
     return c;
   }();
   return type;

@@ -5,6 +5,7 @@
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
+#include "bindings/lua/surface/areal_parameters.hpp"
 #include "bindings/lua/surface/known_body.hpp"
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/missing_points.hpp"
@@ -191,9 +192,11 @@ const Class& class_of<Surface>() {
          .example = "s:filtered{ short_wave=\"2.5 um\", long_wave=\"0.8 mm\" }"},
         {.name = "write",
          .body = write_surface,
-         .sentence = "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
-                     "(Gwyddion), .txt, "
-                     ".asc or .csv by the extension of the path. All read back bit for bit.",
+         .sentence =
+             "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
+             "(Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit, "
+             "points that were not measured too. .sur (Digital Surf) rounds heights to 2^-30 of the "
+             "greatest and the size to single precision.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",
          .example = "s:write \"specimen.x3p\"",
@@ -219,7 +222,9 @@ const Class& class_of<Surface>() {
     };
     for (Function& method : missing_point_methods_of_surface()) c.methods.push_back(std::move(method));
     for (Function& operation : surface_operations()) c.methods.push_back(std::move(operation));
+    for (Function& parameters : parameter_methods()) c.methods.push_back(std::move(parameters));
     c.results = {&roughness_type(true), &spectrum_type(), &fractal_dimension_type(), &outliers_type(true)};
+    for (const RecordInfo* result : parameter_results()) c.results.push_back(result);
     return c;
   }();
   return type;

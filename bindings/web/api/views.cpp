@@ -93,7 +93,7 @@ std::string base64(std::string_view bytes) {
 }
 
 Json view_of(const Surface& surface, const std::string& title, std::int64_t event) {
-  return view_json(title, event, {field_json("height", "m", surface.heights(), surface.grid())});
+  return view_json(title, event, {field_json("height", "m", surface.measured_heights(), surface.grid())});
 }
 
 Json view_of(const State& state, const std::string& title, std::int64_t event) {

@@ -2,14 +2,19 @@
 // GWY, Gwyddion's own files: objects within objects, each a name, a length and named components with a letter
 // for their type. A map is the GwyDataField "/N/data" of the outermost container, with its sizes, units and
 // heights as doubles;
-// "/N/data/title" is what people call it. Source: "Format of Gwyddion Files" in Gwyddion's user guide. Masks
-// are not applied, offsets and everything else are passed over.
+// "/N/data/title" is what people call it. Source: "Format of Gwyddion Files" in Gwyddion's user guide. A
+// mask,
+// "/N/mask", marks whatever its user wanted to mark: it is not applied. Only where the metadata "/N/meta"
+// say, as this program writes them, that the masked points were not measured, the mask is of holes; under it
+// the heights are the mean, because Gwyddion knows no missing height. Offsets and everything else are passed
+// over.
 #include "engine/surface/io/gwy.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "engine/core/error.hpp"
@@ -144,10 +149,16 @@ std::optional<double> metres(std::string_view unit) {
   return {};
 }
 
+// The entry of the metadata by which a mask is known to be one of points that were not measured; its value
+// begins with how many there are.
+constexpr std::string_view hole_entry = "Not measured";
+
 struct Channel {
   std::string_view field;  // content of its GwyDataField; null where there is none
   std::string title;
-  bool masked = false;
+  std::string_view mask;             // content of its GwyDataField
+  std::optional<std::string> holes;  // what `hole_entry` says
+  bool masked() const { return mask.data() != nullptr; }
 };
 
 // The maps of the container by their numbers: of "/0/data", "/0/data/title" and "/0/mask".
@@ -173,7 +184,12 @@ std::map<std::uint32_t, Channel> read_channels(const SourceFile& file) {
     }
     if (rest == "/data/title" && part.type == 's')
       channels[number].title = plain_text(std::string(part.data));
-    if (rest == "/mask" && part.type == 'o') channels[number].masked = true;
+    if (rest == "/mask" && part.type == 'o') channels[number].mask = object_of(file, part).content;
+    if (rest == "/meta" && part.type == 'o')
+      for_each(file, object_of(file, part).content, [&](const Component& entry) {
+        if (entry.name == hole_entry && entry.type == 's')
+          channels[number].holes = plain_text(std::string(entry.data));
+      });
   });
   std::erase_if(channels, [](const auto& entry) { return entry.second.field.data() == nullptr; });
   return channels;
@@ -202,6 +218,30 @@ std::map<std::uint32_t, Channel>::const_iterator chosen(const SourceFile& file,
       "name one by its number or its title with `channel`");
 }
 
+// Takes out the points under a mask of holes. The mask counts as many points as the metadata say, else
+// somebody has drawn another one, and nobody knows which heights were measured.
+void take_out_holes(const SourceFile& file, const Channel& entry, const std::string& name, Field& heights) {
+  const DataField mask = entry.masked() ? read_field(file, entry.mask) : DataField{};
+  const std::size_t count = heights.size();
+  if (entry.masked() &&
+      (mask.nx != heights.nx() || mask.ny != heights.ny() || mask.data.size() != count * sizeof(double)))
+    refuse_file(file, "has a mask of " + std::to_string(mask.nx) + " x " + std::to_string(mask.ny) +
+                          " points over " + name + " of " + std::to_string(heights.nx()) + " x " +
+                          std::to_string(heights.ny()));
+  std::size_t holes = 0;
+  for (std::size_t k = 0; entry.masked() && k < count; ++k) {
+    if (!(little_endian<double>(mask.data.data() + k * sizeof(double)) > 0.5)) continue;
+    heights[k] = std::numeric_limits<double>::quiet_NaN();
+    ++holes;
+  }
+  if (!entry.holes->starts_with(std::to_string(holes) + " "))
+    refuse_file(file,
+                "says of " + name + " that it was not measured at " + shown(*entry.holes) +
+                    ", and its mask has " + std::to_string(holes),
+                "put the mask back, or take \"" + std::string(hole_entry) +
+                    "\" out of its metadata to have the points as they stand");
+}
+
 HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
   const auto channels = read_channels(file);
   const auto& [number, entry] = *chosen(file, channels, channel);
@@ -225,7 +265,9 @@ HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, M
     map.size_x = field.size_x * *unit;
     map.size_y = field.size_y * *unit;
   }
-  if (entry.masked)
+  if (entry.holes)
+    take_out_holes(file, entry, name, map.heights);
+  else if (entry.masked())
     monitor.warn(file_name(file.path()) + ": " + name +
                  " has a mask, which is not applied: its points are taken as "
                  "they stand");
@@ -246,7 +288,18 @@ std::string ended(std::string_view text) { return std::string(text) + '\0'; }
 std::string object(std::string_view name, std::string_view content) {
   return ended(name) + raw(static_cast<std::uint32_t>(content.size())) + std::string(content);
 }
-std::string metre() { return object("GwySIUnit", ended("unitstr") + "s" + ended("m")); }
+std::string unit_object(std::string_view unit) {
+  return object("GwySIUnit", ended("unitstr") + "s" + ended(unit));
+}
+
+// What Gwyddion shows, under the mask, of the points that were not measured.
+double mean_of_measured(const Surface& surface) {
+  Array<double> known;
+  known.reserve(surface.measured());
+  for (const double height : surface.measured_heights().values())
+    if (!std::isnan(height)) known.push_back(height);
+  return mean(known);
+}
 
 }  // namespace
 
@@ -259,25 +312,54 @@ const Format& gwy_format() {
 void write_gwy(const Surface& surface, const std::string& path) {
   static_assert(std::endian::native == std::endian::little, "GWY data are written as they lie in memory");
   const Grid& grid = surface.grid();
-  const auto heights = surface.heights().values();
-  // Lengths in the file have 32 bits and count what stands before and after the heights.
+  const auto heights = surface.measured_heights().values();
+  const bool holes = !surface.complete();
+  // Lengths in the file have 32 bits and count what stands before and after the heights, and the mask.
   constexpr std::uint64_t most = std::uint64_t{0xFFFFFFFF} - 65536;
-  if (heights.size_bytes() > most)
+  if ((holes ? 2 : 1) * heights.size_bytes() > most)
     throw Error(ErrorCode::bad_value,
-                "a surface of " + std::to_string(heights.size()) + " heights does not fit into a GWY file",
+                "a surface of " + std::to_string(heights.size()) + " heights" +
+                    (holes ? " and a mask of its holes do" : " does") + " not fit into a GWY file",
                 "write .h5 or .npy");
-  const std::string before = ended("xres") + "i" + raw(grid.nx) + ended("yres") + "i" + raw(grid.ny) +
-                             ended("xreal") + "d" + raw(grid.size_x) + ended("yreal") + "d" +
-                             raw(grid.size_y) + ended("si_unit_xy") + "o" + metre() + ended("si_unit_z") +
-                             "o" + metre() + ended("data") + "D" +
-                             raw(static_cast<std::uint32_t>(heights.size()));
-  const auto field_bytes = static_cast<std::uint32_t>(before.size() + heights.size_bytes());
-  const std::string title = ended("/0/data/title") + "s" + ended("height") + ended("/0/data") + "o" +
-                            ended("GwyDataField") + raw(field_bytes);
+  const auto field_head = [&](std::string_view key, std::string_view unit_z) {
+    const std::string before = ended("xres") + "i" + raw(grid.nx) + ended("yres") + "i" + raw(grid.ny) +
+                               ended("xreal") + "d" + raw(grid.size_x) + ended("yreal") + "d" +
+                               raw(grid.size_y) + ended("si_unit_xy") + "o" + unit_object("m") +
+                               ended("si_unit_z") + "o" + unit_object(unit_z) + ended("data") + "D" +
+                               raw(static_cast<std::uint32_t>(heights.size()));
+    return ended(key) + "o" + ended("GwyDataField") +
+           raw(static_cast<std::uint32_t>(before.size() + heights.size_bytes())) + before;
+  };
+  const std::string first = ended("/0/data/title") + "s" + ended("height") + field_head("/0/data", "m");
+  std::string second, last;
+  if (holes) {
+    second = field_head("/0/mask", "");
+    last = ended("/0/meta") + "o" +
+           object("GwyContainer", ended(hole_entry) + "s" +
+                                      ended(std::to_string(grid.nodes() - surface.measured()) +
+                                            " points, those under the mask"));
+  }
+  const std::uint64_t length =
+      first.size() + second.size() + last.size() + (holes ? 2 : 1) * heights.size_bytes();
   AtomicFile file(path, FileWords::data);
-  file.write(std::string(mark) + ended("GwyContainer") +
-             raw(static_cast<std::uint32_t>(title.size() + field_bytes)) + title + before);
-  file.write({reinterpret_cast<const char*>(heights.data()), heights.size_bytes()});
+  file.write(std::string(mark) + ended("GwyContainer") + raw(static_cast<std::uint32_t>(length)) + first);
+  if (!holes) {
+    file.write({reinterpret_cast<const char*>(heights.data()), heights.size_bytes()});
+    file.commit();
+    return;
+  }
+  const double average = mean_of_measured(surface);
+  const auto write_rows = [&](auto&& value) {
+    Array<double> row(static_cast<std::size_t>(grid.nx));
+    for (int j = 0; j < grid.ny; ++j) {
+      std::ranges::transform(surface.measured_heights().row(j), row.begin(), value);
+      file.write({reinterpret_cast<const char*>(row.data()), row.size() * sizeof(double)});
+    }
+  };
+  write_rows([&](double height) { return std::isnan(height) ? average : height; });
+  file.write(second);
+  write_rows([](double height) { return std::isnan(height) ? 1.0 : 0.0; });
+  file.write(last);
   file.commit();
 }
 

@@ -140,35 +140,31 @@ HeightMap read_map(const SourceFile& file, const std::string& forced, const std:
               "leave `channel` out; files of " + joined(several, " and ") + " may hold several maps");
 }
 
-// Turns the numbers into metres and closes the holes.
+// Turns the numbers into metres, and fills the holes where the call says how.
 void into_metres(HeightMap& map, const SourceFile& file, double unit, double hx, double hy,
                  const HoleFill& fill, Monitor& monitor) {
   if (fill.kind == HoleFill::Kind::value)
     require(std::isfinite(fill.height), "fill", fill.height, "m", "give a finite height");
   const auto nx = static_cast<std::size_t>(map.heights.nx());
-  const auto node = [&](std::size_t k) {
-    return "node (" + std::to_string(k % nx) + ", " + std::to_string(k / nx) + ")";
-  };
-  std::size_t holes = 0, first = 0;
+  std::size_t holes = 0;
   for (std::size_t k = 0; k < map.heights.size(); ++k) {
     double& height = map.heights[k];
     if (std::isnan(height)) {
-      if (holes++ == 0) first = k;
+      ++holes;
       continue;
     }
     height *= unit;
     if (!std::isfinite(height))
-      refuse_file(file, "has an infinite height at " + node(k), "mark missing points with nan");
+      refuse_file(
+          file,
+          "has an infinite height at node (" + std::to_string(k % nx) + ", " + std::to_string(k / nx) + ")",
+          "mark missing points with nan");
   }
   if (holes == 0) return;
   if (holes == map.heights.size()) refuse_file(file, "holds no height, only missing points");
   switch (fill.kind) {
     case HoleFill::Kind::none:
-      throw Error(ErrorCode::bad_value,
-                  file_name(file.path()) + " has " + std::to_string(holes) + " missing " +
-                      (holes == 1 ? "height" : "heights") + " of " + std::to_string(map.heights.size()) +
-                      ", the first at " + node(first),
-                  "`fill` = \"interpolate\" fills them from their neighbours, `fill` = 0 with that height");
+      break;
     case HoleFill::Kind::value:
       for (double& height : map.heights.values())
         if (std::isnan(height)) height = fill.height;
@@ -231,8 +227,8 @@ Surface read_surface(const SourceFile& file, const ReadOptions& options, Monitor
   const Grid grid = make_grid(map.heights.nx(), map.heights.ny(), *size_x, *size_y);
   into_metres(map, file, *unit, grid.hx(), grid.hy(), options.fill, monitor);
   warn_of_proportions(map, file, grid.hx(), grid.hy(), monitor);
-  return Surface(grid, std::move(map.heights),
-                 {.material = options.material, .periodic = false, .aliased_share = {}});
+  return Surface::with_holes(grid, std::move(map.heights),
+                             {.material = options.material, .periodic = false, .aliased_share = {}});
 }
 
 Profile read_profile(const std::string& path, const ReadProfileOptions& options, Monitor& monitor) {
@@ -269,7 +265,7 @@ Profile read_profile(const SourceFile& file, const ReadProfileOptions& options, 
   map.trace = true;
   warn_of_proportions(map, file, *spacing, *spacing, monitor);
   const auto heights = map.heights.values();
-  return Profile(*spacing, Array<double>(heights.begin(), heights.end()), map.closed_radius);
+  return Profile::with_holes(*spacing, Array<double>(heights.begin(), heights.end()), map.closed_radius);
 }
 
 }  // namespace asperity

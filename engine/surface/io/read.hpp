@@ -21,7 +21,11 @@ class SourceFile;
 
 // What to do with missing points.
 struct HoleFill {
-  enum class Kind { none, interpolate, value };  // an error, harmonic from the neighbours, one height
+  enum class Kind {
+    none,
+    interpolate,
+    value
+  };  // they stay missing, harmonic from the neighbours, one height
   Kind kind = Kind::none;
   double height = 0;  // m, for Kind::value
 
@@ -48,9 +52,10 @@ struct ReadProfileOptions {
 };
 
 // First line of a text matrix, row 0 of an array: j = 0. A trace (stylus CSV, one-dimensional array)
-// becomes one row, ny = 1, whose size_y is one cell unless given. Traits: the material, nothing else.
-// Errors: bad_file; bad_value for holes without `fill` (how many, and the first), for a missing
-// `size`, `unit` or `unit_xy`, for a unit that contradicts the head of the file, for a `unit_xy` where there
+// becomes one row, ny = 1, whose size_y is one cell unless given. Points that the file marks as missing, each
+// format in its own way, are holes of the surface unless `fill` says otherwise. Traits: the material, nothing
+// else. Errors: bad_file, also where no point was measured; bad_value for a missing `size`, `unit` or
+// `unit_xy`, for a unit that contradicts the head of the file, for a `unit_xy` where there
 // are no positions, or for more than 65536 cells a side; unknown_name for `format`. Warns of sizes out of all
 // proportion.
 Surface read_surface(const std::string& path, const ReadOptions& options = {},

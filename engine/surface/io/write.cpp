@@ -13,6 +13,7 @@
 #include "engine/core/text.hpp"
 #include "engine/surface/io/gwy.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
+#include "engine/surface/io/sur_writer.hpp"
 #include "engine/surface/io/x3p_writer.hpp"
 
 namespace asperity {
@@ -55,15 +56,18 @@ void write_npy(const std::string& path, const std::string& shape, std::span<cons
 
 void write_matrix(const Surface& surface, const std::string& path, char separator, Monitor& monitor) {
   const Grid& grid = surface.grid();
+  const Field& heights = surface.measured_heights();
   AtomicFile file(path, FileWords::data);
   std::string text = "# asperity surface\n# cells = " + std::to_string(grid.nx) + " " +
                      std::to_string(grid.ny) + "\n# size [m] = " + format_exact(grid.size_x) + " " +
                      format_exact(grid.size_y) + "\n# unit [m] = 1\n";
+  if (!surface.complete())
+    text += "# not measured = " + std::to_string(grid.nodes() - surface.measured()) + ", written as nan\n";
   Task task(monitor, "writing", grid.ny);
   for (int j = 0; j < grid.ny; ++j) {
     for (int i = 0; i < grid.nx; ++i) {
       if (i > 0) text += separator;
-      text += format_exact(surface.heights()(i, j));
+      text += format_exact(heights(i, j));
     }
     text += '\n';
     if (text.size() >= bytes_a_piece || j + 1 == grid.ny) {
@@ -81,8 +85,10 @@ void write_trace(const Profile& profile, const std::string& path, char separator
                      "\n# spacing [m] = " + format_exact(profile.spacing()) + "\n";
   if (profile.closed_radius())
     text += "# closed radius [m] = " + format_exact(*profile.closed_radius()) + "\n";
+  const auto heights = profile.measured_heights();
+  if (!profile.complete())
+    text += "# not measured = " + std::to_string(heights.size() - profile.measured()) + ", written as nan\n";
   text += "# position [m], height [m]\n";
-  const auto heights = profile.heights();
   Task task(monitor, "writing", profile.size());
   for (std::size_t k = 0; k < heights.size(); ++k) {
     text += format_exact(static_cast<double>(k) * profile.spacing()) + separator + format_exact(heights[k]) +
@@ -102,27 +108,29 @@ void write_surface(const Surface& surface, const std::string& path, Monitor& mon
   const std::string extension = file_extension(path);
   const Grid& grid = surface.grid();
   if (extension == "npy") {
-    write_npy(path, std::to_string(grid.ny) + ", " + std::to_string(grid.nx), surface.heights().values(),
-              grid.ny, monitor);
+    write_npy(path, std::to_string(grid.ny) + ", " + std::to_string(grid.nx),
+              surface.measured_heights().values(), grid.ny, monitor);
   } else if (extension == "x3p") {
     write_x3p(surface, path);
   } else if (extension == "h5" || extension == "hdf5") {
     write_hdf5_surface(surface, path);
   } else if (extension == "gwy") {
     write_gwy(surface, path);
+  } else if (extension == "sur") {
+    write_sur(surface, path, monitor);
   } else if (extension == "txt" || extension == "asc") {
     write_matrix(surface, path, ' ', monitor);
   } else if (extension == "csv") {
     write_matrix(surface, path, ',', monitor);
   } else {
-    refuse_extension(path, ".h5, .npy, .x3p, .gwy, .txt, .asc or .csv");
+    refuse_extension(path, ".h5, .npy, .x3p, .gwy, .sur, .txt, .asc or .csv");
   }
 }
 
 void write_profile(const Profile& profile, const std::string& path, Monitor& monitor) {
   const std::string extension = file_extension(path);
   if (extension == "npy") {
-    write_npy(path, std::to_string(profile.size()) + ",", profile.heights(), 1, monitor);
+    write_npy(path, std::to_string(profile.size()) + ",", profile.measured_heights(), 1, monitor);
   } else if (extension == "txt") {
     write_trace(profile, path, ' ', monitor);
   } else if (extension == "csv") {

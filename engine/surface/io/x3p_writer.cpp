@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The archive is built by libzip from the heights where they lie; nothing is copied but the packed
-// bytes.
+// bytes. A point that was not measured is NaN, as the standard has it for floating-point heights; its mask of
+// valid points is for integers, which have no such number.
 #include "engine/surface/io/x3p_writer.hpp"
 
 #include <zip.h>
@@ -81,7 +82,7 @@ std::string md5_of(std::span<const char> bytes) {
 
 void write_x3p(const Surface& surface, const std::string& path) {
   static_assert(std::endian::native == std::endian::little, "X3P data are written as they lie in memory");
-  const auto heights = surface.heights().values();
+  const auto heights = surface.measured_heights().values();
   const std::span<const char> data{reinterpret_cast<const char*>(heights.data()), heights.size_bytes()};
   const std::string xml = main_xml(surface.grid(), md5_of(data));
   const std::string checksum = md5_of(xml) + " *main.xml\n";

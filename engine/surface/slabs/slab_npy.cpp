@@ -2,6 +2,7 @@
 // NPY files of surfaces in slabs: rows are read where they are needed, and written one block after the other.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -92,8 +93,15 @@ SlabSurface slab_read(Team& team, const std::string& path, const SlabFileOptions
     stream.seekg(static_cast<std::streamoff>(file.header.data_at + static_cast<std::size_t>(j) * length));
     stream.read(bytes.data(), static_cast<std::streamsize>(length));
     if (!stream) throw Error(ErrorCode::bad_file, file_name(path) + " changed while it was read");
-    for (int i = 0; i < file.nx; ++i)
+    for (int i = 0; i < file.nx; ++i) {
       to[i] = unit * number(bytes.data() + static_cast<std::size_t>(i) * file.header.width, swap);
+      if (std::isnan(to[i]))
+        throw Error(
+            ErrorCode::bad_value,
+            file_name(path) + " has no height at node (" + std::to_string(i) + ", " + std::to_string(j) +
+                "), and over ranks every point is needed",
+            "read it with lab.surface.read, whose `fill` fills what was not measured, and write it again");
+    }
   };
   return slab_surface(team, {file.nx, file.ny, *options.size_x, *options.size_y}, row, monitor);
 }

@@ -47,7 +47,8 @@ struct SlabFileOptions {
   std::optional<double> unit;            // m per number; 1 unless given
 };
 // A NPY file of shape (ny, nx), of which each process reads its rows. Throws Error{bad_file}, as read_surface
-// does for such a file, and for columns that run first; {bad_value} without `size`.
+// does for such a file, and for columns that run first; {bad_value} without `size` and for a NaN, a point
+// that was not measured.
 SlabSurface slab_read(Team& team, const std::string& path, const SlabFileOptions& options, Monitor& monitor);
 
 // A field in slabs as a NPY file of shape (ny, nx), float64, written by the first process, to whom the others

@@ -180,6 +180,7 @@ class Reader {
       const Hdf5Attribute attribute = read_attribute(file_, message.body);
       if (attribute.name == "unit" || (attribute.name == "units" && array.unit.empty()))
         array.unit = text_of(file_, attribute).value_or("");
+      if (attribute.name == "_FillValue") array.missing = number_of(file_, attribute);
       if (attribute.name == "digest") digest = text_of(file_, attribute);
     }
     // Only the digests of this program can be checked, and are known by their length.

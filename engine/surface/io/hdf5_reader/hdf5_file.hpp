@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +43,9 @@ struct Hdf5Array {
   std::string unit;                // attribute "unit"; left out where empty
   // What the values stand in, where the array owns them; null where whoever made it keeps them alive.
   std::shared_ptr<const void> keeper{};
+  // The number that stands for a value that is not there: the attribute "_FillValue", as netCDF writes it.
+  // Only read; what this program writes has NaN there.
+  std::optional<double> missing{};
 };
 
 struct Hdf5Content {

@@ -83,7 +83,10 @@ HeightMap read_hdf5_channel(const SourceFile& file, const std::string& channel, 
   map.heights = Field(static_cast<int>(nx), static_cast<int>(ny));
   std::visit(
       [&](const auto& values) {
-        for (std::size_t k = 0; k < values.size(); ++k) map.heights[k] = static_cast<double>(values[k]);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+          const auto value = static_cast<double>(values[k]);
+          map.heights[k] = value == array.missing ? std::numeric_limits<double>::quiet_NaN() : value;
+        }
       },
       array.values);
   if (!array.unit.empty()) {
@@ -128,8 +131,10 @@ void write_hdf5_surface(const Surface& surface, const std::filesystem::path& pat
   content.texts = {{"content", "asperity surface"}, {"digest", surface.digest()}};
   content.arrays.push_back({"height",
                             {static_cast<std::size_t>(grid.ny), static_cast<std::size_t>(grid.nx)},
-                            surface.heights().values(),
+                            surface.measured_heights().values(),
                             "m"});
+  if (!surface.complete())
+    content.numbers.emplace_back("not_measured", static_cast<double>(grid.nodes() - surface.measured()));
   content.arrays.push_back(tile_size(grid));
   write_hdf5_and_xdmf(path, grid, "surface", content);
 }

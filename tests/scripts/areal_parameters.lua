@@ -1,0 +1,76 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Areal and profile parameters as a script reads them: gauges, units, what is not defined, and what is asked wrongly.
+local lab = require "asperity"
+
+local function near(value, wanted, relative, what)
+  assert(math.abs(value - wanted) <= relative * math.abs(wanted) + 1e-15, what .. ": " .. tostring(value) .. ", not " .. wanted)
+end
+local function refused(words, call)
+  local ok, message = pcall(call)
+  assert(not ok and message:find("areal_parameters.lua:%d+: ") and message:find(words, 1, true), tostring(message))
+end
+
+-- A sine of two directions, 1 um high on cells of half a um.
+local um = 1e-6
+local s = lab.surface.from_function{ cells=256, size="128 um", height=function(x, y)
+  return um * math.sin(2 * math.pi * x / (16 * um)) * math.sin(2 * math.pi * y / (16 * um))
+end }
+local p = s:areal_parameters()
+near(p.Sq, um / 2, 1e-12, "Sq")
+near(p.Sz, 2 * um, 1e-12, "Sz")
+near(p.Sku, 2.25, 1e-12, "Sku")
+near(p.S10z, 2 * um, 1e-9, "S10z")
+near(p.Spd, 2 / (16 * um)^2, 1e-12, "two peaks a period")
+near(p.Spc, um * 2 * (1 - math.cos(2 * math.pi / 32)) / (0.5 * um)^2, 1e-9, "Spc")
+near(p.Str, 0.8717, 2e-3, "Str")
+assert(p.Str_bound == nil and p:why_not "Str_bound" == "Str itself is defined" and p:why_not "Str" == nil)
+assert(p.measured == 256 * 256 and p.how == "mean removed" and p.prepared == s)
+near(p.Vmp, s:bearing():material_volume(0.1), 1e-12, "Vmp")
+near(s:bearing():ratio(0), 0.5, 0.02, "half lies above the mean")
+near(s:bearing():height(0.1), -s:bearing():height(0.9), 1e-9, "the curve is odd")
+near(s:autocorrelation():at(0, 0), 1, 1e-12, "the autocorrelation at the origin")
+refused("over half the map", function() return s:autocorrelation():at(200, 0) end)
+
+-- Ridges have a lay and no ratio of texture, but a bound for it.
+local ridges = lab.surface.from_function{ cells=128, size="128 um", height=function(x) return um * math.sin(2 * math.pi * x / (16 * um)) end }
+local r = ridges:areal_parameters{ F=1 }
+assert(r.Str == nil and r.Str_bound < 0.1 and r:why_not "Str":find("half the map", 1, true))
+near(r.Std, math.pi / 2, 1e-12, "the lay lies along y")
+assert(r.how == "F-operation of degree 1, mean removed")
+
+-- Filters act before anything is read.
+local smooth = s:areal_parameters{ S="32 um" }
+assert(smooth.Sq < 0.1 * p.Sq and smooth.how:find("S-filter 32 um", 1, true))
+
+-- What a flat has is none of them, and no number.
+local flat = lab.surface.flat{ cells=16, size="1 um" }:areal_parameters()
+assert(flat.Sal == nil and flat.Sku == nil and flat.S10z == nil and flat.Sk == 0 and flat.Sdr == 0)
+assert(flat:why_not "Sal" == "all heights are equal")
+
+refused("is not below `L`", function() return s:areal_parameters{ S="1 mm", L="1 um" } end)
+refused("there is no areal parameter `Sqq`", function() return p:why_not "Sqq" end)
+refused("did you mean", function() return p.Sqr end)
+refused("a material ratio is a share", function() return s:bearing():height(1.5) end)
+
+local slopes = s:scale_dependence{ of="slope", cells={ 1, 4 } }
+near(slopes.value[1], p.Sdq / math.sqrt(2), 1e-9, "slope along x over a cell")
+near(slopes.distance[2], 2 * um, 1e-12, "its distance")
+assert(s:scale_dependence{ of="curvature", cells={ 2 } }.least[1] < 0)
+assert(s:reliability{ tip="1 nm" }.cut_off == 0 and s:reliability{ tip="1 mm" }.x > 32 * um)
+refused("whose stencil fits", function() return s:scale_dependence{ cells={ 300 } } end)
+
+-- A trace: sections as the standard has them, none guessed.
+local trace = ridges:profile{ row=5 }
+local long = lab.surface.from_function{ cells={ 4096, 1 }, size={ "4.096 mm", "1 um" }, height=function(x)
+  return um * math.sin(2 * math.pi * x / (64 * um) + 0.3)
+end }:profile{ row=0 }
+local q = long:profile_parameters{ section="0.512 mm", S="8 um" }
+assert(q.sections == 5 and q.measured == 2560)
+near(q.Rsm, 64 * um, 1e-3, "Rsm")
+near(q.Rz, 2 * um, 0.03, "Rz")
+assert(q.u_Rz >= 0 and q.Rdq > 0 and q.profile:roughness().Ra == q.profile:roughness().Ra)
+refused("neither `section` nor `class`", function() return long:profile_parameters{ F=1 } end)
+refused("both `section` and `class`", function() return long:profile_parameters{ section="1 mm", class="Sc3" } end)
+refused("there is no setting class `Sc7`", function() return long:profile_parameters{ class="Sc7" } end)
+refused("holds no section", function() return trace:profile_parameters{ class="Sc5" } end)
+print "areal parameters: done"

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Points that were not measured go to files and come back: the same holes and, where the format holds
+// doubles, the same heights to the bit. What other programs write for a missing point, and marks that
+// contradict the heights, are beside them.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "engine/surface/io/archive.hpp"
+#include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
+#include "engine/surface/io/read.hpp"
+#include "engine/surface/io/write.hpp"
+#include "engine/surface/slabs/slab_surface.hpp"
+#include "tests/surface/files.hpp"
+#include "tests/surface/warnings.hpp"
+
+namespace asperity::holes_in_files_test {
+namespace {
+
+using testing::bytes_of;
+using testing::message_of;
+using testing::Scratch;
+
+enum class Holes { corners, row, column, all_but_one, scattered };
+
+bool is_hole(Holes where, int i, int j, int nx, int ny, const Stream& stream) {
+  switch (where) {
+    case Holes::corners:
+      return (i == 0 || i == nx - 1) && (j == 0 || j == ny - 1);
+    case Holes::row:
+      return j == ny - 1;
+    case Holes::column:
+      return i == 0;
+    case Holes::all_but_one:
+      return i != nx / 2 || j != ny / 2;
+    case Holes::scattered:
+      break;
+  }
+  return stream.below(static_cast<std::uint64_t>(i + nx * j), 3) == 0;
+}
+
+Surface holed(Holes where, int nx = 7, int ny = 5, double unit = 1e-7 / 3) {
+  const Stream stream(5, "holes"), heights_of(6, "heights");
+  Field heights(nx, ny);
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+      heights(i, j) = is_hole(where, i, j, nx, ny, stream)
+                          ? std::numeric_limits<double>::quiet_NaN()
+                          : unit * heights_of.normal(static_cast<std::uint64_t>(i + nx * j));
+  return Surface::with_holes(make_grid(nx, ny, 1e-4 / 3, 0.7e-4 / 3), std::move(heights));
+}
+
+constexpr Holes every_kind[] = {Holes::corners, Holes::row, Holes::column, Holes::all_but_one,
+                                Holes::scattered};
+
+Surface back(const Scratch& scratch, const Surface& surface, const std::string& name) {
+  write_surface(surface, scratch.path(name));
+  ReadOptions options;
+  if (name.ends_with(".npy")) {
+    options.size_x = surface.grid().size_x;
+    options.size_y = surface.grid().size_y;
+    options.unit = 1;
+  }
+  return read_surface(scratch.path(name), options);
+}
+
+TEST(HolesInFiles, SurfacesReadBackBitForBit) {
+  const Scratch scratch;
+  for (const Holes where : every_kind)
+    for (const char* const name : {"a.x3p", "a.h5", "a.npy", "a.gwy", "a.txt", "a.asc", "a.csv"}) {
+      const Surface surface = holed(where), found = back(scratch, surface, name);
+      EXPECT_EQ(found.grid(), surface.grid()) << name;
+      EXPECT_EQ(found.measured(), surface.measured()) << name;
+      EXPECT_EQ(found.digest(), surface.digest()) << name << ", holes " << static_cast<int>(where);
+    }
+}
+
+TEST(HolesInFiles, SameBytesEveryTime) {
+  const Scratch scratch;
+  const Surface surface = holed(Holes::scattered);
+  for (const std::string name : {"s.x3p", "s.h5", "s.npy", "s.gwy", "s.sur", "s.txt"}) {
+    write_surface(surface, scratch.path("1" + name));
+    write_surface(surface, scratch.path("2" + name));
+    EXPECT_EQ(bytes_of(scratch.path("1" + name)), bytes_of(scratch.path("2" + name))) << name;
+  }
+}
+
+TEST(HolesInFiles, ProfilesReadBackBitForBit) {
+  const Scratch scratch;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Profile& profile :
+       {Profile::with_holes(1e-6 / 3, {nan, 1e-7 / 3, nan, nan, -0.0, nan}),
+        Profile::with_holes(1e-6, {1e-7, nan, 3e-7}, 2.5e-3), Profile::with_holes(1e-6, {nan, nan, 1e-9})}) {
+    for (const char* const name : {"p.csv", "p.txt"}) {
+      write_profile(profile, scratch.path(name));
+      EXPECT_EQ(read_profile(scratch.path(name)).digest(), profile.digest()) << name;
+    }
+    write_profile(profile, scratch.path("p.npy"));
+    ReadProfileOptions options;
+    options.spacing = profile.spacing();
+    options.unit = 1;
+    const Profile found = read_profile(scratch.path("p.npy"), options);
+    EXPECT_EQ(found.measured(), profile.measured());
+    for (std::size_t k = 0; k < found.measured_heights().size(); ++k)
+      EXPECT_EQ(std::isnan(found.measured_heights()[k]), std::isnan(profile.measured_heights()[k]));
+  }
+}
+
+TEST(HolesInFiles, FillActsOnWhatWasWritten) {
+  const Scratch scratch;
+  const Surface surface = holed(Holes::scattered);
+  write_surface(surface, scratch.path("a.x3p"));
+  ReadOptions options;
+  options.fill = HoleFill::with(2e-6);
+  const Surface filled = read_surface(scratch.path("a.x3p"), options);
+  EXPECT_TRUE(filled.complete());
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(filled.heights().values(), 2e-6)),
+            surface.grid().nodes() - surface.measured());
+  options.fill = HoleFill::interpolate();
+  EXPECT_TRUE(read_surface(scratch.path("a.x3p"), options).complete());
+}
+
+// Of a surface without holes a file says nothing of any.
+TEST(HolesInFiles, CompleteSurfacesAreNotMarked) {
+  const Scratch scratch;
+  const Surface surface(make_grid(4, 3, 1e-3, 1e-3), Field(4, 3));
+  for (const char* const name : {"a.x3p", "a.h5", "a.gwy", "a.txt"}) {
+    write_surface(surface, scratch.path(name));
+    const std::string bytes = bytes_of(scratch.path(name));
+    for (const char* const mark : {"not measured", "not_measured", "Not measured", "mask"})
+      EXPECT_EQ(bytes.find(mark), std::string::npos) << name;
+  }
+}
+
+// The text and HDF5 say how many points are missing.
+TEST(HolesInFiles, FilesSayHowManyPointsAreMissing) {
+  const Scratch scratch;
+  const Surface surface = holed(Holes::row);
+  write_surface(surface, scratch.path("a.txt"));
+  EXPECT_NE(bytes_of(scratch.path("a.txt")).find("\n# not measured = 7, written as nan\n"),
+            std::string::npos);
+  write_surface(surface, scratch.path("a.h5"));
+  const Hdf5Content content = read_hdf5(scratch.path("a.h5"));
+  ASSERT_NE(content.number("not_measured"), nullptr);
+  EXPECT_EQ(*content.number("not_measured"), 7);
+}
+
+// X3P: NaN in floating-point heights, no mask; the checksums are those of the entries as they lie.
+TEST(HolesInFiles, ChecksumsOfX3pAreRight) {
+  const Scratch scratch;
+  write_surface(holed(Holes::scattered), scratch.path("a.x3p"));
+  const SourceFile file(scratch.path("a.x3p"), Monitor::silent());
+  const Archive archive(file);
+  const auto entry = [&](const char* name) {
+    const Array<char> bytes = archive.contents(archive.find(name), 1 << 20);
+    return std::string(bytes.begin(), bytes.end());
+  };
+  const auto md5 = [](const std::string& bytes) {
+    Md5 sum;
+    sum.add(bytes);
+    return sum.hex();
+  };
+  const std::string xml = entry("main.xml");
+  EXPECT_EQ(entry("md5checksum.hex"), md5(xml) + " *main.xml\n");
+  EXPECT_NE(xml.find("<MD5ChecksumPointData>" + md5(entry("bindata/data.bin")) + "</MD5ChecksumPointData>"),
+            std::string::npos);
+  EXPECT_EQ(xml.find("ValidPoints"), std::string::npos);
+}
+
+// GWY: a mask over the mean, which the metadata explain.
+TEST(HolesInFiles, MaskOfGwyddionHoldsTheHoles) {
+  const Scratch scratch;
+  const Surface surface = holed(Holes::corners);
+  write_surface(surface, scratch.path("a.gwy"));
+  const std::string whole = bytes_of(scratch.path("a.gwy"));
+  const auto with = [&](std::string from, const std::string& to) {
+    std::string bytes = whole;
+    const std::size_t at = bytes.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return bytes.replace(at, from.size(), to);
+  };
+  // Without the entry of the metadata it is a mask like any other: the points have the mean.
+  testing::Warnings warnings;
+  const Surface taken = read_surface(SourceFile("a.gwy", with("Not measured", "Not Measured")), {}, warnings);
+  EXPECT_TRUE(taken.complete());
+  double sum = 0;
+  for (const double height : surface.measured_heights().values()) sum += std::isnan(height) ? 0 : height;
+  EXPECT_NEAR(taken.height(0, 0), sum / static_cast<double>(surface.measured()), 1e-20);
+  ASSERT_EQ(warnings.all.size(), 1U);
+  EXPECT_NE(warnings.all[0].find("has a mask, which is not applied"), std::string::npos);
+  // A mask that somebody has changed is not that of the holes.
+  EXPECT_EQ(
+      message_of([&] { read_surface(SourceFile("a.gwy", with("4 points", "5 points"))); }),
+      "\"a.gwy\" says of the map 0 \"height\" that it was not measured at \"5 points, those under th...\", "
+      "and its mask has 4; put the mask back, or take \"Not measured\" out of its metadata to have the "
+      "points as they stand");
+  EXPECT_NE(message_of([&] {
+              read_surface(SourceFile("a.gwy", with("/0/mask", "/0/mosk")));
+            }).find("and its mask has 0"),
+            std::string::npos);
+  testing::damage(whole, 23, 2000,
+                  [](const std::string& bytes) { read_surface(SourceFile("a.gwy", bytes)); });
+}
+
+// HDF5 of other programs: NaN, or the number that an attribute names, as netCDF writes it.
+TEST(HolesInFiles, FillValuesOfHdf5AreHoles) {
+  ReadOptions options;
+  options.size_x = options.size_y = 1e-3;
+  const Surface found = read_surface(testing::sample("fill_value.h5"), options);
+  EXPECT_EQ(found.measured(), 4U);
+  EXPECT_TRUE(std::isnan(found.height(2, 0)) && std::isnan(found.height(1, 1)));
+  EXPECT_EQ(found.height(2, 1), 6 * 1e-6);
+}
+
+TEST(HolesInFiles, InfiniteHeightsOfHdf5AreRefused) {
+  const Scratch scratch;
+  const auto file = [&](std::vector<double> heights) {
+    Hdf5Content content;
+    content.arrays.push_back(owning_array<double>("height", {1, heights.size()},
+                                                  Array<double>(heights.begin(), heights.end()), "m"));
+    content.arrays.push_back(tile_size(make_grid(static_cast<int>(heights.size()), 1, 1e-3, 1e-3)));
+    write_hdf5(scratch.path("a.h5"), content);
+    return scratch.path("a.h5");
+  };
+  EXPECT_EQ(read_surface(file({1, NAN, 3})).measured(), 2U);
+  EXPECT_NE(message_of([&] {
+              read_surface(file({1, INFINITY, 3}));
+            }).find("an infinite height at node (1, 0)"),
+            std::string::npos);
+  EXPECT_NE(message_of([&] {
+              read_surface(file({NAN, NAN}));
+            }).find("holds no height, only missing points"),
+            std::string::npos);
+}
+
+// Over ranks every point is needed, and the file is told rather than a node of no name.
+TEST(HolesInFiles, SurfacesOverRanksRefuseThem) {
+  const Scratch scratch;
+  write_surface(holed(Holes::column), scratch.path("a.npy"));
+  EXPECT_EQ(message_of([&] {
+              slab_read(Team::alone(), scratch.path("a.npy"), {.size_x = 1e-3, .size_y = 1e-3, .unit = {}},
+                        Monitor::silent());
+            }),
+            "\"" + scratch.path("a.npy") +
+                "\" has no height at node (0, 0), and over ranks every point is needed; read it with "
+                "lab.surface.read, whose `fill` fills what was not measured, and write it again");
+}
+
+}  // namespace
+}  // namespace asperity::holes_in_files_test
