@@ -88,7 +88,7 @@ bool elsewhere(const Pose& a, const Pose& b, double way, double turn) {
 // least about: along a ridge, or where a sphere is turned about its top, that is as good as before.
 // Refinement would bring it back, to where rim and noise of the two maps happen to agree.
 Judged judged(const HeightMap& before, const HeightMap& after, const std::vector<Candidate>& candidates,
-              double step, double most_shift, Monitor& monitor) {
+              const CoarseOptions& search, Monitor& monitor) {
   const double spacing = before.hx, sigma = 1.5 * spacing;
   const SmoothMap before_smooth = smoothed_map(before, sigma);
   SmoothMap after_smooth = smoothed_map(after, sigma);
@@ -104,7 +104,9 @@ Judged judged(const HeightMap& before, const HeightMap& after, const std::vector
   for (const Candidate& candidate : candidates) {
     const Refined one = refined(maps, candidate.pose, options);
     relief = relief && one.relief;
-    if (one.possible && elementary::hypot(one.pose.x, one.pose.y) <= most_shift) found.push_back(one);
+    const double shift = elementary::hypot(one.pose.x - search.from_x, one.pose.y - search.from_y);
+    // The search is as coarse as its cells.
+    if (one.possible && shift <= search.greatest_shift + 2 * spacing) found.push_back(one);
     task.advance();
   }
   if (found.empty() && !relief)
@@ -118,7 +120,7 @@ Judged judged(const HeightMap& before, const HeightMap& after, const std::vector
   });
   Judged result{*best, 0};
   for (const Refined& other : found)
-    if (elsewhere(other.pose, best->pose, 3 * spacing, 2 * step))
+    if (elsewhere(other.pose, best->pose, 3 * spacing, 2 * search.step))
       result.second = std::max(result.second, other.explained);
   const double way = 4 * spacing;
   const Pose change = weakest_change(maps, *best, options, way);
@@ -151,8 +153,8 @@ Field laid_on(const HeightMap& after, const HeightMap& before, const Pose& pose,
       double u = x / after.hx + 0.5 * (after.nx() - 1), v = y / after.hy + 0.5 * (after.ny() - 1);
       double& height = result(i, j);
       height = std::numeric_limits<double>::quiet_NaN();
-      // A node on the rim stays there however its place is rounded.
-      constexpr double rounding = 1e-7;
+      // A node on the rim stays there, by the error of its place.
+      constexpr double rounding = 1e-3;
       if (!(u >= -rounding && v >= -rounding && u <= after.nx() - 1 + rounding &&
             v <= after.ny() - 1 + rounding))
         continue;
@@ -212,15 +214,14 @@ Registration registered(const Surface& after, const Surface& before, const Regis
                metres(before.grid().size_y),
            "crop the larger one, or measure both with like cells");
   const bool whole_circle = options.angle >= std::numbers::pi;
-  const double most_shift =
-      options.at_most ? *options.at_most / cell : std::numeric_limits<double>::infinity();
   CoarseOptions search;
   search.greatest_turn = std::min(options.angle, std::numbers::pi);
-  search.greatest_shift = most_shift;
+  search.greatest_shift = options.at_most ? *options.at_most / cell : std::numeric_limits<double>::infinity();
+  search.from_x = 0.5 * (from.map.extent_x() - onto.map.extent_x());
+  search.from_y = 0.5 * (from.map.extent_y() - onto.map.extent_y());
   search.step = whole_circle ? degree : 0.75 * degree;
   const std::vector<Candidate> candidates = coarse_candidates(coarse_before, coarse_after, search, monitor);
-  const Judged coarse =
-      judged(coarse_before, coarse_after, candidates, search.step, most_shift + 2 * spacing, monitor);
+  const Judged coarse = judged(coarse_before, coarse_after, candidates, search, monitor);
 
   const SmoothMap before_smooth = smoothed_map(onto_map, widest);
   SmoothMap after_smooth = smoothed_map(from_map, widest);

@@ -101,6 +101,12 @@ TEST(Registration, APartOfAMapLiesWhereItWasCut) {
   EXPECT_NEAR(r.overlap, 90.0 * 100 / (128 * 120), 1e-12);
   EXPECT_TRUE(std::isnan(r.surface.height(16, 50)));
   EXPECT_LT(greatest_difference(r.surface, map), 1e-12);
+  // `at_most` is of the shift, which is not that of the centres.
+  RegistrationOptions near = turns_up_to(5);
+  near.at_most = 21 * cell;
+  EXPECT_EQ(registered(part, map, near).shift_x, r.shift_x);
+  near.at_most = 12 * cell;
+  EXPECT_NE(refusal(part, map, near), "accepted");
 }
 
 TEST(Registration, WhatWasTurnedCounterClockwiseIsTurnedBack) {

@@ -485,6 +485,7 @@ local stage = lab.tilt_stage{ contact=c, friction=law, mass="4.3 g" }
 local protocol = lab.protocol{ { press={ pressure="10 MPa" } }, { release=true }, { rotate="90 deg" } }
 local book = lab.notebook "examples"
 for N = 1, 3 do book:write{ N=N, D=2.5, r=0.1, mu=0.4 + 0.01 * N } end
+local t = book:table()
 local study = lab.work_precision{
   ask=function(knobs) return lab.exact.hertz{ radius=1, modulus=1, load=1 }.approach + 1e-2 / knobs.cells ^ 2 end,
   truth={ cells=1024 }, try={ { name="finer grid", cells={ 16, 32, 64 } } }, repeats=1,
@@ -494,6 +495,7 @@ local spread = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary="period
                                    effects={ elasticity="half_space" } }
 local under = spread:press{ pressure="10 MPa" }
 s:write "specimen.txt" p:write "scan.csv" protocol:write "press_log.csv"
+lab.table.from{ { ["force"]=3, mu=0.42 } }:write "mu.csv"
 )";
   return text;
 }

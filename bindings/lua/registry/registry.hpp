@@ -49,6 +49,8 @@ struct Function {
   std::string returns{};
   std::string example{};  // required; a line that runs after example_preamble()
   bool heavy = false;     // not run by `asperity check`
+  // Nor is this, for it hangs on rows that a dry run does not know; but it is no call of the journal.
+  bool unknown_when_dry = false;
   // What a dry run does with arguments that hold placeholders, beside reading the options; null: nothing.
   void (*look)(const Call& call) = nullptr;
 };

@@ -222,7 +222,7 @@ const Class& class_of<Profile>() {
          .example = "p:cut{ fraction=0.2 }"},
         {.name = "picture",
          .body = picture_of_profile,
-         .sentence = "A drawing of the profile, or of the shape of a closed outline: .svg or .png.",
+         .sentence = "A drawing of the profile, or of the shape of a closed outline: .svg, .png or .pdf.",
          .parameters = {{"path", "string", "under the run directory"}},
          .options = &profile_picture_block(),
          .options_optional = true,

@@ -10,6 +10,7 @@
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/missing_points.hpp"
 #include "bindings/lua/surface/picture.hpp"
+#include "bindings/lua/surface/registration.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "bindings/lua/surface/surface_operations.hpp"
 #include "engine/metrology/levelling.hpp"
@@ -221,10 +222,12 @@ const Class& class_of<Surface>() {
          .example = "s:levelled{ degree=1 }"},
     };
     for (Function& method : missing_point_methods_of_surface()) c.methods.push_back(std::move(method));
+    c.methods.push_back(registered_to_method());
     for (Function& operation : surface_operations()) c.methods.push_back(std::move(operation));
     for (Function& parameters : parameter_methods()) c.methods.push_back(std::move(parameters));
     c.results = {&roughness_type(true), &spectrum_type(), &fractal_dimension_type(), &outliers_type(true)};
     for (const RecordInfo* result : parameter_results()) c.results.push_back(result);
+    for (const RecordInfo* result : registration_types()) c.results.push_back(result);
     return c;
   }();
   return type;

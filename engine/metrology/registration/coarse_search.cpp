@@ -63,11 +63,12 @@ void turn_into(const Field& band, double angle, double cx, double cy, Field& out
   }
 }
 
-// How far centres may lie apart, in nodes.
+// How far centres may lie apart, and the shift from where they stand, in nodes.
 struct Reach {
-  double x, y, radius;
+  double x, y, radius, from_x, from_y;
   bool holds(double dx, double dy) const {
-    return std::abs(dx) <= x && std::abs(dy) <= y && dx * dx + dy * dy <= radius * radius;
+    const double shift_x = dx - from_x, shift_y = dy - from_y;
+    return std::abs(dx) <= x && std::abs(dy) <= y && shift_x * shift_x + shift_y * shift_y <= radius * radius;
   }
 };
 
@@ -159,8 +160,10 @@ std::vector<Candidate> coarse_candidates(const HeightMap& before, const HeightMa
   const double box_x = box(after.nx(), after.ny()), box_y = box(after.ny(), after.nx());
   // Further apart than this, less than a tenth of the maps overlaps.
   const double most = options.greatest_shift / spacing, longer = std::max(after.nx(), after.ny());
-  const Reach reach{std::min(most, 0.4 * (before.nx() + std::min(box_x, longer))),
-                    std::min(most, 0.4 * (before.ny() + std::min(box_y, longer))), most};
+  const double from_x = options.from_x / spacing, from_y = options.from_y / spacing;
+  const Reach reach{std::min(most + std::abs(from_x), 0.4 * (before.nx() + std::min(box_x, longer))),
+                    std::min(most + std::abs(from_y), 0.4 * (before.ny() + std::min(box_y, longer))), most,
+                    from_x, from_y};
   // Lags beyond the reach may wrap onto each other, not into it.
   const auto period = [](int n, double turned, double reached) {
     const double least = std::max({0.5 * (n + turned) + reached, turned, static_cast<double>(n)});

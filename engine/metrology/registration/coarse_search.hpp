@@ -15,8 +15,10 @@ namespace asperity::registration {
 
 struct CoarseOptions {
   double greatest_turn = 0;   // rad, to either side; from pi on the whole circle
-  double greatest_shift = 0;  // cells, of the centre; infinite: whatever leaves a tenth of an overlap
-  double step = 0;            // rad, between angles
+  double greatest_shift = 0;  // cells; infinite: whatever leaves a tenth of an overlap
+  double from_x = 0,
+         from_y = 0;  // cells: where the after-map's centre stands, from that of the before-map, unshifted
+  double step = 0;    // rad, between angles
   int candidates = 8;
 };
 
