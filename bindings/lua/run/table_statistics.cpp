@@ -127,7 +127,7 @@ void read_bins(const Argument& value, const OptionInfo& info, HistogramKeys& key
     });
 }
 
-const Block<HistogramKeys>& histogram_block() {
+const Block<HistogramKeys>& column_histogram_block() {
   using K = HistogramKeys;
   static const Block<K> block{
       "histogram",
@@ -186,7 +186,7 @@ void draw_histogram(Call& call, const HistogramKeys& keys, const TableColumn& co
 }
 
 Values histogram_of_column(Call& call) {
-  const HistogramKeys keys = call.options(histogram_block());
+  const HistogramKeys keys = call.options(column_histogram_block());
   if (keys.file) picture_format(*keys.file);
   const auto whole = table_of_self(call);
   const Rows table = rows_of(*whole, keys.where.rows(*whole));
@@ -227,7 +227,7 @@ Function histogram_method() {
   return {.name = "histogram",
           .body = histogram_of_column,
           .sentence = "How often the values of a column fall into bins; `file` draws it.",
-          .options = &histogram_block(),
+          .options = &column_histogram_block(),
           .returns = "Histogram",
           .example = "print(book:histogram{ of=\"mu\", bins=2 })",
           .heavy = true};

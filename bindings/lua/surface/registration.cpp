@@ -38,7 +38,7 @@ const RecordType<PlanarShift>& shift_type() {
 struct PlanarTilt {
   double x, y;
 };
-const RecordType<PlanarTilt>& tilt_type() {
+const RecordType<PlanarTilt>& planar_tilt_type() {
   static const RecordType<PlanarTilt> type{
       "RegistrationTilt",
       "tilt",
@@ -63,7 +63,7 @@ const RecordType<RegistrationUncertainty>& registration_uncertainty_type() {
         [](const U& u) {
           return PlanarTilt{u.tilt_x, u.tilt_y};
         },
-        tilt_type(), "of the slopes"},
+        planar_tilt_type(), "of the slopes"},
        {"lift", &U::lift, dimension::length, "of the height"}}};
   return type;
 }
@@ -89,7 +89,7 @@ const RecordType<Registration>& registration_type() {
         [](const R& r) {
           return PlanarTilt{r.tilt_x, r.tilt_y};
         },
-        tilt_type(), "slopes of the map after above that before, along the latter's axes"},
+        planar_tilt_type(), "slopes of the map after above that before, along the latter's axes"},
        {"lift", &R::lift, dimension::length,
         "height of the map after above that before, at the centre of the map after, where neither is worn"},
        {"u", &R::u, registration_uncertainty_type(), "their standard uncertainties"},
@@ -114,7 +114,7 @@ Values register_to(Call& call) {
 }  // namespace
 
 std::vector<const RecordInfo*> registration_types() {
-  return {&registration_type(), &registration_uncertainty_type(), &shift_type(), &tilt_type()};
+  return {&registration_type(), &registration_uncertainty_type(), &shift_type(), &planar_tilt_type()};
 }
 
 Function registered_to_method() {
