@@ -128,7 +128,7 @@ void LogTable::choose_columns() {
           if (is_it(columns_[k], whole) && count++ == 0) found = k;
     if (count != 1) {
       std::vector<std::string> titles;
-      for (const Column& column : columns_) titles.push_back(column.title);
+      for (const Column& column : columns_) titles.push_back(asperity::plain_text(column.title));
       problem(here(), std::to_string(count) + " columns are titled " + shown(title) +
                           ", which `columns` calls " + quoted(name) +
                           (count == 0 ? did_you_mean(title, titles) : "; give the title with its unit"));
