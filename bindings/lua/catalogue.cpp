@@ -8,6 +8,7 @@
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/run/ledger.hpp"
 #include "bindings/lua/run/notebook.hpp"
+#include "bindings/lua/run/table.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
 #include "bindings/lua/specimen/shear.hpp"
@@ -30,7 +31,7 @@ const Module& spread_module();
 const std::vector<const Module*>& modules() {
   static const std::vector<const Module*> all = {
       &lab_module(),      &units_module(), &surface_module(), &profile_module(),
-      &protocol_module(), &exact_module(), &spread_module(),
+      &protocol_module(), &exact_module(), &spread_module(),  &table_module(),
   };
   return all;
 }
@@ -48,7 +49,7 @@ const std::vector<const Class*>& classes() {
       &class_of<StateError>(),
       &class_of<StateBounds>(),
       &class_of<DiscretisationError>(),
-      &class_of<StateField>(),
+      &class_of<NamedField>(),
       &class_of<Plan>(),
       &class_of<LedgerReport>(),
       &class_of<Stylus>(),
@@ -57,6 +58,7 @@ const std::vector<const Class*>& classes() {
       &class_of<PartialSlip>(),
       &class_of<TiltStage>(),
       &class_of<Notebook>(),
+      &class_of<asperity::Table>(),
       &class_of<Study>(),
       &class_of<StudyChoice>(),
       &class_of<SlabSurface>(),

@@ -23,6 +23,18 @@ std::string tile(const Grid& g) {
 // Sizes that differ by the rounding of a product (3 · 50 against 150) are the same size.
 bool same_length(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(a, b); }
 
+// A contact needs a height at every node, and the error says which body lacks them.
+void require_complete(const Surface& body, const std::string& which) {
+  if (body.complete()) return;
+  const std::size_t all = body.grid().nodes();
+  throw Error(ErrorCode::bad_value,
+              std::to_string(all - body.measured()) + " of the " + std::to_string(all) + " points of the " +
+                  which + " body were not measured, and a contact needs every point",
+              "fill them first, `" + which +
+                  " = surface:filled{ by=\"interpolate\" }`, or crop the surface to "
+                  "a part without holes");
+}
+
 }  // namespace
 
 std::string_view name(Boundary boundary) { return boundary == Boundary::periodic ? "periodic" : "free"; }
@@ -45,6 +57,8 @@ void check(const Scene& scene) {
                 "check the unit of `size`");
   if (const auto* rough = std::get_if<Surface>(&scene.upper)) check_tiles(scene.lower.grid(), rough->grid());
   if (const auto* flat = std::get_if<Material>(&scene.upper)) check(*flat);
+  require_complete(scene.lower, "lower");
+  if (const auto* rough = std::get_if<Surface>(&scene.upper)) require_complete(*rough, "upper");
   const double tolerance = scene.accuracy.tolerance;
   if (!(tolerance >= 1e-15 && tolerance < 1))
     throw Error(ErrorCode::bad_value, "`tolerance` is " + format_short(tolerance),

@@ -25,8 +25,9 @@ enum class Law : int {
   column_units,      // quantities in columns with a unit, and bounds of expectations on them
   point_units,       // units in the heads of x y z and x z files
   alike_readings,    // recordings in which a filter made neighbouring readings alike
+  whole_numbers,     // whole numbers in columns of notebooks
 };
-inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::alike_readings) + 1;
+inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::whole_numbers) + 1;
 
 // Thread-safe.
 class LawsMet {

@@ -28,8 +28,10 @@ struct Unit {
 };
 
 // 1e-13 N: lb = .45359237 kg under 9.80665 m/s²; and 1e-8 m² in a square inch of 25.4 mm a side.
-constexpr double lb = 44482216152605, in2 = 64516;
+constexpr double lb = 44482216152605, in2 = 64516, lb_kg = 45359237;
+constexpr double vickers = 9806650;  // Pa: HV is counted in kgf/mm²
 
+// A name is a unit whole: the k of kip, the m of mil and the a of atm are no prefixes.
 // Among equally near names the first is proposed, so the common one stands first.
 constexpr Unit units[] = {
     {"m", dimension::length, 1, 1, 0},        {"um", dimension::length, 1, 1, -6},
@@ -66,7 +68,11 @@ constexpr Unit units[] = {
     {"lbf", dimension::force, lb, 1, -13},    {"kip", dimension::force, lb, 1, -10},
     {"daN", dimension::force, 1, 1, 1},       {"psi", dimension::pressure, lb, in2, -5},
     {"atm", dimension::pressure, 101325},     {"ksi", dimension::pressure, lb, in2, -2},
-    {"rev", dimension::angle, 2 * pi, 1, 0},
+    {"rev", dimension::angle, 2 * pi, 1, 0},  {"kp", dimension::force, 980665, 1, -5},
+    {"HV", dimension::pressure, vickers},     {"inch", dimension::length, 254, 1, -4},
+    {"mil", dimension::length, 254, 1, -7},   {"thou", dimension::length, 254, 1, -7},
+    {"uin", dimension::length, 254, 1, -10},  {"ft", dimension::length, 3048, 1, -4},
+    {"lb", dimension::mass, lb_kg, 1, -8},
 };
 
 // The text in double quotes for a message: at most 40 bytes, one line, whole UTF-8 characters only.
@@ -294,16 +300,19 @@ class Reader {
     } else {
       refuse(text_, "cannot read a unit from " + shown(rest_));
     }
+    const std::string_view known = name == "\u00B5in" || name == "\u03BCin" ? "uin" : name;
     const auto* const unit =
-        std::find_if(std::begin(units), std::end(units), [&](const Unit& u) { return u.name == name; });
+        std::find_if(std::begin(units), std::end(units), [&](const Unit& u) { return u.name == known; });
     if (unit == std::end(units)) refuse_unknown(name);
+    // "640 HV10" names the test load in kgf, as ISO 6507 writes it, and no power.
+    if (name == "HV" && skip_digits() > 0 && take(".")) skip_digits();
     const int power = name == "1" ? 1 : read_power();
     add(*unit, divide ? -power : power);
   }
 
   [[noreturn]] void refuse_unknown(std::string_view name) const {
-    // Scales of hardness in kgf/mm² of the indenter's contact area.
-    if (name == "HV" || name == "HK" || name == "HB" || name == "HBW")
+    // Scales of hardness in kgf/mm² as HV is, but over other areas of the indenter.
+    if (name == "HK" || name == "HB" || name == "HBW")
       refuse(text_, shown_name(name) + " is a scale of hardness, and hardness is a pressure",
              "write " + std::string(name) + " x 9.807 MPa: 100 " + std::string(name) + " is \"980.7 MPa\"");
     std::vector<std::string> names;

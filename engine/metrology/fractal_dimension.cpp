@@ -27,7 +27,8 @@ struct ProfileSet {
   std::int64_t count = 0;
   int shortest = 0, longest = 0;
   bool wrap = false;
-  double range = 0, magnitude = 0;  // m, the greatest of all
+  std::int64_t points = 0, measured = 0;  // of all
+  double range = 0, magnitude = 0;        // m, the greatest of all
   struct One {
     Array<double> heights;
     double spacing = 0;
@@ -151,6 +152,7 @@ Fitted fit_dimension(DimensionMethod method, std::span<const double> log_steps,
 struct Tables {
   Array<double> statistics, mean_square_slopes;
   Array<double> D, error;  // NaN inside this file where a profile gave none
+  Array<char> gappy;       // 1: for want of measured pairs at some step
 };
 
 Tables tabulate(const ProfileSet& set, DimensionMethod method, const Stepping& stepping,
@@ -161,6 +163,7 @@ Tables tabulate(const ProfileSet& set, DimensionMethod method, const Stepping& s
   if (method == DimensionMethod::length) tables.mean_square_slopes.resize(width * count);
   tables.D.assign(count, std::numeric_limits<double>::quiet_NaN());
   tables.error.assign(count, 0.0);
+  tables.gappy.assign(count, 0);
   constexpr std::int64_t profiles_per_turn = 16;
   parallel_for((set.count + profiles_per_turn - 1) / profiles_per_turn, [&](std::int64_t turn) {
     ProfileSet::One one;
@@ -169,7 +172,14 @@ Tables tabulate(const ProfileSet& set, DimensionMethod method, const Stepping& s
       set.read(p, one);
       const auto k = static_cast<std::size_t>(p);
       const auto statistics = std::span(tables.statistics).subspan(k * width, width);
-      const bool flat = !(range(one.heights).span() > 0);
+      if (stepping.holes && known_count(one.heights) < 2) {
+        tables.gappy[k] = 1;
+        continue;
+      }
+      const bool flat = !((stepping.holes ? known_range(one.heights) : range(one.heights)).span() > 0);
+      const auto without_pairs = [&] {
+        return stepping.holes && std::ranges::any_of(statistics, [](double s) { return std::isnan(s); });
+      };
       if (method == DimensionMethod::length) {
         step_statistics(one.heights, one.spacing, 1, stepping, statistics,
                         std::span(tables.mean_square_slopes).subspan(k * width, width));
@@ -183,6 +193,10 @@ Tables tabulate(const ProfileSet& set, DimensionMethod method, const Stepping& s
         // The unit square of a profile is its own; what is averaged over profiles needs a common unit.
         const double unit = method == DimensionMethod::box ? range(one.heights).span() : set.range;
         step_statistics(one.heights, one.spacing, unit, stepping, statistics, {});
+      }
+      if (without_pairs()) {
+        tables.gappy[k] = 1;
+        continue;
       }
       const Fitted fitted = fit_dimension(method, log_steps, statistics);
       if (!fitted.any) continue;
@@ -247,6 +261,14 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
   const DimensionMethod method = options.method;
   const bool is_psd = method == DimensionMethod::psd;
   const std::vector<int> steps = chosen_steps(options, set.shortest, set.wrap);
+  const bool holes = set.measured < set.points;
+  if (holes && (is_psd || method == DimensionMethod::box))
+    throw Error(
+        ErrorCode::bad_value,
+        "the method `" + std::string(is_psd ? "psd" : "box") + "` needs every point, and " +
+            std::to_string(set.points - set.measured) + " of " + std::to_string(set.points) +
+            " were not measured",
+        "use the method `structure`, which takes the pairs that were, or fill them first with `filled`");
   // A profile cut to the shortest has lost its periodicity.
   const bool wrap = set.wrap && !(is_psd && set.shortest < set.longest);
   const std::vector<double> step_values =
@@ -262,7 +284,7 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
   std::vector<double> log_steps(width);
   std::transform(step_values.begin(), step_values.end(), log_steps.begin(),
                  [](double s) { return elementary::log(s); });
-  const Tables tables = tabulate(set, method, {method, steps, wrap, options.offsets}, log_steps);
+  const Tables tables = tabulate(set, method, {method, steps, wrap, options.offsets, holes}, log_steps);
 
   FractalDimension result;
   result.steps = step_values;
@@ -270,7 +292,11 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
   for (const double one : tables.D)
     if (!std::isnan(one)) D.push_back(one);
   result.profiles = static_cast<int>(D.size());
-  if (D.empty()) return unresolved("all heights of a profile are equal");
+  const auto gappy = static_cast<std::size_t>(std::ranges::count(tables.gappy, 1));
+  if (D.empty())
+    return unresolved(gappy > 0 ? "no profile has measured points a step apart at every step"
+                                : "all heights of a profile are equal");
+  if (holes) result.measured = set.measured;
 
   std::vector<double> statistics(width);
   for (std::size_t k = 0; k < width; ++k) {
@@ -288,8 +314,8 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
     result.error = std::sqrt(block_sum(D) / static_cast<double>(D.size() - 1));
   }
 
-  if (D.size() < tables.D.size())
-    result.reason = std::to_string(tables.D.size() - D.size()) + " of " +
+  if (D.size() + gappy < tables.D.size())
+    result.reason = std::to_string(tables.D.size() - D.size() - gappy) + " of " +
                     count_text(tables.D.size(), "profile") + " have equal heights";
   else if (width < 3)
     result.reason =
@@ -316,7 +342,7 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
 }  // namespace
 
 FractalDimension fractal_dimension(const Surface& surface, const FractalDimensionOptions& options) {
-  const Field& z = surface.heights();
+  const Field& z = surface.measured_heights();
   const Grid& grid = surface.grid();
   const bool along_x = options.along != Along::y, along_y = options.along != Along::x;
   if (along_x && along_y && options.pooled && std::abs(grid.hx() - grid.hy()) > 1e-9 * grid.hx())
@@ -333,6 +359,8 @@ FractalDimension fractal_dimension(const Surface& surface, const FractalDimensio
   set.wrap = options.wrap.value_or(false);
   const Range r = surface.height_range();
   set.range = r.span();
+  set.points = static_cast<std::int64_t>(grid.nodes());
+  set.measured = static_cast<std::int64_t>(surface.measured());
   set.magnitude = std::max(std::abs(r.min), std::abs(r.max));
   set.read = [&z, &grid, rows](std::int64_t p, ProfileSet::One& one) {
     if (p < rows) {
@@ -366,6 +394,8 @@ FractalDimension fractal_dimension(std::span<const Profile> profiles,
     set.shortest = std::min(set.shortest, profile.size());
     set.longest = std::max(set.longest, profile.size());
     const Range r = profile.height_range();
+    set.points += profile.size();
+    set.measured += static_cast<std::int64_t>(profile.measured());
     set.range = std::max(set.range, r.span());
     set.magnitude = std::max({set.magnitude, std::abs(r.min), std::abs(r.max)});
     closed = closed && profile.closed();
@@ -373,7 +403,7 @@ FractalDimension fractal_dimension(std::span<const Profile> profiles,
   set.wrap = options.wrap.value_or(closed);
   set.read = [profiles](std::int64_t p, ProfileSet::One& one) {
     const Profile& profile = profiles[static_cast<std::size_t>(p)];
-    one.heights.assign(profile.heights().begin(), profile.heights().end());
+    one.heights.assign(profile.measured_heights().begin(), profile.measured_heights().end());
     one.spacing = profile.spacing();
   };
   return measure(set, options);

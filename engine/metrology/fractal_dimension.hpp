@@ -17,6 +17,7 @@
 // Nothing is levelled or filtered first.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,10 +52,11 @@ struct FractalDimension {
   // The statistic at every step, averaged over profiles (psd: by its logarithm), and the steps
   // (psd: wavelengths) in samples. structure and psd in m², madogram in m, the others plain.
   std::vector<double> lengths, steps;
-  double r_squared = 0;   // of the line through `lengths`
-  int profiles = 0;       // that gave a D
-  bool resolved = false;  // D can be believed as far as the method itself can tell
-  std::string reason;     // why not, else empty
+  double r_squared = 0;                  // of the line through `lengths`
+  int profiles = 0;                      // that gave a D
+  std::optional<std::int64_t> measured;  // points; absent where every point was measured
+  bool resolved = false;                 // D can be believed as far as the method itself can tell
+  std::string reason;                    // why not, else empty
 };
 
 // `resolved` is false, with a reason, where heights are equal to rounding, fewer than three steps
@@ -63,8 +65,10 @@ struct FractalDimension {
 // flat that a Gaussian one of the same slopes would show less than this share of D - 1.
 inline constexpr double length_share_wanted = 0.9;
 
-// Cost O(nodes · steps) (psd: n log n). Memory: steps doubles a profile. Same bits for any number of
-// threads; thread-safe. Throws Error{bad_value} naming `steps` or `pooled`.
+// With points that were not measured, `length`, `structure` and `madogram` are means over the steps of which
+// both ends were measured; a profile without any at one of the steps gives no D. `psd` and `box` need every
+// point and throw Error{bad_value}. Cost O(nodes · steps) (psd: n log n). Memory: steps doubles a profile.
+// Same bits for any number of threads; thread-safe. Throws Error{bad_value} naming `steps` or `pooled`.
 FractalDimension fractal_dimension(const Surface& surface, const FractalDimensionOptions& options = {});
 FractalDimension fractal_dimension(const Profile& profile, const FractalDimensionOptions& options = {});
 // Several traces as the profiles of one surface; steps must fit the shortest.

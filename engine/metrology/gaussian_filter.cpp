@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -96,14 +98,15 @@ class LineFilter {
   static constexpr int lines = BatchFourier::rows;
   BatchFourier::Work work() const { return BatchFourier::Work(batch_); }
 
-  // Replaces the samples of up to `lines` lines by their mean lines.
-  void apply(BatchFourier::Work& work, std::span<double* const> line) const {
+  // Replaces the samples of up to `lines` lines by their mean lines; not scaled to unit weight unless asked.
+  void apply(BatchFourier::Work& work, std::span<double* const> line, bool to_unit_weight) const {
     const auto count = static_cast<int>(line.size()), n = static_cast<int>(weights_.size());
     batch_.load_reals(work, line.data(), n, count);
     batch_.forward(work);
     batch_.multiply_even(work, response_.data());
     batch_.inverse(work);
     batch_.store_reals(work, count, n, 1, line.data());
+    if (!to_unit_weight) return;
     for (double* const values : line)
       for (int i = 0; i < n; ++i) values[i] /= weights_[static_cast<std::size_t>(i)];
   }
@@ -115,7 +118,7 @@ class LineFilter {
   Array<double> weights_;
 };
 
-void filter_rows(Field& z, const LineFilter& filter) {
+void filter_rows(Field& z, const LineFilter& filter, bool to_unit_weight) {
   if (filter.idle()) return;
   parallel_for((z.ny() + LineFilter::lines - 1) / LineFilter::lines, [&](std::int64_t turn) {
     BatchFourier::Work work = filter.work();
@@ -123,11 +126,11 @@ void filter_rows(Field& z, const LineFilter& filter) {
     std::vector<double*> lines;
     for (int j = first; j < std::min(z.ny(), first + LineFilter::lines); ++j)
       lines.push_back(z.row(j).data());
-    filter.apply(work, lines);
+    filter.apply(work, lines, to_unit_weight);
   });
 }
 
-void filter_columns(Field& z, const LineFilter& filter) {
+void filter_columns(Field& z, const LineFilter& filter, bool to_unit_weight) {
   if (filter.idle()) return;
   parallel_for((z.nx() + LineFilter::lines - 1) / LineFilter::lines, [&](std::int64_t turn) {
     BatchFourier::Work work = filter.work();
@@ -138,15 +141,15 @@ void filter_columns(Field& z, const LineFilter& filter) {
       for (int c = 0; c < width; ++c) columns(j, c) = z(first + c, j);
     std::vector<double*> lines;
     for (int c = 0; c < width; ++c) lines.push_back(columns.row(c).data());
-    filter.apply(work, lines);
+    filter.apply(work, lines, to_unit_weight);
     for (int j = 0; j < z.ny(); ++j)
       for (int c = 0; c < width; ++c) z(first + c, j) = columns(j, c);
   });
 }
 
-void keep_mean_surface(Field& z, const Grid& grid, double cut_off) {
-  filter_rows(z, LineFilter(grid.nx, grid.hx(), cut_off));
-  filter_columns(z, LineFilter(grid.ny, grid.hy(), cut_off));
+void keep_mean_surface(Field& z, const Grid& grid, double cut_off, bool to_unit_weight = true) {
+  filter_rows(z, LineFilter(grid.nx, grid.hx(), cut_off), to_unit_weight);
+  filter_columns(z, LineFilter(grid.ny, grid.hy(), cut_off), to_unit_weight);
 }
 
 void filter_with_rims(Field& z, const Grid& grid, const GaussianFilter& filter) {
@@ -172,11 +175,42 @@ Field filter_periodic(Field z, const Grid& grid, const GaussianFilter& filter) {
   return fourier_inverse(std::move(spectrum));
 }
 
+// The mean surface of one cut-off over the measured nodes: Σ w z / Σ w, NaN elsewhere.
+Field mean_of_measured(const Field& z, const Grid& grid, bool periodic, double cut_off) {
+  Field sum = z, weight(z.nx(), z.ny(), 1);
+  for (std::size_t k = 0; k < z.size(); ++k)
+    if (std::isnan(z[k])) sum[k] = weight[k] = 0;
+  for (Field* const part : {&sum, &weight}) {
+    if (periodic)
+      *part = filter_periodic(std::move(*part), grid, {.short_wave = cut_off, .long_wave = {}});
+    else
+      keep_mean_surface(*part, grid, cut_off, false);
+  }
+  for (std::size_t k = 0; k < z.size(); ++k) sum[k] = std::isnan(z[k]) ? z[k] : sum[k] / weight[k];
+  return sum;
+}
+
+void filter_measured(Field& z, const Grid& grid, bool periodic, const GaussianFilter& filter) {
+  if (filter.short_wave) z = mean_of_measured(z, grid, periodic, *filter.short_wave);
+  if (!filter.long_wave) return;
+  const Field smooth = mean_of_measured(z, grid, periodic, *filter.long_wave);
+  for (std::size_t k = 0; k < z.size(); ++k) z[k] -= smooth[k];
+}
+
+double mean_of_known(const Field& z, bool holes) {
+  if (!holes) return exact_mean(z.values(), range(z.values()));
+  Array<double> known;
+  std::ranges::copy_if(z.values(), std::back_inserter(known), [](double v) { return !std::isnan(v); });
+  return exact_mean(known, range(known));
+}
+
 // The mean goes round the transforms: it would cost the roughness its digits.
-Field filtered(Field z, const Grid& grid, bool periodic, const GaussianFilter& filter) {
-  const double mean = exact_mean(z.values(), range(z.values()));
+Field filtered(Field z, const Grid& grid, bool periodic, bool holes, const GaussianFilter& filter) {
+  const double mean = mean_of_known(z, holes);
   for (double& value : z.values()) value -= mean;
-  if (periodic)
+  if (holes)
+    filter_measured(z, grid, periodic, filter);
+  else if (periodic)
     z = filter_periodic(std::move(z), grid, filter);
   else
     filter_with_rims(z, grid, filter);
@@ -197,19 +231,22 @@ Surface gaussian_filtered(const Surface& surface, const GaussianFilter& filter) 
   if (!needed.short_wave && !needed.long_wave) return surface;
   SurfaceTraits traits = surface.traits();
   traits.aliased_share.reset();
-  return Surface(surface.grid(), filtered(surface.heights(), surface.grid(), traits.periodic, needed),
-                 std::move(traits));
+  const bool holes = !surface.complete();
+  return remade_with(holes, surface.grid(),
+                     filtered(surface.measured_heights(), surface.grid(), traits.periodic, holes, needed),
+                     traits);
 }
 
 Profile gaussian_filtered(const Profile& profile, const GaussianFilter& filter) {
   const GaussianFilter needed = checked(filter);
   if (!needed.short_wave && !needed.long_wave) return profile;
   Field z(profile.size(), 1);
-  std::copy(profile.heights().begin(), profile.heights().end(), z.values().begin());
+  std::ranges::copy(profile.measured_heights(), z.values().begin());
   const Grid grid{profile.size(), 1, profile.length(), profile.spacing()};
-  z = filtered(std::move(z), grid, profile.closed(), needed);
-  return Profile(profile.spacing(), Array<double>(z.values().begin(), z.values().end()),
-                 profile.closed_radius());
+  const bool holes = !profile.complete();
+  z = filtered(std::move(z), grid, profile.closed(), holes, needed);
+  return remade_with(holes, profile.spacing(), Array<double>(z.values().begin(), z.values().end()),
+                     profile.closed_radius());
 }
 
 }  // namespace asperity

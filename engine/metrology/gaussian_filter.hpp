@@ -14,6 +14,10 @@
 // it is, a slope bends within half a cut-off of the rim. The kernel is cut where it has fallen under
 // 1e-16. Sampled, a cut-off under about two cells passes more of the shortest waves than the standard
 // says.
+//
+// Points of a map that were not measured have no weight, and the rest is scaled to unit weight as at a rim,
+// on a periodic surface too, whose filter is then divided by that of 1 where measured and 0 where not: a
+// slope bends beside a hole. They stay not measured.
 #pragma once
 
 #include <optional>

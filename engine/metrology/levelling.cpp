@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "engine/core/error.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -111,18 +114,160 @@ void level(Field& z, int degree) {
   for (int pass = 0; pass < 2; ++pass) subtract_fit(z, along_x, along_y, degree);
 }
 
+// The polynomials in x and y over the smallest rectangle around what was measured, and their products.
+class MaskedPolynomials {
+ public:
+  MaskedPolynomials(const Field& z, int degree)
+      : box_(around_known(z)), along_x_(box_.width(), degree), along_y_(box_.height(), degree) {
+    for (int a = 0; a < along_x_.count(); ++a)
+      for (int b = 0; b < along_y_.count() && a + b <= degree; ++b) terms_.push_back({a, b});
+  }
+
+  std::size_t count() const { return terms_.size(); }
+  int first_row() const { return box_.low; }
+  int rows() const { return box_.height(); }
+  // What a row of the rectangle holds: Σ over its measured nodes of each with z, and of each product of two
+  // unless `gram` is empty.
+  void add_row(const Field& z, int j, std::span<double> gram, std::span<double> moments) const {
+    std::vector<double> at(count());
+    for (int i = box_.left; i <= box_.right; ++i) {
+      const double height = z(i, j);
+      if (std::isnan(height)) continue;
+      evaluate(i, j, at);
+      for (std::size_t p = 0; p < at.size(); ++p) {
+        moments[p] += at[p] * height;
+        for (std::size_t q = 0; q <= p && !gram.empty(); ++q) gram[p * at.size() + q] += at[p] * at[q];
+      }
+    }
+  }
+  void subtract_row(Field& z, int j, std::span<const double> coefficients) const {
+    std::vector<double> at(count());
+    for (int i = box_.left; i <= box_.right; ++i) {
+      evaluate(i, j, at);
+      z(i, j) -= dot(coefficients, at);
+    }
+  }
+
+ private:
+  struct Box {
+    int left, right, low, high;
+    int width() const { return right - left + 1; }
+    int height() const { return high - low + 1; }
+  };
+  struct Term {
+    int a, b;
+  };
+  static Box around_known(const Field& z) {
+    Box box{z.nx() - 1, 0, z.ny() - 1, 0};
+    for (int j = 0; j < z.ny(); ++j)
+      for (int i = 0; i < z.nx(); ++i)
+        if (!std::isnan(z(i, j)))
+          box = {std::min(box.left, i), std::max(box.right, i), std::min(box.low, j), std::max(box.high, j)};
+    return box;
+  }
+  void evaluate(int i, int j, std::vector<double>& at) const {
+    const auto x = static_cast<std::size_t>(i - box_.left), y = static_cast<std::size_t>(j - box_.low);
+    for (std::size_t p = 0; p < at.size(); ++p) at[p] = along_x_[terms_[p].a][x] * along_y_[terms_[p].b][y];
+  }
+
+  Box box_;
+  OrthonormalPolynomials along_x_, along_y_;
+  std::vector<Term> terms_;
+};
+
+// Eigenvalues and vectors of a symmetric matrix of a few rows, by Jacobi's rotations: row k of `vectors` goes
+// with the eigenvalue that is left on the diagonal.
+void diagonalise(std::vector<double>& matrix, std::vector<double>& vectors, std::size_t n) {
+  vectors.assign(n * n, 0.0);
+  for (std::size_t k = 0; k < n; ++k) vectors[k * n + k] = 1;
+  constexpr int most_sweeps = 60;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double off = 0;
+    for (std::size_t p = 0; p < n; ++p)
+      for (std::size_t q = 0; q < p; ++q) off = std::max(off, std::abs(matrix[p * n + q]));
+    if (off < 1e-300) return;
+    for (std::size_t p = 0; p < n; ++p)
+      for (std::size_t q = 0; q < p; ++q) {
+        const double between = matrix[p * n + q];
+        if (between == 0) continue;
+        const double theta = (matrix[q * n + q] - matrix[p * n + p]) / (2 * between);
+        const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+        const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+        const auto rotate = [c, s](double& a, double& b) {
+          const double before = a;
+          a = c * before - s * b;
+          b = s * before + c * b;
+        };
+        for (std::size_t k = 0; k < n; ++k) rotate(matrix[p * n + k], matrix[q * n + k]);
+        for (std::size_t k = 0; k < n; ++k) rotate(matrix[k * n + p], matrix[k * n + q]);
+        for (std::size_t k = 0; k < n; ++k) rotate(vectors[p * n + k], vectors[q * n + k]);
+      }
+  }
+}
+
+// Least squares over the measured nodes. Combinations of polynomials that the nodes hardly see are left out:
+// they are others over again there. What rounding leaves of the rest the next pass takes away.
+void level_measured(Field& z, int degree) {
+  for (int pass = 0; pass < 2; ++pass) {
+    Array<double> known;
+    std::ranges::copy_if(z.values(), std::back_inserter(known), [](double v) { return !std::isnan(v); });
+    const double mean = exact_mean(known, range(known));
+    for (double& value : z.values()) value -= mean;
+  }
+  if (degree == 0) return;
+  const MaskedPolynomials polynomials(z, degree);
+  const std::size_t n = polynomials.count(), each = n * n + n;
+  std::vector<double> inverse_lengths, vectors;
+  constexpr int passes = 4;
+  constexpr double hardly_seen = 1e-11;
+  for (int pass = 0; pass < passes; ++pass) {
+    // Row by row, then over the rows in pairs: the same bits for any number of threads.
+    Field of_rows(polynomials.rows(), static_cast<int>(each));
+    for_each_row(polynomials.rows(), [&](int row) {
+      std::vector<double> sums(each);
+      polynomials.add_row(z, polynomials.first_row() + row, std::span(sums).first(pass == 0 ? n * n : 0),
+                          std::span(sums).subspan(n * n));
+      for (std::size_t k = 0; k < each; ++k) of_rows(row, static_cast<int>(k)) = sums[k];
+    });
+    std::vector<double> gram(n * n), moments(n);
+    for (std::size_t p = 0; p < n; ++p) {
+      moments[p] = block_sum(of_rows.row(static_cast<int>(n * n + p)));
+      for (std::size_t q = 0; q <= p && pass == 0; ++q)
+        gram[p * n + q] = gram[q * n + p] = block_sum(of_rows.row(static_cast<int>(p * n + q)));
+    }
+    if (pass == 0) {
+      diagonalise(gram, vectors, n);
+      double greatest = 0;
+      for (std::size_t k = 0; k < n; ++k) greatest = std::max(greatest, gram[k * n + k]);
+      for (std::size_t k = 0; k < n; ++k)
+        inverse_lengths.push_back(gram[k * n + k] > hardly_seen * greatest ? 1 / gram[k * n + k] : 0);
+    }
+    std::vector<double> coefficients(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::span<const double> vector = std::span<const double>(vectors).subspan(k * n, n);
+      const double share = dot(vector, moments) * inverse_lengths[k];
+      for (std::size_t p = 0; p < n; ++p) coefficients[p] += share * vector[p];
+    }
+    for_each_row(polynomials.rows(),
+                 [&](int row) { polynomials.subtract_row(z, polynomials.first_row() + row, coefficients); });
+  }
+}
+
 }  // namespace
 
 Surface levelled(const Surface& surface, int degree) {
   check_degree(degree);
-  Field z = surface.heights();
-  level(z, degree);
+  Field z = surface.measured_heights();
+  if (surface.complete())
+    level(z, degree);
+  else
+    level_measured(z, degree);
   SurfaceTraits traits = surface.traits();
   if (degree > 0) {
     traits.periodic = false;
     traits.aliased_share.reset();
   }
-  return Surface(surface.grid(), std::move(z), std::move(traits));
+  return remade_with(!surface.complete(), surface.grid(), std::move(z), std::move(traits));
 }
 
 Profile levelled(const Profile& profile, int degree) {
@@ -132,10 +277,13 @@ Profile levelled(const Profile& profile, int degree) {
                 "a closed outline was to be levelled with `degree` " + std::to_string(degree),
                 "an outline has no ends between which to tilt; use `degree` 0");
   Field z(profile.size(), 1);
-  std::copy(profile.heights().begin(), profile.heights().end(), z.values().begin());
-  level(z, degree);
-  return Profile(profile.spacing(), Array<double>(z.values().begin(), z.values().end()),
-                 profile.closed_radius());
+  std::ranges::copy(profile.measured_heights(), z.values().begin());
+  if (profile.complete())
+    level(z, degree);
+  else
+    level_measured(z, degree);
+  return remade_with(!profile.complete(), profile.spacing(),
+                     Array<double>(z.values().begin(), z.values().end()), profile.closed_radius());
 }
 
 }  // namespace asperity

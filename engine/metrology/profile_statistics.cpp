@@ -8,16 +8,22 @@ namespace asperity {
 
 namespace {
 
-// Calls pair(i, j) with the ends of every step of `s` samples.
+// Calls pair(i, j) with the ends of every step of `s` samples, of which both are known if there are holes.
 template <class Pair>
-int for_each_step(int n, int s, bool wrap, bool every_offset, const Pair& pair) {
+int for_each_step(std::span<const double> z, int s, bool wrap, bool every_offset, bool holes,
+                  const Pair& pair) {
+  const auto n = static_cast<int>(z.size());
+  int counted = 0;
   const int stride = every_offset ? 1 : s;
   const int steps = every_offset ? (wrap ? n : n - s) : (wrap ? n : n - 1) / s;
   for (int k = 0; k < steps; ++k) {
     const int i = k * stride, j = i + s;
-    pair(static_cast<std::size_t>(i), static_cast<std::size_t>(j < n ? j : j - n));
+    const auto from = static_cast<std::size_t>(i), to = static_cast<std::size_t>(j < n ? j : j - n);
+    if (holes && (std::isnan(z[from]) || std::isnan(z[to]))) continue;
+    pair(from, to);
+    ++counted;
   }
-  return steps;
+  return counted;
 }
 
 struct Length {
@@ -27,8 +33,8 @@ struct Length {
 Length length_at(std::span<const double> z, double spacing, int s, const Stepping& stepping) {
   double excess = 0, squares = 0;
   const double run = s * spacing;
-  const int steps = for_each_step(
-      static_cast<int>(z.size()), s, stepping.wrap, stepping.offsets, [&](std::size_t i, std::size_t j) {
+  const int steps =
+      for_each_step(z, s, stepping.wrap, stepping.offsets, stepping.holes, [&](std::size_t i, std::size_t j) {
         const double slope = std::abs(z[j] - z[i]) / run;
         // √(1 + slope²) - 1 without cancellation, and without overflow where slope² would.
         excess += slope < 1e150 ? slope * slope / (1 + std::sqrt(1 + slope * slope)) : slope;
@@ -37,10 +43,10 @@ Length length_at(std::span<const double> z, double spacing, int s, const Steppin
   return {excess / steps, squares / steps};
 }
 
-double difference_at(std::span<const double> z, double unit, int s, bool wrap, bool squared) {
+double difference_at(std::span<const double> z, double unit, int s, const Stepping& stepping, bool squared) {
   double sum = 0;
   const int steps =
-      for_each_step(static_cast<int>(z.size()), s, wrap, true, [&](std::size_t i, std::size_t j) {
+      for_each_step(z, s, stepping.wrap, true, stepping.holes, [&](std::size_t i, std::size_t j) {
         const double d = (z[j] - z[i]) / unit;
         sum += squared ? d * d : std::abs(d);
       });
@@ -85,10 +91,10 @@ void step_statistics(std::span<const double> heights, double spacing, double uni
         break;
       }
       case DimensionMethod::structure:
-        statistics[k] = difference_at(heights, unit, s, stepping.wrap, true);
+        statistics[k] = difference_at(heights, unit, s, stepping, true);
         break;
       case DimensionMethod::madogram:
-        statistics[k] = difference_at(heights, unit, s, stepping.wrap, false);
+        statistics[k] = difference_at(heights, unit, s, stepping, false);
         break;
       case DimensionMethod::box:
         statistics[k] = boxes_at(heights, unit, s, stepping.wrap);

@@ -16,11 +16,13 @@ struct Stepping {
   std::span<const int> steps;  // samples
   bool wrap = false;
   bool offsets = false;
+  bool holes = false;  // samples may be NaN: steps with such an end do not count (not of `box`)
 };
 
 // For each step: length L/L0 - 1 (not L/L0, which would lose the digits of flat profiles); structure
 // and madogram of heights/`unit`; box counts for heights that span `unit`. `unit` > 0, m.
-// `mean_square_slopes`, if not empty, takes mean (Δz/(s·spacing))² per step (length only).
+// NaN where no step counts. `mean_square_slopes`, if not empty, takes mean (Δz/(s·spacing))² per step (length
+// only).
 void step_statistics(std::span<const double> heights, double spacing, double unit, const Stepping& stepping,
                      std::span<double> statistics, std::span<double> mean_square_slopes);
 

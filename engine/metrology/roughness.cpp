@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -83,26 +85,81 @@ double rms_slope(const Field& z, const Grid& grid, const Normalised& unit) {
   return std::ldexp(std::sqrt(mean_square) / h, unit.exponent);
 }
 
+// The mean of the squares of differences over the pairs of which both are known; NaN where there is none.
+struct PairMean {
+  double sum = 0;
+  std::int64_t pairs = 0;
+  double value() const {
+    return pairs > 0 ? sum / static_cast<double>(pairs) : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+// Over the pairs (k, k + step) of a line; those that are not pairs of neighbours are left out by `holds`.
+template <class Holds>
+PairMean mean_square_difference(std::span<const double> z, std::size_t step, const Normalised& unit,
+                                const Holds& holds) {
+  if (z.size() <= step) return {};
+  const auto [sum, pairs] = blocked_sums<2>(z.size() - step, [&](std::size_t k) {
+    const double d = unit(z[k + step]) - unit(z[k]);
+    const bool counts = !std::isnan(d) && holds(k);
+    return std::array{counts ? d * d : 0.0, counts ? 1.0 : 0.0};
+  });
+  return {sum, static_cast<std::int64_t>(pairs)};
+}
+
+// Of a surface with holes: pairs along x and pairs along y, each by themselves.
+double rms_slope_of_pairs(const Field& z, const Grid& grid, const Normalised& unit) {
+  const bool along_x = grid.nx > 1, along_y = grid.ny > 1;
+  const double h = along_x && along_y ? std::min(grid.hx(), grid.hy()) : (along_x ? grid.hx() : grid.hy());
+  const auto nx = static_cast<std::size_t>(grid.nx);
+  double mean_square = 0;
+  if (along_x) {
+    const double share = h / grid.hx();
+    const auto in_row = [nx](std::size_t k) { return (k + 1) % nx != 0; };
+    mean_square += mean_square_difference(z.values(), 1, unit, in_row).value() * share * share;
+  }
+  if (along_y) {
+    const double share = h / grid.hy();
+    mean_square += mean_square_difference(z.values(), nx, unit, [](std::size_t) { return true; }).value() *
+                   share * share;
+  }
+  return std::ldexp(std::sqrt(mean_square) / h, unit.exponent);
+}
+
 }  // namespace
 
 Roughness roughness(const Surface& surface) {
-  const Field& z = surface.heights();
+  const MeasuredValues measured(surface);
+  const std::span<const double> z = measured.values();
   const Range r = surface.height_range();
-  if (r.min == r.max) return flat(r);
-  const double mean = exact_mean(z.values(), r);
-  const Normalised unit = normalise(z.values(), r, mean);
-  Roughness result = amplitudes(z.values(), r, unit, mean);
-  result.rms_slope = rms_slope(z, surface.grid(), unit);
+  if (r.min == r.max && surface.complete()) return flat(r);
+  const double mean = exact_mean(z, r);
+  const Normalised unit = normalise(z, r, mean);
+  Roughness result = r.min == r.max ? flat(r) : amplitudes(z, r, unit, mean);
+  if (!surface.complete()) {
+    result.measured = static_cast<std::int64_t>(surface.measured());
+    result.rms_slope = rms_slope_of_pairs(surface.measured_heights(), surface.grid(), unit);
+  } else {
+    result.rms_slope = rms_slope(surface.heights(), surface.grid(), unit);
+  }
   return result;
 }
 
 Roughness roughness(const Profile& profile) {
-  const std::span<const double> z = profile.heights();
+  const MeasuredValues measured(profile);
   const Range r = profile.height_range();
-  if (r.min == r.max) return flat(r);
-  const double mean = exact_mean(z, r);
-  const Normalised unit = normalise(z, r, mean);
-  Roughness result = amplitudes(z, r, unit, mean);
+  if (r.min == r.max && profile.complete()) return flat(r);
+  const double mean = exact_mean(measured.values(), r);
+  const Normalised unit = normalise(measured.values(), r, mean);
+  Roughness result = r.min == r.max ? flat(r) : amplitudes(measured.values(), r, unit, mean);
+  if (!profile.complete()) {
+    result.measured = static_cast<std::int64_t>(profile.measured());
+    const PairMean squares =
+        mean_square_difference(profile.measured_heights(), 1, unit, [](std::size_t) { return true; });
+    result.rms_slope = std::ldexp(std::sqrt(squares.value()) / profile.spacing(), unit.exponent);
+    return result;
+  }
+  const std::span<const double> z = profile.heights();
   const double squares = blocked_sums<1>(z.size() - 1, [&](std::size_t k) {
     const double d = unit(z[k + 1]) - unit(z[k]);
     return std::array{d * d};

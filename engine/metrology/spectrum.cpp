@@ -33,6 +33,27 @@ double mean_square(std::span<const double> samples) {
          static_cast<double>(samples.size());
 }
 
+// The weighted mean over the nodes that were measured.
+double known_weighted_mean(const Field& z, std::span<const double> wx, std::span<const double> wy) {
+  double result = 0;
+  for (int pass = 0; pass < 2; ++pass) {
+    Array<double> sums(wy.size()), weights(wy.size());
+    for (std::size_t j = 0; j < wy.size(); ++j) {
+      const std::span<const double> heights = z.row(static_cast<int>(j));
+      Array<double> terms(wx.size()), shares(wx.size());
+      for (std::size_t i = 0; i < wx.size(); ++i) {
+        if (std::isnan(heights[i])) continue;
+        shares[i] = wx[i];
+        terms[i] = wx[i] * (heights[i] - result);
+      }
+      sums[j] = wy[j] * block_sum(terms);
+      weights[j] = wy[j] * block_sum(shares);
+    }
+    result += block_sum(sums) / block_sum(weights);
+  }
+  return result;
+}
+
 // The weighted mean, in two passes for the sake of large offsets.
 double weighted_mean(const Field& z, std::span<const double> wx, std::span<const double> wy) {
   double result = 0;
@@ -70,7 +91,7 @@ Shells shells_of(const Grid& grid, int bins) {
 }
 
 // `measure` is the area of a surface, the length of a profile.
-Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window window, int bins) {
+Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window window, int bins, bool holes) {
   if (bins < 0)
     throw Error(ErrorCode::bad_value, "`bins` of a spectrum is " + std::to_string(bins),
                 "give 0 for a shell per mode number, or the number of shells of equal ratio");
@@ -80,14 +101,17 @@ Spectrum measure_spectrum(Field z, const Grid& grid, double measure, Window wind
 
   const Array<double> wx = window_samples(window, grid.nx), wy = window_samples(window, grid.ny);
   const double window_power = mean_square(wx) * mean_square(wy);
-  const Range r = range(z.values());
+  const Range r = holes ? known_range(z.values()) : range(z.values());
   if (r.min == r.max) {
     std::fill(z.values().begin(), z.values().end(), 0.0);
   } else {
     const double down = std::ldexp(1.0, -scale_exponent(magnitude(r)));
     for (double& value : z.values()) value *= down;
-    const double centre = weighted_mean(z, wx, wy);
+    const double centre = holes ? known_weighted_mean(z, wx, wy) : weighted_mean(z, wx, wy);
     for (double& value : z.values()) value -= centre;
+    if (holes)
+      for (double& value : z.values())
+        if (std::isnan(value)) value = 0;
   }
   const int coarse = r.min == r.max ? 0 : scale_exponent(magnitude(r));
   const int fine = scale_exponent(magnitude(range(z.values())));
@@ -144,16 +168,22 @@ Window chosen(Window asked, bool periodic) {
 }  // namespace
 
 Spectrum spectrum(const Surface& surface, const SpectrumOptions& options) {
-  return measure_spectrum(surface.heights(), surface.grid(), surface.grid().area(),
-                          chosen(options.window, surface.traits().periodic), options.bins);
+  Spectrum result =
+      measure_spectrum(surface.measured_heights(), surface.grid(), surface.grid().area(),
+                       chosen(options.window, surface.traits().periodic), options.bins, !surface.complete());
+  if (!surface.complete()) result.measured = static_cast<std::int64_t>(surface.measured());
+  return result;
 }
 
 Spectrum spectrum(const Profile& profile, const SpectrumOptions& options) {
   Field z(profile.size(), 1);
-  std::copy(profile.heights().begin(), profile.heights().end(), z.values().begin());
+  std::ranges::copy(profile.measured_heights(), z.values().begin());
   const Grid grid{profile.size(), 1, profile.length(), profile.spacing()};
-  return measure_spectrum(std::move(z), grid, profile.length(), chosen(options.window, profile.closed()),
-                          options.bins);
+  Spectrum result =
+      measure_spectrum(std::move(z), grid, profile.length(), chosen(options.window, profile.closed()),
+                       options.bins, !profile.complete());
+  if (!profile.complete()) result.measured = static_cast<std::int64_t>(profile.measured());
+  return result;
 }
 
 }  // namespace asperity

@@ -7,10 +7,13 @@
 //   profile: C(q) = length · |z_q|²,  Rq² = (1/2π) ∫ C dq over waves of either sign, in m³;
 //
 // averaged over the modes of each shell of |q|, so that Σ count·C / area (length) is Rq² exactly.
-// The mean is left out; nothing else is removed: level the surface first if it is tilted.
+// The mean is left out; nothing else is removed: level the surface first if it is tilted. Points that were
+// not measured are set to the mean of the others, and the spectrum says how many were measured: they hold no
+// power, and their rims add some of short waves.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/surface/profile.hpp"
@@ -36,12 +39,13 @@ struct SpectrumOptions {
 
 // One entry a shell that holds a mode, by rising q.
 struct Spectrum {
-  std::vector<double> q;            // rad/m, mean over the modes of the shell
-  std::vector<double> C;            // m⁴ of a surface, m³ of a profile
-  std::vector<std::int64_t> count;  // modes of the shell, waves of both signs counted
-  double rms_height = 0;            // m, √Σ|z_q|²: Rq without a window
-  double rms_slope = 0;             // √Σ q²|z_q|², the slope of the interpolating waves
-  Window window = Window::none;     // the one used
+  std::vector<double> q;                 // rad/m, mean over the modes of the shell
+  std::vector<double> C;                 // m⁴ of a surface, m³ of a profile
+  std::vector<std::int64_t> count;       // modes of the shell, waves of both signs counted
+  double rms_height = 0;                 // m, √Σ|z_q|²: Rq without a window
+  double rms_slope = 0;                  // √Σ q²|z_q|², the slope of the interpolating waves
+  Window window = Window::none;          // the one used
+  std::optional<std::int64_t> measured;  // points; absent where every point was measured
 };
 
 // Two copies of the grid, one transform; thread-safe, same bits for any number of threads. One node

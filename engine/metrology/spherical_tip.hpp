@@ -21,7 +21,7 @@ namespace asperity {
 class SphericalTip {
  public:
   // Radius 0 is a needle that follows the surface. Throws Error{bad_value} naming `tip` unless the
-  // radius is finite and at least 0.
+  // radius is finite and at least 0, and for a surface with holes unless it is 0.
   SphericalTip(const Surface& surface, double radius);
 
   // t at a point (m): never below height_between(surface, point), equal to it for radius 0, and not

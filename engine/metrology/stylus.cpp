@@ -16,6 +16,7 @@
 #include "engine/core/text.hpp"
 #include "engine/metrology/roughness.hpp"
 #include "engine/metrology/spherical_tip.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -140,7 +141,12 @@ Profile Stylus::trace(const Surface& surface, const Traverse& line) const {
     for (std::size_t k = first; k < std::min(heights.size(), first + samples_a_block); ++k)
       heights[k] = tip.height(at(line, k));
   });
-  return Profile(spacing_, std::move(heights));
+  if (!surface.complete() && known_count(heights) == 0)
+    throw Error(ErrorCode::bad_value,
+                "the trace from (" + metres(line.start.x) + ", " + metres(line.start.y) +
+                    ") goes over points alone that were not measured",
+                "take another `seed`, a longer trace, or fill the holes first");
+  return remade_with(!surface.complete(), spacing_, std::move(heights));
 }
 
 StylusScan Stylus::scan(const Surface& surface, int count, std::uint64_t seed, Monitor& monitor) const {
@@ -150,14 +156,14 @@ StylusScan Stylus::scan(const Surface& surface, int count, std::uint64_t seed, M
   Task task(monitor, "stylus traces", count);
   for (const Traverse& line : result.lines) {
     Profile felt = trace(surface, line);
-    Array<double> below(felt.heights().size()), lifts(below.size());
+    Array<double> below(static_cast<std::size_t>(felt.size())), lifts(below.size());
     for (std::size_t k = 0; k < below.size(); ++k) {
       below[k] = height_between(surface, at(line, k));
-      lifts[k] = felt.heights()[k] - below[k];
+      lifts[k] = felt.measured_heights()[k] - below[k];
     }
-    lift += mean(lifts);
-    result.effect.greatest_lift = std::max(result.effect.greatest_lift, range(lifts).max);
-    const Profile needle(spacing_, std::move(below));
+    lift += known_mean(lifts);
+    result.effect.greatest_lift = std::max(result.effect.greatest_lift, known_range(lifts).max);
+    const Profile needle = remade_with(!surface.complete(), spacing_, std::move(below));
     for (const int with : {0, 1}) {
       const Roughness r = roughness(with != 0 ? felt : needle);
       ra[with] += r.Ra;

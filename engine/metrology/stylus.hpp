@@ -2,7 +2,9 @@
 // A stylus profiler: straight traverses at random places and angles over a surface, sampled at equal
 // spacing, each height that of a spherical tip resting on the surface (spherical_tip.hpp). The traces are
 // as the tip gives them: nothing is levelled or filtered. Beside them stands what the tip made of
-// the surface, compared with a needle on the same lines. Not modelled: noise, drift, skid, load.
+// the surface, compared with a needle on the same lines. Not modelled: noise, drift, skid, load. On a surface
+// with holes only a needle (tip 0) can be followed; its traces have holes where a node around was not
+// measured.
 #pragma once
 
 #include <cstdint>
@@ -71,10 +73,11 @@ class Stylus {
   // Error{bad_value} naming `length` where no line fits, or `count` outside 1 … 100000.
   std::vector<Traverse> lines(const Surface& surface, int count, std::uint64_t seed) const;
 
-  // The heights of one traverse. Cost: samples · cells within reach of the tip.
+  // The heights of one traverse. Cost: samples · cells within reach of the tip. Throws Error{bad_value} for a
+  // surface with holes where the tip is not a needle, or where no sample of the line was measured.
   Profile trace(const Surface& surface, const Traverse& line) const;
 
-  // Traces along lines(). Same bits for any number of threads.
+  // Traces along lines(), of measured samples where there are holes. Same bits for any number of threads.
   StylusScan scan(const Surface& surface, int count, std::uint64_t seed,
                   Monitor& monitor = Monitor::silent()) const;
 

@@ -19,6 +19,7 @@ namespace {
 // diamond, triangle down, pentagon; then their open forms.
 constexpr std::array<int, 10> shapes = {7, 5, 9, 13, 11, 15, 6, 4, 8, 12};
 constexpr std::array<std::string_view, 5> dashes = {"1", "'-'", "'_. '", "'.'", "'_-'"};
+constexpr std::array<std::string_view, 4> reference_dashes = {"'--'", "'. '", "'-. '", "'-.. '"};
 
 constexpr const char* mark_colour = "rgb '#505050'";
 
@@ -44,6 +45,7 @@ bool drawable(double value, const ChartAxis& axis) {
 
 struct Point {
   double x, y, low, high, left, right;
+  bool after_gap = false;
 };
 
 std::string count_sentence(std::size_t lost, std::size_t all, std::string_view why) {
@@ -84,7 +86,9 @@ struct Losses {
 };
 
 std::string tic_command(std::string_view axis, const AxisLayout& layout) {
-  std::string text = "set " + std::string(axis) + "tics nomirror out scale 0.8,0.4 textcolor rgb '#202020' (";
+  std::string text = "set " + std::string(axis) + "tics nomirror out scale 0.8,0.4 ";
+  if (layout.slanted && axis == "x") text += "rotate by 45 right ";
+  text += "textcolor rgb '#202020' (";
   for (std::size_t k = 0; k < layout.tics.size(); ++k) {
     const Tic& tic = layout.tics[k];
     if (k > 0) text += ", ";
@@ -103,15 +107,21 @@ std::string axis_command(std::string_view axis, const AxisLayout& layout, bool l
 std::vector<Point> points_of(const ChartSeries& series, const LineChart& chart, Losses& losses) {
   if (series.x.size() != series.y.size() || series.cloud_x.size() != series.cloud_y.size() ||
       (!series.y_error.empty() && series.y_error.size() != series.y.size()) ||
-      series.x_low.size() != series.x_high.size() ||
-      (!series.x_low.empty() && series.x_low.size() != series.x.size()))
+      series.x_low.size() != series.x_high.size() || series.y_low.size() != series.y_high.size() ||
+      (!series.x_low.empty() && series.x_low.size() != series.x.size()) ||
+      (!series.y_low.empty() && series.y_low.size() != series.y.size()))
     throw Error(ErrorCode::bad_value,
                 "the line " + asperity::quoted(series.name) + " of a chart has " +
                     std::to_string(series.x.size()) + " x and " + std::to_string(series.y.size()) +
                     " y values",
                 "give as many of one as of the other, and as many errors or none");
   std::vector<Point> points;
+  bool gap = false;
   for (std::size_t k = 0; k < series.x.size(); ++k) {
+    if (series.gaps && (std::isnan(series.x[k]) || std::isnan(series.y[k]))) {
+      gap = !points.empty();
+      continue;
+    }
     if (!losses.keep(series.x[k], series.y[k], chart)) continue;
     const double error = series.y_error.empty() || !std::isfinite(series.y_error[k]) ? 0 : series.y_error[k];
     double left = series.x[k], right = left;
@@ -119,7 +129,13 @@ std::vector<Point> points_of(const ChartSeries& series, const LineChart& chart, 
       left = series.x_low[k];
       right = series.x_high[k];
     }
-    points.push_back({series.x[k], series.y[k], series.y[k] - error, series.y[k] + error, left, right});
+    double low = series.y[k] - error, high = series.y[k] + error;
+    if (!series.y_low.empty() && std::isfinite(series.y_low[k]) && std::isfinite(series.y_high[k])) {
+      low = series.y_low[k];
+      high = series.y_high[k];
+    }
+    points.push_back({series.x[k], series.y[k], low, high, left, right, gap});
+    gap = false;
   }
   return points;
 }
@@ -132,6 +148,7 @@ std::string data_block(const std::string& name, const std::vector<Point>& points
                        const AxisLayout& y, bool across) {
   std::string text = "$" + name + " << EOD\n";
   for (const Point& point : points) {
+    if (point.after_gap) text += "\n";  // an empty line breaks the line of a plot
     // The foot of a bar that reaches past zero ends at the rim of a logarithmic axis.
     const double low = std::max(point.low / y.factor, y.low), high = std::min(point.high / y.factor, y.high);
     text += gnuplot_number(point.x / x.factor) + " " + gnuplot_number(point.y / y.factor) + " " +
@@ -143,103 +160,297 @@ std::string data_block(const std::string& name, const std::vector<Point>& points
   return text + "EOD\n";
 }
 
-}  // namespace
-
-std::string chart_script(const LineChart& chart, PictureFormat format, std::vector<std::string>& warnings) {
-  Losses losses, ignored;
+// What is drawn of a chart, and how far it reaches.
+struct Content {
   std::vector<std::vector<Point>> points, clouds;
   Ends ends;
   bool keyed = false;
+  std::size_t longest_name = 0;
+};
+
+void take_references(const LineChart& chart, Content& content, std::vector<std::string>& warnings) {
+  for (const ChartReference& line : chart.references) {
+    const bool along = line.y.has_value();
+    const double at = along ? *line.y : line.x.value_or(std::nan(""));
+    if (!drawable(at, along ? chart.y : chart.x)) {
+      warnings.push_back("the line at " + std::string(along ? "y" : "x") + " = " + format_short(at) +
+                         " is not drawn: it has no place on its axis");
+      continue;
+    }
+    (along ? content.ends.y : content.ends.x).push_back(at);
+    content.keyed |= !line.name.empty();
+    content.longest_name = std::max(content.longest_name, characters_of(line.name));
+  }
+}
+
+Content gathered(const LineChart& chart, std::vector<std::string>& warnings) {
+  Content content;
+  Losses losses, ignored;
   for (const ChartSeries& series : chart.series) {
-    points.push_back(points_of(series, chart, losses));
-    clouds.push_back(points_of({.name = series.name,
-                                .x = series.cloud_x,
-                                .y = series.cloud_y,
-                                .y_error = {},
-                                .cloud_x = {},
-                                .cloud_y = {},
-                                .x_low = {},
-                                .x_high = {}},
-                               chart, ignored));
-    for (const auto* set : {&points.back(), &clouds.back()})
+    content.points.push_back(points_of(series, chart, losses));
+    ChartSeries cloud;
+    cloud.name = series.name;
+    cloud.x = series.cloud_x;
+    cloud.y = series.cloud_y;
+    content.clouds.push_back(points_of(cloud, chart, ignored));
+    for (const auto* set : {&content.points.back(), &content.clouds.back()})
       for (const Point& point : *set) {
-        ends.x.insert(ends.x.end(), {point.x, point.left, point.right});
-        ends.y.insert(ends.y.end(), {point.y, point.low, point.high});
+        content.ends.x.insert(content.ends.x.end(), {point.x, point.left, point.right});
+        content.ends.y.insert(content.ends.y.end(), {point.y, point.low, point.high});
       }
-    keyed |= !series.name.empty();
+    content.keyed |= !series.name.empty();
+    content.longest_name = std::max(content.longest_name, characters_of(series.name));
+  }
+  content.longest_name = std::max(content.longest_name, characters_of(chart.key_title));
+  for (const ChartBar& bar : chart.bars) {
+    content.ends.x.insert(content.ends.x.end(), {bar.left, bar.right});
+    content.ends.y.insert(content.ends.y.end(), {0, bar.height});
   }
   losses.tell(chart, warnings);
-  if (ends.x.empty())
+  if (content.ends.x.empty())
     throw Error(ErrorCode::bad_value,
                 "the chart of " + asperity::quoted(chart.y.label) + " against " +
                     asperity::quoted(chart.x.label) + " has nothing to draw",
                 warnings.empty() ? "no row has a number in both" : warnings.front());
+  take_references(chart, content, warnings);
+  return content;
+}
 
+struct Axes {
+  AxisLayout x, y;
+};
+
+Axes axes_of(const LineChart& chart, const Content& content) {
   ChartAxis x_axis = chart.x, y_axis = chart.y;
   if (chart.equal_axes)
-    for (const auto* values : {&ends.x, &ends.y})
+    for (const auto* values : {&content.ends.x, &content.ends.y})
       for (const double value : *values)
         x_axis.prefix_for = y_axis.prefix_for = std::max(x_axis.prefix_for.value_or(0), std::abs(value));
-  const AxisLayout x = lay_out(x_axis, ends.x), y = lay_out(y_axis, ends.y);
+  Axes axes{lay_out(x_axis, content.ends.x), lay_out(y_axis, content.ends.y)};
+  // Bars stand on the axis.
+  if (!chart.bars.empty() && !chart.y.logarithmic) axes.y.low = std::max(axes.y.low, 0.0);
+  return axes;
+}
 
-  std::string script = gnuplot_terminal(format, chart.width, chart.height, 16);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    script += data_block("line" + std::to_string(k), points[k], x, y, !chart.series[k].x_low.empty());
-    script += data_block("cloud" + std::to_string(k), clouds[k], x, y, false);
+std::string reference_data(const LineChart& chart, const Axes& axes, const std::string& prefix) {
+  std::string text;
+  for (std::size_t k = 0; k < chart.references.size(); ++k) {
+    const ChartReference& line = chart.references[k];
+    const double at = line.y ? *line.y : line.x.value_or(std::nan(""));
+    if (!drawable(at, line.y ? chart.y : chart.x)) continue;
+    const std::string place = gnuplot_number(at / (line.y ? axes.y : axes.x).factor);
+    const AxisLayout& along = line.y ? axes.x : axes.y;
+    text += "$" + prefix + "across" + std::to_string(k) + " << EOD\n";
+    for (const double end : {along.low, along.high})
+      text += line.y ? gnuplot_number(end) + " " + place + "\n" : place + " " + gnuplot_number(end) + "\n";
+    text += "EOD\n";
   }
-  script +=
+  return text;
+}
+
+std::string bar_data(const LineChart& chart, const Axes& axes, const std::string& prefix) {
+  if (chart.bars.empty()) return "";
+  std::string text = "$" + prefix + "bars << EOD\n";
+  for (const ChartBar& bar : chart.bars) {
+    const double left = bar.left / axes.x.factor, right = bar.right / axes.x.factor;
+    text += gnuplot_number(0.5 * (left + right)) + " 0 " + gnuplot_number(left) + " " +
+            gnuplot_number(right) + " " + gnuplot_number(axes.y.low) + " " +
+            gnuplot_number(std::max(axes.y.low, bar.height / axes.y.factor)) + "\n";
+  }
+  return text + "EOD\n";
+}
+
+// Pixels from the left at which the axis begins, so that no slanted name begins left of the canvas; 0: as
+// gnuplot finds it. Measured on text of 16 points.
+double left_rim(const LineChart& chart, const AxisLayout& x) {
+  constexpr double usual = 125, character = 11.8, share_along = 0.71, reserved = 160;
+  if (!x.slanted) return 0;
+  const double step = (chart.width - usual - reserved) / static_cast<double>(x.tics.size());
+  double rim = usual;
+  for (std::size_t k = 0; k < x.tics.size(); ++k)
+    rim = std::max(rim, character * share_along * static_cast<double>(characters_of(x.tics[k].label)) -
+                            (static_cast<double>(k) + 0.5) * step);
+  return rim;
+}
+
+// Where the key of a panel stands: beside the plot, whose right rim all panels share.
+std::string key_command(const std::optional<double>& right_rim) {
+  if (!right_rim) return "set key outside right top Left reverse samplen 2.6 spacing 1.25\n";
+  return "set key at screen " + gnuplot_number(*right_rim + 0.015) +
+         ", graph 1 left top Left reverse samplen 2.6 spacing 1.25\n";
+}
+
+std::string look_commands(const LineChart& chart, const Axes& axes, bool keyed,
+                          const std::optional<double>& right_rim) {
+  std::string script =
       "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
       "set grid xtics ytics mxtics mytics linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc', "
       "linetype 1 linewidth 0.5 linecolor rgb '#eeeeee'\n";
-  script += axis_command("x", x, chart.x.logarithmic) + axis_command("y", y, chart.y.logarithmic);
+  script += axis_command("x", axes.x, chart.x.logarithmic) + axis_command("y", axes.y, chart.y.logarithmic);
   if (!chart.title.empty()) script += "set title " + gnuplot_text(chart.title) + " font ',18'\n";
   if (chart.equal_axes) script += "set size ratio -1\n";
-  script += keyed ? "set key outside right top Left reverse samplen 2.6 spacing 1.25\n" : "set key off\n";
+  script += keyed ? key_command(right_rim) : "set key off\n";
   if (keyed && !chart.key_title.empty())
     script += "set key title " + gnuplot_text(chart.key_title) + " left\n";
-
   for (const ChartLabel& label : chart.labels)
     if (drawable(label.x, chart.x) && drawable(label.y, chart.y))
-      script += "set label " + gnuplot_text(label.text) + " at " + gnuplot_number(label.x / x.factor) + "," +
-                gnuplot_number(label.y / y.factor) + " center front offset 0," +
+      script += "set label " + gnuplot_text(label.text) + " at " + gnuplot_number(label.x / axes.x.factor) +
+                "," + gnuplot_number(label.y / axes.y.factor) + " center front offset 0," +
                 (label.below ? "-1.4" : "0.8") + " font ',13' textcolor rgb '#202020'\n";
+  return script;
+}
 
-  const int lines = static_cast<int>(chart.series.size());
-  std::vector<std::string> layers, clouds_first;
-  for (int k = 0; k < lines; ++k) {
-    const ChartSeries& series = chart.series[static_cast<std::size_t>(k)];
-    const bool mark = series.shape != PointShape::of_line;
-    const std::string colour = mark ? mark_colour : gnuplot_colour(line_colour(k, lines)),
-                      number = std::to_string(k), shape = std::to_string(point_type(series, k));
-    if (!clouds[static_cast<std::size_t>(k)].empty())
-      clouds_first.push_back("$cloud" + number + " using 1:2 with points pointtype " + shape +
-                             " pointsize 0.7 linecolor rgb '#80" + colour.substr(6) + " notitle");
-    if (points[static_cast<std::size_t>(k)].empty()) continue;
-    if (!series.y_error.empty())
-      layers.push_back("$line" + number +
-                       " using 1:2:3:4 with yerrorbars pointtype -1 linewidth 1.4 linecolor " + colour +
-                       " notitle");
-    if (!series.x_low.empty())
-      layers.push_back("$line" + number +
-                       " using 1:2:5:6 with xerrorbars pointtype -1 linewidth 1.4 linecolor " + colour +
-                       " notitle");
-    const std::string style = series.line ? (series.points ? "linespoints" : "lines") : "points";
-    std::string layer = "$line" + number + " using 1:2 with " + style + " linecolor " + colour;
-    if (mark)
-      layer += " linewidth 1.2";
-    else if (series.line)
-      layer += " linewidth 2.2 dashtype " + std::string(dashes[static_cast<std::size_t>(k) % dashes.size()]);
-    if (series.points || !series.line)
-      layer += " pointtype " + shape + (mark ? " pointsize 2" : " pointsize 1.2");
-    layers.push_back(layer + (series.name.empty() ? " notitle" : " title " + gnuplot_text(series.name)));
+std::string title_of(const std::string& name) {
+  return name.empty() ? " notitle" : " title " + gnuplot_text(name);
+}
+
+// What one series puts before and behind the others.
+struct Layers {
+  std::vector<std::string> behind, front;
+};
+
+void add_series(const ChartSeries& series, int k, int lines, const Content& content,
+                const std::string& prefix, Layers& layers) {
+  const auto place = static_cast<std::size_t>(k);
+  const bool mark = series.shape != PointShape::of_line;
+  const std::string colour = mark ? mark_colour : gnuplot_colour(line_colour(k, lines)),
+                    number = std::to_string(k), shape = std::to_string(point_type(series, k));
+  if (!content.clouds[place].empty())
+    layers.behind.push_back("$" + prefix + "cloud" + number + " using 1:2 with points pointtype " + shape +
+                            " pointsize 0.7 linecolor rgb '#80" + colour.substr(6) + " notitle");
+  if (content.points[place].empty()) return;
+  const std::string data = "$" + prefix + "line" + number;
+  if (series.band) {
+    layers.behind.push_back(data +
+                            " using 1:3:4 with filledcurves fillstyle solid noborder fillcolor rgb '#c8" +
+                            colour.substr(6) + " notitle");
+    for (const char* end : {"3", "4"})
+      layers.behind.push_back(data + " using 1:" + end + " with lines linewidth 0.8 linecolor rgb '#60" +
+                              colour.substr(6) + " notitle");
+  } else if (!series.y_error.empty() || !series.y_low.empty()) {
+    layers.front.push_back(data + " using 1:2:3:4 with yerrorbars pointtype -1 linewidth 1.4 linecolor " +
+                           colour + " notitle");
   }
-  clouds_first.insert(clouds_first.end(), layers.begin(), layers.end());
-  return script + "plot " + joined(clouds_first, ", ") + "\n";
+  if (!series.x_low.empty())
+    layers.front.push_back(data + " using 1:2:5:6 with xerrorbars pointtype -1 linewidth 1.4 linecolor " +
+                           colour + " notitle");
+  const std::string style = series.line ? (series.points ? "linespoints" : "lines") : "points";
+  std::string layer = data + " using 1:2 with " + style + " linecolor " + colour;
+  if (mark)
+    layer += " linewidth 1.2";
+  else if (series.line)
+    layer += " linewidth 2.2 dashtype " + std::string(dashes[place % dashes.size()]);
+  if (series.points || !series.line)
+    layer += " pointtype " + shape + (mark ? " pointsize 2" : " pointsize 1.2");
+  layers.front.push_back(layer + title_of(series.name));
+}
+
+// The commands that draw a chart on a canvas that is open. `prefix` keeps the data of panels apart.
+std::string body_of(const LineChart& chart, const Content& content, const Axes& axes,
+                    const std::string& prefix, const std::optional<double>& right_rim) {
+  std::string script;
+  for (std::size_t k = 0; k < content.points.size(); ++k) {
+    const std::string number = std::to_string(k);
+    script += data_block(prefix + "line" + number, content.points[k], axes.x, axes.y,
+                         !chart.series[k].x_low.empty());
+    script += data_block(prefix + "cloud" + number, content.clouds[k], axes.x, axes.y, false);
+  }
+  script += reference_data(chart, axes, prefix) + bar_data(chart, axes, prefix);
+  script += look_commands(chart, axes, content.keyed, right_rim);
+
+  Layers layers;
+  if (!chart.bars.empty())
+    layers.behind.push_back("$" + prefix +
+                            "bars using 1:2:3:4:5:6 with boxxyerror fillstyle solid border linecolor rgb "
+                            "'#ffffff' fillcolor rgb '#7fa8c9' notitle");
+  const int lines = static_cast<int>(chart.series.size());
+  for (int k = 0; k < lines; ++k)
+    add_series(chart.series[static_cast<std::size_t>(k)], k, lines, content, prefix, layers);
+  for (std::size_t k = 0; k < chart.references.size(); ++k) {
+    const ChartReference& line = chart.references[k];
+    if (!drawable(line.y ? *line.y : line.x.value_or(std::nan("")), line.y ? chart.y : chart.x)) continue;
+    layers.front.push_back("$" + prefix + "across" + std::to_string(k) +
+                           " using 1:2 with lines linewidth 1.6 linecolor " + mark_colour + " dashtype " +
+                           std::string(reference_dashes[k % reference_dashes.size()]) + title_of(line.name));
+  }
+  layers.behind.insert(layers.behind.end(), layers.front.begin(), layers.front.end());
+  return script + "plot " + joined(layers.behind, ", ") + "\n";
+}
+
+bool share_x(const LineChart& a, const LineChart& b) {
+  return a.x.label == b.x.label && a.x.unit == b.x.unit && a.x.logarithmic == b.x.logarithmic &&
+         a.x.names == b.x.names;
+}
+
+}  // namespace
+
+std::string chart_script(const LineChart& chart, PictureFormat format, std::vector<std::string>& warnings) {
+  const Content content = gathered(chart, warnings);
+  const Axes axes = axes_of(chart, content);
+  std::string script = gnuplot_terminal(format, chart.width, chart.height, 16);
+  if (const double rim = left_rim(chart, axes.x); rim > 0) {
+    script += "set lmargin at screen " + gnuplot_number(rim / chart.width) + "\n";
+    if (!content.keyed) script += "set rmargin at screen 0.97\n";
+  }
+  return script + body_of(chart, content, axes, "", {});
+}
+
+std::string chart_script(std::span<const LineChart> panels, PictureFormat format,
+                         std::vector<std::string>& warnings) {
+  if (panels.size() == 1) return chart_script(panels.front(), format, warnings);
+  if (panels.empty()) throw Error(ErrorCode::bad_value, "a picture of charts has no chart");
+  std::vector<Content> contents;
+  std::size_t longest = 0;
+  int height = 0;
+  for (const LineChart& panel : panels) {
+    contents.push_back(gathered(panel, warnings));
+    if (contents.back().keyed) longest = std::max(longest, contents.back().longest_name);
+    height += panel.height * 3 / 4;
+  }
+  for (std::size_t k = 0; k < panels.size(); ++k)
+    for (std::size_t other = 0; other < panels.size(); ++other)
+      if (other != k && share_x(panels[k], panels[other])) {
+        const std::vector<double> reach = contents[other].ends.x;
+        contents[k].ends.x.insert(contents[k].ends.x.end(), reach.begin(), reach.end());
+      }
+  const int width = panels.front().width;
+  std::vector<Axes> axes;
+  double left = 0.13 * width;
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    axes.push_back(axes_of(panels[k], contents[k]));
+    left = std::max(left, left_rim(panels[k], axes.back().x));
+  }
+  // Names are written once, below the last panel that has them.
+  for (std::size_t k = 0; k + 1 < panels.size(); ++k)
+    if (!panels[k].x.names.empty() && share_x(panels[k], panels[k + 1])) {
+      axes[k].x.label.clear();
+      axes[k].x.slanted = false;
+      for (Tic& tic : axes[k].x.tics) tic.label = " ";
+    }
+  // Room for the longest name and its sample of a line, for all panels, so that their axes stand in one line.
+  const double beside = 85 + 11.0 * static_cast<double>(longest);
+  const double right = longest == 0 ? 0.97 : 1 - std::min(0.45, beside / width);
+  std::string script = gnuplot_terminal(format, width, height, 16);
+  script += "set multiplot layout " + std::to_string(panels.size()) + ",1\nset lmargin at screen " +
+            gnuplot_number(left / width) + "\nset rmargin at screen " + gnuplot_number(right) + "\n";
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    // Nothing of the panel above stays.
+    if (k > 0)
+      script +=
+          "unset logscale\nunset label\nunset title\nset size noratio\nset key default\n"
+          "set xtics norotate autojustify\n";
+    script += body_of(panels[k], contents[k], axes[k], k == 0 ? "" : "panel" + std::to_string(k), right);
+  }
+  return script + "unset multiplot\n";
 }
 
 std::vector<std::string> draw(const LineChart& chart, const std::filesystem::path& file) {
+  return draw(std::span(&chart, 1), file);
+}
+
+std::vector<std::string> draw(std::span<const LineChart> panels, const std::filesystem::path& file) {
   std::vector<std::string> warnings;
-  const std::string script = chart_script(chart, picture_format(file), warnings);
+  const std::string script = chart_script(panels, picture_format(file), warnings);
   const GnuplotResult drawn = run_gnuplot(script);
   write_atomically(file, drawn.picture);
   const std::vector<std::string> complaints = complaints_of(drawn, file);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A chart of lines and points, drawn to print legibly in black and white: lines differ in colour, point
 // shape and dashes; the key stands beside the plot; units carry a readable prefix. Drawn by gnuplot.
-// Values that cannot be drawn (non-finite, or not positive on a logarithmic axis) are left out, and a
-// sentence says how many.
+// Behind the lines stand bands (of a fit) and bars (of a histogram), across them lines at one x or y, whose
+// names stand in the key, where they meet nothing. Two panels stand one below the other. Values that cannot
+// be drawn (non-finite, or not positive on a logarithmic axis) are left out, and a sentence says how many.
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +31,20 @@ struct ChartSeries {
   bool points = true;
   std::vector<double> x_low = {}, x_high = {};  // ends of a bar along x at each point; or both empty
   PointShape shape = PointShape::of_line;       // any other is drawn in grey, with a thin line
+  std::vector<double> y_low = {}, y_high = {};  // ends of a bar along y at each point; or both empty
+  bool band = false;                            // y_low and y_high bound a shaded band instead
+  bool gaps = false;                            // a value that is NaN breaks the line, and is no loss
+};
+
+// A line across the plot at one x or one y, named in the key.
+struct ChartReference {
+  std::optional<double> x, y;  // one of them
+  std::string name = {};
+};
+
+// A bar from 0, of a histogram.
+struct ChartBar {
+  double left = 0, right = 0, height = 0;
 };
 
 // Words at a place of the plot, centred above it, or below.
@@ -45,14 +62,22 @@ struct LineChart {
   std::vector<ChartLabel> labels = {};
   bool equal_axes = false;  // one unit of x is as long as one of y
   int width = 960, height = 640;
+  std::vector<ChartReference> references = {};
+  std::vector<ChartBar> bars = {};
 };
 
 // The gnuplot script; `warnings` gets the sentences about what was left out. Throws Error{bad_value}
 // if no point is left or lengths differ. Cost: the number of points.
 std::string chart_script(const LineChart& chart, PictureFormat format, std::vector<std::string>& warnings);
 
-// Draws the chart into `file` (.svg or .png), written aside. Returns the warnings. Throws as
+// Two charts or more, one below the other, as wide as the first and each as high. Those that show the same
+// quantity along x, which they call alike, run over the same range. Throws as above.
+std::string chart_script(std::span<const LineChart> panels, PictureFormat format,
+                         std::vector<std::string>& warnings);
+
+// Draws the chart into `file` (.svg, .png or .pdf), written aside. Returns the warnings. Throws as
 // chart_script, picture_format, run_gnuplot and write_atomically do.
 std::vector<std::string> draw(const LineChart& chart, const std::filesystem::path& file);
+std::vector<std::string> draw(std::span<const LineChart> panels, const std::filesystem::path& file);
 
 }  // namespace asperity

@@ -159,7 +159,43 @@ std::string printed_quantity(double value, std::string_view unit, int digits) {
   return scale.unit.empty() ? number : number + " " + scale.unit;
 }
 
+std::size_t characters_of(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+namespace {
+
+// The first of it, where it is longer than an axis has room for.
+std::string shortened(std::string_view text) {
+  constexpr std::size_t longest = 24;
+  if (characters_of(text) <= longest) return std::string(text);
+  std::size_t end = 0;
+  for (std::size_t count = 0; count < longest; ++count) do {
+      ++end;
+    } while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80);
+  return std::string(text.substr(0, end)) + "…";
+}
+
+AxisLayout names_layout(const ChartAxis& axis) {
+  constexpr double plot_width = 620, character = 11.8, between = 14;  // pixels, on the usual canvas
+  AxisLayout layout;
+  layout.label = axis.label;
+  layout.low = -0.5;
+  layout.high = static_cast<double>(axis.names.size()) - 0.5;
+  const double room = plot_width / static_cast<double>(axis.names.size());
+  for (std::size_t k = 0; k < axis.names.size(); ++k) {
+    const std::string name = shortened(axis.names[k]);
+    layout.slanted |= character * static_cast<double>(characters_of(name)) + between > room;
+    layout.tics.push_back({static_cast<double>(k), name});
+  }
+  return layout;
+}
+
+}  // namespace
+
 AxisLayout lay_out(const ChartAxis& axis, std::span<const double> values, double margin) {
+  if (!axis.names.empty()) return names_layout(axis);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   const auto take = [&](double value) {
     if (!std::isfinite(value) || (axis.logarithmic && value <= 0)) return;

@@ -22,6 +22,8 @@ struct ChartAxis {
   // Magnitude that chooses the prefix; default: the largest value, on a logarithmic axis the middle.
   std::optional<double> prefix_for;
   int tics = 6;  // about how many, on a linear axis
+  // Instead of numbers: the name of value 0, 1, 2, …; the axis is linear and has room for all of them.
+  std::vector<std::string> names = {};
 };
 
 struct Tic {
@@ -35,6 +37,7 @@ struct AxisLayout {
   double factor = 1;         // divide a value by this to have it in the unit displayed
   double low = 0, high = 1;  // in the unit displayed
   std::vector<Tic> tics;
+  bool slanted = false;  // the names need more room along than they have
 };
 
 // Lays out an axis for these values, of which non-finite ones, and on a logarithmic axis non-positive
@@ -47,6 +50,9 @@ std::string printed_unit(std::string_view unit);
 
 // The value in its own unit with the prefix that suits it: "20 µm".
 std::string printed_quantity(double value, std::string_view unit, int digits = 3);
+
+// Of UTF-8, as printed.
+std::size_t characters_of(std::string_view text);
 
 // The greatest of 1, 2, 5 × 10^k that is not above `value` > 0.
 double round_below(double value);

@@ -78,17 +78,18 @@ std::string content_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// The environment less what could change the picture: the language and gnuplot's own variables.
+// The environment less what could change the picture: the language, the time zone (of the date in a PDF) and
+// gnuplot's own variables.
 std::vector<char*> plain_environment() {
-  static char language[] = "LC_ALL=C.UTF-8";
+  static char language[] = "LC_ALL=C.UTF-8", zone[] = "TZ=UTC0";
   std::vector<char*> kept;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
     if (!text.starts_with("LC_") && !text.starts_with("LANG") && !text.starts_with("GNUPLOT") &&
-        !text.starts_with("GNUTERM"))
+        !text.starts_with("GNUTERM") && !text.starts_with("TZ="))
       kept.push_back(*entry);
   }
-  kept.push_back(language);
+  kept.insert(kept.end(), {language, zone});
   kept.push_back(nullptr);
   return kept;
 }
@@ -198,10 +199,11 @@ PictureFormat picture_format(const fs::path& file) {
   const std::string ending = file.extension().string();
   if (ending == ".svg") return PictureFormat::svg;
   if (ending == ".png") return PictureFormat::png;
+  if (ending == ".pdf") return PictureFormat::pdf;
   throw Error(ErrorCode::bad_value,
               "the picture " + asperity::quoted(file.string()) +
                   (ending.empty() ? " has no ending" : " ends in " + ending),
-              "pictures are .svg or .png");
+              "pictures are .svg, .png or .pdf");
 }
 
 std::string gnuplot_terminal(PictureFormat format, int width, int height, double font_size) {
@@ -209,6 +211,11 @@ std::string gnuplot_terminal(PictureFormat format, int width, int height, double
   const std::string look = " noenhanced font 'DejaVu Sans," + format_short(font_size, 4) + "' linewidth 1";
   if (format == PictureFormat::png)
     return "set terminal pngcairo size " + size + look + " background '#ffffff'\n";
+  if (format == PictureFormat::pdf) {
+    // Its points are 72 to the inch, and a pixel is a hundredth of one.
+    const std::string inches = format_short(0.01 * width, 6) + "in," + format_short(0.01 * height, 6) + "in";
+    return "set terminal pdfcairo size " + inches + look + " fontscale 0.72 background '#ffffff'\n";
+  }
   return "set terminal svg size " + size + " dynamic" + look + " background '#ffffff'\n";
 }
 
@@ -235,6 +242,20 @@ std::function<GnuplotDrawer>& drawer() {
 
 void draw_pictures_by(std::function<GnuplotDrawer> other) { drawer() = std::move(other); }
 
+std::string without_date(std::string picture) {
+  if (!picture.starts_with("%PDF")) return picture;
+  static constexpr std::string_view mark = "/CreationDate (D:", date = "20000101000000";
+  // Cairo writes it once, in a dictionary of its own near the end, and does not compress that.
+  const std::size_t at = picture.rfind(mark);
+  if (at == std::string::npos) return picture;
+  for (std::size_t k = 0; k < date.size() && at + mark.size() + k < picture.size(); ++k) {
+    char& digit = picture[at + mark.size() + k];
+    if (digit < '0' || digit > '9') break;
+    digit = date[k];
+  }
+  return picture;
+}
+
 std::string script_for_file(std::string_view script) {
   const std::size_t canvas = script.find('\n') + 1;
   return "set encoding utf8\n" + std::string(script.substr(0, canvas)) + "set output 'picture'\n" +
@@ -242,12 +263,16 @@ std::string script_for_file(std::string_view script) {
 }
 
 GnuplotResult run_gnuplot(std::string_view script, std::span<const GnuplotData> data) {
-  if (drawer()) return drawer()(script, data);
+  if (drawer()) {
+    GnuplotResult drawn = drawer()(script, data);
+    drawn.picture = without_date(std::move(drawn.picture));
+    return drawn;
+  }
   const TemporaryDirectory folder;
   write_atomically(folder.path() / "script", script_for_file(script));
   for (const GnuplotData& item : data) write_atomically(folder.path() / item.name, item.bytes);
   const int status = wait_for(start(folder.path()));
-  GnuplotResult result{content_of(folder.path() / "picture"),
+  GnuplotResult result{without_date(content_of(folder.path() / "picture")),
                        without_ends(content_of(folder.path() / "messages")), handles_if_few()};
   const bool failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
   // A shell's convention, for systems where a missing program is found out only by the child.

@@ -2,7 +2,8 @@
 // Runs gnuplot (a separate program, without a shell) on a script and returns the picture it drew.
 // Text reaches the script only through gnuplot_text, as a single-quoted string in which gnuplot
 // substitutes nothing; numbers only through gnuplot_number. Bulk data go as attached files. The same
-// script and data give the same bytes: no user settings are read, no date is written.
+// script and data give the same bytes: no user settings are read, and the date that a PDF bears is a fixed
+// one.
 #pragma once
 
 #include <filesystem>
@@ -22,11 +23,12 @@ std::string gnuplot_number(double value);
 // A colour 0xRRGGBB as "rgb '#rrggbb'".
 std::string gnuplot_colour(unsigned rgb);
 
-enum class PictureFormat { svg, png };
+enum class PictureFormat { svg, png, pdf };
 // By the ending of the name. Throws Error{bad_value} for any other ending.
 PictureFormat picture_format(const std::filesystem::path& file);
 
-// The line that opens the canvas, of `width` × `height` pixels, with text of `font_size` points.
+// The line that opens the canvas, of `width` × `height` pixels, with text of `font_size` points; in a PDF a
+// hundred pixels are an inch, and text keeps its share of the width.
 std::string gnuplot_terminal(PictureFormat format, int width, int height, double font_size);
 
 // A file the script reads by its name.
@@ -50,6 +52,10 @@ std::vector<std::string> complaints_of(const GnuplotResult& result, const std::f
 using GnuplotDrawer = GnuplotResult(std::string_view script, std::span<const GnuplotData> data);
 // From now on, in the whole process; not while a picture is drawn.
 void draw_pictures_by(std::function<GnuplotDrawer> drawer);
+
+// A PDF with its date of making (D:yyyymmddhhmmss) replaced by the first second of 2000, so that replay gives
+// the same bytes; any other picture as it is.
+std::string without_date(std::string picture);
 
 // The script as gnuplot reads it, to leave its picture in the file `picture` of its working directory.
 std::string script_for_file(std::string_view script);

@@ -342,7 +342,7 @@ std::vector<std::string> draw(const Grid& grid, const Field& field, const Pictur
 
 std::vector<std::string> draw(const Surface& surface, const PictureOptions& options,
                               const std::filesystem::path& file) {
-  return draw(surface.grid(), surface.heights(), options, file);
+  return draw(surface.grid(), surface.measured_heights(), options, file);
 }
 
 }  // namespace asperity

@@ -40,6 +40,7 @@ PictureScript picture_script(const Grid& grid, const Field& field, const Picture
 // picture_script, run_gnuplot and write_atomically do.
 std::vector<std::string> draw(const Grid& grid, const Field& field, const PictureOptions& options,
                               const std::filesystem::path& file);
+// Points that were not measured are left blank.
 std::vector<std::string> draw(const Surface& surface, const PictureOptions& options,
                               const std::filesystem::path& file);
 

@@ -2,6 +2,7 @@
 #include "engine/plot/picture_profile.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -15,11 +16,25 @@ namespace {
 constexpr int most_stretches = 2000;  // about two a pixel
 
 void add_trace(const Profile& profile, ChartSeries& series) {
-  const auto heights = profile.heights();
+  const auto heights = profile.measured_heights();
   const auto at = [&](std::size_t k) { return static_cast<double>(k) * profile.spacing(); };
   const auto add = [&](std::size_t k) {
     series.x.push_back(at(k));
     series.y.push_back(heights[k]);
+  };
+  // The highest and the lowest that were measured, and the gap where it begins.
+  const auto add_stretch_with_gap = [&](std::span<const double> part, std::size_t from) {
+    std::size_t low = part.size(), high = part.size(), gap = part.size();
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      if (std::isnan(part[k])) {
+        gap = std::min(gap, k);
+        continue;
+      }
+      if (low == part.size() || part[k] < part[low]) low = k;
+      if (high == part.size() || part[k] > part[high]) high = k;
+    }
+    for (std::size_t k = 0; k < part.size(); ++k)
+      if (k == low || k == high || k == gap) add(from + k);
   };
   if (heights.size() <= 2 * most_stretches) {
     for (std::size_t k = 0; k < heights.size(); ++k) add(k);
@@ -29,6 +44,10 @@ void add_trace(const Profile& profile, ChartSeries& series) {
     const std::size_t from = stretch * heights.size() / most_stretches;
     const std::size_t to = (stretch + 1) * heights.size() / most_stretches;
     const auto part = heights.subspan(from, to - from);
+    if (known_count(part) < part.size()) {
+      add_stretch_with_gap(part, from);
+      continue;
+    }
     const auto [low, high] = std::ranges::minmax_element(part);
     const auto a = from + static_cast<std::size_t>(low - part.begin());
     const auto b = from + static_cast<std::size_t>(high - part.begin());
@@ -38,7 +57,7 @@ void add_trace(const Profile& profile, ChartSeries& series) {
 }
 
 void add_outline(const Profile& profile, ChartSeries& series) {
-  const auto heights = profile.heights();
+  const auto heights = profile.measured_heights();
   const double radius = *profile.closed_radius();
   // The first point again at the end closes the line.
   for (std::size_t k = 0; k <= heights.size(); ++k) {
@@ -68,7 +87,8 @@ LineChart profile_chart(std::span<const NamedProfile> profiles, std::string titl
                   "draw them apart");
     ChartSeries series;
     series.name = item.name;
-    series.points = item.profile.size() == 1;
+    series.points = item.profile.measured() == 1;
+    series.gaps = !item.profile.complete();
     if (closed) {
       add_outline(item.profile, series);
     } else {

@@ -150,6 +150,7 @@ std::string text_chart(const LineChart& chart, const TextCanvas& canvas, std::ve
   };
   for (const ChartSeries& series : chart.series)
     for (std::size_t k = 0; k < series.x.size(); ++k) {
+      if (series.gaps && (std::isnan(series.x[k]) || std::isnan(series.y[k]))) continue;
       if (!drawable(series.x[k], chart.x) || !drawable(series.y[k], chart.y)) {
         ++lost;
         continue;
@@ -178,6 +179,8 @@ std::string text_chart(const LineChart& chart, const TextCanvas& canvas, std::ve
       if (drawable(series.x[n], chart.x) && drawable(series.y[n], chart.y))
         script +=
             gnuplot_number(series.x[n] / x.factor) + " " + gnuplot_number(series.y[n] / y.factor) + "\n";
+      else if (series.gaps)
+        script += "\n";
     script += "EOD\n";
     const std::string sign(1, signs[k % signs.size()]);
     const bool line = series.line && !series.points;

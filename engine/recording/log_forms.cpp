@@ -3,26 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
-#include "engine/core/error.hpp"
+#include "engine/statistics/table_head.hpp"
+#include "engine/statistics/time_stamp.hpp"
 
 namespace asperity {
 
 namespace {
-
-bool is_digit_at(std::string_view text, std::size_t k) {
-  return k < text.size() && std::isdigit(static_cast<unsigned char>(text[k])) != 0;
-}
-
-std::optional<Quantity> quantity_if_any(std::string_view text, Quantity (*parse)(std::string_view)) {
-  try {
-    return parse(text);
-  } catch (const Error&) {  // something else
-    return {};
-  }
-}
 
 // Words of other tables for the columns of log_table.hpp.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 14> other_names{{{"force", "load"},
@@ -42,45 +30,11 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> other_na
 
 }  // namespace
 
-// Two digits or more on both sides of a colon, or three groups of digits with one mark between them.
-bool is_time_stamp(std::string_view cell) {
-  for (std::size_t k = 1; k < cell.size(); ++k)
-    if (cell[k] == ':' && is_digit_at(cell, k - 1) && is_digit_at(cell, k + 1) && is_digit_at(cell, k + 2))
-      return true;
-  std::size_t k = 0;
-  while (is_digit_at(cell, k)) ++k;
-  if (k < 1 || k > 4 || k >= cell.size()) return false;
-  const char mark = cell[k];
-  if (mark != '-' && mark != '/' && mark != '.') return false;
-  const std::size_t middle = k + 1;
-  std::size_t end = middle;
-  while (is_digit_at(cell, end)) ++end;
-  return end > middle && end <= middle + 2 && end < cell.size() && cell[end] == mark &&
-         is_digit_at(cell, end + 1);
-}
+bool is_time_stamp(std::string_view cell) { return read_time_stamp(cell).kind != TimeStamp::Kind::none; }
 
 bool is_day_of_a_spreadsheet(const TextCell& cell) {
   constexpr double first = 36526, last = 73415;
   return cell.kind == CellKind::number && cell.value >= first && cell.value <= last;
-}
-
-std::string bare_unit(std::string_view cell) {
-  cell = trimmed(cell);
-  if (cell.size() >= 2 && (cell.front() == '[' || cell.front() == '(') &&
-      (cell.back() == ']' || cell.back() == ')'))
-    cell = trimmed(cell.substr(1, cell.size() - 2));
-  return std::string(cell);
-}
-
-std::optional<Quantity> unit_in_cell(std::string_view cell) {
-  const std::string unit = bare_unit(cell);
-  if (unit.empty() || is_digit_at(unit, 0)) return {};
-  return quantity_if_any(unit, parse_unit);
-}
-
-bool has_unit(std::string_view cell) {
-  const std::optional<Quantity> quantity = quantity_if_any(cell, parse_quantity);
-  return quantity && quantity->dimension != dimension::number;
 }
 
 LogTitle log_title(std::string_view title) {
@@ -102,6 +56,10 @@ bool means(std::string_view word, std::string_view column) {
   return word == column || std::any_of(other_names.begin(), other_names.end(), [&](const auto& pair) {
            return pair.first == word && pair.second == column;
          });
+}
+
+bool surely_means(std::string_view word, std::string_view column) {
+  return means(word, column) && (word == column || column != "rotation");
 }
 
 }  // namespace asperity

@@ -2,120 +2,48 @@
 #include "engine/recording/log_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_encoding.hpp"
 #include "engine/core/text.hpp"
 #include "engine/recording/log_forms.hpp"
+#include "engine/statistics/number_form.hpp"
+#include "engine/statistics/table_head.hpp"
 #include "engine/surface/io/foreign_format.hpp"
 
 namespace asperity {
 
 namespace {
 
-char mark_of(Separator separator) {
-  return separator == Separator::semicolon ? ';' : separator == Separator::tab ? '\t' : ',';
+// What is not text, or not read as such; UTF-16 is.
+const SourceFile& checked_text(const SourceFile& file) {
+  if (utf8_of_utf16(file.bytes().substr(0, 64))) return file;
+  if (const std::optional<ForeignFormat> foreign = foreign_format(file))
+    refuse_file(file, "is not text that can be read: it is " + foreign->what, foreign->cure);
+  return file;
 }
 
-// Cells with their quotes taken off; a doubled quote inside stands for one.
-void split(std::string_view line, Separator separator, std::vector<LogCell>& cells) {
-  cells.assign(1, {});
-  std::string plain;
-  bool inside = false;
-  const auto finish = [&] {
-    if (!cells.back().quoted) cells.back().text = std::string(trimmed(plain));
-    plain.clear();
-  };
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    LogCell& cell = cells.back();
-    if (inside) {
-      if (line[k] != '"')
-        cell.text += line[k];
-      else if (k + 1 < line.size() && line[k + 1] == '"')
-        cell.text += line[++k];
-      else
-        inside = false;
-    } else if (line[k] == '"' && trimmed(plain).empty() && !cell.quoted) {
-      inside = cell.quoted = true;
-    } else if (line[k] == mark_of(separator)) {
-      finish();
-      cells.emplace_back();
-    } else {
-      plain += line[k];
-    }
-  }
-  finish();
+// Titles may be "[hh:mm:ss]", which says how times are written.
+bool is_clock_pattern(std::string_view unit) {
+  return unit.find(':') != std::string_view::npos &&
+         unit.find_first_not_of("hHmMsSfFnidDyYaAJjTt:.,/- ") == std::string_view::npos;
 }
 
-// Where a character first stands outside quotes.
-std::size_t find_unquoted(std::string_view line, char wanted) {
-  bool inside = false;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    if (line[k] == '"') inside = !inside;
-    if (line[k] == wanted && !inside) return k;
-  }
-  return std::string_view::npos;
-}
-
-std::string_view without_comment(std::string_view line) { return line.substr(0, find_unquoted(line, '#')); }
-
-// A degree or micro sign as spreadsheets write it that know no UTF-8.
-std::string readable_unit(std::string_view unit) {
-  std::string text;
-  for (std::size_t k = 0; k < unit.size(); ++k) {
-    const bool alone = k == 0 || unit[k - 1] != '\xC2';
-    if (unit[k] == '\xB0' && alone)
-      text += "deg";
-    else if (unit[k] == '\xB5' && alone)
-      text += 'u';
-    else
-      text += unit[k];
-  }
-  return text;
-}
-
-bool is_blank(const std::vector<LogCell>& cells) {
-  return std::all_of(cells.begin(), cells.end(), [](const LogCell& cell) { return cell.text.empty(); });
-}
-
-bool is_comment(std::string_view line) {
-  line = trimmed(line);
-  return line.empty() || line.front() == '#';
-}
-
-std::string_view name_in(std::string_view title) {
-  return trimmed(title.substr(0, title.find_first_of("[(")));
-}
+bool is_exact_time(const LogColumn& column) { return column.dimension == dimension::time; }
 
 }  // namespace
 
-LogTable::LogTable(const SourceFile& file, std::span<const LogColumn> known)
-    : file_(file), known_(known), lines_(file.text()) {
-  if (const std::optional<ForeignFormat> foreign = foreign_format(file_))
-    refuse_file(file_, "is not text that can be read: it is " + foreign->what, foreign->cure);
-  if (!file_.looks_like_text())
-    refuse_file(file_, "is not text: it holds zero bytes", "save the log as comma-separated text (UTF-8)");
-}
+LogTable::LogTable(const SourceFile& file, std::span<const LogColumn> known, const TableForm& form)
+    : file_(checked_text(file)), known_(known), form_(form), lines_(file, form), problems_(file) {}
 
-void LogTable::problem(const std::string& place, const std::string& finding) {
-  constexpr std::size_t enough = 12;
-  if (++problem_count_ <= enough) problems_.push_back(place + ": " + finding);
-}
-
-void LogTable::fail_if_any() const {
-  if (problem_count_ == 0) return;
-  if (problem_count_ == 1) refuse_file(file_, problems_.front());
-  std::string finding = "has " + std::to_string(problem_count_) + " problems";
-  for (const std::string& text : problems_) finding += "\n  " + text;
-  if (problem_count_ > problems_.size())
-    finding += "\n  and " + std::to_string(problem_count_ - problems_.size()) + " more";
-  refuse_file(file_, finding);
-}
-
-std::string LogTable::here(std::size_t column) const {
-  const LogColumn* known = columns_[column].known;
-  return here() + ", column " + std::to_string(column + 1) + " (" +
+std::string LogTable::place_of(std::size_t k) const {
+  const LogColumn* known = columns_[k].known;
+  return here() + ", column " + std::to_string(k + 1) + " (" +
          (known != nullptr ? std::string(known->name) : "?") + ")";
 }
+
+std::string LogTable::here(std::size_t column) const { return place_of(column); }
 
 std::optional<std::size_t> LogTable::find(int meaning) const {
   const std::size_t number = column_of_[static_cast<std::size_t>(meaning)];
@@ -123,114 +51,239 @@ std::optional<std::size_t> LogTable::find(int meaning) const {
 }
 
 void LogTable::read_titles() {
-  std::string_view line;
-  do {
-    if (!lines_.next(line))
-      refuse_file(file_, "holds no line of column titles",
-                  "begin with one such as \"time [s], pressure [MPa], rotation [deg], dwell [min]\"");
-    if (lower_case(trimmed(line)).starts_with("sep=")) line = {};  // a note of spreadsheets to themselves
-  } while (is_comment(line));
-  line = without_comment(line);
-  const auto holds = [line](char mark) { return find_unquoted(line, mark) != std::string_view::npos; };
-  separator_ = holds(';') ? Separator::semicolon : holds('\t') ? Separator::tab : Separator::comma;
-  std::vector<LogCell> cells, below;
-  split(line, separator_, cells);
-  std::string_view next;
-  for (LineReader ahead = lines_; ahead.next(next);)
-    if (!is_comment(next)) {
-      split(without_comment(next), separator_, below);
-      break;
-    }
-  refuse_other_forms(line);
-  for (const LogCell& cell : cells) {
-    columns_.push_back({});
-    read_title(cell.text, below);
+  refuse_unknown_names();
+  if (!lines_.read_heads())
+    refuse_file(file_, "holds no line of column titles",
+                "begin with one such as \"time [s], pressure [MPa], rotation [deg], dwell [min]\"");
+  for (const LogCell& cell : lines_.heads()) {
+    columns_.emplace_back();
+    columns_.back().title = cell.text;
+    split_unit(columns_.back());
   }
-  while (!columns_.empty() && columns_.back().title.empty()) columns_.pop_back();
-  if (is_row_of_numbers(line))
-    refuse_file(file_, "begins with numbers, in " + here() + ", and names no columns",
-                "begin with a line such as \"time [s], pressure [MPa], rotation [deg], dwell [min]\"");
+  choose_columns();
+  match_titles();
+  if (!lines_.heads_are_given()) refuse_other_forms();
+  const bool below_are_units = units_stand_below();
+  for (std::size_t k = 0; k < columns_.size(); ++k)
+    if (columns_[k].known != nullptr && columns_[k].known->dimension != dimension::number)
+      read_unit(k, below_are_units);
+  if (below_are_units) lines_.skip_below();
 }
 
-// Titles parted by blanks, and words above the titles.
-void LogTable::refuse_other_forms(std::string_view line) const {
-  const auto count = [line](char mark) { return std::count(line.begin(), line.end(), mark); };
-  if (separator_ == Separator::comma && find_unquoted(line, ',') == std::string_view::npos &&
-      count('[') + count('(') > 1)
-    refuse_file(file_, "parts its columns by blanks, in " + here(),
-                "part them by commas, semicolons or tabs");
-  const auto known_names = [this](std::string_view titles) {
-    const auto has = [&](char mark) { return find_unquoted(titles, mark) != std::string_view::npos; };
-    std::vector<LogCell> cells;
-    split(titles, has(';') ? Separator::semicolon : has('\t') ? Separator::tab : Separator::comma, cells);
-    std::size_t names = 0;
-    for (const LogCell& cell : cells)
-      names +=
-          std::any_of(known_.begin(), known_.end(),
-                      [name = lower_case(name_in(cell.text))](const LogColumn& c) { return c.name == name; })
-              ? 1
-              : 0;
-    return names;
-  };
-  if (known_names(line) > 0 || is_row_of_numbers(line)) return;
+// Own names are those that are known here.
+void LogTable::refuse_unknown_names() const {
+  std::vector<std::string> names;
+  for (const LogColumn& column : known_) names.emplace_back(column.name);
+  for (const auto* given : {&form_.names, &form_.units})
+    for (const auto& [name, title] : *given)
+      if (given == &form_.names && std::ranges::find(names, name) == names.end())
+        throw Error(ErrorCode::unknown_name,
+                    "`columns` names " + quoted(name) + ", which is no column of a protocol" +
+                        did_you_mean(name, names),
+                    "its columns are " + joined(names, " and "));
+}
+
+void LogTable::split_unit(Column& column) const {
+  const TableHead head = table_head(column.title);
+  column.name = lower_case(head.name);
+  column.unit = head.unit;
+  if (!column.unit.empty() || column.name.find_first_of("[(") != std::string::npos) {
+    // "load (kNewton)": what is in brackets is meant for a unit, even if it is none.
+    if (const std::size_t open = column.title.find_first_of("[("); column.unit.empty() && open > 0) {
+      const std::size_t close = column.title.find_last_of("])");
+      column.name = lower_case(trimmed(std::string_view(column.title).substr(0, open)));
+      if (close != std::string::npos && close > open)
+        column.unit = std::string(trimmed(std::string_view(column.title).substr(open + 1, close - open - 1)));
+    }
+    return;
+  }
+  // "time_s", "load/kN" and "time min" are taken apart where what is in front is a column of a press.
+  for (const char mark : {'_', '/', ' ', ':'}) {
+    const std::size_t at = column.name.rfind(mark);
+    if (at == std::string::npos || at == 0) continue;
+    const std::string front(trimmed(std::string_view(column.name).substr(0, at)));
+    const std::optional<Quantity> unit = unit_in_cell(std::string_view(column.title).substr(at + 1));
+    const bool known = unit && std::ranges::any_of(known_, [&](const LogColumn& c) {
+                         return surely_means(front, c.name) && c.dimension == unit->dimension;
+                       });
+    if (!known) continue;
+    column.unit = bare_unit(std::string_view(column.title).substr(at + 1));
+    column.name = front;
+    return;
+  }
+}
+
+// columns={ load="Wert" }: these are what they are called, whatever else would be.
+void LogTable::choose_columns() {
+  for (const auto& [name, title] : form_.names) {
+    const LogColumn& known = *std::ranges::find(known_, std::string_view(name), &LogColumn::name);
+    const auto is_it = [&](const Column& column, bool whole) {
+      return lower_case(column.title) == lower_case(trimmed(title)) ||
+             (!whole && column.name == lower_case(trimmed(title)));
+    };
+    std::size_t found = columns_.size(), count = 0;
+    for (const bool whole : {true, false})
+      if (count == 0)
+        for (std::size_t k = 0; k < columns_.size(); ++k)
+          if (is_it(columns_[k], whole) && count++ == 0) found = k;
+    if (count != 1) {
+      std::vector<std::string> titles;
+      for (const Column& column : columns_) titles.push_back(column.title);
+      problem(here(), std::to_string(count) + " columns are titled " + shown(title) +
+                          ", which `columns` calls " + quoted(name) +
+                          (count == 0 ? did_you_mean(title, titles) : "; give the title with its unit"));
+      continue;
+    }
+    columns_[found].known = &known;
+    column_of_[static_cast<std::size_t>(known.meaning)] = found + 1;
+  }
+}
+
+const LogColumn* LogTable::known_as(const Column& column, bool by_other_names) const {
+  const auto found = std::ranges::find_if(known_, [&](const LogColumn& known) {
+    if (!by_other_names) return column.name == known.name;
+    if (!surely_means(column.name, known.name)) return false;
+    const std::optional<Quantity> unit = unit_in_cell(utf8_or_latin1(column.unit));
+    return column.unit.empty() || (unit && unit->dimension == known.dimension);
+  });
+  return found == known_.end() ? nullptr : &*found;
+}
+
+// Names of their own first, then what others call them.
+void LogTable::match_titles() {
+  const auto chosen = column_of_;
+  for (const bool by_other_names : {false, true}) {
+    const auto before = column_of_;
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      Column& column = columns_[k];
+      if (column.known != nullptr) continue;
+      const LogColumn* known = known_as(column, by_other_names);
+      if (known == nullptr) continue;
+      const auto meaning = static_cast<std::size_t>(known->meaning);
+      if (chosen[meaning] != 0 || (by_other_names && before[meaning] != 0)) continue;  // left out
+      std::size_t& seat = column_of_[meaning];
+      if (seat != 0) {
+        problem(here() + ", column " + std::to_string(k + 1) + " (" + std::string(known->name) + ")",
+                "means the same as column " + std::to_string(seat) +
+                    "; leave one of them out, or begin its title with \"result \"");
+        continue;
+      }
+      seat = k + 1;
+      column.known = known;
+    }
+  }
+}
+
+std::size_t LogTable::known_names(std::string_view titles) const {
+  const auto has = [&](char mark) { return find_unquoted(titles, mark) != std::string_view::npos; };
+  std::size_t names = 0;
+  std::string_view rest = titles;
+  const char mark = has(';') ? ';' : has('\t') ? '\t' : ',';
+  while (true) {
+    const std::size_t end = find_unquoted(rest, mark);
+    std::string_view cell = trimmed(rest.substr(0, end));
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+    Column column;
+    column.title = cell;
+    split_unit(column);
+    if (known_as(column, false) != nullptr || known_as(column, true) != nullptr) ++names;
+    if (end == std::string_view::npos) return names;
+    rest.remove_prefix(end + 1);
+  }
+}
+
+// Numbers, or words, above the titles.
+void LogTable::refuse_other_forms() const {
+  const std::string_view line = lines_.head_line();
+  if (is_row_of_numbers(line))
+    refuse_file(
+        file_, "begins with numbers, in " + here() + ", and names no columns",
+        "begin with a line such as \"time [s], pressure [MPa], rotation [deg], dwell [min]\", or give "
+        "the titles, as in columns={ \"time [s]\", \"load [kN]\" }");
+  if (std::ranges::any_of(columns_, [](const Column& column) { return column.known != nullptr; })) return;
   constexpr std::size_t nearby = 100;
+  TableLines ahead = lines_;
   std::string_view next;
-  for (LineReader ahead = lines_; ahead.next(next) && ahead.number() < lines_.number() + nearby;)
-    if (!is_comment(next) && known_names(without_comment(next)) > 0)
+  for (std::size_t lines = 0; lines < nearby && ahead.next_line(next); ++lines)
+    if (!TableLines::is_comment(next) && known_names(TableLines::without_comment(next)) > 0)
       refuse_file(file_,
                   "begins with words, in " + here() + "; the titles of its columns stand in line " +
-                      std::to_string(ahead.number()),
-                  "put # before the lines above the titles, or delete them");
+                      std::to_string(ahead.line()),
+                  "put # before the lines above the titles, delete them, or skip them with skip=" +
+                      std::to_string(ahead.line() - 1));
 }
 
-std::string LogTable::lack_of_unit(const LogColumn& column, const std::vector<LogCell>& below) const {
-  const std::string cell = columns_.size() <= below.size() ? below[columns_.size() - 1].text : "";
-  const std::string write = "write \"" + std::string(column.example) + "\"";
-  if (column.dimension == dimension::time && is_time_stamp(cell))
-    return "holds dates or times of day, such as " + shown(cell) + ", which are not read; " + write +
-           " and seconds from the start";
-  if (column.dimension == dimension::time && is_day_of_a_spreadsheet(read_cell(cell, separator_)))
-    return "has no unit, and " + shown(cell) + " looks like a day of a spreadsheet; " + write +
-           " and seconds from the start, a day being 86400";
-  if (const std::optional<Quantity> unit = unit_in_cell(cell); unit && unit->dimension == column.dimension)
-    return "has no unit; units stand in the line below, " + shown(cell) + ": write them into the titles, \"" +
-           std::string(column.name) + " [" + bare_unit(cell) + "]\", and delete that line";
-  return "has no unit; " + write;
-}
-
-void LogTable::read_title(const std::string& title, const std::vector<LogCell>& below) {
-  Column& column = columns_.back();
-  column.title = title;
-  const std::size_t open = title.find_first_of("[(");
-  const std::string name = lower_case(name_in(title));
-  const auto found =
-      std::find_if(known_.begin(), known_.end(), [&](const LogColumn& c) { return c.name == name; });
-  if (found == known_.end()) return;
-  const std::size_t number = columns_.size();
-  const std::string place = here() + ", column " + std::to_string(number) + " (" + name + ")";
-  if (std::size_t& seat = column_of_[static_cast<std::size_t>(found->meaning)]; seat == 0)
-    seat = number;
-  else
-    return problem(place, "means the same as column " + std::to_string(seat) +
-                              "; leave one of them out, or begin its title with \"result \"");
-  column.known = &*found;
-  if (found->dimension == dimension::number) return;
-  if (open != std::string::npos) {
-    const std::size_t close = title.find_last_of("])");
-    if (close != std::string::npos && close > open)
-      column.unit = readable_unit(trimmed(std::string_view(title).substr(open + 1, close - open - 1)));
+// The line below holds units, and one at least of a column that has none in its title.
+bool LogTable::units_stand_below() const {
+  bool needed = false;
+  for (std::size_t k = 0; k < lines_.below().size(); ++k) {
+    const std::string cell = below(k);
+    if (cell.empty() || bare_unit(cell).empty() || cell == "-") continue;
+    if (!unit_in_cell(utf8_or_latin1(cell))) {
+      if (k < columns_.size() && columns_[k].known == nullptr &&
+          plain_cell(lines_.below()[k]).kind != CellKind::number)
+        continue;
+      return false;
+    }
+    needed = needed || (k < columns_.size() && columns_[k].known != nullptr && columns_[k].unit.empty());
   }
-  if (column.unit.empty()) return problem(place, lack_of_unit(*found, below));
+  return needed;
+}
+
+void LogTable::read_unit(std::size_t k, bool below_are_units) {
+  Column& column = columns_[k];
+  const LogColumn& known = *column.known;
+  const std::string place = place_of(k);
+  for (const auto& [name, unit] : form_.units)
+    if (name == known.name || lower_case(name) == lower_case(column.title)) column.unit = unit;
+  if (is_exact_time(known) && is_clock_pattern(column.unit)) column.unit.clear();
+  if (column.unit.empty() && below_are_units) column.unit = bare_unit(below(k));
+  column.unit = utf8_or_latin1(column.unit);
+  if (column.unit.empty()) return read_without_unit(k, place);
   try {
     const Quantity unit = parse_unit(column.unit);
     column.factor = unit.value;
-    if (unit.dimension != found->dimension)
+    if (unit.dimension != known.dimension)
       problem(place, "has the unit " + shown(column.unit) + " of " + describe(unit.dimension) + " where " +
-                         describe(found->dimension) + " is wanted; write \"" + std::string(found->example) +
+                         describe(known.dimension) + " is wanted; write \"" + std::string(known.example) +
                          "\"");
   } catch (const Error& error) {
     problem(place, error.what());
   }
+}
+
+// Stamps need none, and cells may bring their own.
+void LogTable::read_without_unit(std::size_t k, const std::string& place) {
+  Column& column = columns_[k];
+  const LogColumn& known = *column.known;
+  const std::string cell = below(k), write = "write \"" + std::string(known.example) + "\"";
+  if (is_exact_time(known) && is_time_stamp(cell)) {
+    column.kind = Column::Kind::stamps;
+    return learn_stamps(k);
+  }
+  if (is_exact_time(known) && !cell.empty() && is_day_of_a_spreadsheet(plain_cell(lines_.below()[k]))) {
+    column.kind = Column::Kind::days;
+    warnings_.push_back(file_name(file_.path()) + ": the column " + quoted(std::string(known.name)) +
+                        " has no unit, and its numbers, such as " + shown(cell) +
+                        ", are taken for days of a spreadsheet; unit={ " + std::string(known.name) +
+                        "=\"s\" } says otherwise");
+    return;
+  }
+  if (const std::optional<Quantity> quantity = quantity_in_cell(cell);
+      quantity && quantity->dimension == known.dimension) {
+    column.kind = Column::Kind::quantities;
+    return;
+  }
+  problem(place, "has no unit; " + write);
+}
+
+void LogTable::learn_stamps(std::size_t k) {
+  StampColumn stamps(form_);
+  TableLines ahead = lines_;
+  for (std::vector<LogCell> cells; ahead.next_row(cells);)
+    if (k < cells.size() && stamps.learn(cells[k].text)) break;
+  if (const std::optional<std::string> doubt = stamps.doubt()) problem(place_of(k), *doubt);
+  columns_[k].stamps = std::move(stamps);
 }
 
 // The title that a column should have, which is named or spelled otherwise: "load [kN]" for "Kraft / kN".
@@ -240,7 +293,7 @@ std::optional<std::string> LogTable::meant(const Column& column) const {
                                   [&](const LogColumn& c) { return means(title.name, c.name); });
   if (found == known_.end() || has(found->meaning)) return {};
   if (found->dimension == dimension::number) return std::string(found->name);
-  const std::string written = readable_unit(title.unit);
+  const std::string written = utf8_or_latin1(title.unit);
   const std::optional<Quantity> unit = unit_in_cell(written);
   return unit && unit->dimension == found->dimension ? std::string(found->name) + " [" + written + "]"
                                                      : std::string(found->example);
@@ -255,49 +308,108 @@ std::string LogTable::others() const {
     if (lower_case(column.title).starts_with("result ")) continue;
     const std::optional<std::string> title = meant(column);
     others += (others.empty() ? "" : ", ") + shown(column.title) +
-              (title ? " (did you mean " + quoted(*title) + "?)"
-                     : did_you_mean(std::string(name_in(column.title)), names));
+              (title ? " (did you mean " + quoted(*title) + "?)" : did_you_mean(column.name, names));
   }
   return others;
 }
 
 bool LogTable::next_row(std::vector<LogCell>& cells) {
-  for (std::string_view line; lines_.next(line);) {
-    if (is_comment(line)) continue;
-    // A # begins a comment unless the row is only whole with what follows it: "sample #3".
-    split(without_comment(line), separator_, cells);
-    if (cells.size() != columns_.size()) split(line, separator_, cells);
-    if (is_blank(cells)) continue;
-    while (cells.size() > columns_.size() && cells.back().text.empty()) cells.pop_back();
+  while (lines_.next_row(cells)) {
     if (cells.size() == columns_.size()) return true;
-    const bool words = cells.size() == 1 && number(cells[0]).kind == CellKind::unreadable;
+    const bool words = std::ranges::none_of(
+        cells, [this](const LogCell& cell) { return plain_cell(cell).kind == CellKind::number; });
+    if (words && lines_.at_end_of_table()) {
+      warnings_.push_back(file_name(file_.path()) + ": what stands below the table, from " + here() +
+                          " on, is left out");
+      return false;
+    }
     problem(here(), "there " +
                         std::string(cells.size() == 1 ? "is 1 cell"
                                                       : "are " + std::to_string(cells.size()) + " cells") +
                         " under " + std::to_string(columns_.size()) + " columns" +
-                        (words ? "; put # before a line that is no row" : ""));
+                        (words && cells.size() == 1 ? "; put # before a line that is no row" : ""));
   }
   return false;
 }
 
-TextCell LogTable::number(const LogCell& cell) const {
-  return read_cell(trimmed(std::string_view(cell.text).substr(0, cell.text.find('#'))), separator_);
+std::string LogTable::text_of(const LogCell& cell) const {
+  return std::string(trimmed(std::string_view(cell.text).substr(0, cell.text.find('#'))));
 }
 
-std::string LogTable::complaint(const LogCell& cell) const {
-  const std::string text(trimmed(std::string_view(cell.text).substr(0, cell.text.find('#'))));
+// The cell with a decimal point and without what parts thousands; as it is where nothing is known of it.
+std::string LogTable::plain_text(const LogCell& cell) const {
+  const std::string text = text_of(cell);
+  if (form_.decimal != '\0' || form_.thousands != '\0') {
+    const NumberForm said{form_.decimal != '\0'    ? form_.decimal
+                          : form_.thousands == '.' ? ','
+                                                   : '.',
+                          form_.thousands};
+    return plain_number(text, said).value_or(text);
+  }
+  if (lines_.separator() == Separator::comma && text.find(',') == std::string::npos) return text;
+  if (lines_.separator() == Separator::comma) {
+    // Quoted: "0,5" has a decimal comma, and "1,500" may have a thousand.
+    NumberEvidence evidence('\0', '\0');
+    evidence.add(text, "");
+    return evidence.doubt() ? text : plain_number(text, evidence.form()).value_or(text);
+  }
+  std::string plain = text;
+  std::replace(plain.begin(), plain.end(), ',', '.');
+  return plain;
+}
+
+TextCell LogTable::plain_cell(const LogCell& cell) const {
+  const bool said = form_.decimal != '\0' || form_.thousands != '\0';
+  const bool quoted_comma =
+      lines_.separator() == Separator::comma && cell.text.find(',') != std::string::npos;
+  if (said || quoted_comma) return read_cell(plain_text(cell), Separator::comma);
+  return read_cell(trimmed(std::string_view(cell.text).substr(0, cell.text.find('#'))), lines_.separator());
+}
+
+TextCell LogTable::number(std::size_t k, const LogCell& cell) {
+  const Column& column = columns_[k];
+  if (column.kind == Column::Kind::stamps && !text_of(cell).empty()) {
+    const std::optional<double> seconds = columns_[k].stamps->read(text_of(cell)).seconds;
+    return seconds ? TextCell{CellKind::number, *seconds} : TextCell{};
+  }
+  TextCell number = plain_cell(cell);
+  if (number.kind == CellKind::unreadable)
+    if (const std::optional<Quantity> quantity = quantity_in_cell(text_of(cell)))
+      return quantity->dimension == column.known->dimension ? TextCell{CellKind::number, quantity->value}
+                                                            : TextCell{};
+  if (number.kind != CellKind::number) return number;
+  if (column.kind == Column::Kind::quantities) return {};
+  constexpr double day = 86400;
+  if (column.kind == Column::Kind::days) {
+    double& first = columns_[k].first_day.emplace(columns_[k].first_day.value_or(number.value));
+    number.value = (number.value - first) * day;
+  } else {
+    number.value *= column.factor;
+  }
+  if (!std::isfinite(number.value)) return {};
+  note_comma(k, cell);
+  return number;
+}
+
+std::string LogTable::complaint(std::size_t k, const LogCell& cell) const {
+  const Column& column = columns_[k];
+  const std::string text = text_of(cell);
+  if (column.kind == Column::Kind::stamps) return StampColumn(*column.stamps).read(text).complaint;
+  if (column.kind == Column::Kind::quantities && plain_cell(cell).kind == CellKind::number)
+    return shown(text) + " has no unit, as the cells above it have";
   std::string advice;
-  if (is_time_stamp(text))
+  if (const std::optional<Quantity> quantity = quantity_in_cell(text))
+    advice = ": it is " + describe(quantity->dimension) + " where " + describe(column.known->dimension) +
+             " is wanted";
+  else if (is_time_stamp(text))
     advice = ": it is a date or a time of day; write times as seconds from the start";
-  else if (separator_ == Separator::comma && text.find(',') != std::string::npos)
+  else if (lines_.separator() == Separator::comma && text.find(',') != std::string::npos)
     advice = ": commas part the cells here; write the decimal sign as a point, or part cells by semicolons";
-  else if (has_unit(text))
-    advice = ": write its unit into the title of the column alone";
   return shown(text) + " is no finite number" + advice;
 }
 
 void LogTable::note_comma(std::size_t k, const LogCell& cell) {
-  if (separator_ == Separator::comma) return;
+  if (lines_.separator() == Separator::comma || form_.decimal != '\0' || form_.thousands != '\0') return;
   std::string_view text = trimmed(cell.text);
   if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
   const std::size_t comma = text.find(',');
@@ -311,8 +423,8 @@ void LogTable::note_comma(std::size_t k, const LogCell& cell) {
     column.thousands = shown(cell.text) + " in " + here(k);
 }
 
-std::vector<std::string> LogTable::comma_warnings() const {
-  std::vector<std::string> warnings;
+std::vector<std::string> LogTable::warnings() const {
+  std::vector<std::string> warnings = warnings_;
   for (const Column& column : columns_)
     if (!column.thousands.empty() && !column.decimals)
       warnings.push_back(file_name(file_.path()) + ": the comma of " + column.thousands +
@@ -322,14 +434,15 @@ std::vector<std::string> LogTable::comma_warnings() const {
 
 std::optional<double> LogTable::quantity(std::size_t k, const LogCell& cell) {
   const Column& column = columns_[k];
-  const std::string text(trimmed(std::string_view(cell.text).substr(0, cell.text.find('#'))));
-  if (text.empty()) return {};
-  const TextCell number = read_cell(text, separator_);
-  if (number.kind != CellKind::number) return problem(here(k), complaint(cell)), std::nullopt;
-  note_comma(k, cell);
-  if (column.known->dimension == dimension::number) return number.value;
-  std::string plain = text;
-  if (separator_ != Separator::comma) std::replace(plain.begin(), plain.end(), ',', '.');
+  if (text_of(cell).empty()) return {};
+  const TextCell found = number(k, cell);
+  const bool of_plain_text = plain_cell(cell).kind == CellKind::number;
+  if (found.kind != CellKind::number && !(of_plain_text && column.kind == Column::Kind::plain))
+    return problem(here(k), complaint(k, cell)), std::nullopt;
+  if (column.kind != Column::Kind::plain || !of_plain_text || column.known->dimension == dimension::number)
+    return found.value;
+  // To the last bit, as in a script.
+  std::string plain = plain_text(cell);
   if (plain.starts_with('+')) plain.erase(0, 1);
   try {
     return parse_quantity_as(plain + " " + column.unit, column.known->dimension);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables that people and instruments keep of a press: a line of column titles with units, then a row a line.
-// The first line that is neither blank nor a comment (#) names the columns in any order and case, with the
-// unit of each quantity in [] or (). Cells are parted by commas, semicolons or tabs, whichever that line
-// uses, and may be quoted; with any but commas a decimal comma is read. What the columns mean is for its
-// users: press_log.hpp (a row an event) and press_recording.hpp (a row a sample). Other forms that loggers
-// and spreadsheets have are not read: an error says what was met and how to write it (log_forms.hpp).
+// Tables that people and instruments keep of a press, read as any table is (statistics/table_lines.hpp): the
+// first line that is neither blank nor a comment (#) names the columns in any order and case, with the unit
+// of each quantity, which may also stand in the line below, in the cells, or be said beforehand; times may be
+// dates and times of day. What the columns mean is for its users: press_log.hpp (a row an event) and
+// press_recording.hpp (a row a sample). What others call the columns is in log_forms.hpp.
 #pragma once
 
 #include <array>
@@ -17,6 +16,10 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/statistics/file_problems.hpp"
+#include "engine/statistics/stamp_column.hpp"
+#include "engine/statistics/table_form.hpp"
+#include "engine/statistics/table_lines.hpp"
 
 namespace asperity {
 
@@ -28,18 +31,15 @@ struct LogColumn {
   std::string_view example;  // "time [s]"
 };
 
-struct LogCell {
-  std::string text;
-  bool quoted = false;
-};
+using LogCell = TableCell;
 
 // One file being read. Problems are gathered, each by line and column, until fail_if_any().
 class LogTable {
  public:
   static constexpr std::size_t most_meanings = 8;
 
-  // `known` must outlive it. Throws Error{bad_file} for bytes that are no text.
-  LogTable(const SourceFile& file, std::span<const LogColumn> known);
+  // All must outlive it. Throws Error{bad_file} for bytes that are no text.
+  LogTable(const SourceFile& file, std::span<const LogColumn> known, const TableForm& form);
 
   // Reads the titles. Throws Error{bad_file} for a file without, a column without its unit or given twice.
   void read_titles();
@@ -60,48 +60,64 @@ class LogTable {
 
   // A number with its column's unit, in SI and exact; nothing for an empty cell, or after a problem.
   std::optional<double> quantity(std::size_t k, const LogCell& cell);
-  // The factor from the column's unit to SI.
-  double factor(std::size_t k) const { return columns_[k].factor; }
-  // A plain number of the cell in the column's unit, or what else it holds.
-  TextCell number(const LogCell& cell) const;
+  // The same without a problem where it holds none: a number in SI, to a rounding or two, or what else it
+  // holds.
+  TextCell number(std::size_t k, const LogCell& cell);
   // Why a cell that is no number of column k is none, and what to write: for problem().
-  std::string complaint(const LogCell& cell) const;
-  // To be told of each number that was read: whether the comma in it parts thousands is looked at.
-  void note_comma(std::size_t k, const LogCell& cell);
-  // Of columns in which every comma stands before three digits, as it does where it parts thousands.
-  std::vector<std::string> comma_warnings() const;
+  std::string complaint(std::size_t k, const LogCell& cell) const;
+  // What was read in one of several ways: columns in which every comma stands before three digits, as it does
+  // where it parts thousands; days of a spreadsheet; lines below the table.
+  std::vector<std::string> warnings() const;
 
-  void problem(const std::string& place, const std::string& finding);
-  std::size_t problems() const { return problem_count_; }
+  void problem(const std::string& place, const std::string& finding) { problems_.add(place, finding); }
+  std::size_t problems() const { return problems_.count(); }
   // Throws Error{bad_file} with all problems, the first dozen in words.
-  void fail_if_any() const;
+  void fail_if_any() const { problems_.fail_if_any(); }
 
-  std::size_t line() const { return lines_.number(); }
+  std::size_t line() const { return lines_.line(); }
   std::size_t position() const { return lines_.position(); }
-  std::string here() const { return "line " + std::to_string(line()); }
+  std::string here() const { return lines_.here(); }
   std::string here(std::size_t column) const;
 
  private:
   struct Column {
+    enum class Kind { plain, stamps, days, quantities };  // of its cells
+    Kind kind = Kind::plain;
     const LogColumn* known = nullptr;
-    std::string title, unit;
+    std::string title, name, unit;  // the title without its unit in lower case
     double factor = 1;
-    std::string thousands;  // the first number whose comma may part thousands, and its place
-    bool decimals = false;  // there is one whose comma cannot
+    std::optional<StampColumn> stamps{};
+    std::optional<double> first_day{};
+    std::string thousands{};  // the first number whose comma may part thousands, and its place
+    bool decimals = false;    // there is one whose comma cannot
   };
-  void read_title(const std::string& title, const std::vector<LogCell>& below);
-  std::string lack_of_unit(const LogColumn& column, const std::vector<LogCell>& below) const;
+  void choose_columns();
+  void refuse_unknown_names() const;
+  void match_titles();
+  const LogColumn* known_as(const Column& column, bool by_other_names) const;
+  void split_unit(Column& column) const;
+  bool units_stand_below() const;
+  void read_unit(std::size_t k, bool below_are_units);
+  void read_without_unit(std::size_t k, const std::string& place);
+  void learn_stamps(std::size_t k);
   std::optional<std::string> meant(const Column& column) const;
-  void refuse_other_forms(std::string_view line) const;
+  void refuse_other_forms() const;
+  std::size_t known_names(std::string_view titles) const;
+  std::string place_of(std::size_t k) const;
+  std::string text_of(const LogCell& cell) const;
+  TextCell plain_cell(const LogCell& cell) const;
+  std::string plain_text(const LogCell& cell) const;
+  void note_comma(std::size_t k, const LogCell& cell);
+  std::string below(std::size_t k) const { return k < lines_.below().size() ? lines_.below()[k].text : ""; }
 
   const SourceFile& file_;
   std::span<const LogColumn> known_;
-  LineReader lines_;
-  Separator separator_ = Separator::comma;
+  const TableForm& form_;
+  TableLines lines_;
+  FileProblems problems_;
   std::vector<Column> columns_;
   std::array<std::size_t, most_meanings> column_of_{};  // number from 1; 0: none
-  std::vector<std::string> problems_;
-  std::size_t problem_count_ = 0;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace asperity

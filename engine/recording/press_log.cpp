@@ -30,10 +30,10 @@ constexpr std::size_t meanings = 6;
 
 class LogReader {
  public:
-  LogReader(const SourceFile& file, Monitor& monitor)
+  LogReader(const SourceFile& file, Monitor& monitor, const TableForm& form)
       : file_(file),
         monitor_(monitor),
-        table_(file, log_columns),
+        table_(file, log_columns, form),
         log_name_(std::filesystem::path(file.path()).filename().string()) {}
 
   Protocol read() {
@@ -166,7 +166,7 @@ class LogReader {
     if (long_dwells_ > 0)
       monitor_.warn(file + first_long_dwell_ + more(long_dwells_) +
                     ": times are kept, and nothing waits for them");
-    for (const std::string& warning : table_.comma_warnings()) monitor_.warn(warning);
+    for (const std::string& warning : table_.warnings()) monitor_.warn(warning);
   }
 
   void warn_if_sampled() const {
@@ -200,6 +200,8 @@ Protocol read_press_log(const std::string& path, Monitor& monitor) {
   return read_press_log(SourceFile(path, monitor), monitor);
 }
 
-Protocol read_press_log(const SourceFile& file, Monitor& monitor) { return LogReader(file, monitor).read(); }
+Protocol read_press_log(const SourceFile& file, Monitor& monitor, const TableForm& form) {
+  return LogReader(file, monitor, form).read();
+}
 
 }  // namespace asperity

@@ -23,6 +23,7 @@
 
 #include "engine/core/monitor.hpp"
 #include "engine/specimen/protocol.hpp"
+#include "engine/statistics/table_form.hpp"
 
 namespace asperity {
 
@@ -33,7 +34,8 @@ class SourceFile;
 // a column without its unit or given twice, both pressure and load or neither, a row of another length, a
 // cell that is no number, a negative pressure, load or dwell, a time that is missing or runs backwards.
 Protocol read_press_log(const std::string& path, Monitor& monitor = Monitor::silent());
-Protocol read_press_log(const SourceFile& file, Monitor& monitor = Monitor::silent());
+Protocol read_press_log(const SourceFile& file, Monitor& monitor = Monitor::silent(),
+                        const TableForm& form = {});
 
 // The log that reads back as this protocol, to the last bit of every number: in MPa, N, deg and min if
 // they can say them, else in SI units. Times are kept if every event has one. A release that was not

@@ -35,8 +35,8 @@ bool tells_of_events(const LogTable& table) {
 
 class RecordingReader {
  public:
-  RecordingReader(const SourceFile& file, Monitor& monitor)
-      : file_(file), monitor_(monitor), table_(file, recording_columns) {
+  RecordingReader(const SourceFile& file, Monitor& monitor, const TableForm& form, EqualTimes equal_times)
+      : file_(file), monitor_(monitor), equal_times_(equal_times), table_(file, recording_columns, form) {
     recording_.name = std::filesystem::path(file.path()).filename().string();
   }
 
@@ -59,7 +59,8 @@ class RecordingReader {
     }
     table_.fail_if_any();
     if (recording_.time.empty()) refuse_file(file_, "names columns but holds no row", "a row is a sample");
-    for (const std::string& warning : table_.comma_warnings()) monitor_.warn(warning);
+    for (const std::string& warning : table_.warnings()) monitor_.warn(warning);
+    spread_equal_times();
     return std::move(recording_);
   }
 
@@ -96,14 +97,10 @@ class RecordingReader {
   // NaN for a cell that is missing, or after a problem.
   double value(std::size_t k, const LogCell& cell) {
     constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-    const TextCell number = table_.number(cell);
+    const TextCell number = table_.number(k, cell);
     if (number.kind == CellKind::hole) return missing;
-    const double value = number.value * table_.factor(k);
-    if (number.kind == CellKind::number && std::isfinite(value)) {
-      table_.note_comma(k, cell);
-      return value;
-    }
-    table_.problem(table_.here(k), table_.complaint(cell));
+    if (number.kind == CellKind::number) return number.value;
+    table_.problem(table_.here(k), table_.complaint(k, cell));
     return missing;
   }
 
@@ -112,45 +109,73 @@ class RecordingReader {
     const double load = value(load_, cells[load_]);
     const double angle = angle_ ? value(*angle_, cells[*angle_]) : 0;
     if (std::isnan(now)) {
-      if (table_.number(cells[time_]).kind == CellKind::hole)
+      if (table_.number(time_, cells[time_]).kind == CellKind::hole)
         table_.problem(table_.here(time_), "the time is missing");
       return;
     }
-    if (!recording_.time.empty() && !(now > recording_.time.back())) {
-      const double last = recording_.time.back();
+    const bool again = !recording_.time.empty() && now == last_time_ && equal_times_ == EqualTimes::spread;
+    if (!recording_.time.empty() && !(now > last_time_) && !again) {
+      const double last = last_time_;
       table_.problem(table_.here(time_),
                      "the time " + format_short(now, 10) + " s " +
                          (now == last ? "stands in line " + std::to_string(recording_.line.back()) +
-                                            " too; write more of its digits"
+                                            " too; write more of its digits, or have such rows spread by "
+                                            "equal_times=\"spread\""
                                       : "runs backwards: " + format_short(last, 10) + " s stands before it"));
       return;
     }
+    if (again) ++equal_rows_;
+    last_time_ = now;
     recording_.time.push_back(now);
     recording_.load.push_back(load);
     if (angle_) recording_.angle.push_back(angle);
     recording_.line.push_back(static_cast<std::uint32_t>(table_.line()));
   }
 
+  // Rows that share a time begin at it and lie evenly until the next one.
+  void spread_equal_times() {
+    if (equal_rows_ == 0) return;
+    Array<double>& time = recording_.time;
+    for (std::size_t first = 0, end = 0; first < time.size(); first = end) {
+      while (end < time.size() && time[end] == time[first]) ++end;
+      const double begin = time[first];
+      double spacing = 0;
+      if (end < time.size())
+        spacing = (time[end] - begin) / static_cast<double>(end - first);
+      else if (first > 0)
+        spacing = (begin - time.front()) / static_cast<double>(first);
+      else
+        refuse_file(file_, "has the same time in all of its rows");
+      for (std::size_t k = first; k < end; ++k) time[k] = begin + static_cast<double>(k - first) * spacing;
+    }
+    monitor_.warn(file_name(file_.path()) + ": " + std::to_string(equal_rows_) +
+                  " rows have the time of the row before them, and are spread evenly until the next time");
+  }
+
   const SourceFile& file_;
   Monitor& monitor_;
+  EqualTimes equal_times_;
   LogTable table_;
   PressRecording recording_;
   std::size_t time_ = 0, load_ = 0;
   std::optional<std::size_t> angle_;
+  double last_time_ = 0;
+  std::size_t equal_rows_ = 0;
 };
 
 }  // namespace
 
-PressRecording read_press_recording(const SourceFile& file, Monitor& monitor) {
-  return RecordingReader(file, monitor).read();
+PressRecording read_press_recording(const SourceFile& file, Monitor& monitor, const TableForm& form,
+                                    EqualTimes equal_times) {
+  return RecordingReader(file, monitor, form, equal_times).read();
 }
 
-bool looks_like_recording(const SourceFile& file) {
+bool looks_like_recording(const SourceFile& file, const TableForm& form) {
   constexpr std::size_t many = 100;
   try {
     // A rotation other than zero may be a turn of an event or a reading of the stage: it is taken for the
     // former.
-    LogTable table(file, recording_columns);
+    LogTable table(file, recording_columns, form);
     table.read_titles();
     // A unit that cannot be read makes no log of a recording: its reader says what is wrong.
     if (!table.has(at_time) || tells_of_events(table)) return false;
@@ -160,9 +185,9 @@ bool looks_like_recording(const SourceFile& file) {
     std::size_t rows = 0;
     for (std::vector<LogCell> cells; table.next_row(cells); ++rows) {
       if (!rotation && rows >= many) return true;
-      if (rotation && table.number(cells[*angle]).kind == CellKind::number &&
-          table.number(cells[*angle]).value != 0)
-        return false;
+      if (!rotation) continue;
+      const TextCell turned = table.number(*angle, cells[*angle]);
+      if (turned.kind == CellKind::number && turned.value != 0) return false;
     }
     return rows >= many;
   } catch (const Error&) {

@@ -16,6 +16,7 @@
 #include "engine/contact/press_request.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
+#include "engine/statistics/table_form.hpp"
 
 namespace asperity {
 
@@ -30,13 +31,20 @@ struct PressRecording {
   Array<std::uint32_t> line;   // of the file, from 1
 };
 
+// Rows with the same time, as a logger writes them that is faster than its clock tells.
+enum class EqualTimes {
+  refuse,
+  spread,  // evenly until the next time; the last of them at the mean spacing of those before
+};
+
 // Throws Error{bad_file} with every problem of the file by line and column: what log_table.hpp refuses, no
 // time, neither or both of load and pressure, a row without a time or with one that does not lie after the
 // one before, a cell that is neither number nor missing, no row. Warns of columns that are left out.
-PressRecording read_press_recording(const SourceFile& file, Monitor& monitor = Monitor::silent());
+PressRecording read_press_recording(const SourceFile& file, Monitor& monitor = Monitor::silent(),
+                                    const TableForm& form = {}, EqualTimes equal_times = EqualTimes::refuse);
 
 // Whether a table looks like a recording rather than a log of events: a hundred rows or more with times, no
 // column for a dwell, a place or a seed, and no turn in any row. A file that cannot be read does not.
-bool looks_like_recording(const SourceFile& file);
+bool looks_like_recording(const SourceFile& file, const TableForm& form = {});
 
 }  // namespace asperity

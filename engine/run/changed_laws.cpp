@@ -49,6 +49,10 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
     {Law::alike_readings, "0.2.0", "readings that are alike", "the noise of a recording was taken for white",
      "neighbouring readings that a filter made alike count for fewer",
      "events found in such recordings, their loads, dwells and standard errors"},
+    {Law::whole_numbers, "0.2.0", "whole numbers in notebooks",
+     "rows() gave every number with a point, 1.0, and tables had 1e+05",
+     "an integer of the script stays one, and tables have 100000",
+     "files of such columns, and what a script prints of them"},
 }};
 
 constexpr bool each_in_its_place() {

@@ -12,7 +12,7 @@ namespace asperity {
 namespace {
 
 Json to_json(const Cell& cell) {
-  if (const double* number = std::get_if<double>(&cell)) return *number;
+  if (is_number(cell)) return *number_in(cell);  // whole or not: a journal tells no difference
   if (const bool* truth = std::get_if<bool>(&cell)) return *truth;
   if (const std::string* text = std::get_if<std::string>(&cell)) return *text;
   return {};

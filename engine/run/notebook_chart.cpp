@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/statistics/number_columns.hpp"
 
 namespace asperity {
 
@@ -15,13 +19,8 @@ namespace {
 
 struct Sample {
   double x, y, error;
+  double low, high;
 };
-
-// Numbers first in ascending order, then booleans and text.
-bool comes_before(const Cell& a, const Cell& b) {
-  if (a.index() != b.index()) return a.index() < b.index();
-  return a < b;
-}
 
 struct Line {
   Cell value;  // of `one_line_per`
@@ -32,7 +31,8 @@ struct Line {
 struct Columns {
   std::size_t x;
   std::vector<std::size_t> y;
-  std::optional<std::size_t> line, error;
+  std::optional<std::size_t> line, error, low, high;
+  std::vector<std::string> names = {};  // of an axis of names
 };
 
 Columns find_columns(const Table& table, const NotebookChart& options) {
@@ -42,6 +42,8 @@ Columns find_columns(const Table& table, const NotebookChart& options) {
   for (const std::string& y : options.y) columns.y.push_back(table.column(y, "y"));
   if (options.one_line_per) columns.line = table.column(*options.one_line_per, "one_line_per");
   if (options.spread_column) columns.error = table.column(*options.spread_column, "spread");
+  if (options.low) columns.low = table.column(*options.low, "interval");
+  if (options.high) columns.high = table.column(*options.high, "interval");
   const std::string& unit = table.columns()[columns.y.front()].unit;
   for (const std::size_t y : columns.y)
     if (table.columns()[y].unit != unit) {
@@ -55,6 +57,32 @@ Columns find_columns(const Table& table, const NotebookChart& options) {
                   "draw one chart for each unit");
     }
   return columns;
+}
+
+// The names that a column of texts holds, in the order of their first rows; none where it holds a number.
+std::vector<std::string> names_along(const Table& table, const std::vector<std::size_t>& rows,
+                                     std::size_t column) {
+  constexpr std::size_t most = 60;
+  std::vector<std::string> names;
+  for (const std::size_t row : rows) {
+    const Cell& cell = table.cell(row, column);
+    if (is_empty(cell)) continue;
+    const auto* text = std::get_if<std::string>(&cell);
+    if (text == nullptr) return {};
+    if (std::ranges::find(names, *text) == names.end()) names.push_back(*text);
+  }
+  if (names.size() > most)
+    throw Error(ErrorCode::bad_value,
+                asperity::quoted(table.columns()[column].name) + " holds " + std::to_string(names.size()) +
+                    " different names, and an axis has room for " + std::to_string(most),
+                "choose some with `where`, or write a column of numbers beside them");
+  return names;
+}
+
+std::optional<double> place_of_name(const std::vector<std::string>& names, const Cell& cell) {
+  const auto place = std::ranges::find(names, short_text(cell));
+  if (place == names.end()) return {};
+  return static_cast<double>(place - names.begin());
 }
 
 // Rows that hold text where a number should be, and the first of it.
@@ -71,7 +99,8 @@ std::vector<Line> lines_of(const Table& table, const std::vector<std::size_t>& r
     const Cell& x = table.cell(row, columns.x);
     const Cell& y = table.cell(row, y_column);
     if (is_empty(x) || is_empty(y)) continue;
-    const auto x_number = number_in(x), y_number = number_in(y);
+    const auto x_number = columns.names.empty() ? number_in(x) : place_of_name(columns.names, x);
+    const auto y_number = number_in(y);
     if (!x_number || !y_number) {
       const std::size_t column = x_number ? y_column : columns.x;
       if (unreadable.rows++ == 0) {
@@ -84,7 +113,10 @@ std::vector<Line> lines_of(const Table& table, const std::vector<std::size_t>& r
     auto line = std::ranges::find_if(lines, [&](const Line& known) { return same_cell(known.value, value); });
     if (line == lines.end()) line = lines.insert(lines.end(), {value, {}});
     const double error = columns.error ? number_in(table.cell(row, *columns.error)).value_or(0) : 0;
-    line->samples.push_back({*x_number, *y_number, error});
+    const auto end = [&](const std::optional<std::size_t>& column) {
+      return column ? number_in(table.cell(row, *column)).value_or(std::nan("")) : *y_number;
+    };
+    line->samples.push_back({*x_number, *y_number, error, end(columns.low), end(columns.high)});
   }
   if (columns.line)
     std::ranges::stable_sort(lines,
@@ -99,33 +131,43 @@ double standard_deviation(const std::vector<double>& values, double centre) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-ChartSeries series_of(const Line& line, const NotebookChart& options) {
+ChartSeries series_of(const Line& line, const NotebookChart& options, bool named) {
   ChartSeries series;
-  series.line = options.lines;
+  series.line = options.lines.value_or(options.fits.empty() && !named);
   series.points = options.points;
-  const bool bars = options.spread || options.spread_column.has_value();
+  const bool ends = options.low.has_value();
+  const bool bars = options.spread || options.spread_column.has_value() || ends;
   std::vector<Sample> samples = line.samples;
   if (options.in_order) {
     for (const Sample& sample : samples) {
       series.x.push_back(sample.x);
       series.y.push_back(sample.y);
       if (options.spread_column) series.y_error.push_back(sample.error);
+      if (ends) {
+        series.y_low.push_back(sample.low);
+        series.y_high.push_back(sample.high);
+      }
     }
     return series;
   }
   std::ranges::stable_sort(samples, {}, &Sample::x);
   bool averaged = false;
   for (std::size_t k = 0; k < samples.size();) {
-    std::vector<double> values, errors;
+    std::vector<double> values, errors, lows, highs;
     std::size_t end = k;
     for (; end < samples.size() && same_cell(samples[end].x, samples[k].x); ++end) {
       values.push_back(samples[end].y);
       errors.push_back(samples[end].error);
+      lows.push_back(samples[end].low);
+      highs.push_back(samples[end].high);
     }
     const double centre = mean(values);
     series.x.push_back(samples[k].x);
     series.y.push_back(centre);
-    if (bars)
+    if (ends) {
+      series.y_low.push_back(mean(lows));
+      series.y_high.push_back(mean(highs));
+    } else if (bars)
       series.y_error.push_back(options.spread_column ? mean(errors) : standard_deviation(values, centre));
     averaged |= values.size() > 1;
     k = end;
@@ -142,18 +184,117 @@ std::string line_name(const NotebookChart& options, const std::string& y, const 
                       const Table& table, const Columns& columns) {
   std::string name = options.y.size() > 1 ? y : "";
   if (!columns.line) return name;
-  const double* number = std::get_if<double>(&line.value);
+  const std::optional<double> number = is_number(line.value) ? number_in(line.value) : std::nullopt;
   const std::string& unit = table.columns()[*columns.line].unit;
   if (!name.empty()) name += ", ";
-  return name +
-         (number != nullptr && !unit.empty() ? printed_quantity(*number, unit, 4) : short_text(line.value));
+  return name + (number && !unit.empty() ? printed_quantity(*number, unit, 4) : short_text(line.value));
+}
+
+double in_unit(const ExpectedValue& value, const TableColumn& column) {
+  if (value.quantity.empty()) return value.value;
+  try {
+    return parse_quantity_in(value.quantity, column.unit);
+  } catch (const Error& error) {
+    throw Error(error.code(), "a line across " + asperity::quoted(column.name) + ": " + error.sentence(),
+                error.hint());
+  }
+}
+
+ChartSeries curve_series(std::string name, std::vector<double> x, std::vector<double> y) {
+  ChartSeries series;
+  series.name = std::move(name);
+  series.x = std::move(x);
+  series.y = std::move(y);
+  series.points = false;
+  return series;
+}
+
+// The range of what is drawn along x so far.
+Range range_along(const LineChart& chart) {
+  Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  const auto take = [&](double value) {
+    if (!std::isfinite(value) || (chart.x.logarithmic && value <= 0)) return;
+    range.min = std::min(range.min, value);
+    range.max = std::max(range.max, value);
+  };
+  for (const ChartSeries& series : chart.series)
+    for (const double value : series.x) take(value);
+  for (const ChartReference& line : chart.references)
+    if (line.x) take(*line.x);
+  return range;
+}
+
+void add_fits(LineChart& chart, const NotebookChart& options, const std::vector<std::string>& y_names) {
+  for (std::size_t k = 0; k < options.fits.size(); ++k) {
+    const FittedCurve& fit = options.fits[k];
+    if (fit.x != options.x || std::ranges::find(y_names, fit.y) == y_names.end())
+      throw Error(ErrorCode::bad_value,
+                  "`fit` is of " + asperity::quoted(fit.y) + " against " + asperity::quoted(fit.x) +
+                      ", and the chart shows " + asperity::quoted(joined(y_names, ", ")) + " against " +
+                      asperity::quoted(options.x),
+                  "draw the columns that were fitted");
+    std::vector<double> x, y, low, high;
+    for (const CurvePoint& point : fit.curve) {
+      x.push_back(point.x);
+      y.push_back(point.y);
+      low.push_back(point.low);
+      high.push_back(point.high);
+    }
+    std::string name = fit.name;
+    if (name.empty()) name = options.fits.size() > 1 ? "fit " + std::to_string(k + 1) : "fit";
+    name += ", " + format_short(100 * fit.confidence, 4) + " % band";
+    ChartSeries series = curve_series(std::move(name), std::move(x), std::move(y));
+    series.y_low = std::move(low);
+    series.y_high = std::move(high);
+    series.band = true;
+    chart.series.push_back(std::move(series));
+  }
+}
+
+void add_functions(LineChart& chart, const NotebookChart& options) {
+  if (options.functions.empty()) return;
+  const Range range = range_along(chart);
+  constexpr int steps = 300;
+  for (const FunctionLine& function : options.functions) {
+    std::vector<double> x, y;
+    for (int k = 0; k <= steps && range.min <= range.max; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      const double at = chart.x.logarithmic ? range.min * elementary::pow(range.max / range.min, share)
+                                            : range.min * (1 - share) + range.max * share;
+      x.push_back(std::clamp(at, range.min, range.max));
+      y.push_back(function.value(x.back()));
+    }
+    chart.series.push_back(curve_series(function.name, std::move(x), std::move(y)));
+  }
+}
+
+// Where there is nothing to draw: why.
+[[noreturn]] void refuse_empty(const Table& table, const std::vector<std::size_t>& rows,
+                               const NotebookChart& options, const Unreadable& unreadable,
+                               const std::string& y, const std::string& x) {
+  std::string hint = table.name() + " has no rows";
+  if (table.rows() > 0)
+    hint = rows.empty() ? "no row matches `where` " + options.where.text()
+                        : "none of the " + std::to_string(rows.size()) + " rows has a number in both";
+  if (!rows.empty() && unreadable.rows > 0)
+    hint = asperity::quoted(unreadable.column) + " holds names, such as \"" + unreadable.text +
+           "\"; names stand along x: write a column of numbers beside them";
+  throw Error(
+      ErrorCode::bad_value,
+      "the chart of " + asperity::quoted(y) + " against " + asperity::quoted(x) + " has nothing to draw",
+      hint);
 }
 
 }  // namespace
 
 LineChart chart_of(const Table& table, const NotebookChart& options, std::vector<std::string>& warnings) {
-  const Columns columns = find_columns(table, options);
+  Columns columns = find_columns(table, options);
   const std::vector<std::size_t> rows = options.where.rows(table);
+  columns.names = names_along(table, rows, columns.x);
+  if (!columns.names.empty() && (options.log_x || !options.fits.empty() || !options.functions.empty()))
+    throw Error(ErrorCode::bad_value,
+                asperity::quoted(options.x) + " holds names, such as \"" + columns.names.front() + "\"",
+                "`log_x`, `fit` and `functions` need numbers along");
   LineChart chart;
   chart.title = options.title;
   const TableColumn& x = table.columns()[columns.x];
@@ -163,6 +304,7 @@ LineChart chart_of(const Table& table, const NotebookChart& options, std::vector
   chart.x.label = options.x_label.value_or(x.name);
   chart.x.unit = x.unit;
   chart.x.logarithmic = options.log_x;
+  chart.x.names = columns.names;
   chart.y.label = options.y_label.value_or(joined(names, ", "));
   chart.y.unit = y.unit;
   chart.y.logarithmic = options.log_y;
@@ -174,26 +316,22 @@ LineChart chart_of(const Table& table, const NotebookChart& options, std::vector
     for (const Line& line : lines_of(table, rows, columns, columns.y[k], unreadable)) {
       if (line.samples.empty()) continue;
       drawn += line.samples.size();
-      chart.series.push_back(series_of(line, options));
+      chart.series.push_back(series_of(line, options, !columns.names.empty()));
       chart.series.back().name = line_name(options, names[k], line, table, columns);
     }
   if (unreadable.rows > 0)
     warnings.push_back(std::to_string(unreadable.rows) + (unreadable.rows == 1 ? " row is" : " rows are") +
                        " not drawn: text where a number should be");
-  if (drawn == 0) {
-    std::string hint = "the notebook has no rows";
-    if (table.rows() > 0)
-      hint = rows.empty() ? "no row matches `where` " + options.where.text()
-                          : "none of the " + std::to_string(rows.size()) + " rows has a number in both";
-    if (!rows.empty() && unreadable.rows > 0)
-      hint = asperity::quoted(unreadable.column) + " holds names, such as \"" + unreadable.text +
-             "\"; an axis takes numbers: give `one_line_per` the names, or write a column of numbers beside "
-             "them";
-    throw Error(ErrorCode::bad_value,
-                "the chart of " + asperity::quoted(joined(names, ", ")) + " against " +
-                    asperity::quoted(x.name) + " has nothing to draw",
-                hint);
+  if (drawn == 0) refuse_empty(table, rows, options, unreadable, joined(names, ", "), x.name);
+  for (const ReferenceLine& line : options.references) {
+    ChartReference across;
+    across.name = line.name;
+    if (line.x) across.x = in_unit(*line.x, x);
+    if (line.y) across.y = in_unit(*line.y, y);
+    chart.references.push_back(std::move(across));
   }
+  add_fits(chart, options, names);
+  add_functions(chart, options);
   return chart;
 }
 
@@ -203,22 +341,29 @@ std::string default_chart_file(std::string_view notebook, const NotebookChart& o
   return safe_file_name(name + "-" + options.x) + ".svg";
 }
 
-DrawnChart draw_chart(RunDirectory& run, const Notebook& notebook, const NotebookChart& options) {
-  const std::string file = options.file.value_or(default_chart_file(notebook.name(), options));
+DrawnChart draw_chart(RunDirectory& run, std::string_view name, const Table& table,
+                      const NotebookChart& options) {
+  const std::string file = options.file.value_or(default_chart_file(name, options));
   const PictureFormat format = picture_format(file);
   DrawnChart drawn;
-  const LineChart chart = chart_of(notebook.table(), options, drawn.warnings);
+  std::vector<LineChart> panels = {chart_of(table, options, drawn.warnings)};
+  for (const NotebookChart* next = options.below.get(); next != nullptr; next = next->below.get())
+    panels.push_back(chart_of(table, *next, drawn.warnings));
   drawn.file = run.path_for(file);
   if (run.dry()) {
-    chart_script(chart, format, drawn.warnings);
+    chart_script(panels, format, drawn.warnings);
     return drawn;
   }
-  const std::vector<std::string> more = draw(chart, drawn.file);
+  const std::vector<std::string> more = draw(panels, drawn.file);
   drawn.warnings.insert(drawn.warnings.end(), more.begin(), more.end());
-  Json fields = Json::object({{"notebook", notebook.name()}, {"file", file}});
+  Json fields = Json::object({{"notebook", std::string(name)}, {"file", file}});
   if (!drawn.warnings.empty()) fields.set("warnings", Json::strings(drawn.warnings));
   run.journal().write("chart", fields);
   return drawn;
+}
+
+DrawnChart draw_chart(RunDirectory& run, const Notebook& notebook, const NotebookChart& options) {
+  return draw_chart(run, notebook.name(), notebook.table(), options);
 }
 
 }  // namespace asperity

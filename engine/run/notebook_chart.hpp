@@ -1,24 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chart of a notebook: columns against a column, one line for each value of another. Rows that
-// share line and x are averaged, and drawn as means; with `spread` the means carry error bars (the
+// The chart of a notebook or of a table: columns against a column, one line for each value of another. Rows
+// that share line and x are averaged, and drawn as means; with `spread` the means carry error bars (the
 // standard deviation of those rows, n-1, or the mean of a column that holds errors), without it the
 // single rows stand as faint points behind. `in_order` joins the rows as they were written instead, for
-// loops that come back (load and unload).
+// loops that come back (load and unload). A column of texts along x gives an axis of names, in the order of
+// their first rows. Fits of the same columns are drawn with their bands, functions as lines over the range of
+// x, and lines across at one x or y; a second chart stands below.
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/plot/chart.hpp"
+#include "engine/run/expectation.hpp"
 #include "engine/run/notebook.hpp"
 #include "engine/run/run_directory.hpp"
+#include "engine/statistics/curve_fit.hpp"
 #include "engine/statistics/table.hpp"
 #include "engine/statistics/table_filter.hpp"
 
 namespace asperity {
+
+// A fitted curve as it is drawn. Its columns must be those of the chart.
+struct FittedCurve {
+  std::string name;
+  std::string x, y;
+  double confidence = 0.95;
+  std::vector<CurvePoint> curve;
+};
+
+// A function of x, in the units of the columns.
+struct FunctionLine {
+  std::string name;
+  std::function<double(double x)> value;
+};
+
+// A line across at one x or one y: a number in the column's unit, or a quantity, which is converted to it.
+struct ReferenceLine {
+  std::optional<ExpectedValue> x, y;
+  std::string name;
+};
 
 struct NotebookChart {
   std::string x;
@@ -29,10 +55,16 @@ struct NotebookChart {
   TableFilter where;
   bool log_x = false, log_y = false;
   bool in_order = false;
-  bool lines = true, points = true;
+  std::optional<bool> lines;  // default: where no fit is drawn and x is no axis of names
+  bool points = true;
   std::string title;
   std::optional<std::string> x_label, y_label;  // instead of the columns' names; units are added
   std::optional<std::string> file;              // default <notebook>-<y>-<x>.svg
+  std::optional<std::string> low, high;         // columns that hold the ends of error bars
+  std::vector<ReferenceLine> references;
+  std::vector<FittedCurve> fits;
+  std::vector<FunctionLine> functions;
+  std::shared_ptr<NotebookChart> below;  // a second panel
 };
 
 // The lines of the chart; `warnings` gets sentences about cells that are not numbers. Throws
@@ -52,5 +84,8 @@ struct DrawnChart {
 // A dry run checks everything and draws nothing. Throws as chart_of, RunDirectory::path_for and
 // draw do.
 DrawnChart draw_chart(RunDirectory& run, const Notebook& notebook, const NotebookChart& options);
+// The same of a table, which the journal and the default file call `name`.
+DrawnChart draw_chart(RunDirectory& run, std::string_view name, const Table& table,
+                      const NotebookChart& options);
 
 }  // namespace asperity

@@ -7,28 +7,35 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
 
+bool is_number(const Cell& cell) {
+  return std::holds_alternative<double>(cell) || std::holds_alternative<std::int64_t>(cell);
+}
+
 std::optional<double> number_in(const Cell& cell) {
   if (const double* number = std::get_if<double>(&cell)) return *number;
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*whole);
   if (const bool* truth = std::get_if<bool>(&cell)) return *truth ? 1.0 : 0.0;
   return {};
 }
 
 std::string short_text(const Cell& cell) {
   if (const double* number = std::get_if<double>(&cell)) return format_short(*number);
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
   if (const bool* truth = std::get_if<bool>(&cell)) return *truth ? "true" : "false";
   if (const std::string* text = std::get_if<std::string>(&cell)) return *text;
   return "nothing";
 }
 
 bool same_cell(const Cell& a, const Cell& b) {
-  const double* x = std::get_if<double>(&a);
-  const double* y = std::get_if<double>(&b);
-  if (x == nullptr || y == nullptr) return a == b;
+  if (!is_number(a) || !is_number(b)) return a == b;
+  const std::optional<double> x = number_in(a), y = number_in(b);
   if (std::isnan(*x) || std::isnan(*y)) return std::isnan(*x) && std::isnan(*y);
   constexpr double relative = 1e-12;
   if (std::isinf(*x) || std::isinf(*y)) return *x == *y;
@@ -76,8 +83,19 @@ std::string csv_text(std::string_view given) {
   return quoted_text + "\"";
 }
 
+// The shortest text of 100000 is "1e+05", which nobody writes.
+std::string csv_number(double number) {
+  constexpr double most = 1e15;
+  std::string text = format_exact(number);
+  if (std::abs(number) >= most || number != std::floor(number)) return text;
+  if (text.find('e') == std::string::npos) return text;
+  laws_met().meet(Law::whole_numbers);
+  return std::to_string(static_cast<std::int64_t>(number));
+}
+
 std::string csv_cell(const Cell& cell) {
-  if (const double* number = std::get_if<double>(&cell)) return format_exact(*number);
+  if (const double* number = std::get_if<double>(&cell)) return csv_number(*number);
+  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
   if (const std::string* text = std::get_if<std::string>(&cell)) return csv_text(*text);
   return is_empty(cell) ? std::string() : short_text(cell);
 }
@@ -89,6 +107,21 @@ std::string csv_cell(const Cell& cell) {
 }
 
 }  // namespace
+
+Table::Table(std::vector<TableColumn> columns, std::vector<std::vector<Cell>> rows)
+    : columns_(std::move(columns)), rows_(std::move(rows)) {
+  std::vector<std::string> names = column_names();
+  std::ranges::sort(names);
+  if (!names.empty() && names.front().empty())
+    throw Error(ErrorCode::bad_value, "a column has an empty name", "give every column a name");
+  if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
+    throw Error(ErrorCode::bad_value, "two columns are called " + quoted(*twice),
+                "give each column a name of its own");
+  for (const std::vector<Cell>& row : rows_)
+    if (row.size() > columns_.size())
+      throw Error(ErrorCode::bad_value, "a row has " + std::to_string(row.size()) + " cells under " +
+                                            std::to_string(columns_.size()) + " columns");
+}
 
 std::vector<std::string> Table::column_names() const {
   std::vector<std::string> names;
@@ -109,12 +142,12 @@ std::size_t Table::column(std::string_view name, std::string_view key) const {
   const std::string near = did_you_mean(name, names);
   std::string hint;
   if (names.empty()) {
-    hint = "nothing is written in the notebook yet";
+    hint = "nothing is written in " + name_ + " yet";
   } else if (near.empty()) {
     hint = "its columns are " + joined(names, " and ");
   }
   throw Error(ErrorCode::unknown_name,
-              quoted(key) + " names " + quoted(name) + ", which is no column of the notebook" + near, hint);
+              quoted(key) + " names " + quoted(name) + ", which is no column of " + name_ + near, hint);
 }
 
 const Cell& Table::cell(std::size_t row, std::size_t column) const {
@@ -169,6 +202,14 @@ bool Table::append(std::span<const Entry> row) {
   return changed;
 }
 
+bool Table::declare_column(std::string_view column) {
+  if (column.empty())
+    throw Error(ErrorCode::bad_value, "a notebook column has an empty name", "give every column a name");
+  const std::size_t before = columns_.size();
+  place(column);
+  return columns_.size() != before;
+}
+
 bool Table::declare_unit(std::string_view column, std::string_view unit) {
   if (column.empty())
     throw Error(ErrorCode::bad_value, "a notebook column has an empty name", "give every column a name");
@@ -178,6 +219,22 @@ bool Table::declare_unit(std::string_view column, std::string_view unit) {
   if (columns_[k].unit == unit) return columns_.size() != before;
   columns_[k].unit = unit;
   return true;
+}
+
+std::string Table::digest() const {
+  Digester digester;
+  digester.add("table").add(static_cast<std::int64_t>(columns_.size()));
+  for (const TableColumn& column : columns_) digester.add(column.name).add(column.unit);
+  digester.add(static_cast<std::int64_t>(rows_.size()));
+  for (std::size_t row = 0; row < rows_.size(); ++row)
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      const Cell& one = cell(row, k);
+      // A whole number is the number that it is.
+      digester.add(static_cast<std::int64_t>(is_number(one) ? Cell(0.0).index() : one.index()));
+      if (const auto number = number_in(one)) digester.add(*number);
+      if (const auto* text = std::get_if<std::string>(&one)) digester.add(*text);
+    }
+  return digester.hex();
 }
 
 std::string Table::csv_header() const {

@@ -2,11 +2,13 @@
 // A table of free columns: each row names the columns it has, columns stand in order of first
 // appearance, a cell that a row does not have is empty. A column may have a unit. Text form is CSV as
 // in RFC 4180 with line feeds: numbers that read back exactly, `true`/`false`, text quoted where
-// needed (empty text is `""`, an empty cell nothing), units in brackets in the header: `Ra [m]`.
-// Not thread-safe; Notebook is.
+// needed (empty text is `""`, an empty cell nothing), units in brackets in the header: `Ra [m]`. Whole
+// numbers below 1e15 are written by their digits, without a point or an exponent. Not thread-safe; Notebook
+// is.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,10 +18,12 @@
 
 namespace asperity {
 
-// Nothing, a number (SI), a boolean, text.
-using Cell = std::variant<std::monostate, double, bool, std::string>;
+// Nothing, a number (SI), a boolean, text, a whole number that was given as one.
+using Cell = std::variant<std::monostate, double, bool, std::string, std::int64_t>;
 
 inline bool is_empty(const Cell& cell) { return std::holds_alternative<std::monostate>(cell); }
+// Whether it holds a number, whole or not; a boolean is none.
+bool is_number(const Cell& cell);
 // The number in a cell, a boolean as 1 or 0; nothing for text and empty cells.
 std::optional<double> number_in(const Cell& cell);
 // For sentences and legends: "0.4", "true", "worn", "nothing".
@@ -41,6 +45,15 @@ struct TableColumn {
 
 class Table {
  public:
+  Table() = default;
+  // Of these columns, which need no rows. Throws as check() does, and Error{bad_value} for a row longer than
+  // the columns.
+  Table(std::vector<TableColumn> columns, std::vector<std::vector<Cell>> rows);
+
+  // What errors call it: "the notebook" unless it was given another name.
+  const std::string& name() const { return name_; }
+  void rename(std::string name) { name_ = std::move(name); }
+
   const std::vector<TableColumn>& columns() const { return columns_; }
   std::vector<std::string> column_names() const;
   std::size_t rows() const { return rows_.size(); }
@@ -54,8 +67,14 @@ class Table {
   // Checks an entry without changing anything. Throws Error{bad_value} for an empty row, an empty
   // column name or a column named twice, Error{bad_unit} for a unit other than the column's.
   void check(std::span<const Entry> row) const;
+  // Of columns, units and cells, in their order; names of tables do not count.
+  std::string digest() const;
+
   // Adds a row after check(); returns whether the header changed (a new column or a new unit).
   bool append(std::span<const Entry> row);
+  // Adds a column, unless it is there. Throws Error{bad_value} for an empty name. Returns whether it was
+  // added.
+  bool declare_column(std::string_view column);
   // Gives a column, which need not exist yet, its unit. Throws Error{bad_unit} if it has another.
   // Returns whether the header changed.
   bool declare_unit(std::string_view column, std::string_view unit);
@@ -67,6 +86,7 @@ class Table {
  private:
   std::size_t place(std::string_view name);
 
+  std::string name_ = "the notebook";
   std::vector<TableColumn> columns_;
   std::vector<std::vector<Cell>> rows_;  // a row ends with its last written cell
 };

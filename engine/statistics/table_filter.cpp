@@ -3,20 +3,45 @@
 
 #include <algorithm>
 
+#include "engine/core/error.hpp"
+#include "engine/core/files/text_table.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
 
+namespace {
+
+// "worn" stays a text in any column; "3 kN" is a number in one that has a unit.
+Cell counted_in(const Cell& accepted, const TableColumn& column) {
+  const auto* text = std::get_if<std::string>(&accepted);
+  if (text == nullptr || column.unit.empty()) return accepted;
+  if (trimmed(*text).find_first_of("0123456789") != trimmed(*text).find_first_not_of("+-.")) return accepted;
+  try {
+    return parse_quantity_in(*text, column.unit);
+  } catch (const Error& error) {
+    throw Error(ErrorCode::bad_unit, "`where." + column.name + "`: " + error.sentence(), error.hint());
+  }
+}
+
+}  // namespace
+
 std::vector<std::size_t> TableFilter::rows(const Table& table) const {
   std::vector<std::size_t> columns;
-  for (const Condition& condition : conditions_) columns.push_back(table.column(condition.column, "where"));
+  std::vector<std::vector<Cell>> wanted;
+  for (const Condition& condition : conditions_) {
+    columns.push_back(table.column(condition.column, "where"));
+    wanted.emplace_back();
+    for (const Cell& accepted : condition.accepted)
+      wanted.back().push_back(counted_in(accepted, table.columns()[columns.back()]));
+  }
   std::vector<std::size_t> matching;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     bool matches = true;
     for (std::size_t k = 0; matches && k < columns.size(); ++k) {
       const Cell& cell = table.cell(row, columns[k]);
-      matches = std::ranges::any_of(conditions_[k].accepted,
-                                    [&](const Cell& accepted) { return same_cell(cell, accepted); });
+      matches =
+          std::ranges::any_of(wanted[k], [&](const Cell& accepted) { return same_cell(cell, accepted); });
     }
     if (matches) matching.push_back(row);
   }

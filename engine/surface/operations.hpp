@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/surface/operations/heights.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 #include "engine/surface/operations/placement.hpp"
 #include "engine/surface/operations/resampling.hpp"
 #include "engine/surface/operations/sections.hpp"

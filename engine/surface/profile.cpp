@@ -66,7 +66,7 @@ std::span<const double> Profile::heights() const {
               std::to_string(values.size() - measured()) + " of the " + std::to_string(values.size()) +
                   " samples of the profile were not measured, the first is sample " +
                   std::to_string(first - values.begin()) + ", and this needs every sample",
-              "fill them first, `profile:filled{ by=\"interpolation\" }`, or take a part without holes");
+              "fill them first, `profile:filled{ by=\"interpolate\" }`, or take a part without holes");
 }
 
 std::optional<double> Profile::closed_radius() const { return data_->radius; }

@@ -81,7 +81,7 @@ const Field& Surface::heights() const {
                   " points of the surface were not measured, the first at node " +
                   at_node(static_cast<std::size_t>(first - values.begin()), grid()) +
                   ", and this needs every point",
-              "fill them first, `surface:filled{ by=\"interpolation\" }`, or crop to a part without holes");
+              "fill them first, `surface:filled{ by=\"interpolate\" }`, or crop to a part without holes");
 }
 
 double Surface::height(double i, double j) const { return node_value(measured_heights(), i, j); }

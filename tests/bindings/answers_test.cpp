@@ -100,8 +100,8 @@ TEST_F(Answers, EveryErrorNamesTheLineOfTheScript) {
   refuses("local x = '1 um' + 1", "quantities are strings where a key takes them");
   refuses("local x = 2 * '1 um'", "the string \"1 um\" was used in arithmetic");
   EXPECT_EQ(value("'10' + 1"), "11");
-  refuses("lab.material{ hardness='100 HV' }",
-          "`HV` is a scale of hardness, and hardness is a pressure; write HV x 9.807 MPa");
+  refuses("lab.material{ hardness='100 HB' }",
+          "`HB` is a scale of hardness, and hardness is a pressure; write HB x 9.807 MPa");
 }
 
 TEST_F(Answers, NumbersInStringsFollowOneRule) {
@@ -151,10 +151,11 @@ TEST_F(Answers, AStateThatIsPrintedSaysWhatItIsToBeDoubtedFor) {
             std::string::npos);
 }
 
-TEST_F(Answers, AnAxisOfNamesSaysThatItHoldsNames) {
+TEST_F(Answers, NamesStandAlongXAndNotUp) {
   EXPECT_EQ(run("book = lab.notebook 'grits' book:write{ grit='P80', Ra=1 } book:write{ grit='P120', Ra=2 }"),
             "");
-  refuses("book:chart{ x='grit', y='Ra' }", "`grit` holds names, such as \"P80\"");
+  EXPECT_EQ(run("book:chart{ x='grit', y='Ra' }"), "");
+  refuses("book:chart{ x='Ra', y='grit' }", "`grit` holds names, such as \"P80\"; names stand along x");
 }
 
 // M2: the height at the last node continues in the first.

@@ -46,5 +46,16 @@ TEST_F(Example, EveryOneRunsAfterThePreambleAlone) {
   }
 }
 
+TEST_F(Example, EveryOperatorHasOneThatRuns) {
+  std::string all;
+  for (const Class* type : classes())
+    for (const Operator& operation : type->operators) {
+      EXPECT_NE(operation.example, "") << operation.form;
+      EXPECT_NE(reference_page().find(operation.example), std::string::npos) << operation.form;
+      all += "do " + operation.example + " end\n";
+    }
+  EXPECT_EQ(run(example_preamble() + all), "");
+}
+
 }  // namespace
 }  // namespace asperity::lua::examples_test

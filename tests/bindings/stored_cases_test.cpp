@@ -67,15 +67,16 @@ TEST(ParcelBytes, KeepNumbersToTheBit) {
   EXPECT_TRUE(bench.holds(row, "r.yes == true and r.no == false"));
 }
 
-// A map of 3 x 2 points of which two were not measured.
 TEST(ParcelBytes, KeepHolesOfSurfacesAndProfiles) {
   const Bench bench;
-  const std::string read =
-      "lab.surface.read('" ASPERITY_TEST_DATA "/../data/fill_value.h5', { size = 1e-3 })";
-  const auto row = bench.value("local s = " + read + " return { s = s, p = s:profile{ row = 0 } }");
+  const std::string data = ASPERITY_TEST_DATA "/../data/";
+  const auto row =
+      bench.value("return { s = lab.surface.read('" + data + "fill_value.h5', { size = 1e-3 }), " +
+                  "p = lab.profile.read('" + data + "profile_with_holes.csv') }");
   const auto found = again(row);
   EXPECT_EQ(found->digest(), row->digest());
   EXPECT_TRUE(bench.holds(found, "r.s:height(2, 0) ~= r.s:height(2, 0) and r.s:height(1, 0) == 2e-6"));
+  EXPECT_TRUE(bench.holds(found, "r.p.points == 4 and r.p.spacing == 1e-06"));
 }
 
 TEST(ParcelBytes, KeepTextsOfAnyBytes) {

@@ -153,7 +153,7 @@ TEST_F(WorkPrecisionTest, DrawsItsChart) {
   make_study();
   EXPECT_EQ(run("file = study:chart 'cost.svg'"), "");
   EXPECT_NE(content_of(run_folder() / "cost.svg").find("<svg"), std::string::npos);
-  EXPECT_TRUE(refuses("study:chart 'cost.pdf'", "pictures are .svg or .png"));
+  EXPECT_TRUE(refuses("study:chart 'cost.gif'", "pictures are .svg, .png or .pdf"));
 }
 
 TEST_F(WorkPrecisionTest, NativeWorkReportsAsAPartOfTheStudy) {

@@ -107,6 +107,54 @@ TEST(Quantity, F8UnitsOfScalesAndGaugesOfPresses) {
   EXPECT_DOUBLE_EQ(parse_quantity_as("0.5 rev", dimension::angle), std::numbers::pi);
 }
 
+TEST(Quantity, OldAndAngloAmericanUnitsByTheirDefinitions) {
+  const auto force = [](const char* text) { return parse_quantity_as(text, dimension::force); };
+  const auto pressure = [](const char* text) { return parse_quantity_as(text, dimension::pressure); };
+  EXPECT_EQ(force("1 kp"), 9.80665);
+  EXPECT_EQ(force("1 kp"), force("1 kgf"));
+  EXPECT_EQ(force("1 lbf"), 4.4482216152605);
+  EXPECT_EQ(force("1 kip"), 4448.2216152605);
+  // 4.4482216152605 N over 645.16 mm², to more digits than a double holds.
+  EXPECT_DOUBLE_EQ(pressure("1 psi"), 6894.757293168361336722);
+  EXPECT_DOUBLE_EQ(pressure("1 ksi"), 6894757.293168361336722);
+  EXPECT_EQ(pressure("1 HV"), 9806650.0);
+  EXPECT_EQ(pressure("250 HV"), 2451662500.0);
+  EXPECT_DOUBLE_EQ(pressure("1 kgf/mm^2"), pressure("1 HV"));
+  EXPECT_DOUBLE_EQ(pressure("1 kp/cm^2"), 98066.5);
+  EXPECT_EQ(length("1 inch"), 0.0254);
+  EXPECT_EQ(length("1 mil"), 25.4e-6);
+  EXPECT_EQ(length("1 thou"), 25.4e-6);
+  EXPECT_EQ(length("1 uin"), 25.4e-9);
+  EXPECT_EQ(length("32 µin"), length("32 uin"));
+  EXPECT_EQ(length("1 ft"), 0.3048);
+  EXPECT_EQ(parse_quantity_as("1 lb", dimension::mass), 0.45359237);
+}
+
+// k, m and a are no prefixes here, and d and h no units: each of these is a unit of its own.
+TEST(Quantity, NamesThatLookLikePrefixesAreUnitsOfTheirOwn) {
+  EXPECT_EQ(parse_unit("kip").dimension, dimension::force);
+  EXPECT_EQ(parse_unit("ksi").dimension, dimension::pressure);
+  EXPECT_EQ(parse_unit("mil").dimension, dimension::length);
+  EXPECT_EQ(parse_unit("atm").dimension, dimension::pressure);
+  EXPECT_EQ(parse_unit("ft").dimension, dimension::length);
+  EXPECT_EQ(parse_unit("min").dimension, dimension::time);
+  EXPECT_EQ(parse_unit("uin").dimension, dimension::length);
+  EXPECT_EQ(refusal("1 mpsi").substr(0, 29), "\"1 mpsi\": unknown unit `mpsi`");
+  EXPECT_EQ(refusal("1 kin").substr(0, 27), "\"1 kin\": unknown unit `kin`");
+}
+
+// ISO 6507: the test load stands behind the symbol.
+TEST(Quantity, VickersHardnessIsWrittenWithItsTestLoad) {
+  for (const char* text : {"640 HV", "640 HV10", "640 HV0.3", "640HV30"})
+    EXPECT_EQ(parse_quantity_as(text, dimension::pressure), 640 * 9806650.0) << text;
+  EXPECT_EQ(parse_quantity("2 HV^2").dimension, (Dimension{-2, 2, -4, 0}));
+  for (const char* scale : {"HB", "HBW", "HK"})
+    EXPECT_EQ(refusal(std::string("100 ") + scale),
+              "\"100 " + std::string(scale) + "\": `" + scale +
+                  "` is a scale of hardness, and hardness is a pressure; write " + scale +
+                  " x 9.807 MPa: 100 " + scale + " is \"980.7 MPa\"");
+}
+
 TEST(Quantity, MicroSignsAndSpacesOfTextEditors) {
   EXPECT_EQ(length("250 \u00B5m"), 250e-6);
   EXPECT_EQ(length("250 \u03BCm"), 250e-6);

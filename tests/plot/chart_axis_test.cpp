@@ -159,5 +159,24 @@ TEST(RoundBelow, IsOneTwoOrFive) {
   EXPECT_DOUBLE_EQ(round_below(1e-3), 1e-3);
 }
 
+TEST(ChartAxis, NamesStandAtWholeNumbersAndSlantWhereTheyAreLong) {
+  ChartAxis axis;
+  axis.label = "grit";
+  axis.names = {"P80", "P120"};
+  const AxisLayout layout = lay_out(axis, {});
+  EXPECT_EQ(layout.low, -0.5);
+  EXPECT_EQ(layout.high, 1.5);
+  ASSERT_EQ(layout.tics.size(), 2U);
+  EXPECT_EQ(layout.tics[1].at, 1);
+  EXPECT_EQ(layout.tics[1].label, "P120");
+  EXPECT_FALSE(layout.slanted);
+  axis.names = std::vector<std::string>(8, "a body of bead-blasted steel, worn");
+  EXPECT_TRUE(lay_out(axis, {}).slanted);
+  EXPECT_EQ(lay_out(axis, {}).tics[0].label, "a body of bead-blasted s…");
+  axis.names = {"µµµµµµµµµµµµµµµµµµµµµµµµ", "µµµµµµµµµµµµµµµµµµµµµµµµµ"};
+  EXPECT_EQ(lay_out(axis, {}).tics[0].label, axis.names[0]);
+  EXPECT_EQ(lay_out(axis, {}).tics[1].label, axis.names[0] + "…");
+}
+
 }  // namespace
 }  // namespace asperity::chart_axis_test

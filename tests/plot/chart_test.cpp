@@ -179,5 +179,100 @@ TEST_F(ChartTest, DrawsExtremesWithoutAComplaint) {
     }
 }
 
+TEST(Chart, BandStandsBehindItsLine) {
+  LineChart chart = simple();
+  ChartSeries fit = chart.series[0];
+  fit.name = "fit";
+  fit.points = false;
+  fit.y_low = {0.2, 0.3, 0.4};
+  fit.y_high = {0.4, 0.5, 0.9};
+  fit.band = true;
+  chart.series.push_back(fit);
+  const std::string script = script_of(chart);
+  EXPECT_NE(script.find("\n1 0.3 0.2 0.4\n2 0.4 0.3 0.5\n3 0.5 0.4 0.9\n"), std::string::npos);
+  const std::size_t band = script.find("$line1 using 1:3:4 with filledcurves"),
+                    line = script.find("$line0 using 1:2 with linespoints");
+  EXPECT_LT(band, line);
+  EXPECT_NE(script.find("$line1 using 1:2 with lines linecolor rgb '#d55e00'"), std::string::npos);
+  EXPECT_EQ(script.find("yerrorbars"), std::string::npos);
+  EXPECT_NE(script.find("set yrange [0.17"), std::string::npos);  // the band counts, with a margin
+  chart.series[1].y_low.pop_back();
+  EXPECT_THROW(script_of(chart), Error);
+}
+
+TEST(Chart, UnequalEndsAreErrorBars) {
+  LineChart chart = simple();
+  chart.series[0].y_low = {0.1, 0.2, std::nan("")};
+  chart.series[0].y_high = {0.35, 0.5, 1};
+  const std::string script = script_of(chart);
+  EXPECT_NE(script.find("\n1 0.3 0.1 0.35\n2 0.4 0.2 0.5\n3 0.5 0.5 0.5\n"), std::string::npos);
+  EXPECT_NE(script.find("using 1:2:3:4 with yerrorbars"), std::string::npos);
+}
+
+TEST(Chart, LinesAcrossReachFromRimToRimAndAreNamedInTheKey) {
+  LineChart chart = simple();
+  chart.references = {{{}, 0.9, "measured"}, {2.5e6, {}, ""}};
+  std::vector<std::string> warnings;
+  const std::string script = script_of(chart, &warnings);
+  EXPECT_NE(script.find("$across0 << EOD\n0.92 0.9\n3.08 0.9\nEOD"), std::string::npos);
+  EXPECT_NE(script.find("title 'measured'"), std::string::npos);
+  EXPECT_NE(script.find("$across1 << EOD\n2.5 "), std::string::npos);
+  EXPECT_NE(script.find("set key outside"), std::string::npos);
+  EXPECT_TRUE(warnings.empty());
+  chart.y.logarithmic = true;
+  chart.references[0].y = 0;
+  script_of(chart, &warnings);
+  EXPECT_EQ(warnings,
+            (std::vector<std::string>{"the line at y = 0 is not drawn: it has no place on its axis"}));
+}
+
+TEST(Chart, BarsOfAHistogramStandOnTheAxis) {
+  LineChart chart;
+  chart.x.label = "angle";
+  chart.y.label = "number";
+  chart.bars = {{0, 2, 3}, {2, 4, 5}};
+  const std::string script = script_of(chart);
+  EXPECT_NE(script.find("$bars << EOD\n1 0 0 2 0 3\n3 0 2 4 0 5\nEOD"), std::string::npos);
+  EXPECT_NE(script.find("set yrange [0:"), std::string::npos);
+}
+
+TEST(Chart, PanelsStandBelowEachOtherOverOneRange) {
+  LineChart above = simple(), below = simple();
+  below.series[0].x = {2e6, 4e6, 6e6};
+  below.y.label = "Ra";
+  below.series[0].name = "a longer name";
+  std::vector<std::string> warnings;
+  const std::string script = chart_script(std::vector<LineChart>{above, below}, PictureFormat::svg, warnings);
+  EXPECT_NE(script.find("size 960,960"), std::string::npos);
+  EXPECT_NE(script.find("set multiplot layout 2,1"), std::string::npos);
+  const std::size_t first = script.find("set xrange [0.8:6.2]");
+  EXPECT_NE(first, std::string::npos);
+  EXPECT_NE(script.find("set xrange [0.8:6.2]", first + 1), std::string::npos);
+  EXPECT_NE(script.find("$panel1line0"), std::string::npos);
+  // Of different quantities each has its own.
+  below.x.label = "force";
+  EXPECT_EQ(
+      chart_script(std::vector<LineChart>{above, below}, PictureFormat::svg, warnings).find("[0.8:6.2]"),
+      std::string::npos);
+}
+
+TEST_F(ChartTest, EveryKindIsDrawnByGnuplotWithoutAWord) {
+  LineChart chart = simple(), named = simple();
+  chart.references = {{{}, 0.9, "measured"}};
+  chart.series.push_back(chart.series[0]);
+  chart.series[1].band = true;
+  chart.series[1].y_low = chart.series[1].y_high = {0.2, 0.3, 0.4};
+  named.x.names = {"a body of a long name", "another body of it", "short"};
+  named.series[0].x = {0, 1, 2};
+  named.bars = {{-0.2, 0.2, 0.1}};
+  std::vector<std::string> warnings;
+  for (const PictureFormat format : {PictureFormat::svg, PictureFormat::png, PictureFormat::pdf}) {
+    const std::string script = chart_script(std::vector<LineChart>{named, chart}, format, warnings);
+    const GnuplotResult drawn = run_gnuplot(script);
+    EXPECT_EQ(drawn.messages, "");
+    EXPECT_EQ(drawn.picture, run_gnuplot(script).picture);
+  }
+}
+
 }  // namespace
 }  // namespace asperity::chart_test

@@ -32,10 +32,20 @@ TEST(GnuplotColour, IsSixDigits) { EXPECT_EQ(gnuplot_colour(0x0072b2), "rgb '#00
 TEST(PictureFormat, FollowsTheEnding) {
   EXPECT_EQ(picture_format("a/b.svg"), PictureFormat::svg);
   EXPECT_EQ(picture_format("b.png"), PictureFormat::png);
-  EXPECT_EQ(error_of([] { picture_format("b.pdf"); }),
-            "bad_value: the picture `b.pdf` ends in .pdf; pictures are .svg or .png");
+  EXPECT_EQ(picture_format("b.pdf"), PictureFormat::pdf);
+  EXPECT_EQ(error_of([] { picture_format("b.gif"); }),
+            "bad_value: the picture `b.gif` ends in .gif; pictures are .svg, .png or .pdf");
   EXPECT_EQ(error_of([] { picture_format("chart"); }),
-            "bad_value: the picture `chart` has no ending; pictures are .svg or .png");
+            "bad_value: the picture `chart` has no ending; pictures are .svg, .png or .pdf");
+}
+
+TEST(WithoutDate, FixesTheDateOfAPdfAndNothingElse) {
+  const std::string pdf = "%PDF-1.5\nBT (D:20261123233829Z) ET\n/CreationDate (D:20261123233829Z)\n>>";
+  EXPECT_EQ(without_date(pdf), "%PDF-1.5\nBT (D:20261123233829Z) ET\n/CreationDate (D:20000101000000Z)\n>>");
+  EXPECT_EQ(without_date(without_date(pdf)), without_date(pdf));
+  const std::string svg = "<svg>/CreationDate (D:20261123233829Z)</svg>";
+  EXPECT_EQ(without_date(svg), svg);
+  EXPECT_EQ(without_date("%PDF-1.5 /CreationDate (D:2026"), "%PDF-1.5 /CreationDate (D:2000");
 }
 
 class Gnuplot : public InFolder {
@@ -46,7 +56,7 @@ class Gnuplot : public InFolder {
 };
 
 TEST_F(Gnuplot, DrawsTheSameBytesTwice) {
-  for (const PictureFormat format : {PictureFormat::svg, PictureFormat::png}) {
+  for (const PictureFormat format : {PictureFormat::svg, PictureFormat::png, PictureFormat::pdf}) {
     const std::string text = script(format, "$d << EOD\n1 2\n2 3\nEOD\nplot $d with lines title 'x'\n");
     const GnuplotResult once = run_gnuplot(text), twice = run_gnuplot(text);
     EXPECT_EQ(once.messages, "");
@@ -54,6 +64,12 @@ TEST_F(Gnuplot, DrawsTheSameBytesTwice) {
     EXPECT_EQ(once.picture, twice.picture);
   }
   EXPECT_TRUE(run_gnuplot(script(PictureFormat::png, "plot 1\n")).picture.starts_with("\x89PNG"));
+}
+
+TEST_F(Gnuplot, PdfBearsNoDateOfItsMaking) {
+  const std::string picture = run_gnuplot(script(PictureFormat::pdf, "plot x\n")).picture;
+  EXPECT_TRUE(picture.starts_with("%PDF-"));
+  EXPECT_NE(picture.find("/CreationDate (D:20000101000000Z)"), std::string::npos);
 }
 
 TEST_F(Gnuplot, RunsNothingThatStandsInText) {

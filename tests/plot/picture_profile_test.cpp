@@ -35,6 +35,34 @@ TEST(PictureProfile, LongTracesKeepTheirPeaks) {
   EXPECT_TRUE(std::ranges::is_sorted(chart.series[0].x));
 }
 
+// Gaps break the line, without a word of loss; peaks of long traces stay, beside gaps too.
+TEST(PictureProfile, GapsBreakTheLine) {
+  const double hole = std::nan("");
+  const NamedProfile item{"", Profile::with_holes(1e-6, {hole, 1e-6, 2e-6, hole, hole, 1e-6, 3e-6, hole})};
+  std::vector<std::string> warnings;
+  const std::string script = chart_script(profile_chart({&item, 1}), PictureFormat::svg, warnings);
+  EXPECT_TRUE(warnings.empty());
+  const std::size_t begin = script.find("$line0 << EOD\n"), end = script.find("EOD\n", begin + 14);
+  const std::string data = script.substr(begin + 14, end - begin - 14);
+  EXPECT_EQ(std::ranges::count(data, '\n'), 5);  // four points and the empty line between two and two
+  EXPECT_NE(data.find("\n\n"), std::string::npos);
+
+  Array<double> heights(100003, 0.0);
+  heights[77777] = 5e-6;
+  for (std::size_t k = 77778; k < 77790; ++k) heights[k] = hole;
+  for (std::size_t k = 20000; k < 40000; ++k) heights[k] = hole;
+  const NamedProfile long_item{"", Profile::with_holes(1e-6, heights)};
+  const LineChart chart = profile_chart({&long_item, 1});
+  EXPECT_TRUE(chart.series[0].gaps);
+  EXPECT_EQ(known_range(chart.series[0].y).max, 5e-6);
+  EXPECT_TRUE(std::ranges::is_sorted(chart.series[0].x));
+  for (std::size_t k = 0; k < chart.series[0].x.size(); ++k) {
+    const double x = chart.series[0].x[k];
+    const bool in_the_gap = x > 20100e-6 && x < 39900e-6;
+    EXPECT_TRUE(!in_the_gap || std::isnan(chart.series[0].y[k])) << x;
+  }
+}
+
 TEST(PictureProfile, OutlineIsClosedAndTrue) {
   const NamedProfile item{"", Profile(1e-6, Array<double>(8, 1e-6), 9e-6)};
   const LineChart chart = profile_chart({&item, 1});

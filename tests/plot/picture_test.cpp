@@ -41,6 +41,17 @@ TEST(Reduced, AveragesByArea) {
   EXPECT_NEAR(small(1, 0), (10 + 0.5 * 4) / 1.5, 1e-15);
 }
 
+// The colours are those of what was measured, and what was not is no number to draw.
+TEST_F(PictureTest, LeavesPointsBlankThatWereNotMeasured) {
+  Field z = ramp(40, 30);
+  z(39, 29) = std::numeric_limits<double>::quiet_NaN();
+  const Grid grid{40, 30, 4e-3, 3e-3};
+  const Surface surface = Surface::with_holes(grid, z);
+  EXPECT_TRUE(draw(surface, {}, folder / "holes.png").empty());
+  const PictureScript picture = picture_script(grid, surface.measured_heights(), {});
+  EXPECT_NE(picture.script.find("set cbrange [0:96]"), std::string::npos);
+}
+
 TEST(Reduced, NeverEnlarges) {
   const Field field = ramp(3, 2);
   const Field same = reduced(field, 100, 100);

@@ -2,6 +2,7 @@
 // Press logs: rows as people write them become events, everything wrong with a file is named by line and
 // column, and a protocol written out reads back as itself.
 #include "engine/recording/press_log.hpp"
+#include "engine/core/files/source_file.hpp"
 
 #include <cmath>
 #include <vector>
@@ -155,48 +156,101 @@ TEST_F(PressLog, F8UnitsOfGaugesAndScalesAreRead) {
   EXPECT_EQ(events("load [kgf],turn [rev]\n1,0.25\n"), "rotate 90 deg\npress 9.80665 N\n");
 }
 
-// F8: forms that are not read are refused with what to write.
-TEST_F(PressLog, F8OtherFormsAreRefusedWithTheWordsToMendThem) {
-  const std::vector<std::pair<std::string, std::string>> forms{
-      {"time,pressure [MPa]\n2026-11-23T10:00:00,1\n",
-       "column 1 (time): holds dates or times of day, such as \"2026-11-23T10:00:00\", which are not read; "
-       "write "
-       "\"time [s]\" and seconds from the start"},
-      {"time;pressure [MPa]\n23.11.2026 10:00:00;1\n", "such as \"23.11.2026 10:00:00\""},
-      {"time,pressure [MPa]\n11/23/2026 10:00 AM,1\n", "such as \"11/23/2026 10:00 AM\""},
-      {"time,pressure [MPa]\n46349.4167,1\n", "\"46349.4167\" looks like a day of a spreadsheet"},
+// F8: the forms in which loggers and spreadsheets write a log.
+TEST_F(PressLog, F8FormsOfLoggersAreRead) {
+  const std::string first = "press 1 MPa (at 0 s, ", second = "press 2 MPa (at 900 s, ";
+  const std::string utf8 = "time [s],pressure [MPa]\n0,1\n900,2\n";
+  std::string utf16 = "\xFF\xFE";
+  for (const char c : utf8) utf16 += std::string(1, c) + '\0';
+  for (const std::string& log : std::vector<std::string>{
+           utf8, utf16, "time,pressure [MPa]\n2026-11-23T10:00:00,1\n2026-11-23T10:15:00,2\n",
+           "time;pressure [MPa]\n23.11.2026 10:00:00;1\n23.11.2026 10:15:00;2\n",
+           "time,pressure [MPa]\n11/23/2026 10:00 AM,1\n11/23/2026 10:15 AM,2\n",
+           "time [hh:mm:ss],pressure [MPa]\n10:00:00,1\n10:15:00,2\n", "time,pressure\ns,MPa\n0,1\n900,2\n",
+           "time;pressure\n[min];[MPa]\n0;1\n15;2\n", "Zeit [s];Druck [MPa]\n0;1\n900;2\n",
+           "time / s,pressure / MPa\n0,1\n900,2\n", "time_s,stress_MPa\n0,1\n900,2\n",
+           "time min,pressure/MPa\n0,1\n15,2\n", "time [s] pressure [MPa]\n0 1\n900 2\n",
+           "time [s],pressure [MPa]\n\"0,0\",\"1,0\"\n\"900,0\",\"2,0\"\n",
+           "time,pressure\n0 s,1 MPa\n15 min,2000 kPa\n",
+           "time [s],pressure [MPa]\n0,1\n900 s,2 MPa\nTotal\n"}) {
+    const std::string text = read(log).text();
+    EXPECT_NE(text.find(first), std::string::npos) << log << text;
+    EXPECT_NE(text.find(second), std::string::npos) << log << text;
+  }
+  listener.warnings.clear();
+  EXPECT_NE(read("time,pressure [MPa]\n46349.25,1\n46349.265625,2\n").text().find("press 2 MPa (at 1350 s"),
+            std::string::npos);
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_NE(listener.warnings[0].find("\"46349.25\", are taken for days of a spreadsheet"),
+            std::string::npos);
+}
+
+// F8: what a log does not say may be said beforehand.
+TEST_F(PressLog, F8FormsThatAreSaid) {
+  const auto said = [this](const std::string& log, const TableForm& form) {
+    std::string lines;
+    const Protocol protocol = read_press_log(SourceFile("log.csv", log), listener, form);
+    for (const Protocol::Event& event : protocol.events()) lines += text(event.step) + "\n";
+    return lines;
+  };
+  const std::string wanted = "press 1 kN\npress 2 kN\n";
+  TableForm form;
+  form.skip = 3;
+  EXPECT_EQ(said("Machine 7\nOperator Li\n\ntime [s],load [kN]\n0,1\n900,2\n", form), wanted);
+  form = {};
+  form.heads = {"time [s]", "load [kN]"};
+  EXPECT_EQ(said("0,1\n900,2\n", form), wanted);
+  form = {};
+  form.names = {{"load", "Wert"}};
+  EXPECT_EQ(said("Weg;Wert [kN]\n0;1\n1;2\n", form), wanted);
+  form.names = {{"load", "load [kN]"}};
+  EXPECT_EQ(said("load [kN],load [N]\n1,990\n2,1980\n", form), wanted);
+  form = {};
+  form.units = {{"load", "kN"}};
+  EXPECT_EQ(said("load\n1\n2\n", form), wanted);
+  form = {};
+  form.thousands = ',';
+  EXPECT_EQ(said("load [N];dwell [s]\n1,000;\n2,000;\n", form), wanted);
+  form = {};
+  form.names = {{"laod", "Wert"}};
+  EXPECT_EQ(error_of([&] { said("Wert [kN]\n1\n", form); }).substr(0, 91),
+            "unknown_name: `columns` names `laod`, which is no column of a protocol (did you mean `load`");
+  form.names = {{"load", "Wart"}};
+  EXPECT_EQ(
+      error_of([&] { said("Wert [kN]\n1\n", form); }).substr(0, 102),
+      "bad_file: \"log.csv\" has 2 problems\n  line 1: 0 columns are titled \"Wart\", which `columns` calls "
+      "`load`");
+}
+
+// F8: what can be read in two ways, or not at all, is refused with what to write.
+TEST_F(PressLog, F8FormsThatAreNotReadAreRefusedInWords) {
+  const std::vector<std::pair<std::string, std::string>> logs{
+      {"time,pressure [MPa]\n03/04/2026 10:00,1\n",
+       "column 1 (time): holds dates such as \"03/04/2026 10:00\", in which day and month may be either; "
+       "dates=\"day first\""},
       {"time [s],pressure [MPa]\n10:00:03,1\n",
        "line 2, column 1 (time): \"10:00:03\" is no finite number: it is a date or a time of day; write "
        "times as "
        "seconds from the start"},
-      {"time,pressure\ns,MPa\n0,1\n",
-       "column 2 (pressure): has no unit; units stand in the line below, \"MPa\": write them into the "
-       "titles, "
-       "\"pressure [MPa]\", and delete that line"},
-      {"time;load\n[s];[kN]\n0;1\n", "write them into the titles, \"load [kN]\", and delete that line"},
-      {"Zeit [s];Kraft [kN]\n0;1\n", "\"Kraft [kN]\" (did you mean `load [kN]`?)"},
-      {"time / s,pressure / MPa\n0,1\n",
-       "\"time / s\" (did you mean `time [s]`?), \"pressure / MPa\" (did you mean "
-       "`pressure [MPa]`?)"},
-      {"time_s,force_kN\n0,1\n", "\"force_kN\" (did you mean `load [kN]`?)"},
-      {"Druck\n1\n", "\"Druck\" (did you mean `pressure [MPa]`?)"},
+      {"time,pressure [MPa]\n2026-11-23,1\nlater,2\n", "line 3, column 1 (time): \"later\" is no date"},
+      {"Druck\n1\n", "column 1 (pressure): has no unit; write \"pressure [MPa]\""},
       {"Machine 7\nOperator Li\n\ntime [s],pressure [MPa]\n0,1\n",
        "begins with words, in line 1; the titles of its columns stand in line 4; put # before the lines "
-       "above"},
-      {"time [s] pressure [MPa]\n0 1\n", "parts its columns by blanks, in line 1"},
-      {"pressure [MPa],dwell [s]\n\"1,5\",1\n",
-       "\"1,5\" is no finite number: commas part the cells here; write the decimal sign as a point"},
-      {"pressure [MPa],dwell [s]\n10 MPa,1\n",
-       "\"10 MPa\" is no finite number: write its unit into the title of the column alone"},
-      {"pressure [MPa],dwell [s]\n1,1\nTotal\n",
+       "above the titles, delete them, or skip them with skip=3"},
+      {"pressure [MPa],dwell [s]\n10 N,1\n",
+       "\"10 N\" is no finite number: it is a force where a pressure is wanted"},
+      {"pressure,dwell [s]\n10 MPa,1\n5,1\n",
+       "line 3, column 1 (pressure): \"5\" has no unit, as the cells above"},
+      {"pressure [MPa],dwell [s]\n1,1\nTotal\n2,2\n",
        "line 3: there is 1 cell under 2 columns; put # before a line that is no row"},
       {"load [N],pressure [Pa]\n1,1\n", "begin the title of the other with \"result \""},
       {"load [N],load [kN]\n1,1\n",
        "column 2 (load): means the same as column 1; leave one of them out, or begin its title with \"result "
        "\""},
-      {std::string("\xFF\xFEp\0r\0", 6), "is not text that can be read: it is UTF-16 text; save it as UTF-8"},
+      {"\x1F\x8B\x08 log", "is not text that can be read: it is packed with gzip (.gz); unpack it"},
+      {"Kraft [kN],Last [kN]\n1,1\n", "column 2 (load): means the same as column 1"},
   };
-  for (const auto& [log, words] : forms) {
+  for (const auto& [log, words] : logs) {
     const std::string error = refusal(log);
     EXPECT_NE(error.find(words), std::string::npos) << log << "\n" << error;
   }
@@ -314,7 +368,7 @@ TEST_F(PressLog, FilesThatAreNoLogs) {
   EXPECT_NE(refusal("# nothing\n\n").find("holds no line of column titles"), std::string::npos);
   EXPECT_NE(refusal("pressure [Pa]\n# nothing\n").find("names columns but holds no row"), std::string::npos);
   EXPECT_NE(refusal("").find("is empty"), std::string::npos);
-  EXPECT_NE(refusal(std::string("\xFF\xFEp\0r\0", 6)).find("is not text"), std::string::npos);
+  EXPECT_NE(refusal(std::string("p\0r\0", 4)).find("is not text"), std::string::npos);
   EXPECT_NE(error_of([&] { read_press_log(path() + "x"); }).find("there is no file"), std::string::npos);
 }
 

@@ -12,6 +12,13 @@
 namespace asperity::press_recording_test {
 namespace {
 
+class Listener final : public Monitor {
+ public:
+  void progress(std::string_view, double) override {}
+  void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
+  std::vector<std::string> warnings;
+};
+
 PressRecording read(const std::string& text) { return read_press_recording(SourceFile("press.csv", text)); }
 std::string refusal(const std::string& text) {
   return error_of([&] { read(text); });
@@ -38,7 +45,8 @@ TEST(PressRecording, UnitsAreThoseOfTheTitles) {
 TEST(PressRecording, TimesIncreaseOrTheirLinesAreNamed) {
   EXPECT_EQ(refusal("time [s],load [N]\n1,1\n1,1\n0.5,1\n,1\nx,1\n2,y\n"),
             "bad_file: \"press.csv\" has 5 problems\n"
-            "  line 3, column 1 (time): the time 1 s stands in line 2 too; write more of its digits\n"
+            "  line 3, column 1 (time): the time 1 s stands in line 2 too; write more of its digits, or "
+            "have such rows spread by equal_times=\"spread\"\n"
             "  line 4, column 1 (time): the time 0.5 s runs backwards: 1 s stands before it\n"
             "  line 5, column 1 (time): the time is missing\n"
             "  line 6, column 1 (time): \"x\" is no finite number\n"
@@ -70,9 +78,33 @@ TEST(PressRecording, F8AUnitThatIsNotReadIsToldAndNotTheRows) {
   EXPECT_DOUBLE_EQ(read("time [s],load [N],angle [rev]\n0,1,0.25\n").angle[0], 0.5 * std::numbers::pi);
 }
 
-TEST(PressRecording, F8OtherNamesOfTheTimeAreAskedAbout) {
-  EXPECT_NE(refusal("Zeit [s];load [N]\n0;1\n").find("among others: \"Zeit [s]\" (did you mean `time [s]`?)"),
-            std::string::npos);
+TEST(PressRecording, F8OtherNamesAndStampsAreRead) {
+  const PressRecording r =
+      read("Zeit;Kraft [kN];Winkel [deg]\n23.11.2026 10:00:00,5;1,5;0\n23.11.2026 10:01:00;2;90\n");
+  ASSERT_EQ(r.time.size(), 2U);
+  EXPECT_EQ(r.time[0], 0.0);
+  EXPECT_EQ(r.time[1], 59.5);
+  EXPECT_EQ(r.load[0], 1500.0);
+  EXPECT_DOUBLE_EQ(r.angle[1], 0.5 * std::numbers::pi);
+}
+
+// F8: a logger that is faster than its clock.
+TEST(PressRecording, F8EqualTimesAreSpreadWhereThatIsSaid) {
+  const SourceFile file("press.csv", "time [s],load [N]\n0,1\n0,2\n1,3\n1,4\n2,5\n2,6\n2,7\n");
+  Listener listener;
+  const PressRecording r = read_press_recording(file, listener, {}, EqualTimes::spread);
+  const std::vector<double> wanted{0, 0.5, 1, 1.5, 2, 2.5, 3};
+  ASSERT_EQ(r.time.size(), wanted.size());
+  for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_EQ(r.time[k], wanted[k]) << k;
+  ASSERT_EQ(listener.warnings.size(), 1U);
+  EXPECT_EQ(listener.warnings[0],
+            "\"press.csv\": 4 rows have the time of the row before them, and are spread evenly until the "
+            "next time");
+  EXPECT_EQ(error_of([] {
+              read_press_recording(SourceFile("press.csv", "time [s],load [N]\n5,1\n5,2\n"),
+                                   Monitor::silent(), {}, EqualTimes::spread);
+            }),
+            "bad_file: \"press.csv\" has the same time in all of its rows");
 }
 
 TEST(PressRecording, LooksLikeOneFromAHundredRowsWithoutDwellsOrTurns) {

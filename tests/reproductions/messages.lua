@@ -38,8 +38,9 @@ end
 assert(lab.surface.sine{ cells="64", size="1 mm", amplitude="1 um" }.cells[1] == 64)
 refused("a surface is no table", function() for _ in pairs(s) do end end)
 refused("quantities are strings", function() return "1 um" + 1 end)
-refused("HV", lab.material, { hardness="100 HV" })
+refused("HBW", lab.material, { hardness="100 HBW" })
 local book = lab.notebook "grits"
 book:write{ grit="P80", Ra=1 }
 book:write{ grit="P120", Ra=2 }
-refused("holds names", book.chart, book, { x="grit", y="Ra" })
+book:chart{ x="grit", y="Ra" }
+refused("holds names", book.chart, book, { x="Ra", y="grit" })

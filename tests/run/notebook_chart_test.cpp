@@ -155,6 +155,95 @@ TEST(NotebookChart, FileNameIsSafe) {
   EXPECT_EQ(default_chart_file("../x", chart("a'b`rm`", {"/"})), "x-a-b-rm.svg");
 }
 
+Table grits() {
+  Table table;
+  for (const char* grit : {"P80", "P120", "P80"}) {
+    const std::vector<Entry> row = {
+        {"grit", grit}, {"Ra", table.rows() + 1.0, "um"}, {"N", table.rows() + 0.0}};
+    table.append(row);
+  }
+  return table;
+}
+
+TEST(NotebookChart, TextsAlongXAreNamesInTheOrderOfTheirRows) {
+  const LineChart named = drawn(grits(), chart("grit", {"Ra"}));
+  EXPECT_EQ(named.x.names, (std::vector<std::string>{"P80", "P120"}));
+  EXPECT_EQ(named.series[0].x, (std::vector<double>{0, 1}));
+  EXPECT_EQ(named.series[0].y, (std::vector<double>{2, 2}));  // P80 twice: 1 and 3
+  EXPECT_FALSE(named.series[0].line);
+  NotebookChart options = chart("grit", {"Ra"});
+  options.log_x = true;
+  EXPECT_EQ(
+      error_of([&] { drawn(grits(), options); }),
+      "bad_value: `grit` holds names, such as \"P80\"; `log_x`, `fit` and `functions` need numbers along");
+  EXPECT_EQ(
+      error_of([&] { drawn(grits(), chart("N", {"grit"})); }),
+      "bad_value: the chart of `grit` against `N` has nothing to draw; `grit` holds names, such as \"P80\"; "
+      "names stand along x: write a column of numbers beside them");
+}
+
+TEST(NotebookChart, LinesAcrossAreCountedInTheColumnsUnit) {
+  NotebookChart options = chart("N", {"Ra"});
+  options.references = {{{}, ExpectedValue("2500 nm"), "limit"}, {ExpectedValue(1), {}, ""}};
+  const LineChart lines = drawn(grits(), options);
+  EXPECT_EQ(*lines.references[0].y, 2.5);
+  EXPECT_EQ(*lines.references[1].x, 1);
+  options.references = {{{}, ExpectedValue("2 N"), ""}};
+  EXPECT_TRUE(error_of([&] { drawn(grits(), options); }).starts_with("bad_unit: a line across `Ra`: "));
+}
+
+TEST(NotebookChart, FitsAndFunctionsAreLinesOverTheRangeOfX) {
+  NotebookChart options = chart("N", {"Ra"});
+  options.fits = {{"", "N", "Ra", 0.9, {{0, 1, 0.5, 1.5}, {2, 3, 2.5, 3.5}}}};
+  options.functions = {{"double", [](double x) { return 2 * x; }}};
+  const LineChart lines = drawn(grits(), options);
+  ASSERT_EQ(lines.series.size(), 3U);
+  EXPECT_FALSE(lines.series[0].line);
+  EXPECT_EQ(lines.series[1].name, "fit, 90 % band");
+  EXPECT_TRUE(lines.series[1].band);
+  EXPECT_EQ(lines.series[1].y_high, (std::vector<double>{1.5, 3.5}));
+  EXPECT_EQ(lines.series[2].name, "double");
+  EXPECT_EQ(lines.series[2].x.front(), 0);
+  EXPECT_EQ(lines.series[2].x.back(), 2);
+  EXPECT_EQ(lines.series[2].y.back(), 4);
+  options.lines = true;
+  EXPECT_TRUE(drawn(grits(), options).series[0].line);
+  options.fits[0].y = "mu";
+  EXPECT_EQ(
+      error_of([&] { drawn(grits(), options); }),
+      "bad_value: `fit` is of `mu` against `N`, and the chart shows `Ra` against `N`; draw the columns that "
+      "were fitted");
+}
+
+TEST(NotebookChart, IntervalsFromColumns) {
+  Table table;
+  for (const double x : {1.0, 2.0}) {
+    const std::vector<Entry> row = {{"x", x}, {"y", 2 * x}, {"low", x}, {"high", 5 * x}};
+    table.append(row);
+  }
+  NotebookChart options = chart("x", {"y"});
+  options.low = "low";
+  options.high = "high";
+  EXPECT_EQ(drawn(table, options).series[0].y_low, (std::vector<double>{1, 2}));
+  EXPECT_EQ(drawn(table, options).series[0].y_high, (std::vector<double>{5, 10}));
+  options.high = "hihg";
+  EXPECT_NE(error_of([&] { drawn(table, options); }).find("`interval` names `hihg`"), std::string::npos);
+}
+
+TEST(NotebookChart, LinesStandInTheOrderOfTheirNumbersWholeOrNot) {
+  Table table;
+  for (const Cell& D : {Cell(std::int64_t{3}), Cell(2.5), Cell(std::int64_t{2})}) {
+    const std::vector<Entry> row = {{"D", D}, {"x", 1.0}, {"y", 1.0}};
+    table.append(row);
+  }
+  NotebookChart options = chart("x", {"y"});
+  options.one_line_per = "D";
+  const LineChart lines = drawn(table, options);
+  EXPECT_EQ(lines.series[0].name, "2");
+  EXPECT_EQ(lines.series[1].name, "2.5");
+  EXPECT_EQ(lines.series[2].name, "3");
+}
+
 using NotebookChartRun = InFolder;
 
 TEST_F(NotebookChartRun, DrawsUnderTheRunAndJournals) {

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <string>
+#include <vector>
 
 #include "engine/surface/io/archive.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
@@ -13,6 +14,7 @@
 #include "engine/surface/io/write.hpp"
 #include "engine/surface/slabs/slab_surface.hpp"
 #include "tests/surface/files.hpp"
+#include "tests/surface/little_endian.hpp"
 #include "tests/surface/warnings.hpp"
 
 namespace asperity::holes_in_files_test {
@@ -144,6 +146,56 @@ TEST(HolesInFiles, FilesSayHowManyPointsAreMissing) {
   const Hdf5Content content = read_hdf5(scratch.path("a.h5"));
   ASSERT_NE(content.number("not_measured"), nullptr);
   EXPECT_EQ(*content.number("not_measured"), 7);
+}
+
+// How each format of instruments says that (1, 0) of a map of 3 x 2 points was not measured.
+TEST(HolesInFiles, EveryFormatHasItsOwnMark) {
+  struct Example {
+    std::string name, bytes;
+  };
+  const auto bcr = [](const std::string& kind, const std::string& rest) {
+    return testing::Bytes()
+        .field("fileformat = " + kind + "\nxpixels = 3\nypixels = 2\nxlength = 3\nylength = 2\n" + rest, 2048)
+        .bytes();
+  };
+  const auto opd = [](const testing::OpdBlock& map) {
+    return testing::opd_example(
+        {map, testing::opd_number("Wavelength", 600), testing::opd_number("Pixel_size", 1)});
+  };
+  testing::SdfExample words, numbers;
+  words.type = 5;
+  testing::SurExample sur;
+  sur.special = 1;
+  sur.least = 3;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Example> examples{
+      {"a.sdf", words(std::vector<std::int16_t>{1, -32768, 3, 4, 5, 6})},
+      {"b.sdf", numbers(std::vector<double>{1, NAN, 3, 4, 5, 6})},
+      {"a.sur", sur(std::vector<std::int16_t>{3, 1, 3, 4, 5, 6})},
+      {"a.bcr",
+       bcr("bcrstm", "bit2nm = 1\n") + testing::raw(std::vector<std::int16_t>{1, 32767, 3, 4, 5, 6})},
+      {"b.bcr", bcr("bcrf", "") + testing::raw(std::vector<float>{1, 3e38F, 3, 4, 5, 6})},
+      {"c.bcr", bcr("bcrf", "") + testing::raw(std::vector<float>{1, nan, 3, 4, 5, 6})},
+      // Column by column.
+      {"a.opd", opd(testing::opd_map("RAW_DATA", 3, 2, std::vector<float>{1, 4, 1e38F, 5, 3, 6}))},
+      {"b.opd", opd(testing::opd_map("RAW_DATA", 3, 2, std::vector<std::int16_t>{1, 4, 32767, 5, 3, 6}))},
+      {"a.txt", "h=2 w=3\npixel size=1e-6\nheight conversion factor=1e-9\n1 nan 3\n4 5 6\n"},
+      {"b.txt", "h=2 w=3\npixel size=1e-6\nheight conversion factor=1e-9\n1 BAD 3\n4 5 6\n"},
+      {"a.csv", "h=2 w=3\npixel size=1e-6\nheight conversion factor=1e-9\n1;;3\n4;5;6\n"},
+      {"a.xyz", "x [um];y [um];z [nm]\n0;0;1\n2;0;3\n0;1;4\n1;1;5\n2;1;6\n"},
+      {"b.xyz", "x [um];y [um];z [nm]\n0;0;1\n1;0;\n2;0;3\n0;1;4\n1;1;5\n2;1;6\n"},
+  };
+  for (const Example& example : examples) {
+    const Surface found = read_surface(SourceFile(example.name, example.bytes));
+    EXPECT_EQ(found.grid().nx, 3) << example.name;
+    EXPECT_EQ(found.measured(), 5U) << example.name;
+    EXPECT_TRUE(std::isnan(found.height(1, 0))) << example.name;
+    EXPECT_FALSE(std::isnan(found.height(0, 1))) << example.name;
+    ReadOptions options;
+    options.fill = HoleFill::with(1e-9);
+    EXPECT_EQ(read_surface(SourceFile(example.name, example.bytes), options).height(1, 0), 1e-9)
+        << example.name;
+  }
 }
 
 // X3P: NaN in floating-point heights, no mask; the checksums are those of the entries as they lie.

@@ -94,6 +94,33 @@ TEST(Xyz, MissingPointIsAHole) {
   EXPECT_NEAR(read_surface(path, options).height(3, 2), 3e-6, 1e-17);
 }
 
+// Points that end within a line are read, and warned of: nothing else tells a file that was cut short.
+TEST(Xyz, LinesThatEndTooSoonAreWarnedOf) {
+  // 4 x 4 points; a line along x or y, from either end.
+  const auto told = [](bool along_x, bool turned, int first_missing, int last_missing) {
+    std::string text;
+    for (int k = 0; k < 16; ++k) {
+      const int fast = turned ? 3 - k % 4 : k % 4, slow = turned ? 3 - k / 4 : k / 4;
+      if (k >= first_missing && k <= last_missing) continue;
+      text += std::to_string(along_x ? fast : slow) + " " + std::to_string(along_x ? slow : fast) + " 1\n";
+    }
+    ReadOptions options = in_micrometres();
+    options.format = "xyz";
+    testing::Warnings warnings;
+    const Surface found = read_surface(SourceFile("a.xyz", text), options, warnings);
+    EXPECT_EQ(found.measured(), static_cast<std::size_t>(16 - (last_missing - first_missing + 1)));
+    return warnings.told("ends within a line of its points: the last " +
+                         std::to_string(last_missing - first_missing + 1) + " are missing");
+  };
+  for (const bool along_x : {true, false})
+    for (const bool turned : {true, false}) {
+      EXPECT_TRUE(told(along_x, turned, 13, 15));
+      EXPECT_TRUE(told(along_x, turned, 15, 15));
+      EXPECT_FALSE(told(along_x, turned, 14, 14));
+      EXPECT_FALSE(told(along_x, turned, 5, 6));
+    }
+}
+
 struct NamedUnit {
   const char* name;
   double metres;

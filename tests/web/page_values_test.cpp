@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <thread>
 
@@ -84,6 +85,29 @@ TEST(ReducedField, SaysSoWhereTheLastBlockIsSmaller) {
   EXPECT_EQ(small.nx, 172);  // 171 blocks of 3 and one of 1
   EXPECT_EQ(reduction_text(small, 514, 512), "mean of 3 x 2 nodes, fewer at the far edges");
   for (const float value : small.values) ASSERT_EQ(value, 1.0F);
+}
+
+// What was not measured is missing on the page too, and it says how much that is.
+TEST(ReducedField, HolesOfASurfaceAreMissing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Field heights(3, 2, 1e-6);
+  heights(1, 1) = nan;
+  const Grid grid = make_grid(3, 2, 3e-6, 2e-6);
+  const Json holed = view_of(Surface::with_holes(grid, heights), "map", 1);
+  const Json* const field = &holed.find("fields")->list()[0];
+  EXPECT_EQ(field->find("not_measured")->number(), 1);
+  const float height = 1e-6F;
+  std::vector<float> values{height, height, height, height, static_cast<float>(nan), height};
+  EXPECT_EQ(field->find("data")->string(),
+            base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)}));
+  const Json whole = view_of(Surface(grid, Field(3, 2)), "map", 1);
+  EXPECT_EQ(whole.find("fields")->list()[0].find("not_measured"), nullptr);
+  // A block is the mean of what is known of it.
+  Field wide(4, 1, 2.0);
+  wide(0, 0) = wide(2, 0) = wide(3, 0) = nan;
+  const ReducedField small = reduced(wide, 2);
+  EXPECT_EQ(small.values[0], 2.0F);
+  EXPECT_TRUE(std::isnan(small.values[1]));
 }
 
 TEST(Base64, IsThatOfTheStandard) {

@@ -148,6 +148,10 @@ std::string class_help(const Class& type) {
   if (!type.methods.empty()) text += "\nMethods:\n";
   for (const Function& method : type.methods)
     text += "  " + padded(method.name, width) + "  " + method.sentence + "\n";
+  if (!type.operators.empty()) text += "\nOperators:\n";
+  for (const Operator& operation : type.operators)
+    text += "  " + padded(operation.form, width) + "  " + operation.sentence + " E.g. " + operation.example +
+            "\n";
   return text;
 }
 
@@ -334,6 +338,15 @@ void fields_reference(std::string& page, const std::vector<Getter>& fields) {
   page += "\n";
 }
 
+void operators_reference(std::string& page, const std::vector<Operator>& operators) {
+  if (operators.empty()) return;
+  page += "| operator | gives | meaning | example |\n|---|---|---|---|\n";
+  for (const Operator& operation : operators)
+    page += "| `" + operation.form + "` | " + cell(operation.returns) + " | " + cell(operation.sentence) +
+            " | `" + operation.example + "` |\n";
+  page += "\n";
+}
+
 // Each type of record stands with the first module or class that gives it.
 void records_reference(std::string& page, const std::vector<const RecordInfo*>& results,
                        std::vector<const RecordInfo*>& told) {
@@ -472,6 +485,7 @@ local stage = lab.tilt_stage{ contact=c, friction=law, mass="4.3 g" }
 local protocol = lab.protocol{ { press={ pressure="10 MPa" } }, { release=true }, { rotate="90 deg" } }
 local book = lab.notebook "examples"
 for N = 1, 3 do book:write{ N=N, D=2.5, r=0.1, mu=0.4 + 0.01 * N } end
+local t = book:table()
 local study = lab.work_precision{
   ask=function(knobs) return lab.exact.hertz{ radius=1, modulus=1, load=1 }.approach + 1e-2 / knobs.cells ^ 2 end,
   truth={ cells=1024 }, try={ { name="finer grid", cells={ 16, 32, 64 } } }, repeats=1,
@@ -481,6 +495,7 @@ local spread = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary="period
                                    effects={ elasticity="half_space" } }
 local under = spread:press{ pressure="10 MPa" }
 s:write "specimen.txt" p:write "scan.csv" protocol:write "press_log.csv"
+lab.table.from{ { ["force"]=3, mu=0.42 } }:write "mu.csv"
 )";
   return text;
 }
@@ -515,6 +530,7 @@ std::string reference_page() {
   for (const Class* type : classes()) {
     page += "## " + type->name + "\n\n" + type->sentence + "\n\n";
     fields_reference(page, type->fields);
+    operators_reference(page, type->operators);
     for (const Function& f : type->methods) function_reference(page, f);
     records_reference(page, type->results, told);
   }
@@ -533,6 +549,10 @@ std::string editor_types() {
   for (const Class* type : classes()) {
     for (const Function& f : type->methods) cats_block(page, f);
     cats_class(page, type->name, type->sentence, type->fields);
+    for (const Operator& operation : type->operators)
+      page += "---@operator " + operation.event.substr(2) +
+              (operation.operand.empty() ? "" : "(" + cats_type(operation.operand) + ")") + ": " +
+              cats_type(operation.returns) + "\n";
     page += "local " + type->name + " = {}\n\n";
     for (const Function& f : type->methods) cats_function(page, f, type->name + ":" + f.name);
   }

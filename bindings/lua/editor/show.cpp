@@ -8,6 +8,7 @@
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/contact.hpp"
+#include "bindings/lua/surface/missing_points.hpp"
 #include "bindings/lua/surface/picture.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/plot/picture_profile.hpp"
@@ -63,10 +64,11 @@ void show_profile(const Call& call, const Profile& profile) {
   chart.y.unit = "m";
   ChartSeries& line = chart.series.emplace_back();
   line.points = false;
+  line.gaps = !profile.complete();
   const double step = profile.closed() ? 6.283185307179586 / profile.size() : profile.spacing();
   for (int k = 0; k < profile.size(); ++k) {
     line.x.push_back(k * step);
-    line.y.push_back(profile.heights()[static_cast<std::size_t>(k)]);
+    line.y.push_back(profile.measured_heights()[static_cast<std::size_t>(k)]);
   }
   show_chart(call, chart);
 }
@@ -105,8 +107,11 @@ Values show_value(const Call& call) {
   if (call.count() > 2) throw Error(ErrorCode::bad_value, "show takes at most 2 arguments");
   const Argument value = call.argument(1);
   if (const Surface* surface = call.given(1) ? value.as<Surface>() : nullptr) {
-    show_map(call, surface->grid(), surface->heights(), "height", dimension::length, "viridis");
-  } else if (const StateField* field = call.given(1) ? value.as<StateField>() : nullptr) {
+    show_map(call, surface->grid(), surface->measured_heights(), "height", dimension::length, "viridis");
+    if (const std::string missing = missing_text(surface->measured(), surface->grid().nodes());
+        !missing.empty())
+      say(call, missing.substr(2) + "\n");
+  } else if (const NamedField* field = call.given(1) ? value.as<NamedField>() : nullptr) {
     show_map(call, field->grid, *field->values, field->name, field->dimension,
              field->name == "contact" ? "contact" : "viridis");
   } else if (const asperity::State* state = call.given(1) ? value.as<asperity::State>() : nullptr) {

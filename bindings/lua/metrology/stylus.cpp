@@ -153,7 +153,8 @@ const Class& class_of<Stylus>() {
              "Traces at random places and angles, as the tip gives them: nothing is levelled or "
              "filtered. On a periodic surface they go on past the rim; on any other they stay inside. "
              "The list also holds tip_effect, what the tip changed against a needle on the same lines, and "
-             "lines, where each trace begins and its angle.",
+             "lines, where each trace begins and its angle. Over points that were not measured only a needle "
+             "(tip=0) goes: its traces have holes there.",
          .parameters = {{"surface", "Surface", "what is measured"}},
          .options = &scan_block(),
          .options_optional = true,

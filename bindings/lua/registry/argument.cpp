@@ -87,7 +87,18 @@ double Callback::operator()(std::initializer_list<std::int64_t> arguments, std::
   return finish(static_cast<int>(arguments.size()), key);
 }
 
-double Callback::finish(int arguments, std::string_view key) const {
+bool Callback::answer(std::initializer_list<double> arguments, std::string_view key) const {
+  const Argument::StackGuard guard(function_.state());
+  lua_pushvalue(function_.state(), function_.index());
+  for (const double argument : arguments) lua_pushnumber(function_.state(), argument);
+  const Argument result = called(static_cast<int>(arguments.size()), key);
+  if (!result.is_boolean())
+    throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " returned " + result.describe(),
+                "it must return true or false");
+  return result.boolean();
+}
+
+Argument Callback::called(int arguments, std::string_view key) const {
   lua_State* L = function_.state();
   if (lua_pcall(L, arguments, 1, 0) != LUA_OK) {
     stop_flag().check();
@@ -95,7 +106,11 @@ double Callback::finish(int arguments, std::string_view key) const {
     throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " failed: " +
                                           (error.is_text() ? std::string(error.text()) : error.describe()));
   }
-  const Argument result(L, -1);
+  return Argument(L, -1);
+}
+
+double Callback::finish(int arguments, std::string_view key) const {
+  const Argument result = called(arguments, key);
   if (!result.is_number())
     throw Error(ErrorCode::bad_value, "the function " + quoted(key) + " returned " + result.describe(),
                 "it must return a number");

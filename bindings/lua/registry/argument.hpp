@@ -109,8 +109,11 @@ class Callback {
   // own message if it failed, or naming what it returned if that is no number.
   double operator()(std::initializer_list<double> arguments, std::string_view key) const;
   double operator()(std::initializer_list<std::int64_t> arguments, std::string_view key) const;
+  // The same of a function that answers true or false.
+  bool answer(std::initializer_list<double> arguments, std::string_view key) const;
 
  private:
+  Argument called(int arguments, std::string_view key) const;
   double finish(int arguments, std::string_view key) const;
   Argument function_;
 };

@@ -105,6 +105,31 @@ int outer_length(lua_State* L) {
   return results < 0 ? lua_error(L) : results;
 }
 
+int guarded_operator(lua_State* L, const Operator& operation) {
+  return guarded(L, operation.form, [&]() -> Values {
+    return with_collection(L, [&]() -> Values {
+      Call call(L, operation.form, false);
+      if (call.argument(1).is_unknown() || call.argument(2).is_unknown())
+        return {placeholder_of(operation.returns)};
+      const LedgerScope scope = call.session().ledger_scope(operation.form, false);
+      return operation.body(call);
+    });
+  });
+}
+
+// A dry run goes on past a mistake with a placeholder for what would have come out.
+int operator_after_failure(lua_State* L, const Operator& operation) {
+  if (!noted_as_mistake(L)) return -1;
+  return guarded(L, operation.form, [&]() -> Values { return {placeholder_of(operation.returns)}; });
+}
+
+int outer_operator(lua_State* L) {
+  const Operator& operation = *static_cast<const Operator*>(lua_touserdata(L, lua_upvalueindex(1)));
+  int results = guarded_operator(L, operation);
+  if (results < 0) results = operator_after_failure(L, operation);
+  return results < 0 ? lua_error(L) : results;
+}
+
 // A native value has fields to read and methods to call, and nothing to walk over.
 int outer_pairs(lua_State* L) {
   const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
@@ -193,6 +218,11 @@ void push_metatable(lua_State* L, const Class& type) {
   set_class_method(L, "__eq", outer_equal, type);
   set_class_method(L, "__pairs", outer_pairs, type);
   if (type.length != nullptr) set_class_method(L, "__len", outer_length, type);
+  for (const Operator& operation : type.operators) {
+    lua_pushlightuserdata(L, const_cast<Operator*>(&operation));
+    lua_pushcclosure(L, outer_operator, 1);
+    lua_setfield(L, -2, operation.event.c_str());
+  }
   set_class_method(L, "__gc", release, type);
   set_class_method(L, "__close", outer_close, type);
   lua_pushvalue(L, -1);

@@ -155,7 +155,9 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
   }
   check_count(call, function);
   // To explain a contact its bodies are needed; to check a script they are not.
-  const bool left_out = function.heavy && (call.session().explanation == nullptr || !makes_a_body(function));
+  const bool left_out =
+      function.unknown_when_dry ||
+      (function.heavy && (call.session().explanation == nullptr || !makes_a_body(function)));
   if (call.session().dry_run && (left_out || placeholder_self || any_argument_unknown(call)))
     return dry_call(call, function);
   LedgerScope scope = call.session().ledger_scope(call.function_name(), function.heavy);

@@ -49,6 +49,8 @@ struct Function {
   std::string returns{};
   std::string example{};  // required; a line that runs after example_preamble()
   bool heavy = false;     // not run by `asperity check`
+  // Nor is this, for it hangs on rows that a dry run does not know; but it is no call of the journal.
+  bool unknown_when_dry = false;
   // What a dry run does with arguments that hold placeholders, beside reading the options; null: nothing.
   void (*look)(const Call& call) = nullptr;
 };
@@ -68,12 +70,24 @@ struct Getter {
   Body body = nullptr;
 };
 
+// What one of Lua's operators gives where a native value stands on either side.
+struct Operator {
+  std::string event{};    // "__sub"
+  std::string form{};     // "a - b", as it is written and as errors call it
+  std::string operand{};  // the type of the other side, "Surface|number"; "" of one with a single side
+  std::string sentence{};
+  std::string returns{};  // "Surface"
+  std::string example{};  // required, as of a function
+  Body body = nullptr;    // its arguments are the two sides in order, the one side twice
+};
+
 struct Class {
   std::string name{};          // "Surface"; messages and types
   std::string article_name{};  // "a surface"
   std::string sentence{};
   std::vector<Getter> fields{};
   std::vector<Function> methods{};
+  std::vector<Operator> operators{};
   std::vector<const RecordInfo*> results{};  // types of the records that its fields and methods give
   bool shareable = true;                     // an immutable value, which cases of an ensemble may share
   std::int64_t (*length)(const void* self) = nullptr;       // what # gives; null: nothing

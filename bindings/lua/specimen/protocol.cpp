@@ -315,7 +315,7 @@ const Class& class_of<Protocol>() {
              "Draws load over time with rises, holds, peaks, releases and turns marked and labelled, over "
              "what was recorded if it was detected in a recording; without recorded times over the time "
              "its dwells add up to, or event by event. Returns the file.",
-         .parameters = {{"path", "string", "an .svg or .png under the run directory"}},
+         .parameters = {{"path", "string", "an .svg, .png or .pdf under the run directory"}},
          .options = &chart_block(),
          .options_optional = true,
          .returns = "string",

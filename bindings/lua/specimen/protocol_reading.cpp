@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
 #include "engine/core/files/source_file.hpp"
@@ -18,13 +19,14 @@ namespace {
 
 enum class ReadAs { as_it_looks, rows, detect };
 
-struct ReadProtocolKeys {
+struct ReadProtocolKeys : TableForm {
   ReadAs events = ReadAs::as_it_looks;
   std::optional<Quantity> noise, zero;
   std::optional<double> zero_drift, same_load, shortest_hold, evidence, least_overshoot, least_turn,
       turn_step;
   std::optional<DetectionOptions::Overshoot> overshoot;
   std::optional<double> area;
+  EqualTimes equal_times = EqualTimes::refuse;
 
   bool detects() const {
     return noise || zero || zero_drift || same_load || shortest_hold || evidence || least_overshoot ||
@@ -65,49 +67,56 @@ Option<ReadProtocolKeys> reading(std::string name, std::optional<Quantity> ReadP
 const Block<ReadProtocolKeys>& read_protocol_block() {
   using K = ReadProtocolKeys;
   using Overshoot = DetectionOptions::Overshoot;
-  static const Block<K> block{
-      "read",
-      {choice(
-           "events", &K::events, {{"rows", ReadAs::rows}, {"detect", ReadAs::detect}},
-           "\"rows\": each row is an event; \"detect\": they are found in a recording sampled all the time")
-           .defaults_to("as the table looks: a hundred rows or more with times, and no dwell, place or turn, "
-                        "are a recording"),
-       quantity("area", &K::area, dimension::area, above(0),
-                "nominal area of the specimen that was pressed: its loads become mean pressures, as a tile "
-                "of it carries them"),
-       reading("noise", &K::noise, false, "standard deviation of a reading").defaults_to("measured"),
-       reading("zero", &K::zero, true, "what the sensor reads without load, all along")
-           .defaults_to("found in the rests, and followed"),
-       number("zero_drift", &K::zero_drift, inside(0, 0.5),
-              "how far from the rest before a rest may lie, as a share of the highest load")
-           .defaults_to("0.01"),
-       number(
-           "same_load", &K::same_load, inside(0, 0.5),
-           "how far a hold may drift, and lie from the one before to be part of it, as a share of its load")
-           .defaults_to("0.02"),
-       quantity("shortest_hold", &K::shortest_hold, dimension::time, above(0),
-                "what stays level for less is no hold")
-           .defaults_to("four usual steps of time"),
-       number("evidence", &K::evidence, above(0),
-              "squares of the noise that a bend must save to be seen; fewer see more, and ghosts")
-           .defaults_to("10 + 4 ln samples"),
-       choice("overshoot", &K::overshoot, {{"press", Overshoot::press}, {"ignore", Overshoot::ignore}},
-              "what becomes of a load above the holds at both its sides: a press of its own, for "
-              "flattening goes by the highest load, or nothing")
-           .defaults_to("\"press\""),
-       number("least_overshoot", &K::least_overshoot, inside(0, 1),
-              "an overshoot by less is none, as a share of the load beside it; nor one within six times the "
-              "noise")
-           .defaults_to("0.01"),
-       quantity("least_turn", &K::least_turn, dimension::angle, above(0), "a turn by less is none")
-           .defaults_to("\"0.5 deg\""),
-       quantity("turn_step", &K::turn_step, dimension::angle, above(0),
-                "turns are whole multiples of this, and are rounded to them")
-           .defaults_to("none: turns are as they were read")},
-      [](K& keys, Problems& problems) {
-        if (keys.events == ReadAs::rows && keys.detects())
-          problems.push_back("with events=\"rows\" nothing is detected, so only `events` may be given");
-      }};
+  static const Block<K> block = [] {
+    std::vector<Option<K>> keys{
+        choice(
+            "events", &K::events, {{"rows", ReadAs::rows}, {"detect", ReadAs::detect}},
+            "\"rows\": each row is an event; \"detect\": they are found in a recording sampled all the time")
+            .defaults_to(
+                "as the table looks: a hundred rows or more with times, and no dwell, place or turn, "
+                "are a recording"),
+        quantity("area", &K::area, dimension::area, above(0),
+                 "nominal area of the specimen that was pressed: its loads become mean pressures, as a tile "
+                 "of it carries them"),
+        reading("noise", &K::noise, false, "standard deviation of a reading").defaults_to("measured"),
+        reading("zero", &K::zero, true, "what the sensor reads without load, all along")
+            .defaults_to("found in the rests, and followed"),
+        number("zero_drift", &K::zero_drift, inside(0, 0.5),
+               "how far from the rest before a rest may lie, as a share of the highest load")
+            .defaults_to("0.01"),
+        number(
+            "same_load", &K::same_load, inside(0, 0.5),
+            "how far a hold may drift, and lie from the one before to be part of it, as a share of its load")
+            .defaults_to("0.02"),
+        quantity("shortest_hold", &K::shortest_hold, dimension::time, above(0),
+                 "what stays level for less is no hold")
+            .defaults_to("four usual steps of time"),
+        number("evidence", &K::evidence, above(0),
+               "squares of the noise that a bend must save to be seen; fewer see more, and ghosts")
+            .defaults_to("10 + 4 ln samples"),
+        choice("overshoot", &K::overshoot, {{"press", Overshoot::press}, {"ignore", Overshoot::ignore}},
+               "what becomes of a load above the holds at both its sides: a press of its own, for "
+               "flattening goes by the highest load, or nothing")
+            .defaults_to("\"press\""),
+        number("least_overshoot", &K::least_overshoot, inside(0, 1),
+               "an overshoot by less is none, as a share of the load beside it; nor one within six times the "
+               "noise")
+            .defaults_to("0.01"),
+        quantity("least_turn", &K::least_turn, dimension::angle, above(0), "a turn by less is none")
+            .defaults_to("\"0.5 deg\""),
+        quantity("turn_step", &K::turn_step, dimension::angle, above(0),
+                 "turns are whole multiples of this, and are rounded to them")
+            .defaults_to("none: turns are as they were read"),
+        choice(
+            "equal_times", &K::equal_times, {{"error", EqualTimes::refuse}, {"spread", EqualTimes::spread}},
+            "what becomes of samples of a recording that share a time, as those of a fast logger with a slow "
+            "clock do: an error, or they are spread evenly until the next time")};
+    keys.insert(keys.end(), table_form_keys().begin(), table_form_keys().end());
+    return Block<K>("read", std::move(keys), [](K& given, Problems& problems) {
+      if (given.events == ReadAs::rows && given.detects())
+        problems.push_back("with events=\"rows\" nothing is detected, so only `events` may be given");
+    });
+  }();
   return block;
 }
 
@@ -155,10 +164,11 @@ Values read_protocol(Call& call) {
   Monitor& monitor = call.session().monitor();
   const SourceFile file(path, monitor);
   note_input(call, path);
-  const bool looks = keys.events == ReadAs::as_it_looks && !keys.detects() && looks_like_recording(file);
+  const bool looks =
+      keys.events == ReadAs::as_it_looks && !keys.detects() && looks_like_recording(file, keys);
   if (keys.events == ReadAs::rows || (keys.events == ReadAs::as_it_looks && !keys.detects() && !looks))
-    return {object(over_area(read_press_log(file, monitor), keys.area))};
-  PressRecording recording = read_press_recording(file, monitor);
+    return {object(over_area(read_press_log(file, monitor, keys), keys.area))};
+  PressRecording recording = read_press_recording(file, monitor, keys, keys.equal_times);
   if (keys.area && recording.by == PressBy::load) {
     recording.by = PressBy::pressure;
     for (double& load : recording.load) load /= *keys.area;
@@ -179,7 +189,9 @@ Function protocol_read_function() {
       .sentence =
           "A protocol from a press log. Its columns are named with units, such as time [s], pressure "
           "[MPa] or "
-          "load [N]; cells are parted by commas, semicolons or tabs; other columns are left out with a "
+          "load [N], and read as lab.table.read reads any table, times that are dates too, from the first "
+          "on; "
+          "force, Kraft, Druck, Zeit and the like are understood; other columns are left out with a "
           "warning, those titled \"result ...\" without. With a row an event there may be rotation [deg], "
           "dwell [min], and place for a seed: a row turns the upper body by its rotation from where it "
           "lies, "

@@ -70,7 +70,7 @@ Values read_slip_number(Call& call) {
 Values slip_field(Call& call) {
   const auto& slip = call.self<PartialSlip>();
   const std::string name = call.text(1, "name");
-  return {object(StateField{name, slip.normal().geometry().grid(),
+  return {object(NamedField{name, slip.normal().geometry().grid(),
                             std::make_shared<const Field>(slip.field(name)),
                             name == "shear" ? dimension::pressure : dimension::number})};
 }

@@ -19,8 +19,9 @@ namespace asperity::lua {
 namespace {
 
 // The methods of a surface that keep its cells and size.
-constexpr std::array<std::string_view, 8> keeps_grid = {"scaled",   "shifted",  "mirrored", "plus",
-                                                        "levelled", "filtered", "cut",      "with"};
+constexpr std::array<std::string_view, 11> keeps_grid = {"scaled", "shifted",  "mirrored", "plus",
+                                                         "minus",  "levelled", "filtered", "cut",
+                                                         "with",   "masked",   "filled"};
 
 // From `cells` and `size` of a table that holds other keys too.
 std::optional<Grid> grid_in(const Argument& table) {

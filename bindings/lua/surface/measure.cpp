@@ -13,6 +13,11 @@
 
 namespace asperity::lua {
 
+namespace {
+constexpr const char* measured_sentence =
+    "how many points were measured, the others left out; nil where every point was";
+}  // namespace
+
 const RecordType<Roughness>& roughness_type(bool areal) {
   using R = Roughness;
   using Fields = std::vector<RecordField<R>>;
@@ -22,10 +27,14 @@ const RecordType<Roughness>& roughness_type(bool areal) {
       {"amplitude", &R::amplitude, dimension::length, "peak to valley"},
       {"skewness", &R::skewness, "of the heights; 0 where all are equal"},
       {"kurtosis", &R::kurtosis, "of the heights; 3 of Gaussian ones, 0 where all are equal"},
-      {"rms_slope", &R::rms_slope, "root mean square slope between neighbouring nodes, never across the rim"},
+      {"rms_slope", &R::rms_slope,
+       "root mean square slope between neighbouring nodes, never across the rim; where points were not "
+       "measured, "
+       "of the pairs along each direction that were, nan where there is none"},
       {"peak", &R::peak, dimension::length, "the greatest height, as stored"},
       {"valley", &R::valley, dimension::length, "the least height, as stored"},
-      {"mean", &R::mean, dimension::length, "of the heights, as stored"}};
+      {"mean", &R::mean, dimension::length, "of the heights, as stored"},
+      {"measured", &R::measured, measured_sentence}};
   static const Fields areal_names{{"Sa", &R::Ra, dimension::length, "Ra by its areal name"},
                                   {"Sq", &R::Rq, dimension::length, "Rq by its areal name"},
                                   {"Sz", &R::amplitude, dimension::length, "amplitude by its areal name"},
@@ -55,6 +64,7 @@ const RecordType<MeasuredSpectrum>& spectrum_type() {
        {"rms_height", &S::rms_height, dimension::length,
         "root of the power of all waves: Rq without a window"},
        {"rms_slope", &S::rms_slope, "root mean square slope of the waves that interpolate the heights"},
+       {"measured", &S::measured, measured_sentence},
        {"window",
         [](const S& s) {
           constexpr std::array windows = {"automatic", "none", "hann"};
@@ -81,6 +91,7 @@ const RecordType<FractalDimension>& fractal_dimension_type() {
        {"steps", &F::steps, "in samples; with \"psd\" wavelengths"},
        {"r_squared", &F::r_squared, "of the line through the lengths, both on logarithmic axes"},
        {"profiles", &F::profiles, "how many gave a D"},
+       {"measured", &F::measured, measured_sentence},
        {"resolved", &F::resolved, "whether D can be believed, as far as the method itself can tell"},
        {"reason", [](const F& f) { return f.reason.empty() ? std::nullopt : std::optional(f.reason); },
         "why it is not resolved; nil where it is"}}};
@@ -112,7 +123,8 @@ const Block<FractalDimensionOptions>& fractal_dimension_block(bool surface) {
              {"madogram", DimensionMethod::madogram}},
             "profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure "
             "function, box counting or madogram; the `lengths` of the result are what the method measures at "
-            "each of its `steps`, profile lengths by \"length\" alone"),
+            "each of its `steps`, profile lengths by \"length\" alone; \"psd\" and \"box\" refuse points not "
+            "measured"),
         custom<O>("steps", "integer[]", "steps in samples, e.g. {1, 2, 4, 8, 16}",
                   [](const Argument& value, const OptionInfo& info, O& o, Problems& problems) {
                     if (!value.is_table() || value.length() < 2)

@@ -5,6 +5,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/measure.hpp"
+#include "bindings/lua/surface/missing_points.hpp"
 #include "bindings/lua/surface/profile_parameters.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
@@ -23,7 +24,7 @@ Value::Numbers profile_numbers(std::span<const double> values) {
   return std::make_shared<const Array<double>>(values.begin(), values.end());
 }
 
-Values heights_of_profile(Call& call) { return {profile_numbers(call.self<Profile>().heights())}; }
+Values heights_of_profile(Call& call) { return {profile_numbers(call.self<Profile>().measured_heights())}; }
 
 Values positions(Call& call) {
   const Profile& p = call.self<Profile>();
@@ -37,7 +38,7 @@ Values outline(Call& call) {
   const Profile& p = call.self<Profile>();
   if (!p.closed())
     throw Error(ErrorCode::bad_state, "the profile is not a closed outline", "grain_profile makes one");
-  const auto h = p.heights();
+  const auto h = p.measured_heights();
   Array<double> x(h.size()), y(h.size());
   for (std::size_t k = 0; k < h.size(); ++k) {
     const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(h.size());
@@ -117,7 +118,8 @@ std::string describe_profile(const void* self) {
   const auto& p = *static_cast<const Profile*>(self);
   return (p.closed() ? "closed profile of " : "profile of ") + std::to_string(p.size()) + " samples, " +
          format_quantity(p.length(), dimension::length) + " long, peak to valley " +
-         format_quantity(p.height_range().span(), dimension::length);
+         format_quantity(p.height_range().span(), dimension::length) +
+         missing_text(p.measured(), static_cast<std::size_t>(p.size()));
 }
 std::size_t bytes_of_profile(const void* self) {
   return static_cast<const Profile*>(self)->measured_heights().size_bytes();
@@ -159,10 +161,11 @@ const Class& class_of<Profile>() {
          {},
          [](Call& call) -> Values { return {call.self<Profile>().digest()}; }},
     };
+    for (Getter& field : missing_point_fields_of_profile()) c.fields.push_back(std::move(field));
     c.methods = {
         {.name = "heights",
          .body = heights_of_profile,
-         .sentence = "All heights in metres.",
+         .sentence = "All heights in metres; nan at samples that were not measured.",
          .returns = "number[]",
          .example = "local z = p:heights()"},
         {.name = "positions",
@@ -172,12 +175,15 @@ const Class& class_of<Profile>() {
          .example = "local x = p:positions()"},
         {.name = "outline",
          .body = outline,
-         .sentence = "x and y of the points of a closed outline: two tables.",
+         .sentence =
+             "x and y of the points of a closed outline: two tables, with nan for points not measured.",
          .returns = "number[], number[]",
          .example = "local x, y = grain:outline()"},
         {.name = "roughness",
          .body = roughness_of_profile,
-         .sentence = "Amplitude and slope statistics (ISO 21920-2), nothing levelled or filtered first.",
+         .sentence = "Amplitude and slope statistics of the measured samples (ISO 21920-2), nothing levelled "
+                     "or filtered "
+                     "first.",
          .returns = "Roughness",
          .example = "print(p:roughness().Ra)"},
         {.name = "spectrum",
@@ -216,7 +222,7 @@ const Class& class_of<Profile>() {
          .example = "p:cut{ fraction=0.2 }"},
         {.name = "picture",
          .body = picture_of_profile,
-         .sentence = "A drawing of the profile, or of the shape of a closed outline: .svg or .png.",
+         .sentence = "A drawing of the profile, or of the shape of a closed outline: .svg, .png or .pdf.",
          .parameters = {{"path", "string", "under the run directory"}},
          .options = &profile_picture_block(),
          .options_optional = true,
@@ -231,8 +237,9 @@ const Class& class_of<Profile>() {
          .example = "p:write \"trace.csv\"",
          .heavy = true},
     };
+    for (Function& method : missing_point_methods_of_profile()) c.methods.push_back(std::move(method));
     c.methods.push_back(profile_parameters_method());
-    c.results = {&roughness_type(false), &spectrum_type(), &fractal_dimension_type(),
+    c.results = {&roughness_type(false), &spectrum_type(), &fractal_dimension_type(), &outliers_type(false),
                  &profile_parameters_result()};
     return c;
   }();

@@ -8,6 +8,7 @@
 #include "bindings/lua/surface/areal_parameters.hpp"
 #include "bindings/lua/surface/known_body.hpp"
 #include "bindings/lua/surface/measure.hpp"
+#include "bindings/lua/surface/missing_points.hpp"
 #include "bindings/lua/surface/picture.hpp"
 #include "bindings/lua/surface/registration.hpp"
 #include "bindings/lua/surface/surface.hpp"
@@ -28,7 +29,7 @@ Values heights(Call& call) {
   const Surface surface = call.self<Surface>();
   // The field lives in the surface; the pointer shares its ownership.
   auto holder = std::make_shared<const Surface>(surface);
-  return {Value::Rows(holder, &holder->heights())};
+  return {Value::Rows(holder, &holder->measured_heights())};
 }
 
 Values roughness_of(Call& call) { return {roughness_type(true)(roughness(call.self<Surface>()))}; }
@@ -78,6 +79,7 @@ std::string describe_surface(const void* self) {
                      format_quantity(g.size_x, dimension::length) + " x " +
                      format_quantity(g.size_y, dimension::length) + ", peak to valley " +
                      format_quantity(s.peak_to_valley(), dimension::length);
+  text += missing_text(s.measured(), g.nodes());
   if (s.material()) text += ", " + s.material()->name;
   return text;
 }
@@ -140,32 +142,38 @@ const Class& class_of<Surface>() {
          [](Call& call) -> Values { return {call.self<Surface>().peak_to_valley()}; }},
         {"digest",
          "string",
-         "of grid and heights: equal surfaces have equal digests",
+         "of grid, heights and holes: equal surfaces have equal digests",
          {},
          [](Call& call) -> Values { return {call.self<Surface>().digest()}; }},
     };
+    for (Getter& field : missing_point_fields_of_surface()) c.fields.push_back(std::move(field));
+    c.operators = surface_operators();
     c.methods = {
         {.name = "height",
          .body = surface_height,
-         .sentence = "Height of node (i, j) in metres, counted from 0.",
+         .sentence = "Height of node (i, j) in metres, counted from 0; nan where it was not measured.",
          .parameters = {{"i", "integer", "along x"}, {"j", "integer", "along y"}},
          .returns = "number",
          .example = "s:height(0, 0)"},
         {.name = "heights",
          .body = heights,
-         .sentence = "All heights as a table of rows, heights[j+1][i+1].",
+         .sentence =
+             "All heights as a table of rows, heights[j+1][i+1]; nan at points that were not measured.",
          .returns = "number[][]",
          .example = "local h = s:heights()"},
         {.name = "roughness",
          .body = roughness_of,
-         .sentence =
-             "Amplitude and slope statistics of all nodes (ISO 25178-2), nothing levelled or filtered first. "
-             "Its amplitude is peak to valley; that of lab.surface.sine is half of it.",
+         .sentence = "Amplitude and slope statistics of all measured nodes (ISO 25178-2), nothing levelled "
+                     "or filtered "
+                     "first. "
+                     "Its amplitude is peak to valley; that of lab.surface.sine is half of it.",
          .returns = "ArealRoughness",
          .example = "print(s:roughness().Ra)"},
         {.name = "spectrum",
          .body = spectrum_of,
-         .sentence = "Radially averaged power spectral density.",
+         .sentence =
+             "Radially averaged power spectral density; points that were not measured are set to the mean, "
+             "which takes from its power and adds rims.",
          .options = &spectrum_block(),
          .options_optional = true,
          .returns = "Spectrum",
@@ -179,7 +187,7 @@ const Class& class_of<Surface>() {
          .example = "print(s:fractal_dimension{ method=\"structure\" }.D)"},
         {.name = "filtered",
          .body = filtered,
-         .sentence = "ISO 16610 Gaussian filter.",
+         .sentence = "ISO 16610 Gaussian filter; points that were not measured have no weight and stay so.",
          .options = &filter_block(),
          .returns = "Surface",
          .example = "s:filtered{ short_wave=\"2.5 um\", long_wave=\"0.8 mm\" }"},
@@ -196,7 +204,9 @@ const Class& class_of<Surface>() {
          .heavy = true},
         {.name = "picture",
          .body = picture,
-         .sentence = "A picture of the heights as PNG, true to scale, with scale and colour bars.",
+         .sentence = "A picture of the heights as PNG, true to scale, with scale and colour bars; points "
+                     "that were not "
+                     "measured are left blank.",
          .parameters = {{"path", "string", "a .png under the run directory"}},
          .options = &picture_block(),
          .options_optional = true,
@@ -205,16 +215,17 @@ const Class& class_of<Surface>() {
          .heavy = true},
         {.name = "levelled",
          .body = level,
-         .sentence = "Less the least-squares polynomial of a degree.",
+         .sentence = "Less the least-squares polynomial of a degree, fitted to the measured nodes.",
          .options = &level_block(),
          .options_optional = true,
          .returns = "Surface",
          .example = "s:levelled{ degree=1 }"},
     };
+    for (Function& method : missing_point_methods_of_surface()) c.methods.push_back(std::move(method));
     c.methods.push_back(registered_to_method());
     for (Function& operation : surface_operations()) c.methods.push_back(std::move(operation));
     for (Function& parameters : parameter_methods()) c.methods.push_back(std::move(parameters));
-    c.results = {&roughness_type(true), &spectrum_type(), &fractal_dimension_type()};
+    c.results = {&roughness_type(true), &spectrum_type(), &fractal_dimension_type(), &outliers_type(true)};
     for (const RecordInfo* result : parameter_results()) c.results.push_back(result);
     for (const RecordInfo* result : registration_types()) c.results.push_back(result);
     return c;

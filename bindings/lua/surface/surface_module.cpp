@@ -337,9 +337,9 @@ const Module& surface_module() {
          .body = read_body,
          .sentence =
              "A measured surface from a file: X3P, SDF, SUR, OPD, BCR, GWY, HDF5, NPY, text matrix, "
-             "x y z triples or a "
-             "profiler's CSV, known by its content, then by its extension. Over x y z triples a line such "
-             "as \"x [mm];y [mm];z [um]\" says their units.",
+             "x y z triples or a profiler's CSV, known by its content, then by its extension. Points that it "
+             "marks as not measured stay missing. Over x y z triples a line such as "
+             "\"x [mm];y [mm];z [um]\" says their units.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_block(),
          .options_optional = true,

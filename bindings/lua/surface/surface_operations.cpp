@@ -61,6 +61,47 @@ Values mirror(Call& call) { return {object(mirrored(call.self<Surface>()))}; }
 Values add_surfaces(Call& call) {
   return {object(plus(call.self<Surface>(), call.object<Surface>(1, "other")))};
 }
+Values subtract_surfaces(Call& call) {
+  return {object(minus(call.self<Surface>(), call.object<Surface>(1, "other")))};
+}
+
+// --- operators: the two sides are the arguments
+
+// The two surfaces of a sum or a difference.
+Values of_two_surfaces(const Call& call, Surface (*combine)(const Surface&, const Surface&)) {
+  const auto* a = call.argument(1).as<Surface>();
+  const auto* b = call.argument(2).as<Surface>();
+  if (a == nullptr || b == nullptr)
+    throw Error(
+        ErrorCode::bad_value,
+        "one side is " + call.argument(a == nullptr ? 1 : 2).describe() + ", the other a surface",
+        "both must be surfaces of equal cells and size; the mean height goes with `levelled{ degree=0 }`");
+  return {object(combine(*a, *b))};
+}
+Values sum_of(Call& call) { return of_two_surfaces(call, plus); }
+Values difference_of(Call& call) { return of_two_surfaces(call, minus); }
+Values negative_of(Call& call) { return {object(times(call.object<Surface>(1, "a"), -1))}; }
+
+// A factor is a plain number: heights times a length would be an area.
+Values multiple_of(Call& call) {
+  const bool number_first = call.argument(1).is_number();
+  const Argument factor = call.argument(number_first ? 1 : 2);
+  const auto* surface = call.argument(number_first ? 2 : 1).as<Surface>();
+  if (surface == nullptr || !factor.is_number())
+    throw Error(ErrorCode::bad_value,
+                "the sides are " + call.argument(1).describe() + " and " + call.argument(2).describe(),
+                "one must be a surface, the other a plain number");
+  return {object(times(*surface, factor.number()))};
+}
+Values part_of(Call& call) {
+  const auto* surface = call.argument(1).as<Surface>();
+  if (surface == nullptr || !call.argument(2).is_number())
+    throw Error(ErrorCode::bad_value,
+                "the sides are " + call.argument(1).describe() + " and " + call.argument(2).describe(),
+                "a surface can be divided by a plain number");
+  return {object(over(*surface, call.argument(2).number()))};
+}
+
 Values cut_off(Call& call) { return {object(cut(call.self<Surface>(), call.options(cut_block()).fraction))}; }
 
 struct CropKeys {
@@ -203,7 +244,7 @@ std::vector<Function> surface_operations() {
        .sentence =
            "Turned counter-clockwise seen from above: quarter turns exactly, other angles by "
            "interpolation, which takes from short waves: there and back Rq falls by 0.02 % at waves of 16 "
-           "cells, 0.2 % at 8 and 3 % at 4.",
+           "cells, 0.2 % at 8 and 3 % at 4. Where it touches a point that was not measured there is none.",
        .parameters = {{"angle", "an angle", "to turn by"}},
        .returns = "Surface",
        .example = "s:rotated \"90 deg\""},
@@ -220,17 +261,29 @@ std::vector<Function> surface_operations() {
        .example = "s:cropped{ size=\"100 um\", x=\"20 um\" }"},
       {.name = "resampled",
        .body = resample,
-       .sentence = "The same surface on other cells: through the spectrum if periodic, else by cubic "
-                   "interpolation.",
+       .sentence =
+           "The same surface on other cells: through the spectrum if periodic, else by cubic "
+           "interpolation, as it is wherever there are points not measured; where that touches one there "
+           "is none.",
        .options = &resample_block(),
        .returns = "Surface",
        .example = "s:resampled{ cells=512 }"},
       {.name = "plus",
        .body = add_surfaces,
-       .sentence = "The sum of two surfaces of equal cells and size.",
+       .sentence =
+           "The sum of two surfaces of equal cells and size; a point that was not measured on one of them "
+           "is none of the sum.",
        .parameters = {{"other", "Surface", "what to add"}},
        .returns = "Surface",
        .example = "s:plus(fine)"},
+      {.name = "minus",
+       .body = subtract_surfaces,
+       .sentence =
+           "The difference of two surfaces of equal cells and size: heights less those of the other. A "
+           "point that was not measured on one of them is none of the difference.",
+       .parameters = {{"other", "Surface", "what to take away"}},
+       .returns = "Surface",
+       .example = "local worn = s:minus(fine)"},
       {.name = "cut",
        .body = cut_off,
        .sentence =
@@ -258,6 +311,43 @@ std::vector<Function> surface_operations() {
        .returns = "Profile[]",
        .example = "for _, p in ipairs(s:profiles{ along=\"y\" }) do print(p:roughness().Ra) end"},
   };
+}
+
+std::vector<Operator> surface_operators() {
+  return {{.event = "__add",
+           .form = "a + b",
+           .operand = "Surface",
+           .sentence = "The sum of two surfaces, as plus gives it.",
+           .returns = "Surface",
+           .example = "local both = s + fine",
+           .body = sum_of},
+          {.event = "__sub",
+           .form = "a - b",
+           .operand = "Surface",
+           .sentence = "The difference of two surfaces, as minus gives it.",
+           .returns = "Surface",
+           .example = "local worn = s - fine",
+           .body = difference_of},
+          {.event = "__unm",
+           .form = "-a",
+           .sentence = "The surface with every height of the other sign.",
+           .returns = "Surface",
+           .example = "local below = -s",
+           .body = negative_of},
+          {.event = "__mul",
+           .form = "a * 2",
+           .operand = "number",
+           .sentence = "The surface with every height times a plain number, on either side: 2 * a.",
+           .returns = "Surface",
+           .example = "local steep = 2 * s",
+           .body = multiple_of},
+          {.event = "__div",
+           .form = "a / 2",
+           .operand = "number",
+           .sentence = "The surface with every height divided by a plain number.",
+           .returns = "Surface",
+           .example = "local middle = (s + fine) / 2",
+           .body = part_of}};
 }
 
 }  // namespace asperity::lua

@@ -9,5 +9,7 @@
 namespace asperity::lua {
 
 std::vector<Function> surface_operations();
+// a + b, a - b, -a, 2 * a, a / 2.
+std::vector<Operator> surface_operators();
 
 }  // namespace asperity::lua

@@ -93,7 +93,10 @@ std::string base64(std::string_view bytes) {
 }
 
 Json view_of(const Surface& surface, const std::string& title, std::int64_t event) {
-  return view_json(title, event, {field_json("height", "m", surface.measured_heights(), surface.grid())});
+  Json field = field_json("height", "m", surface.measured_heights(), surface.grid());
+  if (!surface.complete())
+    field.set("not_measured", static_cast<std::int64_t>(surface.grid().nodes() - surface.measured()));
+  return view_json(title, event, {std::move(field)});
 }
 
 Json view_of(const State& state, const std::string& title, std::int64_t event) {

@@ -190,6 +190,30 @@ void take_units(HeightMap& map, const std::vector<HeadColumn>& columns, const So
   if (x && map.size_y) map.size_y = *map.size_y * (*y / *x);
 }
 
+// Whether the points come line by line and end within a line, along either axis in either sense. A file that
+// was cut short does, and what is left of its last line looks like points that were not measured.
+bool ends_within_a_line(const TextTable& table, const LatticeAxis& x, const LatticeAxis& y) {
+  for (const bool along_x : {true, false})
+    for (const bool falling_fast : {false, true})
+      for (const bool falling_slow : {false, true}) {
+        const LatticeAxis &fast = along_x ? x : y, &slow = along_x ? y : x;
+        const std::size_t column = along_x ? 0 : 1;
+        const auto place = [](const LatticeAxis& axis, double coordinate, bool falling) {
+          return falling ? axis.lines - 1 - axis.place(coordinate) : axis.place(coordinate);
+        };
+        int k = 0;
+        while (k < table.rows) {
+          const double* const point = &table.values[3 * static_cast<std::size_t>(k)];
+          if (place(fast, point[column], falling_fast) != k % fast.lines ||
+              place(slow, point[1 - column], falling_slow) != k / fast.lines)
+            break;
+          ++k;
+        }
+        if (k == table.rows) return true;
+      }
+  return false;
+}
+
 HeightMap read_xyz(const SourceFile& file, Monitor& monitor) {
   if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
   LineReader lines(file.text());
@@ -229,6 +253,10 @@ HeightMap read_xyz(const SourceFile& file, Monitor& monitor) {
     mark = 1;
     map.heights(i, j) = table.values[3 * k + 2];
   }
+  if (places > table.rows && ends_within_a_line(table, x, y))
+    monitor.warn(file_name(file.path()) + " ends within a line of its points: the last " +
+                 std::to_string(static_cast<std::int64_t>(places) - table.rows) +
+                 " are missing, as in a file that was cut short");
   map.size_in_units = true;
   map.size_x = x.spacing * x.lines;
   if (y.lines > 1) map.size_y = y.spacing * y.lines;

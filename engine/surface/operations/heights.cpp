@@ -9,12 +9,13 @@
 #include "engine/core/error.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
 namespace {
 
-double deviation(const Field& heights, double average, ScaleTo measure) {
+double deviation(std::span<const double> heights, double average, ScaleTo measure) {
   Array<double> terms(heights.size());
   if (measure == ScaleTo::ra) {
     for (std::size_t k = 0; k < heights.size(); ++k) terms[k] = std::abs(heights[k] - average);
@@ -22,7 +23,7 @@ double deviation(const Field& heights, double average, ScaleTo measure) {
   }
   // Relative to the greatest deviation, so that squares of nanometres do not vanish.
   double greatest = 0;
-  for (const double h : heights.values()) greatest = std::max(greatest, std::abs(h - average));
+  for (const double h : heights) greatest = std::max(greatest, std::abs(h - average));
   if (greatest == 0) return 0;
   for (std::size_t k = 0; k < heights.size(); ++k) {
     const double ratio = (heights[k] - average) / greatest;
@@ -47,6 +48,19 @@ SurfaceRecipe then(std::shared_ptr<const SurfaceRecipe> recipe, Change change) {
   };
 }
 
+// Times a number or divided by one: what is periodic stays so, and the share of variance past Nyquist with
+// it.
+template <class Change>
+Surface changed(const Surface& surface, bool flat, const Change& change) {
+  Field heights = surface.measured_heights();
+  change(heights);
+  SurfaceTraits traits = surface.traits();
+  if (flat) traits.aliased_share.reset();
+  const Surface result =
+      remade_with(!surface.complete(), surface.grid(), std::move(heights), std::move(traits));
+  return surface.recipe() ? result.made_by(then(surface.recipe(), change)) : result;
+}
+
 double cut_level(const Range& range, double fraction) {
   require(fraction >= 0 && fraction <= 1, "fraction", fraction, "",
           "give the part of the peak-to-valley height to cut off, from 0 to 1");
@@ -60,16 +74,17 @@ Surface scaled(const Surface& surface, ScaleTo measure, double target, ScaleAbou
   const std::string key = key_of(measure);
   require(std::isfinite(target) && target >= 0, key, target, "m", "give a finite length of 0 or more");
   const Range range = surface.height_range();
-  const double average = mean(surface.heights().values());
+  const MeasuredValues measured(surface);
+  const double average = mean(measured.values());
   if (range.span() == 0 && target > 0)
     throw Error(ErrorCode::bad_value,
                 "a flat surface cannot be scaled to " + quoted(key) + " = " + format_short(target) + " m",
                 "scale a surface that has some height");
   const double now = range.span() == 0               ? 1.0
                      : measure == ScaleTo::amplitude ? range.span()
-                                                     : deviation(surface.heights(), average, measure);
+                                                     : deviation(measured.values(), average, measure);
   const double fixed = about == ScaleAbout::mean ? average : range.min;
-  Field heights = surface.heights();
+  Field heights = surface.measured_heights();
   // Multiply, then divide: the quotient alone would overflow for heights near the smallest double.
   const double factor = target / now;
   const bool direct = std::isfinite(factor) && factor > 1e-290;
@@ -77,53 +92,99 @@ Surface scaled(const Surface& surface, ScaleTo measure, double target, ScaleAbou
     for (double& h : z.values()) h = fixed + (direct ? (h - fixed) * factor : (h - fixed) / now * target);
   };
   stretch(heights);
-  const Surface result(surface.grid(), std::move(heights), surface.traits());
+  const Surface result =
+      remade_with(!surface.complete(), surface.grid(), std::move(heights), surface.traits());
   return surface.recipe() ? result.made_by(then(surface.recipe(), stretch)) : result;
 }
 
-Surface plus(const Surface& first, const Surface& second) {
-  const Grid &a = first.grid(), &b = second.grid();
+Surface times(const Surface& surface, double factor) {
+  require(std::isfinite(factor), "factor", factor, "", "give a finite number");
+  const auto multiply = [factor](Field& z) {
+    for (double& h : z.values()) h *= factor;
+  };
+  return changed(surface, factor == 0, multiply);
+}
+
+Surface over(const Surface& surface, double divisor) {
+  require(std::isfinite(divisor) && divisor != 0, "divisor", divisor, "",
+          "give a finite number other than 0");
+  const auto divide = [divisor](Field& z) {
+    for (double& h : z.values()) h /= divisor;
+  };
+  return changed(surface, false, divide);
+}
+
+namespace {
+
+void require_equal_grids(const Grid& a, const Grid& b, const char* done) {
   if (a.nx != b.nx || a.ny != b.ny)
     throw Error(ErrorCode::bad_value,
                 "surfaces of " + std::to_string(a.nx) + " x " + std::to_string(a.ny) + " and " +
-                    std::to_string(b.nx) + " x " + std::to_string(b.ny) + " cells cannot be added",
+                    std::to_string(b.nx) + " x " + std::to_string(b.ny) + " cells cannot be " + done,
                 "bring one to the cells of the other with `resampled`");
   const auto differ = [](double u, double v) { return std::abs(u - v) > 1e-9 * std::max(u, v); };
   if (differ(a.size_x, b.size_x) || differ(a.size_y, b.size_y))
     throw Error(ErrorCode::bad_value,
                 "surfaces of " + format_short(a.size_x) + " x " + format_short(a.size_y) + " m and " +
-                    format_short(b.size_x) + " x " + format_short(b.size_y) + " m cannot be added",
+                    format_short(b.size_x) + " x " + format_short(b.size_y) + " m cannot be " + done,
                 "bring both to one size with `cropped`, then to the same cells with `resampled`");
-  Field heights = first.heights();
-  for (std::size_t k = 0; k < heights.size(); ++k) heights[k] += second.heights()[k];
-  const Surface sum(a, std::move(heights),
-                    {.material = first.material(),
-                     .periodic = first.traits().periodic && second.traits().periodic,
-                     .aliased_share = {}});
-  if (!first.recipe() || !second.recipe()) return sum;
-  return sum.made_by([one = first.recipe(), other = second.recipe()](int nx, int ny, Monitor& monitor) {
-    return plus((*one)(nx, ny, monitor), (*other)(nx, ny, monitor));
-  });
+}
+
+// A sum with either sign; a hole of either is one of the result.
+template <class Combine>
+Surface combined(const Surface& first, const Surface& second, const Combine& combine,
+                 Surface (*again)(const Surface&, const Surface&)) {
+  Field heights = first.measured_heights();
+  const Field& others = second.measured_heights();
+  for (std::size_t k = 0; k < heights.size(); ++k) heights[k] = combine(heights[k], others[k]);
+  const bool holes = !first.complete() || !second.complete();
+  if (holes && known_count(heights.values()) == 0)
+    throw Error(ErrorCode::bad_value, "there is no point at which both surfaces were measured",
+                "fill the holes of one first, `surface:filled{ by=\"interpolate\" }`");
+  const Surface result = remade_with(holes, first.grid(), std::move(heights),
+                                     {.material = first.material(),
+                                      .periodic = first.traits().periodic && second.traits().periodic,
+                                      .aliased_share = {}});
+  if (!first.recipe() || !second.recipe()) return result;
+  return result.made_by(
+      [one = first.recipe(), other = second.recipe(), again](int nx, int ny, Monitor& monitor) {
+        return again((*one)(nx, ny, monitor), (*other)(nx, ny, monitor));
+      });
+}
+
+}  // namespace
+
+Surface plus(const Surface& first, const Surface& second) {
+  require_equal_grids(first.grid(), second.grid(), "added");
+  return combined(
+      first, second, [](double a, double b) { return a + b; }, plus);
+}
+
+Surface minus(const Surface& first, const Surface& second) {
+  require_equal_grids(first.grid(), second.grid(), "subtracted");
+  return combined(
+      first, second, [](double a, double b) { return a - b; }, minus);
 }
 
 Surface cut(const Surface& surface, double fraction) {
   const double level = cut_level(surface.height_range(), fraction);
-  Field heights = surface.heights();
+  Field heights = surface.measured_heights();
   const auto flatten = [level](Field& z) {
-    for (double& h : z.values()) h = std::min(h, level);
+    for (double& h : z.values()) h = std::min(h, level);  // of a hole NaN, its first argument
   };
   flatten(heights);
   SurfaceTraits traits = surface.traits();
   if (fraction > 0) traits.aliased_share.reset();
-  const Surface result(surface.grid(), std::move(heights), std::move(traits));
+  const Surface result =
+      remade_with(!surface.complete(), surface.grid(), std::move(heights), std::move(traits));
   return surface.recipe() ? result.made_by(then(surface.recipe(), flatten)) : result;
 }
 
 Profile cut(const Profile& profile, double fraction) {
   const double level = cut_level(profile.height_range(), fraction);
-  Array<double> heights(profile.heights().begin(), profile.heights().end());
+  Array<double> heights(profile.measured_heights().begin(), profile.measured_heights().end());
   for (double& h : heights) h = std::min(h, level);
-  return Profile(profile.spacing(), std::move(heights), profile.closed_radius());
+  return remade_with(!profile.complete(), profile.spacing(), std::move(heights), profile.closed_radius());
 }
 
 }  // namespace asperity

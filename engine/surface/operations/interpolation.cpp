@@ -59,6 +59,20 @@ CubicWeights cubic_weights(double place, int n, bool wraps) {
   return result;
 }
 
+double cubic_height(const Field& heights, const CubicWeights& x, const CubicWeights& y, bool holes) {
+  double sum = 0;
+  for (std::size_t b = 0; b < 4; ++b) {
+    if (holes && y.weight[b] == 0) continue;
+    double line = 0;
+    for (std::size_t a = 0; a < 4; ++a) {
+      if (holes && x.weight[a] == 0) continue;
+      line += x.weight[a] * heights(x.node[a], y.node[b]);
+    }
+    sum += y.weight[b] * line;
+  }
+  return sum;
+}
+
 BandWeights mean_weights(double place, double half, int n) {
   half = std::min({half, place, n - place});
   BandWeights result;

@@ -7,6 +7,8 @@
 #include <array>
 #include <vector>
 
+#include "engine/core/grid.hpp"
+
 namespace asperity {
 
 // Height at a place = sum of weight[k] * height[node[k]].
@@ -18,6 +20,10 @@ struct CubicWeights {
 // At `place` (in cells) of an axis of n nodes. Wrapping: any finite place. Otherwise 0 <= place < n:
 // between the nodes cubic, past the last one the line through the last two goes on.
 CubicWeights cubic_weights(double place, int n, bool wraps);
+
+// Σ over both axes. A node of weight 0 is not touched; with `holes`, where one that is touched is NaN the
+// height is.
+double cubic_height(const Field& heights, const CubicWeights& x, const CubicWeights& y, bool holes);
 
 // A band of weights of any width.
 struct BandWeights {

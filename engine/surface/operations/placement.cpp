@@ -16,6 +16,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/operations/interpolation.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -62,7 +63,7 @@ Field shifted_by_waves(const Field& heights, double right, double up) {
 
 Surface quarter_turned(const Surface& surface, int quarters) {
   const Grid& g = surface.grid();
-  const Field& h = surface.heights();
+  const Field& h = surface.measured_heights();
   const bool odd = quarters % 2 != 0;
   const Grid grid = odd ? Grid{g.ny, g.nx, g.size_y, g.size_x} : g;
   Field result(grid.nx, grid.ny);
@@ -71,7 +72,26 @@ Surface quarter_turned(const Surface& surface, int quarters) {
       result(i, j) = quarters == 1   ? h(j, g.ny - 1 - i)
                      : quarters == 2 ? h(g.nx - 1 - i, g.ny - 1 - j)
                                      : h(g.nx - 1 - j, i);
-  return Surface(grid, std::move(result), surface.traits());
+  return remade_with(!surface.complete(), grid, std::move(result), surface.traits());
+}
+
+// For a periodic surface with holes, whose waves are not known.
+Surface shifted_between_nodes(const Surface& surface, double right, double up) {
+  const Grid& g = surface.grid();
+  Field result(g.nx, g.ny);
+  // Whole cells to rounding touch one node alone.
+  const auto place = [](double at) { return is_whole(at) ? std::round(at) : at; };
+  right = place(right);
+  up = place(up);
+  parallel_for(g.ny, [&](std::int64_t row) {
+    const int j = static_cast<int>(row);
+    const CubicWeights y = cubic_weights(j - up, g.ny, true);
+    for (int i = 0; i < g.nx; ++i)
+      result(i, j) = cubic_height(surface.measured_heights(), cubic_weights(i - right, g.nx, true), y, true);
+  });
+  SurfaceTraits traits = surface.traits();
+  traits.aliased_share.reset();
+  return remade_with(true, g, std::move(result), std::move(traits));
 }
 
 }  // namespace
@@ -84,9 +104,10 @@ Surface shifted(const Surface& surface, double x, double y) {
                   "give finite lengths `x` and `y`");
   const double right = x / grid.hx(), up = y / grid.hy();
   if (is_whole(right) && is_whole(up)) {
-    const Surface moved(grid,
-                        shifted_by_cells(surface.heights(), wrapped(right, grid.nx), wrapped(up, grid.ny)),
-                        surface.traits());
+    const Surface moved = remade_with(
+        !surface.complete(), grid,
+        shifted_by_cells(surface.measured_heights(), wrapped(right, grid.nx), wrapped(up, grid.ny)),
+        surface.traits());
     if (!surface.recipe()) return moved;
     // Cells that the shift is not a whole number of do not carry a surface with a step.
     return moved.made_by([recipe = surface.recipe(), x, y](int nx, int ny, Monitor& monitor) {
@@ -102,6 +123,8 @@ Surface shifted(const Surface& surface, double x, double y) {
             " m is " + format_short(cells) + " cells, and this surface is not periodic",
         "shift it by whole cells; the nearest is " + format_short(std::round(cells) * cell, 12) + " m");
   }
+  if (!surface.complete())
+    return shifted_between_nodes(surface, std::fmod(right, grid.nx), std::fmod(up, grid.ny));
   // Whole turns of the tile are taken off first: phases of large shifts would lose digits.
   return Surface(grid, shifted_by_waves(surface.heights(), std::fmod(right, grid.nx), std::fmod(up, grid.ny)),
                  surface.traits());
@@ -135,7 +158,8 @@ Surface rotated(const Surface& surface, double angle) {
                   "turn it by a multiple of a quarter turn, or use more cells");
   }
   Field result(nx, ny);
-  const Field& h = surface.heights();
+  const Field& h = surface.measured_heights();
+  const bool holes = !surface.complete();
   constexpr int rows = 16;
   parallel_for((ny + rows - 1) / rows, [&](std::int64_t block) {
     const int first = static_cast<int>(block) * rows;
@@ -148,27 +172,21 @@ Surface rotated(const Surface& surface, double angle) {
           u = std::clamp(u, 0.0, g.nx - 1.0);
           v = std::clamp(v, 0.0, g.ny - 1.0);
         }
-        const CubicWeights wx = cubic_weights(u, g.nx, periodic), wy = cubic_weights(v, g.ny, periodic);
-        double sum = 0;
-        for (std::size_t b = 0; b < 4; ++b) {
-          double line = 0;
-          for (std::size_t a = 0; a < 4; ++a) line += wx.weight[a] * h(wx.node[a], wy.node[b]);
-          sum += wy.weight[b] * line;
-        }
-        result(i, j) = sum;
+        result(i, j) =
+            cubic_height(h, cubic_weights(u, g.nx, periodic), cubic_weights(v, g.ny, periodic), holes);
       }
     }
   });
   const Grid grid = periodic ? g : make_grid(nx, ny, nx * g.hx(), ny * g.hy());
-  return Surface(grid, std::move(result),
-                 {.material = surface.material(), .periodic = false, .aliased_share = {}});
+  return remade_with(holes, grid, std::move(result),
+                     {.material = surface.material(), .periodic = false, .aliased_share = {}});
 }
 
 Surface mirrored(const Surface& surface) {
-  const Field& h = surface.heights();
+  const Field& h = surface.measured_heights();
   Field result(h.nx(), h.ny());
   for (int j = 0; j < h.ny(); ++j) std::reverse_copy(h.row(j).begin(), h.row(j).end(), result.row(j).begin());
-  return Surface(surface.grid(), std::move(result), surface.traits());
+  return remade_with(!surface.complete(), surface.grid(), std::move(result), surface.traits());
 }
 
 Surface cropped(const Surface& surface, double i, double j, double nx, double ny) {
@@ -189,14 +207,17 @@ Surface cropped(const Surface& surface, double i, double j, double nx, double ny
   if (columns == g.nx && rows == g.ny) return surface;
   Field result(columns, rows);
   for (int row = 0; row < rows; ++row) {
-    const auto from = surface.heights().row(low + row).subspan(static_cast<std::size_t>(left),
-                                                               static_cast<std::size_t>(columns));
+    const auto from = surface.measured_heights().row(low + row).subspan(static_cast<std::size_t>(left),
+                                                                        static_cast<std::size_t>(columns));
     std::copy(from.begin(), from.end(), result.row(row).begin());
   }
   const Grid grid{columns, rows, columns == g.nx ? g.size_x : columns * g.hx(),
                   rows == g.ny ? g.size_y : rows * g.hy()};
-  return Surface(grid, std::move(result),
-                 {.material = surface.material(), .periodic = false, .aliased_share = {}});
+  if (!surface.complete() && known_count(result.values()) == 0)
+    throw Error(ErrorCode::bad_value, "no point of this part of the surface was measured",
+                "take a part that holds points that were");
+  return remade_with(!surface.complete(), grid, std::move(result),
+                     {.material = surface.material(), .periodic = false, .aliased_share = {}});
 }
 
 Surface cropped_to(const Surface& surface, double x, double y, double size_x, double size_y) {

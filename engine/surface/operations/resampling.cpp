@@ -12,6 +12,7 @@
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/surface/operations/interpolation.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -68,7 +69,8 @@ std::vector<BandWeights> weights(int from, int to) {
   return result;
 }
 
-Field along_axes(const Field& heights, int nx, int ny) {
+// With `holes` a node of weight 0 is not touched, and where one that is touched is NaN the height is.
+Field along_axes(const Field& heights, int nx, int ny, bool holes) {
   const std::vector<BandWeights> across = weights(heights.nx(), nx), up = weights(heights.ny(), ny);
   Field narrow(nx, heights.ny());
   parallel_for(heights.ny(), [&](std::int64_t j) {
@@ -77,8 +79,10 @@ Field along_axes(const Field& heights, int nx, int ny) {
     for (std::size_t i = 0; i < to.size(); ++i) {
       const BandWeights& band = across[i];
       double sum = 0;
-      for (std::size_t m = 0; m < band.weight.size(); ++m)
+      for (std::size_t m = 0; m < band.weight.size(); ++m) {
+        if (holes && band.weight[m] == 0) continue;
         sum += band.weight[m] * from[static_cast<std::size_t>(band.first) + m];
+      }
       to[i] = sum;
     }
   });
@@ -87,6 +91,7 @@ Field along_axes(const Field& heights, int nx, int ny) {
     const BandWeights& band = up[static_cast<std::size_t>(j)];
     const auto to = result.row(static_cast<int>(j));
     for (std::size_t m = 0; m < band.weight.size(); ++m) {
+      if (holes && band.weight[m] == 0) continue;
       const auto from = narrow.row(band.first + static_cast<int>(m));
       for (std::size_t i = 0; i < to.size(); ++i) to[i] += band.weight[m] * from[i];
     }
@@ -122,11 +127,11 @@ Surface resampled(const Surface& surface, double nx, double ny) {
   const Grid& old = surface.grid();
   const Grid grid = make_grid(nx, ny, old.size_x, old.size_y);
   if (grid == old) return surface;
-  const bool periodic = surface.traits().periodic;
+  const bool holes = !surface.complete(), periodic = surface.traits().periodic && !holes;
   Field heights = periodic ? through_spectrum(surface.heights(), grid.nx, grid.ny)
-                           : along_axes(surface.heights(), grid.nx, grid.ny);
-  return Surface(grid, std::move(heights),
-                 {.material = surface.material(), .periodic = periodic, .aliased_share = {}});
+                           : along_axes(surface.measured_heights(), grid.nx, grid.ny, holes);
+  return remade_with(holes, grid, std::move(heights),
+                     {.material = surface.material(), .periodic = periodic, .aliased_share = {}});
 }
 
 }  // namespace asperity

@@ -4,7 +4,8 @@
 // the old nodes where they coincide; fewer drop the waves that the new grid cannot carry. Any other
 // surface is interpolated (Keys' cubic) along an axis that gets more cells and averaged over one new
 // cell about each new node along an axis that gets fewer; in the last cell, past the last node, the
-// line through the last two nodes goes on.
+// line through the last two nodes goes on. One with holes is interpolated so even if it is periodic, which
+// it then is no more, and where a new node touches a point that was not measured there is none.
 #pragma once
 
 #include "engine/surface/surface.hpp"

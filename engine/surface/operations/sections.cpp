@@ -10,6 +10,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -24,16 +25,25 @@ int line_number(double wanted, int count, const char* key) {
   return static_cast<int>(wanted);
 }
 
+// The heights of a line of nodes or of a straight line.
+Profile section(const Surface& surface, double spacing, Array<double> heights, const std::string& what) {
+  if (!surface.complete() && known_count(heights) == 0)
+    throw Error(ErrorCode::bad_value, "no point of " + what + " was measured",
+                "take another line, or fill the holes first, `surface:filled{ by=\"interpolate\" }`");
+  return remade_with(!surface.complete(), spacing, std::move(heights));
+}
+
 Profile column(const Surface& surface, int i) {
-  const Field& h = surface.heights();
+  const Field& h = surface.measured_heights();
   Array<double> heights(static_cast<std::size_t>(h.ny()));
   for (int j = 0; j < h.ny(); ++j) heights[static_cast<std::size_t>(j)] = h(i, j);
-  return Profile(surface.grid().hy(), std::move(heights));
+  return section(surface, surface.grid().hy(), std::move(heights), "column " + std::to_string(i));
 }
 
 Profile row(const Surface& surface, int j) {
-  const auto values = surface.heights().row(j);
-  return Profile(surface.grid().hx(), Array<double>(values.begin(), values.end()));
+  const auto values = surface.measured_heights().row(j);
+  return section(surface, surface.grid().hx(), Array<double>(values.begin(), values.end()),
+                 "row " + std::to_string(j));
 }
 
 // Node below a place along one axis, the next one, and the share of the next.
@@ -53,8 +63,10 @@ Between between(double place, int n, bool wraps) {
   return {below, (below + 1) % n, place - std::floor(place)};
 }
 
-// Never outside the two by rounding: a flat stays flat to the last bit.
+// Never outside the two by rounding: a flat stays flat to the last bit. One of no share is not touched: what
+// is not known of it does not matter.
 double mixed(double a, double b, double share) {
+  if (std::isnan(a) || std::isnan(b)) return share == 0 ? a : share == 1 ? b : std::nan("");
   return std::clamp((1 - share) * a + share * b, std::min(a, b), std::max(a, b));
 }
 
@@ -81,7 +93,7 @@ double height_between(const Surface& surface, Point point) {
   const Grid& g = surface.grid();
   const bool wraps = surface.traits().periodic;
   const Between x = between(point.x / g.hx(), g.nx, wraps), y = between(point.y / g.hy(), g.ny, wraps);
-  const Field& h = surface.heights();
+  const Field& h = surface.measured_heights();
   const double low = mixed(h(x.below, y.below), h(x.above, y.below), x.share);
   const double high = mixed(h(x.below, y.above), h(x.above, y.above), x.share);
   return mixed(low, high, y.share);
@@ -119,7 +131,7 @@ Profile profile_between(const Surface& surface, Point from, Point to, std::optio
     const double t = static_cast<double>(k) / static_cast<double>(n - 1);
     heights[k] = height_between(surface, {(1 - t) * from.x + t * to.x, (1 - t) * from.y + t * to.y});
   }
-  return Profile(length / static_cast<double>(n - 1), std::move(heights));
+  return section(surface, length / static_cast<double>(n - 1), std::move(heights), "this line");
 }
 
 }  // namespace asperity

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lines through a surface: rows, columns, and straight lines between any two points, on which heights
-// are bilinear between the nodes. Rows run along x, columns along y.
+// are bilinear between the nodes. Rows run along x, columns along y. A place between nodes is not measured
+// where one that it lies between was not; a line of such places alone is an Error{bad_value}.
 #pragma once
 
 #include <optional>
@@ -29,7 +30,7 @@ enum class LineDirection { x, y };
 std::vector<Profile> profiles(const Surface& surface, LineDirection along);
 
 // Bilinear height at a point; a periodic surface goes on past its rim, any other clamps to its
-// outermost nodes.
+// outermost nodes. NaN where one of the nodes around it was not measured.
 double height_between(const Surface& surface, Point point);
 
 }  // namespace asperity

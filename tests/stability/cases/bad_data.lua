@@ -117,7 +117,17 @@ local function matrix(word)
 end
 local um = { size = { "60 um", "50 um" }, unit = "um" }
 local function with(options) for key, value in pairs(um) do options[key] = value end return options end
-for _, word in ipairs{ "nan", "NaN", "inf", "-inf", "1e999" } do
+for _, word in ipairs{ "nan", "NaN" } do
+  local s = lab.surface.read(write("holes.txt", matrix(word)), um)
+  local hole = s:height(2, 1)
+  case:holds("`" .. word .. "` in a text matrix is a point that was not measured",
+    hole ~= hole and s:height(1, 1) == s:height(1, 1))
+  case:refused("a contact of a map with `" .. word .. "`", function()
+    lab.contact{ lower = s:with{ material = lab.material "Al-2011" }, upper = lab.rigid, boundary = "periodic",
+      effects = { elasticity = "half_space" } }:press{ pressure = "1 MPa" }
+  end, "not measured")
+end
+for _, word in ipairs{ "inf", "-inf", "1e999" } do
   local name = write("holes.txt", matrix(word))
   case:refused("`" .. word .. "` in a text matrix", function() lab.surface.read(name, um) end, "holes.txt")
 end

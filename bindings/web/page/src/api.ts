@@ -58,6 +58,7 @@ export interface ViewField {
   size_y: number;
   from_nx: number;
   from_ny: number;
+  not_measured?: number; // nodes, of a surface that has any
   reduction: string;
   data: string;
 }

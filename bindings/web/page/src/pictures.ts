@@ -14,8 +14,9 @@ export interface Field {
   sizeY: number;
   fromNx: number;
   fromNy: number;
+  notMeasured: number; // nodes of all
   reduction: string;
-  values: Float32Array;
+  values: Float32Array; // NaN where nothing is known
 }
 
 export function fieldsOf(view: View): Field[] {
@@ -40,6 +41,7 @@ function fieldOf(field: ViewField): Field {
     sizeY: field.size_y,
     fromNx: field.from_nx,
     fromNy: field.from_ny,
+    notMeasured: field.not_measured ?? 0,
     reduction: field.reduction,
     values,
   };
@@ -127,6 +129,7 @@ export function captionOf(colour: Field, relief: Field | undefined, exaggeration
   if (relief) parts.push(`${relief.name === 'gap' ? 'gap, drawn downwards,' : 'heights'} ${factorText(exaggeration)}`);
   else parts.push('flat map');
   parts.push(samplingText(colour));
+  if (colour.notMeasured > 0) parts.push(`${colour.notMeasured} nodes not measured`);
   return parts.join(' · ');
 }
 
@@ -134,12 +137,15 @@ export function describe(colour: Field): string {
   let least = Infinity;
   let most = -Infinity;
   let sum = 0;
+  let known = 0;
   for (const v of colour.values) {
+    if (Number.isNaN(v)) continue;
     least = Math.min(least, v);
     most = Math.max(most, v);
     sum += v;
+    ++known;
   }
   // A mean that is zero but for rounding is zero.
-  const mean = Math.abs(sum) > 1e-6 * (most - least) * colour.values.length ? sum / colour.values.length : 0;
+  const mean = Math.abs(sum) > 1e-6 * (most - least) * known ? sum / known : 0;
   return `${colour.name} from ${withUnit(least, colour.unit)} to ${withUnit(most, colour.unit)}, mean ${withUnit(mean, colour.unit)}`;
 }

@@ -77,6 +77,7 @@ export class ReliefScene {
     const [width, depth] = [relief.sizeX / side, relief.sizeY / side];
     const up = relief.exaggeration / side;
     const z = new Float32Array(nx * ny);
+    const known = (k: number): boolean => !relief.heights || Number.isFinite(relief.heights[k]);
     let low = 0;
     let high = 0;
     if (relief.heights) {
@@ -90,7 +91,7 @@ export class ReliefScene {
       if (low > high) [low, high] = [0, 0];
       const middle = (low + high) / 2;
       for (let k = 0; k < z.length; ++k)
-        z[k] = ((Number.isFinite(relief.heights[k]) ? relief.heights[k] : low) - middle) * up;
+        z[k] = ((known(k) ? relief.heights[k] : low) - middle) * up;
     }
     const positions = new Float32Array(3 * nx * ny);
     for (let j = 0, k = 0; j < ny; ++j) {
@@ -100,17 +101,26 @@ export class ReliefScene {
         positions[3 * k + 2] = z[k];
       }
     }
+    // Where a corner is not known there is no triangle, but a hole.
     const triangles = new Uint32Array(6 * Math.max(0, nx - 1) * Math.max(0, ny - 1));
-    for (let j = 0, t = 0; j + 1 < ny; ++j) {
-      for (let i = 0; i + 1 < nx; ++i, t += 6) {
+    let count = 0;
+    for (let j = 0; j + 1 < ny; ++j) {
+      for (let i = 0; i + 1 < nx; ++i) {
         const k = j * nx + i;
-        triangles.set([k, k + 1, k + nx, k + 1, k + nx + 1, k + nx], t);
+        for (const corners of [
+          [k, k + 1, k + nx],
+          [k + 1, k + nx + 1, k + nx],
+        ]) {
+          if (!corners.every(known)) continue;
+          triangles.set(corners, count);
+          count += 3;
+        }
       }
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    geometry.setAttribute('color', new BufferAttribute(shaded(relief.colours, z, nx, ny, width, depth), 3, true));
-    geometry.setIndex(new BufferAttribute(triangles, 1));
+    geometry.setAttribute('color', new BufferAttribute(shaded(relief.colours, z, known, nx, ny, width, depth), 3, true));
+    geometry.setIndex(new BufferAttribute(triangles.subarray(0, count), 1));
     this.mesh = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide }));
     this.scene.add(this.mesh);
 
@@ -197,6 +207,7 @@ export class ReliefScene {
 function shaded(
   colours: Uint8Array,
   z: Float32Array,
+  known: (k: number) => boolean,
   nx: number,
   ny: number,
   width: number,
@@ -207,8 +218,8 @@ function shaded(
   const light = [-0.5, 0.5, 0.7071];
   for (let j = 0, k = 0; j < ny; ++j) {
     for (let i = 0; i < nx; ++i, ++k) {
-      const [l, r] = [i > 0 ? 1 : 0, i + 1 < nx ? 1 : 0];
-      const [d, u] = [j > 0 ? nx : 0, j + 1 < ny ? nx : 0];
+      const [l, r] = [i > 0 && known(k - 1) ? 1 : 0, i + 1 < nx && known(k + 1) ? 1 : 0];
+      const [d, u] = [j > 0 && known(k - nx) ? nx : 0, j + 1 < ny && known(k + nx) ? nx : 0];
       const sx = l + r ? (z[k + r] - z[k - l]) / ((l + r) * dx) : 0;
       const sy = d + u ? (z[k + u] - z[k - d]) / (((d + u) / nx) * dy) : 0;
       const dot = (-sx * light[0] - sy * light[1] + light[2]) / Math.sqrt(sx * sx + sy * sy + 1);

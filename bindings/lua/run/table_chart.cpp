@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// t:chart and book:chart: the keys of a chart and of the panel below it. Functions of the script stay on the
+// stack while the chart is drawn.
+#include <algorithm>
+
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/notebook.hpp"
+#include "bindings/lua/run/table_analysis.hpp"
+#include "bindings/lua/run/table_keys.hpp"
+#include "bindings/lua/run/table_values.hpp"
+#include "bindings/lua/runtime/files.hpp"
+#include "engine/run/run_directory.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+using C = NotebookChart;
+
+// --- keys
+
+void read_spread(const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
+  if (value.is_boolean())
+    c.spread = value.boolean();
+  else if (value.is_text())
+    c.spread_column = std::string(value.text());
+  else
+    detail::wrong_type(value, info, "true or a column's name", problems);
+}
+
+void read_interval(const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
+  if (!value.is_table() || value.length() != 2)
+    return detail::wrong_type(value, info, "two columns' names, as in {\"low\", \"high\"}", problems);
+  std::vector<std::string> names;
+  read_texts(value, info, names, problems);
+  if (names.size() != 2) return;
+  c.low = names[0];
+  c.high = names[1];
+}
+
+void read_place(const Argument& value, const std::string& name, std::optional<ExpectedValue>& place,
+                Problems& problems) {
+  if (value.is_nil() || value.is_unknown()) return;
+  try {
+    if (value.is_number())
+      place = value.number();
+    else if (value.is_text())
+      place = ExpectedValue(value.text());
+    else
+      problems.push_back(quoted(name) + " is " + value.describe() + "; give a number or a quantity");
+  } catch (const Error& error) {
+    problems.push_back(quoted(name) + ": " + error.what());
+  }
+}
+
+void read_line_across(const Argument& value, std::int64_t k, C& c, Problems& problems) {
+  static const std::vector<std::string> keys = {"x", "y", "name"};
+  const std::string place = "lines[" + std::to_string(k) + "]";
+  if (value.is_unknown()) return;
+  if (!value.is_table()) {
+    problems.push_back(quoted(place) + " is " + value.describe() +
+                       "; give a table such as { y=0.4, name=\"measured\" }");
+    return;
+  }
+  ReferenceLine line;
+  bool unknown = false;
+  value.each([&](const Argument& key, const Argument& given) {
+    const std::string_view name = key.text();
+    unknown = unknown || given.is_unknown();
+    if (name == "x") {
+      read_place(given, place + ".x", line.x, problems);
+    } else if (name == "y") {
+      read_place(given, place + ".y", line.y, problems);
+    } else if (name == "name" && given.is_text()) {
+      line.name = given.text();
+    } else if (name == "name") {
+      if (!given.is_unknown())
+        problems.push_back(quoted(place + ".name") + " is " + given.describe() + "; give a string");
+    } else {
+      problems.push_back(quoted(place) + " has the key " + (key.is_text() ? quoted(name) : key.describe()) +
+                         did_you_mean(name, keys) + "; a line has x or y, and a name");
+    }
+  });
+  if (!unknown && line.x.has_value() == line.y.has_value())
+    problems.push_back(quoted(place) + (line.x ? " has both x and y" : " has neither x nor y") +
+                       "; give one of them, as in { y=0.4, name=\"measured\" }");
+  c.references.push_back(std::move(line));
+}
+
+void read_lines(const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
+  if (value.is_boolean()) {
+    c.lines = value.boolean();
+  } else if (value.is_table() && value.length() > 0) {
+    for (std::int64_t k = 1; k <= value.length(); ++k)
+      value.element(k, [&](const Argument& part) { read_line_across(part, k, c, problems); });
+  } else {
+    detail::wrong_type(value, info,
+                       "true, false, or a list of lines such as { { y=0.4, name=\"measured\" } }", problems);
+  }
+}
+
+void read_fits(const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
+  const auto take = [&](const Argument& part) {
+    if (auto fit = fitted_curve_of(part))
+      c.fits.push_back(*std::move(fit));
+    else if (!part.is_unknown())
+      detail::wrong_type(part, info, "what t:fit{...} gives, or a list of that", problems);
+  };
+  if (!value.is_table()) return take(value);
+  if (value.length() == 0)
+    return detail::wrong_type(value, info, "what t:fit{...} gives, or a list of that", problems);
+  for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
+}
+
+// Names now, functions when the chart is drawn.
+void read_functions(const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
+  if (!value.is_table())
+    return detail::wrong_type(
+        value, info, "a table of functions by name, as in { law=function(x) return x end }", problems);
+  value.each([&](const Argument& key, const Argument& function) {
+    if (!key.is_text())
+      problems.push_back(quoted(info.name) + " names a function by " + key.describe() + "; give it a name");
+    else if (function.is_function())
+      c.functions.push_back({std::string(key.text()), nullptr});
+    else if (!function.is_unknown())
+      problems.push_back("`functions." + std::string(key.text()) + "` is " + function.describe() +
+                         "; give a function of x");
+  });
+  std::ranges::sort(c.functions, {}, &FunctionLine::name);
+}
+
+// Those of every panel.
+std::vector<Option<C>> panel_keys(bool first) {
+  auto x = text("x", &C::x, "the column along");
+  std::vector<Option<C>> keys;
+  keys.push_back(first ? std::move(x).required() : std::move(x).defaults_to("that of the panel above"));
+  keys.push_back(custom<C>("y", "string|string[]", "the column, or columns of one unit, up",
+                           [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
+                             read_texts(value, info, c.y, problems);
+                           })
+                     .required());
+  keys.push_back(text("one_line_per", &C::one_line_per, "a column; one line for each of its values"));
+  keys.push_back(custom<C>(
+      "spread", "boolean|string",
+      "error bars: true for the scatter of rows that share x, or a column that holds them", read_spread));
+  keys.push_back(custom<C>(
+      "interval", "{string, string}",
+      "error bars: the columns that hold their lower and upper ends, as t:mean gives them", read_interval));
+  keys.push_back(where_key(&C::where));
+  keys.push_back(flag("log_x", &C::log_x, "logarithmic axis along"));
+  keys.push_back(flag("log_y", &C::log_y, "logarithmic axis up"));
+  keys.push_back(flag("in_order", &C::in_order, "join rows as they were written, for loops that come back"));
+  keys.push_back(
+      custom<C>("lines", "boolean|table[]",
+                "whether to join the points; or a list of lines across, each with y or x, a number in the "
+                "column's unit or a quantity, and a name",
+                read_lines)
+          .defaults_to("true; false where a fit is drawn, or names stand along x"));
+  keys.push_back(flag("points", &C::points, "mark the points"));
+  keys.push_back(custom<C>("fit", "Fit|Fit[]",
+                           "what t:fit gave for these columns, drawn with the band of the curve", read_fits));
+  keys.push_back(custom<C>("functions", "table<string, function>",
+                           "functions of x drawn as lines under their names, in the units of the columns",
+                           read_functions));
+  keys.push_back(text("title", &C::title, "above the chart"));
+  keys.push_back(text("x_label", &C::x_label, "instead of the column's name"));
+  keys.push_back(text("y_label", &C::y_label, "instead of the column's name"));
+  return keys;
+}
+
+const Block<NotebookChart>& below_block() {
+  static const Block<C> block{"below", panel_keys(false)};
+  return block;
+}
+
+// --- functions
+
+// One function of the script, and the panel whose line it is.
+struct Wanted {
+  bool below;
+  FunctionLine* line;
+};
+
+// Puts the functions on the stack one by one, and calls `use` when all are there.
+template <class Use>
+void with_functions(const Argument& chart, std::vector<Wanted>& wanted, std::size_t k, Use& use) {
+  if (k == wanted.size()) return use();
+  const auto go_on = [&](const Argument& panel) {
+    with_key(panel, "functions", [&](const Argument& functions) {
+      with_key(functions, wanted[k].line->name, [&](const Argument& function) {
+        const std::string name = "functions." + wanted[k].line->name;
+        wanted[k].line->value = [call = Callback(function), name](double x) { return call({x}, name); };
+        with_functions(chart, wanted, k + 1, use);
+      });
+    });
+  };
+  if (wanted[k].below)
+    with_key(chart, "below", go_on);
+  else
+    go_on(chart);
+}
+
+Values chart_rows(Call& call) {
+  NotebookChart options = call.options(notebook_chart_block());
+  const Session& session = call.session();
+  if (session.is_case || session.run == nullptr)
+    throw Error(ErrorCode::not_permitted, "a case of an ensemble draws no charts",
+                "return what it found, and draw it after the loop");
+  std::vector<Wanted> wanted;
+  for (FunctionLine& line : options.functions) wanted.push_back({false, &line});
+  if (options.below) {
+    if (options.below->x.empty()) options.below->x = options.x;
+    for (FunctionLine& line : options.below->functions) wanted.push_back({true, &line});
+  }
+  const Argument self(call.L, 1);
+  const auto* book = self.as<Notebook>();
+  const auto table = table_of_self(call);
+  DrawnChart drawn;
+  const auto draw_it = [&] {
+    drawn = draw_chart(*session.run, book != nullptr ? book->name() : "table", *table, options);
+  };
+  with_functions(call.argument(1), wanted, 0, draw_it);
+  warn_of(call, drawn.warnings);
+  return {drawn.file.string()};
+}
+
+}  // namespace
+
+const Block<NotebookChart>& notebook_chart_block() {
+  static const Block<C> block = [] {
+    std::vector<Option<C>> keys = panel_keys(true);
+    Option<C> below = custom<C>(
+        "below", "table",
+        "a second panel below, with the same keys but for `file`; `x` is that of the first unless given",
+        [](const Argument& value, const OptionInfo& info, C& c, Problems& problems) {
+          if (!value.is_table()) return detail::wrong_type(value, info, "a table of named keys", problems);
+          try {
+            c.below = std::make_shared<C>(below_block().read(value, quoted(info.name)));
+          } catch (const Error& error) {
+            problems.push_back(error.what());
+          }
+        });
+    below.info.inner = &below_block();
+    keys.push_back(std::move(below));
+    keys.push_back(
+        text("file", &C::file,
+             "an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a table "
+             "table-<y>-<x>.svg"));
+    return Block<C>{"chart", std::move(keys)};
+  }();
+  return block;
+}
+
+Function chart_method() {
+  return {.name = "chart",
+          .body = chart_rows,
+          .sentence = "Draws columns against a column; returns the file.",
+          .options = &notebook_chart_block(),
+          .returns = "string",
+          .example = "book:chart{ x=\"D\", y=\"mu\", one_line_per=\"r\" }",
+          .heavy = true};
+}
+
+}  // namespace asperity::lua

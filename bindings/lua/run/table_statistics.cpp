@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// t:mean and t:histogram: means of a column with their intervals, as a table, and how often its values fall
+// into bins.
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/notebook.hpp"
+#include "bindings/lua/run/table.hpp"
+#include "bindings/lua/run/table_analysis.hpp"
+#include "bindings/lua/run/table_keys.hpp"
+#include "bindings/lua/run/table_values.hpp"
+#include "bindings/lua/runtime/files.hpp"
+#include "engine/run/run_directory.hpp"
+#include "engine/statistics/histogram.hpp"
+#include "engine/statistics/number_columns.hpp"
+#include "engine/statistics/sample_mean.hpp"
+#include "engine/statistics/table_operations.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+using Rows = asperity::Table;
+
+// --- means
+
+struct MeanKeys {
+  std::vector<std::string> by;
+  TableFilter where;
+  double confidence = 0.95;
+  MeanInterval interval = MeanInterval::student;
+};
+
+const Block<MeanKeys>& mean_block() {
+  using K = MeanKeys;
+  static const Block<K> block{
+      "mean",
+      {custom<K>("by", "string|string[]",
+                 "a column, or columns: one mean for the rows that are equal in them",
+                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+                   read_texts(value, info, keys.by, problems);
+                 }),
+       where_key(&K::where),
+       number("confidence", &K::confidence, inside(0, 1), "the share of such intervals that hold the mean"),
+       choice("interval", &K::interval, {{"t", MeanInterval::student}, {"log", MeanInterval::log_normal}},
+              "Student's t; or, for values above 0 that are clearly skewed, the log interval of Cox, which "
+              "assumes that their logarithms are normal")}};
+  return block;
+}
+
+Cell cell_of_number(const std::optional<double>& number) {
+  return number && std::isfinite(*number) ? Cell(*number) : Cell();
+}
+
+std::vector<TableColumn> mean_columns(const Rows& table, const MeanKeys& keys, const std::string& unit) {
+  std::vector<TableColumn> columns;
+  for (const std::string& name : keys.by) columns.push_back(table.columns()[table.column(name, "by")]);
+  for (const char* name : {"mean", "sd", "u", "low", "high"}) columns.push_back({name, unit});
+  for (const char* name : {"n", "left_out", "skewness", "interval"}) columns.push_back({name, ""});
+  return columns;
+}
+
+void warn_of_group(Call& call, const std::string& column, const MeanKeys& keys, const GroupMean& group) {
+  std::string where;
+  for (std::size_t k = 0; k < keys.by.size(); ++k)
+    where += (k == 0 ? " where " : " and ") + quoted(keys.by[k]) + " = " + short_text(group.by[k]);
+  for (const std::string& warning : group.of.warnings)
+    call.session().monitor().warn("column " + quoted(column) + where + ": " + warning);
+}
+
+Values mean_of_column(Call& call) {
+  const MeanKeys keys = call.options(mean_block(), 2);
+  const auto whole = table_of_self(call);
+  const std::string column = call.text(1, "column");
+  const Rows table = rows_of(*whole, keys.where.rows(*whole));
+  const std::string unit = table.columns()[table.column(column, "column")].unit;
+  const std::vector<GroupMean> groups = means_of(table, column, keys.by, keys.interval, keys.confidence);
+  std::vector<std::vector<Cell>> rows;
+  for (const GroupMean& group : groups) {
+    const SampleMean& of = group.of;
+    std::vector<Cell> row = group.by;
+    for (const auto& number : {of.count > 0 ? std::optional(of.mean) : std::nullopt, of.deviation,
+                               of.standard_error, of.low, of.high})
+      row.push_back(cell_of_number(number));
+    row.emplace_back(static_cast<std::int64_t>(of.count));
+    row.emplace_back(static_cast<std::int64_t>(of.left_out));
+    row.push_back(cell_of_number(of.skewness));
+    row.emplace_back(of.method);
+    rows.push_back(std::move(row));
+    warn_of_group(call, column, keys, group);
+  }
+  Rows means(mean_columns(table, keys, unit), std::move(rows));
+  means.rename("the means of " + quoted(column));
+  return {object(std::move(means))};
+}
+
+// --- histograms
+
+struct HistogramKeys {
+  std::string of;
+  TableFilter where;
+  std::optional<int> count;
+  std::vector<ExpectedValue> edges;
+  bool density = false;
+  std::string title;
+  std::optional<std::string> x_label, file;
+};
+
+void read_bins(const Argument& value, const OptionInfo& info, HistogramKeys& keys, Problems& problems) {
+  if (value.is_number()) {
+    if (auto bins = detail::read_integer(value, info, between(1, 10'000), problems))
+      keys.count = static_cast<int>(*bins);
+    return;
+  }
+  if (!value.is_table() || value.length() == 0)
+    return detail::wrong_type(value, info, "a whole number of bins, or a list of their edges", problems);
+  for (std::int64_t k = 1; k <= value.length(); ++k)
+    value.element(k, [&](const Argument& edge) {
+      try {
+        if (edge.is_number())
+          keys.edges.emplace_back(edge.number());
+        else if (edge.is_text())
+          keys.edges.emplace_back(edge.text());
+        else if (!edge.is_unknown())
+          detail::wrong_type(edge, info, "an edge: a number or a quantity", problems);
+      } catch (const Error& error) {
+        problems.push_back(quoted(info.name) + ": " + error.what());
+      }
+    });
+}
+
+const Block<HistogramKeys>& histogram_block() {
+  using K = HistogramKeys;
+  static const Block<K> block{
+      "histogram",
+      {text("of", &K::of, "the column").required(),
+       custom<K>(
+           "bins", "integer|number[]",
+           "how many bins of equal width, or a list of their edges in the column's unit or as quantities",
+           read_bins)
+           .defaults_to("by the rule of Freedman and Diaconis"),
+       where_key(&K::where),
+       flag("density", &K::density, "draw the share of values per width instead of their number"),
+       text("title", &K::title, "above the picture"),
+       text("x_label", &K::x_label, "instead of the column's name"),
+       text("file", &K::file, "draws it: an .svg, .png or .pdf under the run directory")}};
+  return block;
+}
+
+const RecordType<ValueHistogram>& histogram_record() {
+  using H = ValueHistogram;
+  static const RecordType<H> type{
+      "Histogram",
+      "histogram",
+      "How often the values of a column fall into bins.",
+      {{"edges", &H::edges,
+        "of the bins in the column's unit, one more than bins; a bin holds its lower edge"},
+       {"counts", [](const H& h) { return std::vector<std::int64_t>(h.counts.begin(), h.counts.end()); },
+        "values in each bin"},
+       {"density", &H::density, "share of the values per width of each bin"},
+       {"n", &H::values, "values in the bins"},
+       {"below", &H::below, "values below the first edge"},
+       {"above", &H::above, "values above the last edge"},
+       {"left_out", &H::left_out, "cells that are empty or no finite number"},
+       {"rule", &H::rule, "by which the bins were chosen"}}};
+  return type;
+}
+
+RunDirectory& drawing_run(const Call& call) {
+  const Session& session = call.session();
+  if (session.is_case || session.run == nullptr)
+    throw Error(ErrorCode::not_permitted, "a case of an ensemble draws no pictures",
+                "return what it found, and draw it after the loop");
+  return *session.run;
+}
+
+void draw_histogram(Call& call, const HistogramKeys& keys, const TableColumn& column,
+                    const ValueHistogram& found) {
+  LineChart chart;
+  chart.title = keys.title;
+  chart.x.label = keys.x_label.value_or(column.name);
+  chart.x.unit = column.unit;
+  chart.y.label = keys.density ? "share per width" : "number";
+  for (std::size_t k = 0; k < found.counts.size(); ++k)
+    chart.bars.push_back({found.edges[k], found.edges[k + 1],
+                          keys.density ? found.density[k] : static_cast<double>(found.counts[k])});
+  warn_of(call, draw(chart, drawing_run(call).path_for(*keys.file)));
+}
+
+Values histogram_of_column(Call& call) {
+  const HistogramKeys keys = call.options(histogram_block());
+  if (keys.file) picture_format(*keys.file);
+  const auto whole = table_of_self(call);
+  const Rows table = rows_of(*whole, keys.where.rows(*whole));
+  const TableColumn& column = table.columns()[table.column(keys.of, "of")];
+  HistogramBins bins{keys.count, {}};
+  for (const ExpectedValue& edge : keys.edges)
+    bins.edges.push_back(edge.quantity.empty() ? edge.value : parse_quantity_in(edge.quantity, column.unit));
+  const NumberColumns numbers = number_columns(table, {{"of", keys.of}});
+  ValueHistogram found = value_histogram(numbers.values[0], bins);
+  found.left_out = numbers.left_out;
+  if (keys.file) draw_histogram(call, keys, column, found);
+  return {histogram_record()(found)};
+}
+
+}  // namespace
+
+const RecordInfo& histogram_type() { return histogram_record(); }
+
+Function mean_method() {
+  return {
+      .name = "mean",
+      .body = mean_of_column,
+      .sentence =
+          "The mean of a column with its interval, as a table: one row, or one for each group of rows. Its "
+          "columns are those of `by`, then mean, sd (standard deviation), u (standard uncertainty of the "
+          "mean), "
+          "low and high (the interval), n, left_out (cells that are empty or no finite number), skewness and "
+          "interval (how it was computed).",
+      .parameters = {{"column", "string", "the column"}},
+      .options = &mean_block(),
+      .options_optional = true,
+      .returns = "Table",
+      .example = "print(book:mean(\"mu\", { by=\"D\" }))",
+      .unknown_when_dry = true};
+}
+
+Function histogram_method() {
+  return {.name = "histogram",
+          .body = histogram_of_column,
+          .sentence = "How often the values of a column fall into bins; `file` draws it.",
+          .options = &histogram_block(),
+          .returns = "Histogram",
+          .example = "print(book:histogram{ of=\"mu\", bins=2 })",
+          .heavy = true};
+}
+
+std::vector<Function> table_analysis_methods() {
+  return {mean_method(), fit_method(), histogram_method(), chart_method()};
+}
+
+std::vector<const RecordInfo*> table_analysis_results() {
+  std::vector<const RecordInfo*> types = fit_types();
+  types.push_back(&histogram_type());
+  return types;
+}
+
+}  // namespace asperity::lua

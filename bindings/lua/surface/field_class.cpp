@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/surface/field_class.hpp"
+
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/files.hpp"
+#include "bindings/lua/surface/picture.hpp"
+#include "engine/core/node_value.hpp"
+#include "engine/plot/picture.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+Values field_value(Call& call) {
+  return {node_value(*call.self<NamedField>().values, call.number(1, "i"), call.number(2, "j"))};
+}
+
+Values field_values(Call& call) { return {Value::Rows(call.self<NamedField>().values)}; }
+
+Values field_picture(Call& call) {
+  const NamedField& f = call.self<NamedField>();
+  PictureOptions options = call.options(picture_block(), 2);
+  if (options.label == PictureOptions{}.label) options.label = f.name;
+  options.unit = si_unit(f.dimension);
+  if (options.palette == PictureOptions{}.palette && f.name == "contact") options.palette = "contact";
+  if (options.palette == PictureOptions{}.palette && f.name == "pressure") options.palette = "heat";
+  const std::string path = writable_path(call, call.text(1, "path"));
+  warn_of(call, draw(f.grid, *f.values, options, path));
+  return {path};
+}
+
+std::string describe_field(const void* self) {
+  const auto& f = *static_cast<const NamedField*>(self);
+  const Range r = known_range(f.values->values());
+  return f.name + " field " + std::to_string(f.grid.nx) + " x " + std::to_string(f.grid.ny) + ", from " +
+         format_quantity(r.min, f.dimension) + " to " + format_quantity(r.max, f.dimension);
+}
+
+std::size_t field_bytes(const void* self) {
+  return static_cast<const NamedField*>(self)->values->size() * sizeof(double);
+}
+
+}  // namespace
+
+template <>
+const Class& class_of<NamedField>() {
+  using F = NamedField;
+  static const Class type = [] {
+    Class c;
+    c.name = "Field";
+    c.article_name = "a field";
+    c.sentence =
+        "A quantity at every node of the tile; nan where it is missing, as the gap is where nothing "
+        "faces the lower body.";
+    c.describe = describe_field;
+    c.native_bytes = field_bytes;
+    c.fields = {
+        {"name", "string", "what it is", {}, [](Call& call) -> Values { return {call.self<F>().name}; }},
+        {"unit",
+         "string",
+         "SI unit of its values",
+         {},
+         [](Call& call) -> Values { return {si_unit(call.self<F>().dimension)}; }},
+        {"min",
+         "number",
+         "least value",
+         {},
+         [](Call& call) -> Values { return {known_range(call.self<F>().values->values()).min}; }},
+        {"max",
+         "number",
+         "greatest value",
+         {},
+         [](Call& call) -> Values { return {known_range(call.self<F>().values->values()).max}; }},
+        {"mean",
+         "number",
+         "mean over all nodes that have a value",
+         {},
+         [](Call& call) -> Values { return {known_mean(call.self<F>().values->values())}; }},
+    };
+    c.methods = {
+        {.name = "value",
+         .body = field_value,
+         .sentence = "The value at node (i, j), counted from 0.",
+         .parameters = {{"i", "integer", "along x"}, {"j", "integer", "along y"}},
+         .returns = "number",
+         .example = "print(st:field \"gap\":value(0, 0))"},
+        {.name = "values",
+         .body = field_values,
+         .sentence = "All values as a table of rows, values[j+1][i+1].",
+         .returns = "number[][]",
+         .example = "local first_row = st:field \"gap\":values()[1]"},
+        {.name = "picture",
+         .body = field_picture,
+         .sentence = "A picture of the field as PNG, true to scale.",
+         .parameters = {{"path", "string", "a .png under the run directory"}},
+         .options = &picture_block(),
+         .options_optional = true,
+         .returns = "string",
+         .example = "st:field \"gap\":picture(\"gap.png\", { title=\"the gap\" })",
+         .heavy = true},
+    };
+    return c;
+  }();
+  return type;
+}
+
+}  // namespace asperity::lua

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/files/text_encoding.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace asperity {
+
+namespace {
+
+enum class ByteOrder { little, big };
+
+std::optional<ByteOrder> utf16_order(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE")) return ByteOrder::little;
+  if (bytes.starts_with("\xFE\xFF")) return ByteOrder::big;
+  constexpr std::size_t looked_at = 16;
+  if (bytes.size() < looked_at) return {};
+  for (const std::size_t zero : {std::size_t{1}, std::size_t{0}}) {
+    bool found = true;
+    for (std::size_t k = 0; k < looked_at; ++k) {
+      const auto byte = static_cast<unsigned char>(bytes[k]);
+      const bool letter = (byte >= 0x20 && byte < 0x7F) || byte == '\t' || byte == '\r' || byte == '\n';
+      found = found && (k % 2 == zero ? byte == 0 : letter);
+    }
+    if (found) return zero == 1 ? ByteOrder::little : ByteOrder::big;
+  }
+  return {};
+}
+
+void append_utf8(std::string& text, std::uint32_t c) {
+  const auto put = [&](std::uint32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
+  if (c < 0x80) {
+    put(c);
+  } else if (c < 0x800) {
+    put(0xC0 | (c >> 6));
+    put(0x80 | (c & 0x3F));
+  } else if (c < 0x10000) {
+    put(0xE0 | (c >> 12));
+    put(0x80 | ((c >> 6) & 0x3F));
+    put(0x80 | (c & 0x3F));
+  } else {
+    put(0xF0 | (c >> 18));
+    put(0x80 | ((c >> 12) & 0x3F));
+    put(0x80 | ((c >> 6) & 0x3F));
+    put(0x80 | (c & 0x3F));
+  }
+}
+
+// Bytes of the character of UTF-8 at the front; 0 where there is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const unsigned char lead = byte(0);
+  const std::size_t length = lead < 0x80                    ? 1
+                             : lead >= 0xC2 && lead < 0xE0  ? 2
+                             : lead >= 0xE0 && lead < 0xF0  ? 3
+                             : lead >= 0xF0 && lead <= 0xF4 ? 4
+                                                            : 0;
+  if (length == 0 || length > text.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((byte(k) & 0xC0) != 0x80) return 0;
+  // Longer than needed, half of a pair, or beyond the last character.
+  if (length == 3 && ((lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) >= 0xA0))) return 0;
+  if (length == 4 && ((lead == 0xF0 && byte(1) < 0x90) || (lead == 0xF4 && byte(1) >= 0x90))) return 0;
+  return length;
+}
+
+}  // namespace
+
+std::optional<std::string> utf8_of_utf16(std::string_view bytes) {
+  const std::optional<ByteOrder> order = utf16_order(bytes);
+  if (!order) return {};
+  const auto unit = [&](std::size_t k) -> std::uint32_t {
+    const auto first = static_cast<unsigned char>(bytes[2 * k]);
+    const auto second = static_cast<unsigned char>(bytes[2 * k + 1]);
+    return *order == ByteOrder::little ? first | (second << 8U) : second | (first << 8U);
+  };
+  const std::size_t units = bytes.size() / 2;
+  std::string text;
+  text.reserve(units);
+  constexpr std::uint32_t mark = 0xFEFF, unknown = 0xFFFD;
+  for (std::size_t k = 0; k < units; ++k) {
+    std::uint32_t c = unit(k);
+    if (k == 0 && c == mark) continue;
+    if (c >= 0xD800 && c < 0xDC00 && k + 1 < units && unit(k + 1) >= 0xDC00 && unit(k + 1) < 0xE000) {
+      c = 0x10000 + ((c - 0xD800) << 10) + (unit(k + 1) - 0xDC00);
+      ++k;
+    } else if (c >= 0xD800 && c < 0xE000) {
+      c = unknown;
+    }
+    append_utf8(text, c);
+  }
+  return text;
+}
+
+std::string utf8_or_latin1(std::string_view text) {
+  bool utf8 = true;
+  for (std::size_t k = 0; utf8 && k < text.size();) {
+    const std::size_t length = utf8_length(text.substr(k));
+    utf8 = length > 0;
+    k += length;
+  }
+  if (utf8) return std::string(text);
+  std::string converted;
+  for (const char c : text) append_utf8(converted, static_cast<unsigned char>(c));
+  return converted;
+}
+
+}  // namespace asperity

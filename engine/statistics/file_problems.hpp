@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is wrong with a file, gathered by line and column, so that one error tells all of it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "engine/core/files/source_file.hpp"
+
+namespace asperity {
+
+class FileProblems {
+ public:
+  explicit FileProblems(const SourceFile& file) : file_(file) {}
+  // "line 3, column 2 (load)": "\"x\" is no finite number".
+  void add(const std::string& place, const std::string& finding);
+  std::size_t count() const { return count_; }
+  // Throws Error{bad_file} with all of them, the first dozen in words.
+  void fail_if_any() const;
+
+ private:
+  const SourceFile& file_;
+  std::vector<std::string> sentences_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace asperity

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/statistics/stamp_column.hpp"
+
+#include "engine/core/files/text_table.hpp"
+
+namespace asperity {
+
+bool StampColumn::learn(std::string_view cell) {
+  const TimeStamp stamp = read_time_stamp(cell, order_, clock_);
+  if (stamp.kind == TimeStamp::Kind::none) return false;
+  if (order_ == DateOrder::unsaid && stamp.may_be_day_first != stamp.may_be_month_first)
+    order_ = stamp.may_be_day_first ? DateOrder::day_first : DateOrder::month_first;
+  if (stamp.kind == TimeStamp::Kind::unsaid_order && unsaid_order_.empty()) unsaid_order_ = shown(cell);
+  if (stamp.kind == TimeStamp::Kind::unsaid_clock && unsaid_clock_.empty()) unsaid_clock_ = shown(cell);
+  return order_ != DateOrder::unsaid || (unsaid_order_.empty() && stamp.dated);
+}
+
+std::optional<std::string> StampColumn::doubt() const {
+  if (!unsaid_order_.empty() && order_ == DateOrder::unsaid)
+    return "holds dates such as " + unsaid_order_ +
+           ", in which day and month may be either; dates=\"day first\" or dates=\"month first\" says which";
+  if (!unsaid_clock_.empty() && clock_ == ClockForm::unsaid)
+    return "holds times such as " + unsaid_clock_ +
+           ", which may be hours and minutes or minutes and seconds; clock=\"h:min\" or clock=\"min:s\" says "
+           "which";
+  return {};
+}
+
+StampColumn::Reading StampColumn::read(std::string_view cell) {
+  const TimeStamp stamp = read_time_stamp(cell, order_, clock_);
+  switch (stamp.kind) {
+    case TimeStamp::Kind::none:
+      return {{}, shown(cell) + " is no date and no time of day, as the cells above are"};
+    case TimeStamp::Kind::unsaid_order:
+    case TimeStamp::Kind::unsaid_clock:
+      return {{}, shown(cell) + " can be read in two ways; dates=, or clock=, says which is meant"};
+    case TimeStamp::Kind::not_in_calendar:
+      return {{},
+              shown(cell) + " is in no calendar" +
+                  (order_ == DateOrder::month_first ? " with the month first"
+                   : order_ == DateOrder::day_first ? " with the day first"
+                                                    : "")};
+    case TimeStamp::Kind::known:
+      break;
+  }
+  if (!first_) first_ = stamp;
+  if (stamp.dated != first_->dated)
+    return {{},
+            shown(cell) + (stamp.dated ? " has a date, which the first one lacks"
+                                       : " has no date, which the first one has")};
+  if (stamp.zoned != first_->zoned)
+    return {{},
+            shown(cell) + (stamp.zoned ? " has a time zone, which the first one lacks"
+                                       : " has no time zone, which the first one has")};
+  if (since_1970_) return {static_cast<double>(stamp.seconds) + stamp.fraction};
+  return {static_cast<double>(stamp.seconds - first_->seconds) + (stamp.fraction - first_->fraction)};
+}
+
+}  // namespace asperity

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/statistics/table_head.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "engine/core/error.hpp"
+#include "engine/core/files/text_table.hpp"
+
+namespace asperity {
+
+namespace {
+
+std::optional<Quantity> parsed_unit(std::string_view text) {
+  try {
+    return parse_unit(text);
+  } catch (const Error&) {  // no unit
+    return {};
+  }
+}
+
+// Of some kind, not a plain number; "%" is one too.
+bool is_unit(std::string_view text) {
+  const std::optional<Quantity> unit = parsed_unit(text);
+  return unit && (unit->dimension != dimension::number || text == "%");
+}
+
+// Words and symbols that are units and much else: minimum, in, turn, Run N, group t.
+bool may_be_a_word(std::string_view text) {
+  static constexpr std::array<std::string_view, 11> words{"min", "in",   "bar", "turn", "rev", "mil",
+                                                          "ft",  "inch", "us",  "pm",   "lb"};
+  if (text == "%") return false;
+  return text.size() < 2 || std::ranges::find(words, text) != words.end() ||
+         text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+}  // namespace
+
+std::string bare_unit(std::string_view cell) {
+  cell = trimmed(cell);
+  if (cell.size() >= 2 && (cell.front() == '[' || cell.front() == '(') &&
+      (cell.back() == ']' || cell.back() == ')'))
+    cell = trimmed(cell.substr(1, cell.size() - 2));
+  return std::string(cell);
+}
+
+std::optional<Quantity> unit_in_cell(std::string_view cell) {
+  const std::string unit = bare_unit(cell);
+  if (unit.empty() || std::isdigit(static_cast<unsigned char>(unit[0])) != 0) return {};
+  return parsed_unit(unit);
+}
+
+std::optional<Quantity> quantity_in_cell(std::string_view cell) {
+  std::string text(trimmed(cell));
+  const std::size_t digit = text.find_first_of("0123456789");
+  if (digit == std::string::npos || digit > 2) return {};
+  if (const std::size_t comma = text.find(','); comma != std::string::npos) text[comma] = '.';
+  try {
+    const Quantity quantity = parse_quantity(text);
+    if (quantity.dimension != dimension::number || text.ends_with('%')) return quantity;
+  } catch (const Error&) {  // something else
+  }
+  return {};
+}
+
+TableHead table_head(std::string_view title) {
+  title = trimmed(title);
+  const TableHead whole{std::string(title), {}};
+  const auto head = [](std::string_view name, std::string_view unit) {
+    return TableHead{std::string(trimmed(name)), std::string(trimmed(unit))};
+  };
+  if (title.ends_with(']'))
+    if (const std::size_t open = title.rfind('['); open != std::string_view::npos && open > 0)
+      return head(title.substr(0, open), title.substr(open + 1, title.size() - open - 2));
+  if (title.ends_with(')'))
+    if (const std::size_t open = title.rfind('('); open != std::string_view::npos && open > 0) {
+      const std::string_view inside = trimmed(title.substr(open + 1, title.size() - open - 2));
+      return is_unit(inside) || inside == "-" || inside == "1" ? head(title.substr(0, open), inside) : whole;
+    }
+  if (const std::size_t stroke = title.find(" / "); stroke != std::string_view::npos && stroke > 0)
+    if (is_unit(trimmed(title.substr(stroke + 3))))
+      return head(title.substr(0, stroke), title.substr(stroke + 3));
+  if (const std::size_t comma = title.rfind(','); comma != std::string_view::npos && comma > 0)
+    if (is_unit(trimmed(title.substr(comma + 1))))
+      return head(title.substr(0, comma), title.substr(comma + 1));
+  if (const std::size_t blank = title.rfind(' '); blank != std::string_view::npos) {
+    const std::string_view last = title.substr(blank + 1);
+    if (!may_be_a_word(last) && is_unit(last)) return head(title.substr(0, blank), last);
+  }
+  return whole;
+}
+
+}  // namespace asperity

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/statistics/table_lines.hpp"
+
+#include <algorithm>
+
+#include "engine/core/files/text_encoding.hpp"
+
+namespace asperity {
+
+namespace {
+
+bool is_space(char c) { return c == ' ' || c == '\t'; }
+
+char mark_of(Separator separator) {
+  return separator == Separator::semicolon ? ';' : separator == Separator::tab ? '\t' : ',';
+}
+
+// Cells with their quotes taken off; a doubled quote inside stands for one.
+std::vector<TableCell> split_at(std::string_view line, Separator separator) {
+  const bool blanks = separator == Separator::blank;
+  const auto parts = [&](char c) { return blanks ? is_space(c) : c == mark_of(separator); };
+  std::vector<TableCell> cells(1);
+  std::string plain;
+  bool inside = false;
+  const auto finish = [&] {
+    if (!cells.back().quoted) cells.back().text = std::string(trimmed(plain));
+    plain.clear();
+  };
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    TableCell& cell = cells.back();
+    if (inside) {
+      if (line[k] != '"')
+        cell.text += line[k];
+      else if (k + 1 < line.size() && line[k + 1] == '"')
+        cell.text += line[++k];
+      else
+        inside = false;
+    } else if (line[k] == '"' && trimmed(plain).empty() && !cell.quoted) {
+      inside = cell.quoted = true;
+    } else if (parts(line[k])) {
+      if (blanks && !cell.quoted && plain.empty()) continue;
+      finish();
+      cells.emplace_back();
+    } else {
+      plain += line[k];
+    }
+  }
+  finish();
+  if (blanks && cells.size() > 1 && cells.back().text.empty() && !cells.back().quoted) cells.pop_back();
+  return cells;
+}
+
+bool is_blank(const std::vector<TableCell>& cells) {
+  return std::all_of(cells.begin(), cells.end(), [](const TableCell& cell) { return cell.text.empty(); });
+}
+
+// The line in two or more pieces where two blanks or a tab stand between them.
+std::vector<TableCell> split_at_wide_blanks(std::string_view line) {
+  std::vector<TableCell> cells;
+  for (std::size_t k = 0; k < line.size();) {
+    while (k < line.size() && is_space(line[k])) ++k;
+    std::size_t end = k;
+    while (end < line.size() && line[end] != '\t' &&
+           !(line[end] == ' ' && (end + 1 == line.size() || is_space(line[end + 1]))))
+      ++end;
+    if (end > k) cells.push_back({std::string(line.substr(k, end - k)), false});
+    k = end;
+  }
+  return cells;
+}
+
+// "time [s] load [kN]": a unit in brackets belongs to the word before it.
+std::vector<TableCell> with_brackets_joined(std::vector<TableCell> words) {
+  std::vector<TableCell> cells;
+  bool open = false;
+  for (TableCell& word : words) {
+    const bool begins =
+        !word.quoted && !word.text.empty() && (word.text.front() == '[' || word.text.front() == '(');
+    if (!cells.empty() && (begins || open))
+      cells.back().text += " " + word.text;
+    else
+      cells.push_back(std::move(word));
+    const std::string& text = cells.back().text;
+    open =
+        text.find_last_of("[(") != std::string::npos &&
+        (text.find_last_of("])") == std::string::npos || text.find_last_of("])") < text.find_last_of("[("));
+  }
+  return cells;
+}
+
+}  // namespace
+
+std::size_t find_unquoted(std::string_view line, char wanted) {
+  bool inside = false;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (line[k] == '"') inside = !inside;
+    if (line[k] == wanted && !inside) return k;
+  }
+  return std::string_view::npos;
+}
+
+std::string_view TableLines::without_comment(std::string_view line) {
+  return line.substr(0, find_unquoted(line, '#'));
+}
+
+bool TableLines::is_comment(std::string_view line) {
+  line = trimmed(line);
+  return line.empty() || line.front() == '#';
+}
+
+TableLines::TableLines(const SourceFile& file, const TableForm& form)
+    : file_(file),
+      form_(form),
+      decoded_(utf8_of_utf16(file.bytes())),
+      lines_(decoded_ ? *decoded_ : file.text()) {
+  if (!decoded_ && !file_.looks_like_text())
+    refuse_file(file_, "is not text: it holds zero bytes", "save it as comma-separated text (UTF-8)");
+  std::string_view line;
+  for (std::int64_t k = 0; k < form_.skip; ++k)
+    if (!lines_.next(line))
+      refuse_file(file_, "has " + std::to_string(k) + " lines, of which " + std::to_string(form_.skip) +
+                             " are to be skipped");
+}
+
+std::vector<TableCell> TableLines::split(std::string_view line) const { return split_at(line, separator_); }
+
+std::vector<TableCell> TableLines::heads_between_blanks(std::string_view line, std::string_view next) const {
+  std::vector<TableCell> joined = with_brackets_joined(split_at(line, Separator::blank));
+  const std::size_t wanted = split_at(next, Separator::blank).size();
+  if (joined.size() == wanted) return joined;
+  if (std::vector<TableCell> wide = split_at_wide_blanks(line); wide.size() == wanted) return wide;
+  return joined;
+}
+
+bool TableLines::read_heads() {
+  const auto holds = [](std::string_view text, char mark) {
+    return find_unquoted(text, mark) != std::string_view::npos;
+  };
+  std::string_view line;
+  LineReader before = lines_;
+  do {
+    before = lines_;
+    if (!lines_.next(line)) return false;
+    if (lower_case(trimmed(line)).starts_with("sep=")) line = {};  // a note of spreadsheets to themselves
+  } while (is_comment(line));
+  line = without_comment(line);
+  std::string_view next;
+  if (heads_are_given()) {
+    next = line;
+    lines_ = before;
+  } else {
+    for (LineReader ahead = lines_; ahead.next(next) && is_comment(next); next = {}) {
+    }
+    next = without_comment(next);
+  }
+  if (form_.separator) {
+    separator_ = *form_.separator;
+  } else {
+    separator_ = holds(line, ';')    ? Separator::semicolon
+                 : holds(line, '\t') ? Separator::tab
+                                     : Separator::comma;
+    const bool commas = holds(line, ',') && (!heads_are_given() || separator_of(line) == Separator::comma);
+    const std::vector<TableCell> words_below = split_at(next, Separator::blank);
+    const bool several =
+        words_below.size() > 1 && std::ranges::any_of(words_below, [](const TableCell& cell) {
+          return read_cell(cell.text, Separator::blank).kind == CellKind::number;
+        });
+    const bool words = trimmed(line).find_first_of(" \t") != std::string_view::npos;
+    if (separator_ == Separator::comma && !commas && several && words &&
+        split_at(line, Separator::comma).size() == 1 &&
+        (heads_are_given() || (!holds(next, ',') || separator_of(next) == Separator::blank)))
+      separator_ = Separator::blank;
+  }
+  head_line_ = line;
+  if (heads_are_given()) {
+    for (const std::string& head : form_.heads) heads_.push_back({head, false});
+    below_ = split(next);
+    return true;
+  }
+  heads_ = separator_ == Separator::blank ? heads_between_blanks(line, next) : split(line);
+  for (TableCell& head : heads_) head.text = utf8_or_latin1(head.text);
+  while (!heads_.empty() && heads_.back().text.empty()) heads_.pop_back();
+  below_ = split(next);
+  return true;
+}
+
+void TableLines::skip_below() {
+  std::string_view line;
+  while (lines_.next(line) && is_comment(line)) {
+  }
+}
+
+bool TableLines::next_row(std::vector<TableCell>& cells) {
+  for (std::string_view line; lines_.next(line);) {
+    if (is_comment(line)) continue;
+    // A # begins a comment unless the row is only whole with what follows it: "sample #3".
+    cells = split(without_comment(line));
+    if (cells.size() != heads_.size()) cells = split(line);
+    if (is_blank(cells)) continue;
+    while (cells.size() > heads_.size() && cells.back().text.empty()) cells.pop_back();
+    return true;
+  }
+  return false;
+}
+
+bool TableLines::at_end_of_table() const {
+  if (line() < whole_row_) return false;
+  LineReader ahead = lines_;
+  for (std::string_view line; ahead.next(line);)
+    if (!is_comment(line) && split(without_comment(line)).size() == heads_.size()) {
+      whole_row_ = ahead.number();
+      return false;
+    }
+  return true;
+}
+
+}  // namespace asperity

@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All cells are held as text first: what a column is, and what a comma means, its cells tell together.
+#include "engine/statistics/table_reader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/files/text_encoding.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+#include "engine/statistics/file_problems.hpp"
+#include "engine/statistics/number_form.hpp"
+#include "engine/statistics/stamp_column.hpp"
+#include "engine/statistics/table_head.hpp"
+#include "engine/statistics/table_lines.hpp"
+
+namespace asperity {
+
+namespace {
+
+// The unit that says that numbers are days of a spreadsheet.
+constexpr std::string_view spreadsheet_date = "date";
+
+struct ReadColumn {
+  std::string title, name, unit;  // the unit as it was written
+  bool left_out = false;
+  bool said_text = false;
+};
+
+// Whole, without a point or an exponent, and what a double holds exactly.
+std::optional<std::int64_t> whole_number(std::string_view text) {
+  std::int64_t value = 0;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
+  constexpr std::int64_t most = std::int64_t{1} << 53;
+  if (wrong != std::errc{} || end != text.data() + text.size() || value > most || value < -most) return {};
+  return value;
+}
+
+bool is_truth(std::string_view text) { return text == "true" || text == "false"; }
+
+// As csv_text of table.cpp guards texts that a spreadsheet takes for formulas.
+std::string without_guard(const std::string& text) {
+  const bool guarded = text.size() > 1 && text[0] == '\'' &&
+                       std::string_view("=+-@\t\r").find(text[1]) != std::string_view::npos;
+  return guarded ? text.substr(1) : text;
+}
+
+class MeasuredTable {
+ public:
+  MeasuredTable(const SourceFile& file, const TableForm& form, Monitor& monitor)
+      : file_(file), form_(form), monitor_(monitor), lines_(file, form), problems_(file) {}
+
+  Table read() {
+    read_heads();
+    problems_.fail_if_any();
+    read_rows();
+    learn_number_form();
+    problems_.fail_if_any();
+    std::vector<TableColumn> heads;
+    std::vector<std::vector<Cell>> rows(rows_.size());
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      if (columns_[k].left_out || is_nothing(k)) continue;
+      std::string unit = read_column(k, rows);
+      heads.push_back({columns_[k].name, std::move(unit)});
+    }
+    problems_.fail_if_any();
+    if (heads.empty()) refuse_file(file_, "has no column with a head");
+    Table table(std::move(heads), std::move(rows));
+    table.rename(file_name(file_.path()));
+    return table;
+  }
+
+ private:
+  std::string column_place(std::size_t k) const {
+    return "column " + std::to_string(k + 1) + " (" + plain_text(columns_[k].name) + ")";
+  }
+  std::string place(std::size_t row, std::size_t k) const {
+    return "line " + std::to_string(line_of_[row]) + ", " + column_place(k);
+  }
+  const TableCell& cell(std::size_t row, std::size_t k) const { return rows_[row][k]; }
+  static std::string text_of(const TableCell& cell) {
+    return std::string(cell.quoted ? std::string_view(cell.text) : trimmed(cell.text));
+  }
+
+  // --- heads
+
+  void read_heads() {
+    if (!lines_.read_heads())
+      refuse_file(file_, "holds no line of heads", "begin with one such as \"N, angle [deg], load [N]\"");
+    if (!lines_.heads_are_given() && is_row_of_numbers(lines_.head_line()))
+      refuse_file(file_, "begins with numbers, in " + lines_.here() + ", and names no columns",
+                  "give their heads, as in columns={ \"time [s]\", \"load [kN]\" }");
+    for (const TableCell& head : lines_.heads()) {
+      const TableHead parts = table_head(head.text);
+      columns_.push_back({head.text, parts.name, utf8_or_latin1(parts.unit)});
+    }
+    const bool below = units_stand_below();
+    for (std::size_t k = 0; below && k < std::min(columns_.size(), lines_.below().size()); ++k)
+      columns_[k].unit = utf8_or_latin1(bare_unit(lines_.below()[k].text));
+    rename_columns();
+    say_units();
+    check_names();
+    for (std::size_t k = 0; k < columns_.size(); ++k) check_unit(k);
+    if (below) lines_.skip_below();
+  }
+
+  // Where no head has one, and what stands below is units and nothing else.
+  bool units_stand_below() const {
+    if (lines_.heads_are_given()) return false;
+    bool some = false;
+    for (const ReadColumn& column : columns_)
+      if (!column.unit.empty()) return false;
+    for (const TableCell& cell : lines_.below()) {
+      const std::string unit = bare_unit(utf8_or_latin1(cell.text));
+      if (unit.empty() || unit == "-") continue;
+      if (!unit_in_cell(unit)) return false;
+      some = true;
+    }
+    return some;
+  }
+
+  // By the whole head first, then without its unit; the number of columns that are called so.
+  std::pair<std::size_t, std::size_t> find(std::string_view title) const {
+    for (const bool whole : {true, false}) {
+      std::size_t found = 0, count = 0;
+      for (std::size_t k = 0; k < columns_.size(); ++k)
+        if ((whole ? columns_[k].title : columns_[k].name) == trimmed(title) && count++ == 0) found = k;
+      if (count > 0) return {found, count};
+    }
+    return {0, 0};
+  }
+
+  std::vector<std::string> titles() const {
+    std::vector<std::string> names;
+    for (const ReadColumn& column : columns_) {
+      names.push_back(column.title);
+      if (column.name != column.title) names.push_back(column.name);
+    }
+    return names;
+  }
+
+  void rename_columns() {
+    std::vector<std::pair<std::size_t, std::string>> renamed;
+    for (const auto& [name, title] : form_.names) {
+      const auto [k, count] = find(title);
+      if (count == 1) {
+        renamed.emplace_back(k, name);
+        continue;
+      }
+      problems_.add(lines_.here(),
+                    (count == 0 ? std::string("no column is") : std::to_string(count) + " columns are") +
+                        " headed " + shown_whole(title) + ", which `columns` calls " + quoted(name) +
+                        (count == 0 ? did_you_mean(title, titles()) : "; give the head with its unit"));
+    }
+    for (const auto& [chosen, name] : renamed) {
+      for (std::size_t k = 0; k < columns_.size(); ++k)
+        if (k != chosen && columns_[k].name == name &&
+            std::ranges::none_of(renamed, [k](const auto& other) { return other.first == k; })) {
+          columns_[k].left_out = true;
+          monitor_.warn(file_name(file_.path()) + ": column " + std::to_string(k + 1) + ", " +
+                        shown_whole(columns_[k].title) + ", is left out: `columns` calls column " +
+                        std::to_string(chosen + 1) + " " + quoted(name));
+        }
+    }
+    for (const auto& [chosen, name] : renamed) columns_[chosen].name = name;
+  }
+
+  static std::string shown_whole(std::string_view text) {
+    return "\"" + plain_text(std::string(text)) + "\"";
+  }
+
+  void say_units() {
+    const auto place_of = [&](std::string_view name, const char* key) -> std::optional<std::size_t> {
+      for (std::size_t k = 0; k < columns_.size(); ++k)
+        if (!columns_[k].left_out && columns_[k].name == name) return k;
+      if (const auto [k, count] = find(name); count == 1) return k;
+      problems_.add(lines_.here(), quoted(key) + " names " + quoted(std::string(name)) +
+                                       ", which is no column" + did_you_mean(name, titles()));
+      return {};
+    };
+    for (const auto& [name, unit] : form_.units)
+      if (const auto k = place_of(name, "unit")) columns_[*k].unit = unit;
+    for (const std::string& name : form_.texts)
+      if (const auto k = place_of(name, "text")) columns_[*k].said_text = true;
+  }
+
+  void check_names() {
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      if (columns_[k].left_out || columns_[k].name.empty()) continue;
+      for (std::size_t before = 0; before < k; ++before)
+        if (!columns_[before].left_out && columns_[before].name == columns_[k].name) {
+          problems_.add(lines_.here() + ", " + column_place(k),
+                        "has the name of column " + std::to_string(before + 1) +
+                            (columns_[before].title != columns_[k].title
+                                 ? "; choose one, as in columns={ " + plain_text(columns_[k].name) + "=" +
+                                       shown_whole(columns_[k].title) + " }"
+                                 : "; give each a head of its own"));
+          break;
+        }
+    }
+  }
+
+  void check_unit(std::size_t k) {
+    ReadColumn& column = columns_[k];
+    if (column.left_out || column.said_text) return;
+    // "time [hh:mm:ss]" says how its cells are written.
+    if (column.unit.find(':') != std::string::npos) column.unit.clear();
+    if (column.unit.empty() || column.unit == spreadsheet_date) return;
+    try {
+      parse_unit(column.unit);
+    } catch (const Error& error) {
+      problems_.add(lines_.here() + ", " + column_place(k), std::string(error.what()) + "; or unit={ " +
+                                                                plain_text(column.name) +
+                                                                "=\"1\" } takes its numbers as they stand");
+    }
+  }
+
+  // --- rows
+
+  void read_rows() {
+    Task task(monitor_, "reading", static_cast<std::int64_t>(file_.bytes().size()));
+    std::size_t before = 0;
+    for (std::vector<TableCell> cells; lines_.next_row(cells);) {
+      const std::size_t now = std::min(lines_.position(), file_.bytes().size());
+      task.advance(static_cast<std::int64_t>(now - before));
+      before = now;
+      const std::size_t wanted = columns_.size();
+      if (cells.size() != wanted) {
+        const bool words = std::ranges::none_of(cells, [](const TableCell& cell) {
+          return read_cell(cell.text, Separator::blank).kind == CellKind::number;
+        });
+        if (words && !rows_.empty() && lines_.at_end_of_table()) {
+          monitor_.warn(file_name(file_.path()) + ": what stands below the table, from " + lines_.here() +
+                        " on, is left out");
+          break;
+        }
+        problems_.add(lines_.here(),
+                      "there " +
+                          std::string(cells.size() == 1 ? "is 1 cell"
+                                                        : "are " + std::to_string(cells.size()) + " cells") +
+                          " under " + std::to_string(wanted) + (wanted == 1 ? " head" : " heads") +
+                          (rows_.empty() ? "; lines above the heads are left out by skip=, as in skip=3"
+                                         : "; put # before a line that is no row"));
+        continue;
+      }
+      rows_.push_back(std::move(cells));
+      line_of_.push_back(lines_.line());
+    }
+    problems_.fail_if_any();
+    if (rows_.empty()) refuse_file(file_, "names columns but holds no row");
+  }
+
+  bool is_nothing(std::size_t k) {
+    if (!columns_[k].name.empty()) return false;
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      if (!cell(row, k).text.empty()) {
+        problems_.add(place(row, k), shown(cell(row, k).text) + " stands under no head; give column " +
+                                         std::to_string(k + 1) + " one, or empty it");
+        break;
+      }
+    return true;
+  }
+
+  // What all numbers of the file tell together.
+  void learn_number_form() {
+    NumberEvidence evidence(form_.decimal, form_.thousands);
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      if (columns_[k].left_out || columns_[k].said_text) continue;
+      if (columns_[k].unit.empty() && holds_words(k)) continue;
+      for (std::size_t row = 0; row < rows_.size(); ++row)
+        if (const std::string text = text_of(cell(row, k));
+            read_time_stamp(text).kind == TimeStamp::Kind::none)
+          evidence.add(text, place(row, k));
+    }
+    number_form_ = evidence.form();
+    if (const auto doubt = evidence.doubt()) problems_.add(doubt->place, doubt->finding);
+  }
+
+  // None of its cells is a number, in whatever form.
+  bool holds_words(std::size_t k) const {
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const std::string text = text_of(cell(row, k));
+      if (!text.empty() && text.find_first_not_of("0123456789.,+-eE ") == std::string::npos &&
+          text.find_first_of("0123456789") != std::string::npos)
+        return false;
+    }
+    return true;
+  }
+
+  // --- columns
+
+  struct Counts {
+    std::size_t numbers = 0, stamps = 0, quantities = 0, truths = 0, texts = 0, filled = 0;
+    std::size_t first_other = 0;  // row of the first cell that is no number
+  };
+
+  Counts count(std::size_t k) const {
+    Counts counts;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const std::string text = text_of(cell(row, k));
+      const TextCell number = read_number(text, number_form_);
+      if (number.kind == CellKind::hole) continue;
+      ++counts.filled;
+      if (number.kind != CellKind::unreadable) {
+        ++counts.numbers;
+        continue;
+      }
+      if (counts.filled == counts.numbers + 1) counts.first_other = row;
+      if (read_time_stamp(text).kind != TimeStamp::Kind::none)
+        ++counts.stamps;
+      else if (quantity_in_cell(text))
+        ++counts.quantities;
+      else if (is_truth(text))
+        ++counts.truths;
+      else
+        ++counts.texts;
+    }
+    return counts;
+  }
+
+  // Adds the column to the rows; gives its unit in SI.
+  std::string read_column(std::size_t k, std::vector<std::vector<Cell>>& rows) {
+    ReadColumn& column = columns_[k];
+    if (column.said_text) return read_texts(k, rows), "";
+    if (column.unit == spreadsheet_date) return read_dates(k, rows);
+    const bool plain = column.unit.empty() || column.unit == "-" || column.unit == "1";
+    if (!plain) return read_numbers(k, rows);
+    const Counts counts = count(k);
+    if (column.unit.empty()) {
+      if (counts.filled > 0 && counts.stamps == counts.filled) return read_stamps(k, rows);
+      if (counts.filled > 0 && counts.quantities == counts.filled) return read_quantities(k, rows);
+      if (counts.filled > 0 && counts.truths == counts.filled) {
+        for (std::size_t row = 0; row < rows.size(); ++row) {
+          const std::string text = text_of(cell(row, k));
+          rows[row].emplace_back();
+          if (is_truth(text)) rows[row].back() = text == "true";
+        }
+        return "";
+      }
+      if (counts.filled > 0 && counts.numbers == 0) return read_texts(k, rows), "";
+    }
+    if (counts.numbers < counts.filled) {
+      const std::size_t others = counts.filled - counts.numbers;
+      problems_.add(place(counts.first_other, k),
+                    shown(cell(counts.first_other, k).text) + " is no number, as others of this column are" +
+                        (others > 1 ? ", and so in " + std::to_string(others - 1) + " more lines" : "") +
+                        "; mend it, or text={ \"" + plain_text(column.name) +
+                        "\" } takes all of them for texts");
+      return "";
+    }
+    return read_plain(k, rows);
+  }
+
+  void read_texts(std::size_t k, std::vector<std::vector<Cell>>& rows) {
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      const TableCell& from = cell(row, k);
+      const bool nothing = from.text.empty() && !from.quoted;
+      rows[row].emplace_back();
+      if (!nothing) rows[row].back() = utf8_or_latin1(without_guard(text_of(from)));
+    }
+  }
+
+  // Without a unit: whole numbers stay whole where all of the column are.
+  std::string read_plain(std::size_t k, std::vector<std::vector<Cell>>& rows) {
+    bool whole = true;
+    for (std::size_t row = 0; whole && row < rows_.size(); ++row) {
+      const std::string text = text_of(cell(row, k));
+      const TextCell number = read_number(text, number_form_);
+      const auto plain = plain_number(text, number_form_);
+      whole = number.kind == CellKind::hole || (plain && whole_number(*plain));
+    }
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const std::string text = text_of(cell(row, k));
+      const TextCell number = read_number(text, number_form_);
+      if (number.kind == CellKind::too_large)
+        problems_.add(place(row, k), shown(text) + " is beyond any number");
+      if (number.kind == CellKind::hole)
+        rows[row].emplace_back();
+      else if (whole)
+        rows[row].emplace_back(*whole_number(*plain_number(text, number_form_)));
+      else
+        rows[row].emplace_back(number.value);
+    }
+    return "";
+  }
+
+  // In the unit of the column, exact in SI; a cell may bring its own.
+  std::string read_numbers(std::size_t k, std::vector<std::vector<Cell>>& rows) {
+    const ReadColumn& column = columns_[k];
+    const Quantity unit = parse_unit(column.unit);
+    const bool si = unit.value == 1;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const std::string text = text_of(cell(row, k));
+      TextCell number = read_number(text, number_form_);
+      if (number.kind == CellKind::hole) {
+        rows[row].emplace_back();
+        continue;
+      }
+      if (number.kind == CellKind::unreadable)
+        if (const auto own = quantity_in_cell(text); own && own->dimension == unit.dimension) {
+          rows[row].emplace_back(own->value);
+          continue;
+        }
+      if (number.kind != CellKind::number && number.kind != CellKind::infinite) {
+        complain(row, k, text, unit.dimension, number.kind);
+        continue;
+      }
+      if (!si && number.kind == CellKind::number) {
+        std::string plain = *plain_number(text, number_form_);
+        if (plain.starts_with('+')) plain.erase(0, 1);
+        try {
+          number.value = parse_quantity(plain + " " + column.unit).value;
+        } catch (const Error& error) {
+          problems_.add(place(row, k), error.what());
+        }
+      }
+      rows[row].emplace_back(number.value);
+    }
+    return si_unit(unit.dimension);
+  }
+
+  void complain(std::size_t row, std::size_t k, const std::string& text, Dimension wanted, CellKind kind) {
+    std::string why;
+    if (kind == CellKind::too_large)
+      return problems_.add(place(row, k), shown(text) + " is beyond any number");
+    if (const auto own = quantity_in_cell(text))
+      why = ": it is " + describe(own->dimension) + " where " + describe(wanted) + " is wanted";
+    else if (read_time_stamp(text).kind != TimeStamp::Kind::none)
+      why = ": it is a date or a time of day, and the unit of the column is " + columns_[k].unit;
+    problems_.add(place(row, k), shown(text) + " is no number" + why);
+  }
+
+  std::string read_quantities(std::size_t k, std::vector<std::vector<Cell>>& rows) {
+    std::optional<Dimension> dimension;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const std::string text = text_of(cell(row, k));
+      const auto quantity = quantity_in_cell(text);
+      rows[row].emplace_back();
+      if (!quantity) continue;
+      rows[row].back() = quantity->value;
+      if (!dimension) dimension = quantity->dimension;
+      if (quantity->dimension != *dimension)
+        problems_.add(place(row, k), shown(text) + " is " + describe(quantity->dimension) +
+                                         " where those above are each " + describe(*dimension));
+    }
+    return si_unit(*dimension);
+  }
+
+  std::string read_stamps(std::size_t k, std::vector<std::vector<Cell>>& rows) {
+    StampColumn stamps(form_);
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      if (stamps.learn(text_of(cell(row, k)))) break;
+    if (const auto doubt = stamps.doubt()) {
+      problems_.add(place(0, k), *doubt);
+      return "";
+    }
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const std::string text = text_of(cell(row, k));
+      if (read_number(text, number_form_).kind == CellKind::hole) {
+        rows[row].emplace_back();
+        continue;
+      }
+      const StampColumn::Reading reading = stamps.read(text);
+      if (!reading.seconds) problems_.add(place(row, k), reading.complaint);
+      rows[row].emplace_back();
+      if (reading.seconds) rows[row].back() = *reading.seconds;
+    }
+    return "s";
+  }
+
+  // Days since the end of 1899, as spreadsheets count them, or stamps.
+  std::string read_dates(std::size_t k, std::vector<std::vector<Cell>>& rows) {
+    const Counts counts = count(k);
+    if (counts.stamps == counts.filled) return read_stamps(k, rows);
+    constexpr double first_of_1970 = 25569, day = 86400;
+    std::optional<double> first;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const std::string text = text_of(cell(row, k));
+      const TextCell number = read_number(text, number_form_);
+      if (number.kind == CellKind::hole) {
+        rows[row].emplace_back();
+        continue;
+      }
+      if (number.kind != CellKind::number)
+        problems_.add(place(row, k), shown(text) + " is no day of a spreadsheet, which counts from 1900");
+      if (!first) first = form_.stamps_since_1970 ? first_of_1970 : number.value;
+      rows[row].emplace_back((number.value - *first) * day);
+    }
+    return "s";
+  }
+
+  const SourceFile& file_;
+  const TableForm& form_;
+  Monitor& monitor_;
+  TableLines lines_;
+  FileProblems problems_;
+  NumberForm number_form_;
+  std::vector<ReadColumn> columns_;
+  std::vector<std::vector<TableCell>> rows_;
+  std::vector<std::size_t> line_of_;
+};
+
+}  // namespace
+
+Table read_measured_table(const SourceFile& file, const TableForm& form, Monitor& monitor) {
+  return MeasuredTable(file, form, monitor).read();
+}
+
+}  // namespace asperity

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/surface/operations/missing_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/require.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/holes.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double no_height = std::numeric_limits<double>::quiet_NaN();
+// The standard deviation of a Gaussian over its median absolute deviation: 1/Φ⁻¹(3/4).
+constexpr double deviation_over_mad = 1.4826022185056018;
+
+template <class Heights>
+void require_any_measured(const Heights& heights, std::string_view what) {
+  if (std::all_of(heights.begin(), heights.end(), [](double z) { return std::isnan(z); }))
+    throw Error(
+        ErrorCode::bad_value,
+        "no point of the " + std::string(what) + " that was measured remains: each touches one that was not",
+        "fill the holes first, `" + std::string(what) + ":filled{ by=\"interpolate\" }`");
+}
+
+bool is_hole(double mask) { return std::isnan(mask) || mask == 0; }
+
+std::size_t put_holes(std::span<double> heights, std::span<const double> mask) {
+  std::size_t fresh = 0;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    if (!is_hole(mask[k]) || std::isnan(heights[k])) continue;
+    heights[k] = no_height;
+    ++fresh;
+  }
+  return fresh;
+}
+
+// Of values that are there; changes their order. The upper one of two in the middle.
+double upper_median(std::span<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void check_outlier_rule(const OutlierRule& rule) {
+  require(std::isfinite(rule.factor) && rule.factor > 0, "factor", rule.factor, "",
+          "give a finite number above 0, in standard deviations of Gaussian residuals");
+  require(rule.window >= 3 && rule.window <= 31 && rule.window % 2 == 1, "window", rule.window, "nodes",
+          "give an odd whole number from 3 to 31");
+}
+
+// Heights less the median of the measured ones around them; NaN where nothing was measured.
+Field median_residuals(const Field& z, int window, bool wraps_x, bool wraps_y, Monitor& monitor) {
+  Field residuals(z.nx(), z.ny(), no_height);
+  const int reach = window / 2;
+  constexpr int rows_a_block = 4, rows_a_turn = 256;
+  Task task(monitor, "residuals of a median filter", z.ny());
+  const auto one_row = [&](int j, Array<double>& around) {
+    for (int i = 0; i < z.nx(); ++i) {
+      if (std::isnan(z(i, j))) continue;
+      around.clear();
+      for (int dj = -reach; dj <= reach; ++dj)
+        for (int di = -reach; di <= reach; ++di) {
+          int p = i + di, q = j + dj;
+          if (wraps_x) p = ((p % z.nx()) + z.nx()) % z.nx();
+          if (wraps_y) q = ((q % z.ny()) + z.ny()) % z.ny();
+          if (p < 0 || p >= z.nx() || q < 0 || q >= z.ny() || std::isnan(z(p, q))) continue;
+          around.push_back(z(p, q));
+        }
+      residuals(i, j) = z(i, j) - upper_median(around);
+    }
+  };
+  for (int first = 0; first < z.ny(); first += rows_a_turn) {
+    const int rows = std::min(rows_a_turn, z.ny() - first);
+    parallel_for((rows + rows_a_block - 1) / rows_a_block, [&](std::int64_t block) {
+      Array<double> around;
+      const int begin = static_cast<int>(block) * rows_a_block;
+      for (int j = begin; j < std::min(rows, begin + rows_a_block); ++j) one_row(first + j, around);
+    });
+    task.advance(rows);
+  }
+  return residuals;
+}
+
+Outliers outliers_of(const Field& z, const OutlierRule& rule, bool wraps_x, bool wraps_y, Monitor& monitor) {
+  check_outlier_rule(rule);
+  const Field residuals = median_residuals(z, rule.window, wraps_x, wraps_y, monitor);
+  Array<double> known;
+  std::copy_if(residuals.values().begin(), residuals.values().end(), std::back_inserter(known),
+               [](double r) { return !std::isnan(r); });
+  const double middle = upper_median(known);
+  for (double& r : known) r = std::abs(r - middle);
+  Outliers result;
+  result.deviation = deviation_over_mad * upper_median(known);
+  result.limit = rule.factor * result.deviation;
+  const bool all_alike = std::all_of(known.begin(), known.end(), [](double r) { return r == 0; });
+  if (result.deviation == 0 && !all_alike)
+    throw Error(
+        ErrorCode::bad_value,
+        "more than half of the heights differ by one and the same number from the median of those around "
+        "them, so that the rule \"mad\" would mark every other one",
+        "heights in few steps, a plateau, or ground smoother than the window: give a wider `window`, or say "
+        "which points are outliers with `where`");
+  result.mask = Field(z.nx(), z.ny());
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    if (std::isnan(z[k])) continue;
+    const bool outlying = std::abs(residuals[k] - middle) > result.limit;
+    result.mask[k] = outlying ? 0 : 1;
+    result.marked += outlying ? 1 : 0;
+  }
+  return result;
+}
+
+bool hole_on_rim(const Field& z) {
+  for (int i = 0; i < z.nx(); ++i)
+    if (std::isnan(z(i, 0)) || std::isnan(z(i, z.ny() - 1))) return true;
+  for (int j = 0; j < z.ny(); ++j)
+    if (std::isnan(z(0, j)) || std::isnan(z(z.nx() - 1, j))) return true;
+  return false;
+}
+
+void fill_holes(Field& z, std::optional<double> height, double hx, double hy, Monitor& monitor) {
+  if (!height) {
+    fill_harmonic(z, hx, hy, monitor);
+    return;
+  }
+  for (double& h : z.values())
+    if (std::isnan(h)) h = *height;
+}
+
+void check_fill(std::optional<double> height) {
+  if (height) require(std::isfinite(*height), "value", *height, "m", "give a finite height");
+}
+
+Field line_of(const Profile& profile) {
+  Field line(profile.size(), 1);
+  std::ranges::copy(profile.measured_heights(), line.values().begin());
+  return line;
+}
+
+Array<double> samples_of(const Field& line) { return {line.values().begin(), line.values().end()}; }
+
+}  // namespace
+
+MeasuredValues::MeasuredValues(std::span<const double> values, bool complete) : values_(values) {
+  if (complete) return;
+  copy_.reserve(values.size());
+  std::ranges::copy_if(values, std::back_inserter(copy_), [](double z) { return !std::isnan(z); });
+  values_ = copy_;
+}
+MeasuredValues::MeasuredValues(const Surface& surface)
+    : MeasuredValues(surface.measured_heights().values(), surface.complete()) {}
+MeasuredValues::MeasuredValues(const Profile& profile)
+    : MeasuredValues(profile.measured_heights(), profile.complete()) {}
+
+Surface remade_with(bool holes, const Grid& grid, Field heights, SurfaceTraits traits) {
+  if (!holes) return Surface(grid, std::move(heights), std::move(traits));
+  require_any_measured(heights.values(), "surface");
+  return Surface::with_holes(grid, std::move(heights), std::move(traits));
+}
+
+Profile remade_with(bool holes, double spacing, Array<double> heights, std::optional<double> closed_radius) {
+  if (!holes) return Profile(spacing, std::move(heights), closed_radius);
+  require_any_measured(heights, "profile");
+  return Profile::with_holes(spacing, std::move(heights), closed_radius);
+}
+
+Field mask_of(const Surface& surface) {
+  const Field& z = surface.measured_heights();
+  Field mask(z.nx(), z.ny(), 1);
+  if (!surface.complete())
+    for (std::size_t k = 0; k < z.size(); ++k) mask[k] = std::isnan(z[k]) ? 0 : 1;
+  return mask;
+}
+
+Array<double> mask_of(const Profile& profile) {
+  Array<double> mask(static_cast<std::size_t>(profile.size()), 1.0);
+  for (std::size_t k = 0; k < mask.size(); ++k)
+    if (std::isnan(profile.measured_heights()[k])) mask[k] = 0;
+  return mask;
+}
+
+Surface masked(const Surface& surface, const Field& mask) {
+  const Grid& grid = surface.grid();
+  if (mask.nx() != grid.nx || mask.ny() != grid.ny)
+    throw Error(ErrorCode::bad_value,
+                "the mask has " + std::to_string(mask.nx()) + " x " + std::to_string(mask.ny()) +
+                    " points, and the surface " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny),
+                "give a mask of the same cells");
+  Field heights = surface.measured_heights();
+  if (put_holes(heights.values(), mask.values()) == 0) return surface;
+  if (known_count(heights.values()) == 0)
+    throw Error(ErrorCode::bad_value, "the mask leaves no point of the surface that was measured",
+                "let it mark fewer points as not measured");
+  SurfaceTraits traits = surface.traits();
+  traits.aliased_share.reset();
+  return Surface::with_holes(grid, std::move(heights), std::move(traits));
+}
+
+Profile masked(const Profile& profile, std::span<const double> mask) {
+  if (mask.size() != static_cast<std::size_t>(profile.size()))
+    throw Error(ErrorCode::bad_value,
+                "the mask has " + std::to_string(mask.size()) + " points, and the profile " +
+                    std::to_string(profile.size()),
+                "give a number a sample: 1 measured, 0 not");
+  Array<double> heights(profile.measured_heights().begin(), profile.measured_heights().end());
+  if (put_holes(heights, mask) == 0) return profile;
+  if (known_count(heights) == 0)
+    throw Error(ErrorCode::bad_value, "the mask leaves no point of the profile that was measured",
+                "let it mark fewer points as not measured");
+  return Profile::with_holes(profile.spacing(), std::move(heights), profile.closed_radius());
+}
+
+Outliers find_outliers(const Surface& surface, const OutlierRule& rule, Monitor& monitor) {
+  const bool wraps = surface.traits().periodic;
+  return outliers_of(surface.measured_heights(), rule, wraps, wraps, monitor);
+}
+
+Outliers find_outliers(const Profile& profile, const OutlierRule& rule) {
+  return outliers_of(line_of(profile), rule, profile.closed(), false, Monitor::silent());
+}
+
+Surface filled(const Surface& surface, std::optional<double> height, Monitor& monitor) {
+  check_fill(height);
+  if (surface.complete()) return surface;
+  const Grid& grid = surface.grid();
+  Field heights = surface.measured_heights();
+  SurfaceTraits traits = surface.traits();
+  traits.periodic = traits.periodic && !hole_on_rim(heights);
+  fill_holes(heights, height, grid.hx(), grid.hy(), monitor);
+  return Surface(grid, std::move(heights), std::move(traits));
+}
+
+Profile filled(const Profile& profile, std::optional<double> height, Monitor& monitor) {
+  check_fill(height);
+  if (profile.complete()) return profile;
+  Field line = line_of(profile);
+  if (profile.closed() && !height) {
+    // Begun at a sample that was measured, and closed by it once more, a gap has two sides.
+    const auto values = profile.measured_heights();
+    const auto start = static_cast<std::size_t>(
+        std::find_if(values.begin(), values.end(), [](double z) { return !std::isnan(z); }) - values.begin());
+    Field round(profile.size() + 1, 1);
+    for (std::size_t k = 0; k < round.size(); ++k) round[k] = values[(start + k) % values.size()];
+    fill_holes(round, height, profile.spacing(), profile.spacing(), monitor);
+    for (std::size_t k = 0; k < values.size(); ++k) line[(start + k) % values.size()] = round[k];
+  } else {
+    fill_holes(line, height, profile.spacing(), profile.spacing(), monitor);
+  }
+  return Profile(profile.spacing(), samples_of(line), profile.closed_radius());
+}
+
+}  // namespace asperity

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tables in every form that loggers and spreadsheets write, and what is refused of them by line and column.
+#include "engine/statistics/table_reader.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tests/support/run_fixture.hpp"
+
+namespace asperity::table_reader_test {
+namespace {
+
+Table read(const std::string& text, const TableForm& form = {}) {
+  return read_measured_table(SourceFile("t.csv", text), form);
+}
+std::string csv(const std::string& text, const TableForm& form = {}) { return read(text, form).csv(); }
+std::string refusal(const std::string& text, const TableForm& form = {}) {
+  const std::string error = error_of([&] { read(text, form); }), name = "bad_file: \"t.csv\" ";
+  return error.starts_with(name) ? error.substr(name.size()) : error;
+}
+TableForm with(void (*set)(TableForm&)) {
+  TableForm form;
+  set(form);
+  return form;
+}
+double number(const Table& table, std::size_t row, std::size_t column) {
+  return std::get<double>(table.cell(row, column));
+}
+
+std::string utf16(const std::string& text, bool little) {
+  std::string bytes = little ? "\xFF\xFE" : "\xFE\xFF";
+  for (const char c : text) {
+    if (!little) bytes += '\0';
+    bytes += c;
+    if (little) bytes += '\0';
+  }
+  return bytes;
+}
+
+TEST(TableReader, NumbersWithUnitsAreInSiAndTheNearestDoubles) {
+  const Table table = read("N,load [kN],d (um),angle [deg]\n1,0.1,0.3,180\n2,-2.5,250,\n");
+  EXPECT_EQ(table.csv(), "N,load [N],d [m],angle [rad]\n1,100,3e-07,3.141592653589793\n2,-2500,0.00025,\n");
+  EXPECT_EQ(number(table, 0, 2), 0.3e-6);
+  EXPECT_EQ(number(table, 0, 3), std::numbers::pi);
+  EXPECT_EQ(std::get<std::int64_t>(table.cell(1, 0)), 2);
+  EXPECT_EQ(table.name(), "\"t.csv\"");
+}
+
+// One table in every way in which it is written.
+TEST(TableReader, FormsOfOneTable) {
+  const std::string wanted = "time [s],load [N]\n0,1500\n900.5,2250\n";
+  for (const std::string text :
+       {"time [s],load [kN]\n0,1.5\n900.5,2.25\n",
+        "\xEF\xBB\xBFtime [s],load [kN]\r\n0,1.5\r\n900.5,2.25\r\n",
+        "time [s];load [kN]\n0;1,5\n900,5;2,25\n", "time [s]\tload [kN]\n0\t1,5\n900,5\t2,25\n",
+        "time [s] load [kN]\n0 1.5\n900.5 2.25\n", "time [s]   load [kN]\n  0     1,5\n900,5   2,25\n",
+        "time (s),load (kN)\n0,1.5\n900.5,2.25\n", "time / s,load / kN\n0,1.5\n900.5,2.25\n",
+        "\"time, s\",\"load, kN\"\n0,1.5\n900.5,2.25\n", "time,load\ns,kN\n0,1.5\n900.5,2.25\n",
+        "time;load\n[s];[kN]\n0;1,5\n900,5;2,25\n", "time,load\n0 s,1.5 kN\n900.5 s,2250 N\n",
+        "\"time [s]\",\"load [kN]\"\n\"0,0\",\"1,5\"\n\"900,5\",\"2,25\"\n",
+        "sep=;\n# kept by hand\n\ntime [s];load [kN];\n0;1,5;\n\n900,5;2,25;\n",
+        "time [s],load [kN]\n0,1.5\n900.5,2.25\nEnd\n",
+        "time [s],load [N]\n0,\"1,500.0\"\n900.5,\"2,250.0\"\n"}) {
+    if (text.front() == '\xEF') continue;
+    EXPECT_EQ(csv(utf16(text, true)), wanted) << "UTF-16: " << text;
+  }
+  EXPECT_EQ(csv(utf16("time [s],load [kN]\n0,1.5\n900.5,2.25\n", false)), wanted);
+  // Without a mark at its beginning.
+  EXPECT_EQ(csv(utf16("time [s],load [kN]\n0,1.5\n900.5,2.25\n", true).substr(2)), wanted);
+  EXPECT_EQ(csv("Machine 7\nOperator Li\ntime [s],load [kN]\n0,1.5\n900.5,2.25\n",
+                with([](TableForm& f) { f.skip = 2; })),
+            wanted);
+  EXPECT_EQ(csv("0,1.5\n900.5,2.25\n", with([](TableForm& f) {
+                  f.heads = {"time [s]", "load [kN]"};
+                })),
+            wanted);
+  EXPECT_EQ(csv("Zeit;Kraft\n0;1,5\n900,5;2,25\n", with([](TableForm& f) {
+                  f.names = {{"load", "Kraft"}, {"time", "Zeit"}};
+                  f.units = {{"Zeit", "s"}, {"load", "kN"}};
+                })),
+            wanted);
+}
+
+TEST(TableReader, LettersBeyondAsciiAreKept) {
+  EXPECT_EQ(csv("Kraft [N];H\xC3\xA4rte;\xCF\x86 [\xC2\xB0]\n1;2;180\n"),
+            "Kraft [N],H\xC3\xA4rte,\xCF\x86 [rad]\n1,2,3.141592653589793\n");
+  EXPECT_EQ(csv("H\xE4rte;Weg [\xB5m];phi [\xB0]\n2;3;180\n"),
+            "H\xC3\xA4rte,Weg [m],phi [rad]\n2,3e-06,3.141592653589793\n");
+}
+
+// A letter behind the name may be a part of it.
+TEST(TableReader, AUnitIsTakenOnlyWhereItCanBeNothingElse) {
+  EXPECT_EQ(csv("load kN,slip um,strain %\n1,2,3\n"), "load [N],slip [m],strain\n1000,2e-06,0.03\n");
+  EXPECT_EQ(csv("Run N,time_s,T min,mu (left),Ra/Rq,a, b\n1,2,3,4,5,6,7\n"),
+            "Run N,time_s,T min,mu (left),Ra/Rq,a,b\n1,2,3,4,5,6,7\n");
+  EXPECT_EQ(refusal("T [\xC2\xB0"
+                    "C],load [kn]\n1,2\n")
+                .substr(0, 14),
+            "has 2 problems");
+  EXPECT_NE(refusal("load [kn]\n1\n").find("line 1, column 1 (load): \"kn\": unknown unit `kn`"),
+            std::string::npos);
+  EXPECT_NE(refusal("load [kn]\n1\n").find("or unit={ load=\"1\" } takes its numbers as they stand"),
+            std::string::npos);
+  EXPECT_EQ(csv("T [\xC2\xB0"
+                "C]\n1.5\n",
+                with([](TableForm& f) {
+                  f.units = {{"T", "1"}};
+                })),
+            "T\n1.5\n");
+}
+
+TEST(TableReader, ColumnsOfTextsTruthsAndNothing) {
+  const Table table = read("tag,ok,mu,note\nnew,true,0.4,\n\"worn, old\",false,NaN,\"\"\n\"'=1+1\",,-,x\n");
+  EXPECT_EQ(table.csv(), "tag,ok,mu,note\nnew,true,0.4,\n\"worn, old\",false,,\"\"\n\"'=1+1\",,,x\n");
+  EXPECT_EQ(std::get<std::string>(table.cell(2, 0)), "=1+1");
+  EXPECT_EQ(std::get<bool>(table.cell(1, 1)), false);
+  EXPECT_TRUE(is_empty(table.cell(0, 3)));
+  EXPECT_EQ(refusal("tag\n1\n2\nnew\n4\nold\n"),
+            "line 4, column 1 (tag): \"new\" is no number, as others of this column are, and so in 1 more "
+            "lines; mend "
+            "it, or text={ \"tag\" } takes all of them for texts");
+  EXPECT_EQ(csv("tag\n1\nnew\n", with([](TableForm& f) { f.texts = {"tag"}; })), "tag\n1\nnew\n");
+}
+
+TEST(TableReader, ReadsBackWhatATableWrites) {
+  const Table table(
+      {{"N", ""}, {"x", "m"}, {"tag", ""}, {"ok", ""}},
+      {{std::int64_t{100000}, std::nextafter(0.1, 1.0), std::string("=a"), true},
+       {std::int64_t{-2}, -std::numeric_limits<double>::infinity(), std::string("a,\"b\""), false},
+       {Cell(), 0.0, Cell(), Cell()},
+       {std::int64_t{3}, 5e-324, std::string(), true}});
+  EXPECT_EQ(read(table.csv()).csv(), table.csv());
+  EXPECT_EQ(read(table.csv()).digest(), table.digest());
+  EXPECT_EQ(csv("a,b\n1,2\n,\n3,4\n"), "a,b\n1,2\n3,4\n");  // as spreadsheets write lines of nothing
+}
+
+TEST(TableReader, ACommaIsReadWhereTheFileTellsWhatItIs) {
+  // One number that can be read in one way only tells of all.
+  EXPECT_EQ(csv("a;b\n1,250;0,5\n"), "a,b\n1.25,0.5\n");
+  EXPECT_EQ(csv("a;b\n1.250,5;1.000\n"), "a,b\n1250.5,1000\n");
+  EXPECT_EQ(csv("a;b\n1,250.5;1,000\n"), "a,b\n1250.5,1000\n");
+  EXPECT_EQ(csv("a;b\n1,250,000;1\n"), "a,b\n1250000,1\n");
+  EXPECT_EQ(refusal("a;b\n1,250;2\n"),
+            "line 2, column 1 (a): \"1,250\" may be a decimal number or have its thousands parted; "
+            "decimal=\",\" or "
+            "thousands=\",\" says which");
+  EXPECT_EQ(csv("a;b\n1,250;2\n", with([](TableForm& f) { f.decimal = ','; })), "a,b\n1.25,2\n");
+  EXPECT_EQ(csv("a;b\n1,250;2\n", with([](TableForm& f) { f.thousands = ','; })), "a,b\n1250,2\n");
+  EXPECT_EQ(csv("a;b\n1 250;2'000\n", with([](TableForm& f) {
+                  f.thousands = ' ';
+                  f.texts = {"b"};
+                })),
+            "a,b\n1250,2'000\n");
+  EXPECT_EQ(csv("a;b\n2'000;1\n", with([](TableForm& f) { f.thousands = '\''; })), "a,b\n2000,1\n");
+  EXPECT_EQ(refusal("a;b\n0,5;2\n1.5;2\n"),
+            "line 3, column 1 (a): \"1.5\" has a point for its decimal sign, where the others have a comma; "
+            "write all "
+            "numbers in one way");
+  EXPECT_EQ(refusal("a;b\n0,5;1.250\n"),
+            "line 2, column 2 (b): \"1.250\" has a point where the decimal sign is a comma; thousands=\".\" "
+            "says that it "
+            "parts thousands");
+  EXPECT_EQ(refusal("a;b\n0.5;1,250\n"),
+            "line 2, column 2 (b): \"1,250\" has a comma where the decimal sign is a point; thousands=\",\" "
+            "says that it "
+            "parts thousands");
+  EXPECT_EQ(csv("a;b\n1.250;2.500\n"), "a,b\n1.25,2.5\n");
+}
+
+TEST(TableReader, StampsAreSecondsFromTheFirst) {
+  const std::string wanted = "time [s],x\n0,1\n900,2\n5400.5,3\n";
+  for (const std::string text :
+       {"time,x\n2026-11-23T10:00:00,1\n2026-11-23T10:15:00,2\n2026-11-23T11:30:00.5,3\n",
+        "time,x\n2026-11-23 10:00:00+01:00,1\n2026-11-23 09:15Z,2\n2026-11-23 11:30:00.5+0100,3\n",
+        "time,x\n20261123T100000,1\n20261123T101500,2\n20261123T113000.5,3\n",
+        "time;x\n23.11.2026 10:00:00;1\n23.11.2026 10:15;2\n23.11.2026 11:30:00,5;3\n",
+        "time;x\n23.11.26 10:00:00;1\n23.11.26 10:15;2\n23.11.26 11:30:00,5;3\n",
+        "time,x\n11/23/2026 10:00 AM,1\n11/23/2026 10:15 AM,2\n11/23/2026 11:30:00.5 am,3\n",
+        "time,x\n23/11/2026 10:00,1\n23/11/2026 10:15,2\n23/11/2026 11:30:00.5,3\n",
+        "time,x\n23-Nov-2026 10:00:00,1\n23-Nov-2026 10:15:00,2\n23 Nov 2026 11:30:00.5,3\n",
+        "time [hh:mm:ss],x\n23:00:00,1\n23:15:00,2\n24:30:00.5,3\n"}) {
+    EXPECT_EQ(csv(text), wanted) << text;
+  }
+  EXPECT_EQ(csv("day,x\n2026-03-01,1\n2026-02-28,2\n"), "day [s],x\n0,1\n-86400,2\n");
+  EXPECT_EQ(csv("day,x\n2026-11-23,1\n", with([](TableForm& f) { f.stamps_since_1970 = true; })),
+            "day [s],x\n1795392000,1\n");
+  EXPECT_EQ(csv("day,x\n46349.25,1\n46349.5,2\n", with([](TableForm& f) {
+                  f.units = {{"day", "date"}};
+                })),
+            "day [s],x\n0,1\n21600,2\n");
+}
+
+TEST(TableReader, DatesThatCanBeReadInTwoWaysAreAskedFor) {
+  EXPECT_EQ(
+      refusal("day,x\n03/04/2026,1\n05/04/2026,2\n"),
+      "line 2, column 1 (day): holds dates such as \"03/04/2026\", in which day and month may be either; "
+      "dates=\"day first\" or dates=\"month first\" says which");
+  EXPECT_EQ(
+      csv("day,x\n03/04/2026,1\n05/04/2026,2\n", with([](TableForm& f) { f.dates = DateOrder::day_first; })),
+      "day [s],x\n0,1\n172800,2\n");
+  EXPECT_EQ(csv("day,x\n03/04/2026,1\n05/04/2026,2\n",
+                with([](TableForm& f) { f.dates = DateOrder::month_first; })),
+            "day [s],x\n0,1\n5270400,2\n");
+  // The third tells.
+  EXPECT_EQ(csv("day,x\n03/04/2026,1\n05/04/2026,2\n13/04/2026,3\n"), "day [s],x\n0,1\n172800,2\n864000,3\n");
+  EXPECT_EQ(refusal("day,x\n13/04/2026,1\n04/13/2026,2\n"),
+            "line 3, column 1 (day): \"04/13/2026\" is in no calendar with the day first");
+  EXPECT_EQ(refusal("day,x\n2026-02-29,1\n"), "line 2, column 1 (day): \"2026-02-29\" is in no calendar");
+  EXPECT_EQ(
+      refusal("t,x\n10:30,1\n"),
+      "line 2, column 1 (t): holds times such as \"10:30\", which may be hours and minutes or minutes and "
+      "seconds; clock=\"h:min\" or clock=\"min:s\" says which");
+  EXPECT_EQ(csv("t,x\n10:30,1\n11:00,2\n", with([](TableForm& f) { f.clock = ClockForm::minutes_seconds; })),
+            "t [s],x\n0,1\n30,2\n");
+  EXPECT_EQ(refusal("t,x\n2026-02-28,1\n10:00:00,2\n"),
+            "line 3, column 1 (t): \"10:00:00\" has no date, which the first one has");
+}
+
+TEST(TableReader, TwoColumnsOfOneNameAreChosenFrom) {
+  const std::string both = "load [kN],load [N]\n1,990\n";
+  EXPECT_EQ(
+      refusal(both),
+      "line 1, column 2 (load): has the name of column 1; choose one, as in columns={ load=\"load [N]\" }");
+  EXPECT_EQ(csv(both, with([](TableForm& f) { f.names = {{"load", "load [N]"}}; })), "load [N]\n990\n");
+  EXPECT_EQ(csv(both, with([](TableForm& f) {
+                  f.names = {{"load", "load [kN]"}, {"second", "load [N]"}};
+                })),
+            "load [N],second [N]\n1000,990\n");
+  EXPECT_EQ(refusal(both, with([](TableForm& f) {
+                      f.names = {{"F", "load"}};
+                    }))
+                .substr(0, 91),
+            "has 2 problems\n  line 1: 2 columns are headed \"load\", which `columns` calls `F`; give the h");
+  EXPECT_EQ(refusal("load\n1\n", with([](TableForm& f) {
+                      f.names = {{"F", "laod"}};
+                    })),
+            "line 1: no column is headed \"laod\", which `columns` calls `F` (did you mean `load`?)");
+  EXPECT_EQ(refusal("load\n1\n", with([](TableForm& f) {
+                      f.units = {{"laod", "N"}};
+                    })),
+            "line 1: `unit` names `laod`, which is no column (did you mean `load`?)");
+}
+
+TEST(TableReader, EveryProblemIsToldByLineAndColumn) {
+  EXPECT_EQ(refusal("load [N],t [s]\n1,2\nx,3\n5 MPa,4\n6,10:00:00\n7,1e999\n8,9,10\n"),
+            "line 7: there are 3 cells under 2 heads; put # before a line that is no row");
+  EXPECT_EQ(
+      refusal("load [N],t [s]\n1,2\nx,3\n5 MPa,4\n6,10:00:00\n7,1e999\n"),
+      "has 4 problems\n"
+      "  line 3, column 1 (load): \"x\" is no number\n"
+      "  line 4, column 1 (load): \"5 MPa\" is no number: it is a pressure where a force is wanted\n"
+      "  line 5, column 2 (t): \"10:00:00\" is no number: it is a date or a time of day, and the unit of the "
+      "column is s\n"
+      "  line 6, column 2 (t): \"1e999\" is beyond any number");
+  EXPECT_EQ(
+      refusal("1,2\n3,4\n"),
+      "begins with numbers, in line 1, and names no columns; give their heads, as in columns={ \"time [s]\", "
+      "\"load [kN]\" }");
+  EXPECT_EQ(refusal("Machine 7\nload [N],t [s]\n1,2\n").substr(0, 68),
+            "has 2 problems\n  line 2: there are 2 cells under 1 head; lines above");
+  EXPECT_EQ(refusal("# nothing\n\n").substr(0, 22), "holds no line of heads");
+  EXPECT_EQ(refusal("a,b\n"), "names columns but holds no row");
+  EXPECT_EQ(refusal("a,,b\n1,2,3\n"),
+            "line 2, column 2 (): \"2\" stands under no head; give column 2 one, or empty it");
+  EXPECT_EQ(csv("a,,b\n1,,3\n"), "a,b\n1,3\n");
+  EXPECT_EQ(refusal("a\n1\n", with([](TableForm& f) { f.skip = 5; })),
+            "has 2 lines, of which 5 are to be skipped");
+  EXPECT_EQ(refusal(std::string("ab\0cd", 5)).substr(0, 11), "is not text");
+  EXPECT_EQ(refusal("t\n1 s\n2 m\n"),
+            "line 3, column 1 (t): \"2 m\" is a length where those above are each a time");
+}
+
+}  // namespace
+}  // namespace asperity::table_reader_test
