@@ -162,6 +162,17 @@ TEST(Registration, CellsAndSizesMayDiffer) {
   EXPECT_EQ(r.surface.grid(), before.grid());
 }
 
+TEST(Registration, ASmallPatchAndANarrowBandAreFound) {
+  const Surface map = ground(512, 300);
+  const Registration patch = registered(cropped(map, 301, 77, 40, 36), map, turns_up_to(3));
+  EXPECT_NEAR(patch.shift_x, 301 * cell, 1e-4 * cell);
+  EXPECT_NEAR(patch.shift_y, 77 * cell, 1e-4 * cell);
+  const Registration band =
+      registered(cropped(map, 3, 2, 505, 33), cropped(map, 0, 0, 512, 40), turns_up_to(3));
+  EXPECT_NEAR(band.shift_x, 3 * cell, 1e-4 * cell);
+  EXPECT_NEAR(band.shift_y, 2 * cell, 1e-4 * cell);
+}
+
 // --- what is not measured
 
 TEST(Registration, HolesOfTheMapAfterStayHoles) {

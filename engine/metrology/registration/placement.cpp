@@ -18,7 +18,7 @@ namespace asperity::registration {
 
 namespace {
 
-constexpr int most_coarse_cells = 256;
+constexpr int least_coarse_cells = 16, usual_coarse_cells = 256, most_coarse_cells = 2048;  // along a side
 constexpr double degree = std::numbers::pi / 180;
 constexpr double least_overlap = 0.1;    // of the smaller map
 constexpr double least_explained = 0.5;  // of the variance of the heights
@@ -152,13 +152,19 @@ std::string extent_of(const HeightMap& map, double cell) {
 
 Placement find_placement(const HeightMap& before, const HeightMap& after, const PlacementLimits& limits,
                          Monitor& monitor) {
-  // Coarse maps of half the cells, and of 256 a side at most.
+  // Coarse maps of half the cells and some 256² nodes, more where one map is small beside the other or
+  // narrow.
   const double widest = std::max({after.hx, after.hy, before.hx, before.hy});
   const double longest = std::max({after.extent_x(), after.extent_y(), before.extent_x(), before.extent_y()});
-  const double spacing = std::max(2 * widest, longest / (most_coarse_cells - 1));
+  const double shortest =
+      std::min({after.extent_x(), after.extent_y(), before.extent_x(), before.extent_y()});
+  const double area = std::max(after.extent_x() * after.extent_y(), before.extent_x() * before.extent_y());
+  const double spacing =
+      std::max({2 * widest, longest / (most_coarse_cells - 1),
+                std::min(std::sqrt(area) / (usual_coarse_cells - 1), shortest / least_coarse_cells)});
   const HeightMap coarse_before = coarser_map(before, spacing), coarse_after = coarser_map(after, spacing);
   if (std::min({coarse_after.nx(), coarse_after.ny(), coarse_before.nx(), coarse_before.ny()}) <
-          least_cells_of_map / 2 ||
+          least_coarse_cells ||
       known_count(coarse_after.heights.values()) == 0 || known_count(coarse_before.heights.values()) == 0)
     refuse("the maps have too little in common: one is " + extent_of(after, limits.cell) + " and the other " +
                extent_of(before, limits.cell),
