@@ -41,20 +41,19 @@ struct Registration {
   double tilt_x = 0, tilt_y = 0;    // slopes of the after-map above the before-map along the latter's axes
   double lift = 0;                  // m, height of the after-map above the before-map at the former's centre
   RegistrationUncertainty u{};
-  double scale = 1;  // of lengths and heights: never stretched
-  double residual =
-      0;  // m, scale of the differences above zero, both maps smoothed by one cell: unworn ground
+  double scale = 1;        // of lengths and heights: never stretched
+  double residual = 0;     // m, scale of the differences above zero, both maps smoothed by one cell
   double overlap = 0;      // share of the before-map's measured nodes where `surface` is measured
   double explained = 0;    // share of the variance of the heights that the placement explains, where not worn
   double second_best = 0;  // the same of the best placement elsewhere; 0 where there is none
 };
 
 // Maps of different cells and sizes are laid on each other as they are, by their lengths. Cost: two
-// transforms of at most some 512² an angle (360 angles on the whole circle, at most 15 within 5 degrees),
-// then passes over the nodes. Memory: some 130 bytes a node of both maps. Same bits for any number of
+// transforms of some 512² an angle (360 angles on the whole circle, at most 15 within 5 degrees), then passes
+// over the nodes. Memory: some 130 bytes a node where both maps have as many. Same bits for any number of
 // threads. Throws Error{bad_value} for options out of range, a map that is flat or has fewer than 32 nodes
 // along a side, and where the maps cannot tell: too little overlap, no placement that explains the heights,
-// or another one that does so as well (periodic ground, ridges without an end).
+// or another one that does so as well (ground that repeats itself, ridges without end, a sphere).
 Registration registered(const Surface& after, const Surface& before, const RegistrationOptions& options = {},
                         Monitor& monitor = Monitor::silent());
 
