@@ -267,7 +267,7 @@ double left_rim(const LineChart& chart, const AxisLayout& x) {
 
 // Pixels that the numbers along y and their label take, of text of 16 points.
 double room_for_numbers(const AxisLayout& y) {
-  constexpr double label_and_gaps = 75, character = 12.5;
+  constexpr double label_and_gaps = 74, character = 12.5;
   std::size_t longest = 0;
   for (const Tic& tic : y.tics) longest = std::max(longest, characters_of(tic.label));
   return label_and_gaps + character * static_cast<double>(longest);
