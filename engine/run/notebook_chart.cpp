@@ -145,8 +145,7 @@ std::string line_name(const NotebookChart& options, const std::string& y, const 
   const std::optional<double> number = is_number(line.value) ? number_in(line.value) : std::nullopt;
   const std::string& unit = table.columns()[*columns.line].unit;
   if (!name.empty()) name += ", ";
-  return name +
-         (number && !unit.empty() ? printed_quantity(*number, unit, 4) : short_text(line.value));
+  return name + (number && !unit.empty() ? printed_quantity(*number, unit, 4) : short_text(line.value));
 }
 
 }  // namespace
