@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the dimensions of quantities are called, "length", "energy per area", for those who choose one by name.
+// What the dimensions of quantities are called, "length", "energy per area", for those who choose one by
+// name.
 #pragma once
 
 #include <optional>

@@ -273,6 +273,14 @@ double left_rim(const LineChart& chart, const AxisLayout& x) {
   return rim;
 }
 
+// Pixels that the numbers along y and their label take, of text of 16 points.
+double room_for_numbers(const AxisLayout& y) {
+  constexpr double label_and_gaps = 74, character = 12.5;
+  std::size_t longest = 0;
+  for (const Tic& tic : y.tics) longest = std::max(longest, characters_of(tic.label));
+  return label_and_gaps + character * static_cast<double>(longest);
+}
+
 // Where the key of a panel stands: beside the plot, whose right rim all panels share.
 std::string key_command(const std::optional<double>& right_rim) {
   if (!right_rim) return "set key outside right top Left reverse samplen 2.6 spacing 1.25\n";
@@ -429,7 +437,7 @@ std::string chart_script(std::span<const LineChart> given, PictureFormat format,
   double left = 0.13 * width;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     axes.push_back(axes_of(panels[k], contents[k]));
-    left = std::max(left, left_rim(panels[k], axes.back().x));
+    left = std::max({left, left_rim(panels[k], axes.back().x), room_for_numbers(axes.back().y)});
   }
   // Names are written once, below the last panel that has them.
   for (std::size_t k = 0; k + 1 < panels.size(); ++k)

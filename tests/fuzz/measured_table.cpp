@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of measured numbers as loggers and spreadsheets write them. A table that is read is written as CSV that
-// reads back as the same table.
+// Tables of measured numbers as loggers and spreadsheets write them. A table that is read is written as CSV
+// that reads back as the same table.
 #include "engine/core/files/source_file.hpp"
 #include "engine/statistics/table_operations.hpp"
 #include "engine/statistics/table_reader.hpp"

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Tables as values: read from a file, chosen from, joined, written and read back; a notebook is one too.
 --! exit: 0
---! output: "scans/angles.csv": 4 rows of 3 columns
+--! output: scans/angles.csv": 4 rows of 3 columns
 --! output:   N angle [deg]  tag
 --! output: all held
 local lab = require "asperity"

@@ -41,8 +41,8 @@ void note_input(const Call& call, const std::string& path) {
       root.empty() ? "" : std::filesystem::path(path).lexically_relative(root);
   const bool own = !inside.empty() && *inside.begin() != "..";
   if (session.run->note_input(own ? inside.string() : path, bytes, file_digest(path)) && !own)
-    session.monitor().warn("\"" + plain_text(path) +
-                           "\" is not what it was when the run that is taken up had read it");
+    session.monitor().inform("\"" + plain_text(path) +
+                             "\" is not what it was when the run that is taken up had read it");
 }
 
 std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems) {
