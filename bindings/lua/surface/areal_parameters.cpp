@@ -181,13 +181,13 @@ Values autocorrelation_of(Call& call) { return {object(Autocorrelation(call.self
 
 // --- by scale
 
-struct ScaleKeys {
+struct ScaleDependenceKeys {
   ScaleQuantity of = ScaleQuantity::slope;
   ScaleAxis along = ScaleAxis::x;
   std::vector<int> cells;
 };
-const Block<ScaleKeys>& scale_block() {
-  using O = ScaleKeys;
+const Block<ScaleDependenceKeys>& scale_dependence_block() {
+  using O = ScaleDependenceKeys;
   static const Block<O> block{
       "scale_dependence",
       {choice("of", &O::of,
@@ -224,7 +224,7 @@ const RecordType<ScaleDependence>& scale_type() {
 }
 
 Values scale_dependence_of(Call& call) {
-  ScaleKeys keys = call.options(scale_block());
+  ScaleDependenceKeys keys = call.options(scale_dependence_block());
   const Surface& surface = call.self<Surface>();
   const int along = keys.along == ScaleAxis::x ? surface.grid().nx : surface.grid().ny;
   if (keys.cells.empty())
@@ -340,7 +340,7 @@ std::vector<Function> parameter_methods() {
       {.name = "scale_dependence",
        .body = scale_dependence_of,
        .sentence = "Slope, curvature or height by scale (Sanner et al. 2022).",
-       .options = &scale_block(),
+       .options = &scale_dependence_block(),
        .options_optional = true,
        .returns = "ScaleDependence",
        .example = "local d = s:scale_dependence{ of=\"slope\" }"},

@@ -12,7 +12,7 @@ namespace asperity::lua {
 
 namespace {
 
-struct ProfileKeys {
+struct ProfileParameterKeys {
   std::optional<int> F;
   std::optional<double> S, section;
   std::optional<std::string> setting;
@@ -20,8 +20,8 @@ struct ProfileKeys {
   double threshold = 0.1;
 };
 
-const Block<ProfileKeys>& profile_block() {
-  using O = ProfileKeys;
+const Block<ProfileParameterKeys>& profile_parameters_block() {
+  using O = ProfileParameterKeys;
   static const Block<O> block{
       "profile_parameters",
       {quantity("section", &O::section, dimension::length, above(0),
@@ -107,7 +107,7 @@ const RecordType<MeasuredProfile>& profile_type() {
 }
 
 Values profile_parameters_of(Call& call) {
-  const ProfileKeys keys = call.options(profile_block());
+  const ProfileParameterKeys keys = call.options(profile_parameters_block());
   if (keys.section.has_value() == keys.setting.has_value())
     refuse(keys.section ? "both `section` and `class` are given" : "neither `section` nor `class` is given",
            "give the length of a section, as in `section=\"0.8 mm\"`, or a class, `class=\"Sc3\"`");
@@ -149,7 +149,7 @@ Function profile_parameters_method() {
               "The parameters of ISO 21920-2: the trace is filtered, half a section cut off at either end, "
               "and the "
               "rest evaluated in sections. Neither section nor class is guessed.",
-          .options = &profile_block(),
+          .options = &profile_parameters_block(),
           .returns = "ProfileParameters",
           .example = "print(p:profile_parameters{ class=\"Sc3\", F=1 }.Rz)"};
 }
