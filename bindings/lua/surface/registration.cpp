@@ -26,7 +26,7 @@ const Block<RegistrationOptions>& registration_block() {
 struct PlanarShift {
   double x, y;  // m
 };
-const RecordType<PlanarShift>& shift_type() {
+const RecordType<PlanarShift>& registration_shift_type() {
   static const RecordType<PlanarShift> type{"RegistrationShift",
                                             "shift",
                                             "A shift in the plane, or its standard uncertainty.",
@@ -38,7 +38,7 @@ const RecordType<PlanarShift>& shift_type() {
 struct PlanarTilt {
   double x, y;
 };
-const RecordType<PlanarTilt>& planar_tilt_type() {
+const RecordType<PlanarTilt>& registration_tilt_type() {
   static const RecordType<PlanarTilt> type{
       "RegistrationTilt",
       "tilt",
@@ -57,13 +57,13 @@ const RecordType<RegistrationUncertainty>& registration_uncertainty_type() {
         [](const U& u) {
           return PlanarShift{u.shift_x, u.shift_y};
         },
-        shift_type(), "of the shift"},
+        registration_shift_type(), "of the shift"},
        {"angle", &U::angle, dimension::angle, "of the turn"},
        {"tilt",
         [](const U& u) {
           return PlanarTilt{u.tilt_x, u.tilt_y};
         },
-        planar_tilt_type(), "of the slopes"},
+        registration_tilt_type(), "of the slopes"},
        {"lift", &U::lift, dimension::length, "of the height"}}};
   return type;
 }
@@ -82,14 +82,14 @@ const RecordType<Registration>& registration_type() {
         [](const R& r) {
           return PlanarShift{r.shift_x, r.shift_y};
         },
-        shift_type(), "from the map after to that before, of the centre of the map after"},
+        registration_shift_type(), "from the map after to that before, of the centre of the map after"},
        {"angle", &R::angle, dimension::angle,
         "from the map after to that before, counter-clockwise, from -pi to pi"},
        {"tilt",
         [](const R& r) {
           return PlanarTilt{r.tilt_x, r.tilt_y};
         },
-        planar_tilt_type(), "slopes of the map after above that before, along the latter's axes"},
+        registration_tilt_type(), "slopes of the map after above that before, along the latter's axes"},
        {"lift", &R::lift, dimension::length,
         "height of the map after above that before, at the centre of the map after, where neither is worn"},
        {"u", &R::u, registration_uncertainty_type(), "their standard uncertainties"},
@@ -114,7 +114,8 @@ Values register_to(Call& call) {
 }  // namespace
 
 std::vector<const RecordInfo*> registration_types() {
-  return {&registration_type(), &registration_uncertainty_type(), &shift_type(), &planar_tilt_type()};
+  return {&registration_type(), &registration_uncertainty_type(), &registration_shift_type(),
+          &registration_tilt_type()};
 }
 
 Function registered_to_method() {
