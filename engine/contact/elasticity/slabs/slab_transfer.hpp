@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Between nested grids in slabs: heights down, injected or interpolated linearly, and a field up, bilinearly,
-// round the rim, as half_space/level_transfer.hpp. Rows change hands where the two grids are dealt out in
+// round the rim, as half_space/contact_level.hpp. Rows change hands where the two grids are dealt out in
 // other ways. All processes together.
 #pragma once
 
 #include <span>
 
-#include "engine/contact/elasticity/half_space/solver/level_transfer.hpp"
+#include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 #include "engine/core/slabs/team.hpp"
 
 namespace asperity {

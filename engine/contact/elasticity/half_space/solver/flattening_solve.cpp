@@ -9,8 +9,8 @@
 
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 #include "engine/contact/elasticity/half_space/solver/full_contact.hpp"
-#include "engine/contact/elasticity/half_space/solver/level_transfer.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_search.hpp"
 #include "engine/core/arithmetic/bracketed_secant.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"

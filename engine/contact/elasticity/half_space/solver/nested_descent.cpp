@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
 #include "engine/contact/elasticity/half_space/solver/descent_chain.hpp"
-#include "engine/contact/elasticity/half_space/solver/level_transfer.hpp"
 #include "engine/contact/elasticity/half_space/solver/light_contact.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/solver/offset_descent.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Nested grids: which are made, that even sides keep their own nodes, and that a linear field survives.
-#include "engine/contact/elasticity/half_space/solver/level_transfer.hpp"
+#include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 
 #include <gtest/gtest.h>
 
-namespace asperity::level_transfer_test {
+namespace asperity::contact_level_test {
 namespace {
 
 TEST(LevelTransfer, HalvesSidesDownToThirtyTwo) {
@@ -62,4 +62,4 @@ TEST(LevelTransfer, KeepsALinearFieldOnAFreeTile) {
 }
 
 }  // namespace
-}  // namespace asperity::level_transfer_test
+}  // namespace asperity::contact_level_test
