@@ -2,9 +2,9 @@
 // The quick stage: preconditioned conjugate gradients on the current free set, with pressures allowed outside
 // their bounds until the next pass: one step a pass where nothing has to be settled, else a few. What the
 // clipping changes is not paid for by an application of its own but travels with a fixed preconditioned
-// (Richardson) step. On cells much longer than wide it leaves lines their loads (line_loads.hpp). Two-cycles
-// of a few nodes are broken by averaging two passes, exact because g is linear in p. It has no proof of
-// convergence; it stops when it no longer gains.
+// (Richardson) step. On cells much longer than wide it leaves lines their loads (load_projection.hpp).
+// Two-cycles of a few nodes are broken by averaging two passes, exact because g is linear in p. It has no
+// proof of convergence; it stops when it no longer gains.
 #pragma once
 
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"

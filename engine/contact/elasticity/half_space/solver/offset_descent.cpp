@@ -10,7 +10,7 @@
 #include "engine/contact/elasticity/half_space/solver/descent_nodes.hpp"
 #include "engine/contact/elasticity/half_space/solver/descent_rules.hpp"
 #include "engine/contact/elasticity/half_space/solver/free_set.hpp"
-#include "engine/contact/elasticity/half_space/solver/line_loads.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/solver/set_preconditioner.hpp"
 #include "engine/core/constants.hpp"
 
