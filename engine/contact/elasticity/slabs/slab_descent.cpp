@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/contact/elasticity/half_space/solver/descent_rules.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/slabs/slab_gradient.hpp"
 #include "engine/contact/elasticity/slabs/slab_preconditioner.hpp"
 #include "engine/contact/elasticity/slabs/slab_quality.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spectral projected gradients in slabs, as half_space/spectral_gradient.hpp: feasible throughout and
+// Spectral projected gradients in slabs, as half_space/descent.hpp: feasible throughout and
 // convergent in theory; slow.
 #pragma once
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/half_space/solver/active_set_descent.hpp"
-
+// The quick stage: preconditioned conjugate gradients on the current free set, with pressures allowed outside
+// their bounds until the next pass: one step a pass where nothing has to be settled, else a few. What the
+// clipping changes is not paid for by an application of its own but travels with a fixed preconditioned
+// (Richardson) step. On cells much longer than wide it leaves lines their loads (load_projection.hpp).
+// Two-cycles of a few nodes are broken by averaging two passes, exact because g is linear in p. It has no
+// proof of convergence; it stops when it no longer gains.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,9 +13,9 @@
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/descent_directions.hpp"
 #include "engine/contact/elasticity/half_space/solver/descent_nodes.hpp"
-#include "engine/contact/elasticity/half_space/solver/descent_rules.hpp"
 #include "engine/contact/elasticity/half_space/solver/free_set.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/solver/set_preconditioner.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A contact pressed by its approach. At a given approach the problem is convex without a load to keep, and is
-// solved as such (offset_descent.hpp): no load is sought, which soft ground hardly lets tell approaches
+// solved as such (offset_descent.cpp): no load is sought, which soft ground hardly lets tell approaches
 // apart. Where that descent does not end, as on some cells much longer than wide, the load is sought after
 // all (load_search.hpp). The certificate's load entry is the relative error of what was prescribed.
 #pragma once

@@ -7,7 +7,7 @@
 
 #include <span>
 
-#include "engine/contact/elasticity/half_space/solver/descent_chain.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
 
 namespace asperity {
 

@@ -10,10 +10,9 @@
 
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
-#include "engine/contact/elasticity/half_space/solver/descent_chain.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/light_contact.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
-#include "engine/contact/elasticity/half_space/solver/offset_descent.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/half_space/solver/offset_descent.hpp"
-
+// The contact at a given offset δ, on one grid: 0 <= p <= H with g = K p − h − δ (and what yielded) as the
+// law of the pressure has it, and no load to keep. Preconditioned conjugate gradients on the free set,
+// pressures being allowed outside their bounds until the next pass, as in active_set_descent.cpp; there the
+// load balances the gaps of the free nodes, here these are brought to δ itself. So no load is sought, and one
+// that hardly tells offsets apart, or hardly depends on them, costs no more than another. Where that stalls,
+// passes that each lower the energy ½ p·Kp − (h + δ)·p take over, for a while.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <type_traits>
 #include <variant>
 
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/descent_nodes.hpp"
-#include "engine/contact/elasticity/half_space/solver/descent_rules.hpp"
 #include "engine/contact/elasticity/half_space/solver/free_set.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/solver/set_preconditioner.hpp"
