@@ -15,10 +15,8 @@
 #include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
 #include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/descent_directions.hpp"
-#include "engine/contact/elasticity/half_space/solver/descent_nodes.hpp"
 #include "engine/contact/elasticity/half_space/solver/free_set.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
-#include "engine/contact/elasticity/half_space/solver/set_preconditioner.hpp"
 
 namespace asperity {
 

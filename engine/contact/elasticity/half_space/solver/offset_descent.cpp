@@ -12,10 +12,8 @@
 #include <variant>
 
 #include "engine/contact/elasticity/half_space/solver/descent.hpp"
-#include "engine/contact/elasticity/half_space/solver/descent_nodes.hpp"
 #include "engine/contact/elasticity/half_space/solver/free_set.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
-#include "engine/contact/elasticity/half_space/solver/set_preconditioner.hpp"
 #include "engine/core/constants.hpp"
 
 namespace asperity {
