@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/contact/elasticity/half_space/operator/lane_terms.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/parallel.hpp"

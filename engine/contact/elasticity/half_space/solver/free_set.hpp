@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/contact/elasticity/half_space/operator/lane_terms.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
 #include "engine/core/memory.hpp"
