@@ -129,14 +129,12 @@ struct Lanes {
 };
 
 // Over the nodes from `begin` to `end`, on this thread.
-template <std::size_t sums, std::size_t minima, class Take, class Term>
-std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, Take take,
-                                               const Term& term) {
+template <std::size_t sums, std::size_t minima, class Term>
+std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, const Term& term) {
   const Term own = term;
   Lanes<sums, minima> block;
   std::size_t k = begin;
-  for (; k + nodes_a_chunk <= end; k += nodes_a_chunk)
-    if (take(k, k + nodes_a_chunk)) block.take_chunk(k, own);
+  for (; k + nodes_a_chunk <= end; k += nodes_a_chunk) block.take_chunk(k, own);
   for (std::size_t lane = 0; k < end; ++k, lane = (lane + 1) % lanes_a_block) block.take(k, lane, own);
   return block.total();
 }
@@ -157,12 +155,6 @@ std::array<double, sums + minima> gather_blocks(std::size_t nodes, const Range& 
   return total;
 }
 
-template <std::size_t sums, std::size_t minima, class Take, class Term>
-std::array<double, sums + minima> gather(std::size_t nodes, Take take, const Term& term) {
-  return gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
-    return gather_range<sums, minima>(begin, end, take, term);
-  });
-}
 
 }  // namespace node_loop
 
@@ -182,14 +174,9 @@ void for_marked_nodes(std::span<const std::uint8_t> marks, Body body) {
 // minimum; both are returned in that order. A minimum over nothing is +∞.
 template <std::size_t sums, std::size_t minima = 0, class Term>
 std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
-  return node_loop::gather<sums, minima>(nodes, node_loop::All{}, term);
-}
-
-// Sums over the nodes with a mark that is not 0. `term` is also called for some of the others, for which it
-// must give 0.
-template <std::size_t sums, class Term>
-std::array<double, sums> over_marked_nodes(std::span<const std::uint8_t> marks, Term term) {
-  return node_loop::gather<sums, 0>(marks.size(), node_loop::Marked{marks.data()}, term);
+  return node_loop::gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
+    return node_loop::gather_range<sums, minima>(begin, end, term);
+  });
 }
 
 // A stretch of nodes on this thread, for what hands out rows: body(k) for each, and sums of term(k, v).
@@ -200,7 +187,7 @@ void for_stretch(std::size_t begin, std::size_t end, const Body& body) {
 }
 template <std::size_t sums, class Term>
 std::array<double, sums> over_stretch(std::size_t begin, std::size_t end, const Term& term) {
-  return node_loop::gather_range<sums, 0>(begin, end, node_loop::All{}, term);
+  return node_loop::gather_range<sums, 0>(begin, end, term);
 }
 // The sums of stretches, added up in their order.
 template <std::size_t sums>
