@@ -10,7 +10,7 @@
 // is more. Of Poisson's ratio 1/2 K(0) is 0, and on a bonded base K goes as q² t³.
 #pragma once
 
-#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 
 namespace asperity {
 

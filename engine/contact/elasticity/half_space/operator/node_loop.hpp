@@ -155,7 +155,6 @@ std::array<double, sums + minima> gather_blocks(std::size_t nodes, const Range& 
   return total;
 }
 
-
 }  // namespace node_loop
 
 // body(k) for each node.
