@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/contact/elasticity/half_space/solver/unconverged.hpp"
+#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/contact/elasticity/slabs/slab_nest.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"

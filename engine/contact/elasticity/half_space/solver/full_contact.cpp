@@ -7,7 +7,7 @@
 
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
-#include "engine/contact/elasticity/half_space/solver/unconverged.hpp"
+#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"

@@ -99,4 +99,12 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
 // Counts, peak pressure and certificate anew, of the pressures and gaps that `answer` holds. O(n).
 void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer);
 
+// Throws Error{not_converged}: what was reached under the mean pressure [Pa] after so many applications of
+// the half-space, and what would work.
+[[noreturn]] void throw_unconverged(double mean_pressure, const Certificate& reached, double tolerance,
+                                    int applications, const Grid& grid);
+
+// What would work; names cells that are much longer than wide, which converge badly.
+std::string unconverged_hint(const Grid& grid);
+
 }  // namespace asperity
