@@ -24,6 +24,8 @@ struct YieldLaw {
   bool hardens() const;
   // Whether no pressure may pass `cap`.
   bool caps() const;
+  // The pressure at which node k begins to yield.
+  double yields_at(std::size_t k) const { return yield ? (*yield)[k] : cap; }
   bool limits() const { return hardens() || caps(); }
 };
 

@@ -29,7 +29,7 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
   Array<std::uint8_t> elastic(nodes), yields(law.hardens() ? nodes : 0);
   const auto counts = over_nodes<2>(nodes, [&](std::size_t k, double* v) {
     const double p = answer.pressure[k];
-    const bool past = law.hardens() && p > (law.yield ? (*law.yield)[k] : law.cap);
+    const bool past = law.hardens() && p > law.yields_at(k);
     elastic[k] = p > 0 && p < cap && !past ? 1 : 0;
     if (law.hardens()) yields[k] = past ? 1 : 0;
     v[0] = elastic[k];

@@ -48,7 +48,7 @@ class HalfSpaceSolution : public Solution {
   virtual const std::optional<PlannedYield>& limit() const;
 
   double nodes() const { return static_cast<double>(at_.pressure.size()); }
-  bool faces(std::size_t k) const { return !problem_.overhangs || !std::isnan((*problem_.heights)[k]); }
+  bool faces(std::size_t k) const { return problem_.faces(k); }
   // The elastic displacement of both bodies, K p. Near a light contact all terms are small.
   double displacement(std::size_t k) const {
     return at_.gap[k] + (at_.approach - (geometry().combined_range().max - (*problem_.heights)[k]));

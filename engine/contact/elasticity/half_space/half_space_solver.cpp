@@ -11,8 +11,7 @@
 #include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/recalled_solve.hpp"
-#include "engine/contact/elasticity/half_space/solver/approach_solve.hpp"
-#include "engine/contact/elasticity/half_space/solver/flattening_solve.hpp"
+#include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 #include "engine/contact/planned_yield.hpp"
 #include "engine/core/error.hpp"
@@ -114,7 +113,7 @@ class HalfSpaceSolver::UnderLoad final : public HalfSpaceSolution {
     if (fits_) return 0;
     const YieldLaw& law = problem_.yield;
     if (law.hardens()) {
-      const double most = law.yield ? (*law.yield)[k] : law.cap;
+      const double most = law.yields_at(k);
       return at_.pressure[k] > most ? (at_.pressure[k] - most) / law.hardening : 0.0;
     }
     return at_.pressure[k] >= law.cap ? std::max(0.0, -at_.gap[k]) : 0.0;

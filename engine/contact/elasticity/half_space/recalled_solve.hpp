@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The solves of half_space_solve.hpp, approach_solve.hpp, flattening_solve.hpp and adhesive_solve.hpp, taken
+// The solves of half_space_solve.hpp, displacement_control.hpp and adhesive_solve.hpp, taken
 // up from the store of the run where the same problem was solved before. A key is made of every number that a
 // problem holds, heights and hardness fields by their digests.
 #pragma once

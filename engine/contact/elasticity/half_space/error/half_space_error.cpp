@@ -74,12 +74,11 @@ class Bounds {
   }
 
  private:
-  bool faces(std::size_t k) const { return !problem_.overhangs || !std::isnan((*problem_.heights)[k]); }
+  bool faces(std::size_t k) const { return problem_.faces(k); }
   double pressure(std::size_t k) const { return pressure_[k]; }
   // Where the law of the pressure changes: the cap, or the yield pressure.
   double limit(std::size_t k) const {
-    if (!problem_.yield.hardens()) return cap_;
-    return (problem_.yield.yield ? (*problem_.yield.yield)[k] : problem_.yield.cap) / pascal_;
+    return problem_.yield.hardens() ? problem_.yield.yields_at(k) / pascal_ : cap_;
   }
   double opening(std::size_t k) const {
     return give_ > 0 ? give_ * std::max(0.0, pressure(k) - limit(k)) : 0.0;

@@ -186,8 +186,6 @@ LevelShape level_shape(const HalfSpaceProblem& problem, bool with_mean) {
           multiplier_of(problem, with_mean)};
 }
 
-double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.yield)[k] : law.cap; }
-
 }  // namespace
 
 double uniform_compliance(const HalfSpaceProblem& problem) {
@@ -231,7 +229,7 @@ void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   std::array<double, 9> found;
   if (law.hardens())
     found = over_nodes<5, 4>(p.size(), [&](std::size_t k, double* v) {
-      const double past = p[k] - yields_at(law, k), gap = g[k] + std::max(0.0, past) * per_hardening;
+      const double past = p[k] - law.yields_at(k), gap = g[k] + std::max(0.0, past) * per_hardening;
       v[0] = p[k];
       v[1] = p[k] > 0 ? 1.0 : 0.0;
       v[2] = past > 0 ? 1.0 : 0.0;
@@ -340,7 +338,7 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   // What nothing faces is out of the contact already, but for what a pass may have left there by rounding.
   if (problem.overhangs)
     for (std::size_t k = 0; k < answer.pressure.size(); ++k)
-      if (std::isnan((*problem.heights)[k])) answer.pressure[k] = 0;
+      if (!problem.faces(k)) answer.pressure[k] = 0;
   answer.mean_pressure = mean_pressure;
   const double offset = cell.offset * units.height;
   const double peak = peak_of(problem);

@@ -7,6 +7,7 @@
 // contact is an exact filter. No friction, no adhesion; half-space slopes are taken as small.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -38,6 +39,9 @@ struct HalfSpaceProblem {
   // for that alone; pressures, gaps and the certificate are double all the same.
   bool single = false;
   double weight = 1;  // of one transform in what is counted: less on a grid coarser than the one asked for
+
+  // Whether something faces the ground at node k.
+  bool faces(std::size_t k) const { return !overhangs || !std::isnan((*heights)[k]); }
 };
 
 struct HalfSpaceAnswer {
