@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "engine/contact/elasticity/half_space/operator/pressure_limit.hpp"
 #include "engine/contact/elasticity/slabs/slab_quality.hpp"
+#include "engine/contact/yield_law.hpp"
 
 namespace asperity {
 

@@ -15,8 +15,8 @@
 #include "engine/contact/boundary.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
-#include "engine/contact/elasticity/half_space/operator/pressure_limit.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
+#include "engine/contact/yield_law.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {
