@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts in slabs so light, or on ground so soft, that the ground moves by far less than the rms height:
-// taken on until they are right to a share of how far it moves, as half_space/light_contact.hpp.
+// taken on until they are right to a share of how far it moves, as half_space/nested_descent.cpp.
 #pragma once
 
 #include "engine/contact/elasticity/slabs/slab_descent.hpp"

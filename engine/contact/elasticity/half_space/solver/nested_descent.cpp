@@ -6,12 +6,11 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
-#include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
 #include "engine/contact/elasticity/half_space/solver/descent.hpp"
-#include "engine/contact/elasticity/half_space/solver/light_contact.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
@@ -19,6 +18,100 @@
 namespace asperity {
 
 namespace {
+
+double greatest(std::span<const double> values) {
+  return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
+}
+
+// Contacts so light, or on ground so soft, that the ground moves by far less than the rms height. What is
+// right to a share of the rms then says nothing of how the load is shared. So the solve goes on, its gaps
+// counted from the height that matters, where they are sums of small terms and not small differences of large
+// heights, and measured by how far the ground there moves.
+class LightContact {
+ public:
+  LightContact(ContactLevel& level, DescentFields& fields, const CellProblem& problem)
+      : level_(level), fields_(fields), problem_(problem) {}
+
+  // From the feasible pressures and gaps in `fields`, where a chain left them; what it cannot better stays as
+  // it was, and ordinary contacts are left alone. `gap` belongs to the pressures again afterwards. Returns
+  // whether gaps and offset are counted from the highest node, so that the offset is the approach.
+  bool refine(ChainEnd& end);
+
+ private:
+  static constexpr double light = 0.01;  // an approach, of what gaps are measured by
+  static constexpr double soft = 1e-3;   // what one node at the cap sinks, of the same
+
+  // Once more from the pressures there are; false, and they stay, where that does not converge.
+  bool again(double length, ChainEnd& end);
+  void by_approach(double approach, ChainEnd& end);
+  void at_the_cap(double cap, ChainEnd& end);
+  double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
+  // What one node sinks, about, under the pressure `p` on it alone.
+  double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
+
+  ContactLevel& level_;
+  DescentFields& fields_;
+  const CellProblem& problem_;
+};
+
+bool LightContact::again(double length, ChainEnd& end) {
+  level_.length = length;
+  const UnsetArray<double> before = fields_.pressure;
+  const ChainEnd finer = run_chain(level_, fields_, problem_.tolerance, ChainEffort::brief);
+  if (finer.stage.converged)
+    end = finer;
+  else
+    fields_.pressure = before;
+  return finer.stage.converged;
+}
+
+void LightContact::by_approach(double approach, ChainEnd& end) {
+  constexpr double right = 0.5;  // of the approach that gaps were measured by
+  constexpr int most_rounds = 60;
+  // Without a limit on its pressure the highest node alone would sink so far; the first approach is perhaps
+  // only what the tolerance left.
+  const double alone = sunk(level_.total_load());
+  const bool elastic =
+      !std::isfinite(greatest_pressure(level_.limit)) && std::holds_alternative<PressureCap>(level_.limit);
+  if (!(approach > 0) || elastic) approach = std::min(approach > 0 ? approach : alone, alone);
+  for (int round = 0; round < most_rounds; ++round) {
+    if (!again(approach, end)) return;
+    approach = offset();
+    if (!(approach > 0) || approach > right * level_.length) return;
+  }
+}
+
+// Soft ground: all is at the cap above some height, and all is open below; nodes at that height share the
+// rest.
+void LightContact::at_the_cap(double cap, ChainEnd& end) {
+  const UnsetArray<double>& p = fields_.pressure;
+  for (std::size_t k = 0; k < p.size(); ++k)
+    if (p[k] > 0 && p[k] < cap) {
+      level_.count_from(problem_.heights[k]);
+      again(sunk(cap), end);
+      return;
+    }
+}
+
+bool LightContact::refine(ChainEnd& end) {
+  const double highest = greatest(problem_.heights), length = level_.length;
+  const double cap = greatest_pressure(level_.limit);
+  const double approach = (highest - problem_.origin) * problem_.factor + offset();
+  const bool from_peak = approach < light * length;
+  if (from_peak) {
+    level_.count_from(highest);
+    by_approach(approach, end);
+  }
+  const bool is_soft = std::isfinite(cap) && sunk(cap) < soft * length;
+  if (is_soft) {
+    at_the_cap(cap, end);
+    level_.count_from(from_peak ? highest : problem_.origin);
+  }
+  if (from_peak || is_soft) level_.gap(fields_.pressure, fields_.gap);
+  level_.length = length;
+  return from_peak;
+}
+
 constexpr double coarse_tolerance = 5e-3;
 constexpr int most_snaps = 3;
 
@@ -104,10 +197,6 @@ std::vector<Step> nest(const CellProblem& problem, bool alone) {
     steps.push_back(std::move(step));
   }
   return steps;
-}
-
-double greatest(std::span<const double> values) {
-  return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
 }
 
 // A pressure within rounding of a bound is at the bound: left off it, it would count as free ground, and
@@ -212,9 +301,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
 
     ChainEnd end = run_chain(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
     if (!end.stage.converged) level.gap(p, fields.gap);
-    answer.from_peak =
-        finest && refine_light_contact(level, fields, {problem.heights, problem.origin, problem.factor},
-                                       tolerance, end);
+    answer.from_peak = finest && LightContact(level, fields, problem).refine(end);
     ContactQuality at;
     for (int round = 0;; ++round) {
       if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);

@@ -2,7 +2,7 @@
 // The contact problem on nested grids: solved roughly on the coarsest, carried up as a field whose level
 // sets are the edges of contact and of the capped ground, and finished on the finest by a chain of stages,
 // each starting from the feasible pressures of the one before. Cell units of the finest grid throughout its
-// interface.
+// interface. Also the problem's light end, solved further, and full contact, an exact filter.
 #pragma once
 
 #include <limits>

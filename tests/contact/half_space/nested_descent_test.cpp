@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts where the ground moves by far less than its roughness: what random scenes found, each a case of
 // its own.
-#include "engine/contact/elasticity/half_space/solver/light_contact.hpp"
+#include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "tests/contact/half_space/half_space_problems.hpp"
 
-namespace asperity::light_contact_test {
+namespace asperity::nested_descent_test {
 namespace {
 
 using namespace half_space_test;
@@ -100,4 +100,4 @@ TEST(FreeSet, FewElasticNodesDoNotBalanceTheLoadOfManyThatYield) {
 }
 
 }  // namespace
-}  // namespace asperity::light_contact_test
+}  // namespace asperity::nested_descent_test
