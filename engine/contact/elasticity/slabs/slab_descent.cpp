@@ -11,7 +11,6 @@
 #include "engine/contact/elasticity/slabs/slab_gradient.hpp"
 #include "engine/contact/elasticity/slabs/slab_preconditioner.hpp"
 #include "engine/contact/elasticity/slabs/slab_quality.hpp"
-#include "engine/core/constants.hpp"
 
 namespace asperity {
 
@@ -216,9 +215,9 @@ bool SlabDescent::descend(int steps) {
 
 bool SlabDescent::run() {
   level_.gap(f_.pressure, f_.gap);
-  bool fresh = true, have_old = false;
-  double best = infinity, least = infinity, before = infinity;
-  int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
+  bool fresh = true;
+  Watch watch;
+  int renewals = 0;
   std::fill(f_.old_free.begin(), f_.old_free.end(), std::uint8_t{255});
   for (;;) {
     SlabQuality at = slab_quality(level_, f_.pressure, f_.gap);
@@ -236,26 +235,22 @@ bool SlabDescent::run() {
       std::fill(f_.old_free.begin(), f_.old_free.end(), std::uint8_t{255});
       continue;
     }
-    without_gain = at.residual < 0.9 * best ? 0 : without_gain + 1;
-    if (without_gain == 0) best = at.residual;
-    slow_ones = at.residual > slow * least ? slow_ones + 1 : 0;
-    least = std::min(least, at.residual);
-    if (at.residual > jump * before) ++jumps;
-    before = at.residual;
-    if (without_gain > passes_without_gain || level_.applications > most_ || !std::isfinite(at.residual)) {
+    watch.take(at.residual);
+    if (watch.without_gain() > passes_without_gain || level_.applications > most_ ||
+        !std::isfinite(at.residual)) {
       project(at, f_.pressure);
       return false;
     }
-    if ((slow_ones >= slow_passes || jumps >= jumps_in_a_cycle) && have_old) {
+    const Watch::Advice advice = watch.advice();
+    if (advice == Watch::Advice::average_passes) {
       level_.each([p = f_.pressure.data(), g = f_.gap.data(), q = f_.old_pressure.data(),
                    old = f_.old_gap.data()](std::size_t k) {
         p[k] = 0.5 * (p[k] + q[k]);
         g[k] = 0.5 * (g[k] + old[k]);
       });
-      have_direction_ = have_old = fresh = false;
-      slow_ones = jumps = 0;
+      have_direction_ = false;
       at = slab_quality(level_, f_.pressure, f_.gap);
-    } else if ((have_old = slow_ones + 1 >= slow_passes || jumps + 1 >= jumps_in_a_cycle)) {
+    } else if (advice == Watch::Advice::remember_pass) {
       level_.team.work([&] {
         f_.old_pressure = f_.pressure;
         f_.old_gap = f_.gap;
@@ -283,9 +278,9 @@ SlabFields::SlabFields(Team& team, std::size_t nodes) {
   team.agree();
 }
 
-SlabEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort) {
+DescentEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort) {
   constexpr int quick = 300, shake = 12, last_resort = 3000;
-  SlabEnd end;
+  DescentEnd end;
   for (int stage = 0; stage < (effort == ChainEffort::full ? 5 : 3) && !end.converged; ++stage) {
     if (stage % 2 == 0 && stage < 4) {
       end.stage = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";

@@ -24,12 +24,7 @@ struct SlabFields {
   Array<std::uint8_t> free, old_free;
 };
 
-struct SlabEnd {
-  bool converged = false;
-  std::string stage;
-};
-
 // From fields.pressure, feasible, until a stage converges.
-SlabEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort);
+DescentEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort);
 
 }  // namespace asperity

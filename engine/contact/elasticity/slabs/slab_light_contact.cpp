@@ -15,12 +15,12 @@ constexpr double light = 0.01;  // an approach, of what gaps are measured by
 constexpr double soft = 1e-3;   // what one node at the cap sinks, of the same
 
 // Once more from the pressures there are; false, and they stay, where that does not converge.
-bool again(SlabLevel& level, SlabFields& fields, double tolerance, double length, SlabEnd& end) {
+bool again(SlabLevel& level, SlabFields& fields, double tolerance, double length, DescentEnd& end) {
   level.length = length;
   Array<double> before;
   level.team.work([&] { before = fields.pressure; });
   level.team.agree();
-  const SlabEnd finer = descend_in_slabs(level, fields, tolerance, ChainEffort::brief);
+  const DescentEnd finer = descend_in_slabs(level, fields, tolerance, ChainEffort::brief);
   if (finer.converged)
     end = finer;
   else
@@ -31,7 +31,7 @@ bool again(SlabLevel& level, SlabFields& fields, double tolerance, double length
 }  // namespace
 
 bool refine_light_contact_in_slabs(SlabLevel& level, SlabFields& fields, const SlabCellProblem& problem,
-                                   SlabEnd& end) {
+                                   DescentEnd& end) {
   const double length = level.length, cap = level.cap, tolerance = problem.tolerance;
   const auto offset = [&] { return slab_quality(level, fields.pressure, fields.gap).offset; };
   const auto sunk = [&](double p) {

@@ -10,6 +10,6 @@ namespace asperity {
 
 // Returns whether gaps and offset are counted from the highest node afterwards.
 bool refine_light_contact_in_slabs(SlabLevel& level, SlabFields& fields, const SlabCellProblem& problem,
-                                   SlabEnd& end);
+                                   DescentEnd& end);
 
 }  // namespace asperity

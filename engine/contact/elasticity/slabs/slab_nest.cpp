@@ -140,7 +140,7 @@ SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& proble
     }
     project_slabs_to_load(level, p, nullptr, p);
 
-    SlabEnd end = descend_in_slabs(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
+    DescentEnd end = descend_in_slabs(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
     if (!end.converged) level.gap(p, fields.gap);
     if (finest) {
       answer.from_peak = refine_light_contact_in_slabs(level, fields, problem, end);

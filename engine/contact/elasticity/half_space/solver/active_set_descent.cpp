@@ -152,7 +152,7 @@ class Descent {
         steps_a_pass_(dear_ ? steps_of_dear_pass : steps_a_pass),
         no_field_(Limit::hardens ? static_cast<std::size_t>(level.shape.nx) : 0) {}
 
-  StageEnd run();
+  bool run();
 
  private:
   std::size_t nodes() const { return f_.pressure.size(); }
@@ -431,59 +431,38 @@ bool Descent<Limit, Stored>::descend(int steps) {
 }
 
 template <class Limit, class Stored>
-StageEnd Descent<Limit, Stored>::run() {
+bool Descent<Limit, Stored>::run() {
   level_.gap(f_.pressure, f_.gap);
   fresh_ = true;
-  StageEnd end;
-  double least = end.best;
-  int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
-  double before = end.best;
-  bool have_old = false;
+  Watch watch;
+  int renewals = 0;
   f_.old_free.assign(nodes(), 255);
   for (;;) {
     ContactQuality at = quality();
-    end.residual = at.residual;
     if (level_.report) level_.report(at.residual);
     if (at.residual < tolerance_) {
       const bool loaded = std::abs(at.load - level_.total_load()) < tolerance_ * level_.total_load();
-      if (!exact_ || (at.within && fresh_ && loaded)) {
-        end.converged = true;
-        end.best = at.residual;
-        return end;
-      }
+      if (!exact_ || (at.within && fresh_ && loaded)) return true;
       if (++renewals > most_renewals) {  // feasible pressures are worse again each time
         project(at, f_.pressure);
-        return end;
+        return false;
       }
       renew(at);
       have_direction_ = false;
       continue;
     }
-    if (at.residual < 0.9 * end.best) {
-      end.best = at.residual;
-      without_gain = 0;
-    } else {
-      ++without_gain;
-    }
-    slow_ones = at.residual > slow * least ? slow_ones + 1 : 0;
-    least = std::min(least, at.residual);
-    if (at.residual > jump * before) ++jumps;
-    before = at.residual;
-    if (without_gain > passes_without_gain || level_.applications > most_ || !std::isfinite(at.residual)) {
+    watch.take(at.residual);
+    if (watch.without_gain() > passes_without_gain || level_.applications > most_ ||
+        !std::isfinite(at.residual)) {
       project(at, f_.pressure);
-      return end;
+      return false;
     }
-    if ((slow_ones >= slow_passes || jumps >= jumps_in_a_cycle) && have_old) {
-      for_nodes(nodes(), [n = view(), p = f_.old_pressure.data(), g = f_.old_gap.data()](std::size_t k) {
-        n.pressure[k] = 0.5 * (n.pressure[k] + p[k]);
-        n.gap[k] = 0.5 * (n.gap[k] + g[k]);
-      });
-      have_direction_ = have_old = fresh_ = false;
-      slow_ones = jumps = 0;
+    const Watch::Advice advice = watch.advice();
+    if (advice == Watch::Advice::remember_pass) f_.remember_pass();
+    if (advice == Watch::Advice::average_passes) {
+      f_.average_passes();
+      have_direction_ = false;
       at = quality();
-    } else if ((have_old = slow_ones + 1 >= slow_passes || jumps + 1 >= jumps_in_a_cycle)) {
-      f_.old_pressure = f_.pressure;
-      f_.old_gap = f_.gap;
     }
 
     set_ = mark_free_set(limit_, at, balance_, first_shift(at, level_.total_load()), f_.pressure, f_.gap,
@@ -501,7 +480,7 @@ StageEnd Descent<Limit, Stored>::run() {
     if (settles) settle_step(at, afresh);
     if (!descend(settles ? 1 : 0)) {  // the free nodes are in balance to the last bit
       project(at, f_.pressure);
-      return end;
+      return false;
     }
     balance_ = mean_gap_;
     std::swap(f_.free, f_.old_free);
@@ -509,8 +488,8 @@ StageEnd Descent<Limit, Stored>::run() {
 }
 }  // namespace
 
-StageEnd active_set_descent(ContactLevel& level, DescentFields& fields, double tolerance,
-                            int most_applications, bool exact) {
+bool active_set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications,
+                        bool exact) {
   const auto run = [&]<class Stored>(const auto& limit, Stored) {
     return Descent<std::remove_cvref_t<decltype(limit)>, Stored>(level, limit, fields, tolerance,
                                                                  most_applications, exact)

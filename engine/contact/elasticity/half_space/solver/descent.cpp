@@ -15,7 +15,7 @@ constexpr std::size_t window = 8;
 constexpr int renewals = 20;  // steps between applications that remove the drift of the gap
 
 template <class Limit>
-StageEnd descend(ContactLevel& level, const Limit& limit, DescentFields& f, double tolerance, int most) {
+bool descend(ContactLevel& level, const Limit& limit, DescentFields& f, double tolerance, int most) {
   const std::size_t nodes = f.pressure.size();
   const double load = level.total_load(), upper = limit.upper();
   UnsetArray<double>&p = f.pressure, &g = f.gap;
@@ -26,7 +26,6 @@ StageEnd descend(ContactLevel& level, const Limit& limit, DescentFields& f, doub
   };
   auto total_gap = [&](std::size_t k) { return g[k] + limit.opening(k, p[k]); };
 
-  StageEnd end;
   level.gap(p, g);
   bool fresh = true;
   std::array<double, window> energies;
@@ -35,19 +34,14 @@ StageEnd descend(ContactLevel& level, const Limit& limit, DescentFields& f, doub
   energies[0] = energy;
   for (int step = 0;; ++step) {
     const ContactQuality at = contact_quality(level, p, g);
-    end.residual = at.residual;
-    end.best = std::min(end.best, at.residual);
     if (level.report) level.report(at.residual);
     if (at.residual < tolerance) {
-      if (fresh) {
-        end.converged = true;
-        return end;
-      }
+      if (fresh) return true;
       level.gap(p, g);
       fresh = true;
       continue;
     }
-    if (level.applications >= last || !std::isfinite(at.residual)) return end;
+    if (level.applications >= last || !std::isfinite(at.residual)) return false;
 
     for_nodes(nodes, [&](std::size_t k) {
       const double stiff = 1 + pace * opening_slope(k);
@@ -64,7 +58,7 @@ StageEnd descend(ContactLevel& level, const Limit& limit, DescentFields& f, doub
       v[3] = d[k] * d[k];
     });
     const double slope = sums[0], curvature = sums[1];
-    if (!(curvature > 0)) return end;
+    if (!(curvature > 0)) return false;
     const double highest = *std::max_element(energies.begin(), energies.end());
     const double t = energy + slope + 0.5 * curvature > highest ? std::min(1.0, -slope / curvature) : 1.0;
     for_nodes(nodes, [&](std::size_t k) {
@@ -84,29 +78,26 @@ StageEnd descend(ContactLevel& level, const Limit& limit, DescentFields& f, doub
 }
 }  // namespace
 
-StageEnd spectral_gradient(ContactLevel& level, DescentFields& fields, double tolerance,
-                           int most_applications) {
+bool spectral_gradient(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications) {
   return std::visit(
       [&](const auto& limit) { return descend(level, limit, fields, tolerance, most_applications); },
       level.limit);
 }
 
-ChainEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, ChainEffort effort) {
+DescentEnd run_chain(ContactLevel& level, DescentFields& fields, double tolerance, ChainEffort effort) {
   constexpr int quick = 300, shake = 12, last_resort = 3000;
-  ChainEnd end;
-  for (int stage = 0; stage < 5; ++stage) {
-    if (effort != ChainEffort::full && stage > 2) break;
+  DescentEnd end;
+  for (int stage = 0; stage < (effort == ChainEffort::full ? 5 : 3) && !end.converged; ++stage) {
     if (stage == 4) {
-      end.stage = spectral_gradient(level, fields, tolerance, last_resort);
-      end.name = "spectral projected gradients, after the descents stalled";
+      end.converged = spectral_gradient(level, fields, tolerance, last_resort);
+      end.stage = "spectral projected gradients, after the descents stalled";
     } else if (stage % 2 == 1) {
-      end.stage = spectral_gradient(level, fields, tolerance, shake);
-      end.name = "spectral projected gradients";
+      end.converged = spectral_gradient(level, fields, tolerance, shake);
+      end.stage = "spectral projected gradients";
     } else {
-      end.stage = active_set_descent(level, fields, tolerance, quick, effort != ChainEffort::start);
-      end.name = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
+      end.converged = active_set_descent(level, fields, tolerance, quick, effort != ChainEffort::start);
+      end.stage = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";
     }
-    if (end.stage.converged) break;
   }
   return end;
 }

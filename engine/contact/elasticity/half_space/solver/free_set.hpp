@@ -87,13 +87,12 @@ std::array<double, free_sums> mark_elastic(double upper, double offset, double s
   });
 }
 
-// Marks `free` with Freedom values, comparing with `before`. At least two nodes are free, the nearest to
-// leaving their bound if need be. `shift` is what is tried on the elastic interior.
+// Marks `free` with Freedom values, comparing with `before`; gaps below `offset` pull nodes off zero. `shift`
+// is what is tried on the elastic interior.
 template <class Limit>
-FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balance, double shift,
-                      std::span<const double> p, std::span<const double> g,
-                      std::span<const std::uint8_t> before, std::span<std::uint8_t> free) {
-  const double offset = at.interior_gap;
+FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shift, std::span<const double> p,
+                   std::span<const double> g, std::span<const std::uint8_t> before,
+                   std::span<std::uint8_t> free) {
   std::array<double, Limit::hardens ? free_sums + 3 : free_sums> sums;
   if constexpr (!Limit::hardens)
     sums = std::isfinite(limit.upper())
@@ -134,6 +133,17 @@ FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balan
     set.yielding_gap = sums[free_sums + 2];
     set.yielding_worth = Limit::own_compliance / (limit.yielding_slope() + Limit::own_compliance);
   }
+  return set;
+}
+
+// The same about the gap of the interior. At least two nodes are free, the nearest to leaving their bound if
+// need be.
+template <class Limit>
+FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balance, double shift,
+                      std::span<const double> p, std::span<const double> g,
+                      std::span<const std::uint8_t> before, std::span<std::uint8_t> free) {
+  const double offset = at.interior_gap;
+  FreeSet set = mark_nodes(limit, offset, balance, shift, p, g, before, free);
   constexpr std::size_t few = 9;
   if (set.count() + set.settling_count >= 2 || p.size() < 2) return set;
   Array<double> distance(p.size());

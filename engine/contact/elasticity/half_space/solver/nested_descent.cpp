@@ -35,16 +35,16 @@ class LightContact {
   // From the feasible pressures and gaps in `fields`, where a chain left them; what it cannot better stays as
   // it was, and ordinary contacts are left alone. `gap` belongs to the pressures again afterwards. Returns
   // whether gaps and offset are counted from the highest node, so that the offset is the approach.
-  bool refine(ChainEnd& end);
+  bool refine(DescentEnd& end);
 
  private:
   static constexpr double light = 0.01;  // an approach, of what gaps are measured by
   static constexpr double soft = 1e-3;   // what one node at the cap sinks, of the same
 
   // Once more from the pressures there are; false, and they stay, where that does not converge.
-  bool again(double length, ChainEnd& end);
-  void by_approach(double approach, ChainEnd& end);
-  void at_the_cap(double cap, ChainEnd& end);
+  bool again(double length, DescentEnd& end);
+  void by_approach(double approach, DescentEnd& end);
+  void at_the_cap(double cap, DescentEnd& end);
   double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
   // What one node sinks, about, under the pressure `p` on it alone.
   double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
@@ -54,18 +54,18 @@ class LightContact {
   const CellProblem& problem_;
 };
 
-bool LightContact::again(double length, ChainEnd& end) {
+bool LightContact::again(double length, DescentEnd& end) {
   level_.length = length;
   const UnsetArray<double> before = fields_.pressure;
-  const ChainEnd finer = run_chain(level_, fields_, problem_.tolerance, ChainEffort::brief);
-  if (finer.stage.converged)
+  const DescentEnd finer = run_chain(level_, fields_, problem_.tolerance, ChainEffort::brief);
+  if (finer.converged)
     end = finer;
   else
     fields_.pressure = before;
-  return finer.stage.converged;
+  return finer.converged;
 }
 
-void LightContact::by_approach(double approach, ChainEnd& end) {
+void LightContact::by_approach(double approach, DescentEnd& end) {
   constexpr double right = 0.5;  // of the approach that gaps were measured by
   constexpr int most_rounds = 60;
   // Without a limit on its pressure the highest node alone would sink so far; the first approach is perhaps
@@ -83,7 +83,7 @@ void LightContact::by_approach(double approach, ChainEnd& end) {
 
 // Soft ground: all is at the cap above some height, and all is open below; nodes at that height share the
 // rest.
-void LightContact::at_the_cap(double cap, ChainEnd& end) {
+void LightContact::at_the_cap(double cap, DescentEnd& end) {
   const UnsetArray<double>& p = fields_.pressure;
   for (std::size_t k = 0; k < p.size(); ++k)
     if (p[k] > 0 && p[k] < cap) {
@@ -93,7 +93,7 @@ void LightContact::at_the_cap(double cap, ChainEnd& end) {
     }
 }
 
-bool LightContact::refine(ChainEnd& end) {
+bool LightContact::refine(DescentEnd& end) {
   const double highest = greatest(problem_.heights), length = level_.length;
   const double cap = greatest_pressure(level_.limit);
   const double approach = (highest - problem_.origin) * problem_.factor + offset();
@@ -243,16 +243,18 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
     DescentFields fields(nodes);
     UnsetArray<double>& p = fields.pressure;
     const double lowest = problem.lowest;
+    if (!start_pressure.empty()) {
+      std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
+    } else if (carried.empty()) {
+      std::fill(p.begin(), p.end(), problem.offset ? 0.0 : step.mean_pressure);
+    } else {
+      const CoarserGrid& from = *steps[l + 1].from;
+      prolong(from, carried, 1 / from.pitch_x, step.shape, p);
+      carried = UnsetArray<double>();
+    }
+    DescentEnd end;
+    ContactQuality at;
     if (problem.offset) {
-      if (!start_pressure.empty()) {
-        std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
-      } else if (carried.empty()) {
-        std::fill(p.begin(), p.end(), 0.0);
-      } else {
-        const CoarserGrid& from = *steps[l + 1].from;
-        prolong(from, carried, 1 / from.pitch_x, step.shape, p);
-        carried = UnsetArray<double>();
-      }
       const bool gap_known = !start_gap.empty();
       if (gap_known)
         std::copy(start_gap.begin(), start_gap.end(), fields.gap.begin());
@@ -263,64 +265,39 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
       const ChainEffort effort = !finest          ? ChainEffort::start
                                  : problem.afresh ? ChainEffort::full
                                                   : ChainEffort::brief;
-      const ChainEnd end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, gap_known);
-      if (!end.stage.converged) level.gap(p, fields.gap);
-      if (finest) {
-        answer.pressure = std::move(p);
-        answer.gap = std::move(fields.gap);
-        answer.offset = *problem.offset;
-        answer.from_peak = true;
-        answer.residual = end.stage.residual;
-        answer.converged = end.stage.converged;
-        answer.applications = level.applications;
-        answer.stage = end.name;
-        answer.single = level.compliance.single();
-      } else {
-        to_level_set(upper, level.short_wave_stiffness, *problem.offset, fields.gap, p);
-        carried = std::move(p);
-        step.heights = Array<double>();
-      }
-      continue;
-    }
-    if (!start_pressure.empty()) {
-      std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
-      if (!start_gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, start_gap, p);
-    } else if (carried.empty()) {
-      std::fill(p.begin(), p.end(), step.mean_pressure);
+      end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, gap_known);
+      if (!end.converged) level.gap(p, fields.gap);
+      at.offset = at.interior_gap = *problem.offset;
+      answer.from_peak = true;
     } else {
-      const CoarserGrid& from = *steps[l + 1].from;
-      prolong(from, carried, 1 / from.pitch_x, step.shape, p);
-      carried = UnsetArray<double>();
-    }
-    if (std::isfinite(lowest)) {
-      // Less than any shift to the load can make up for.
-      for (std::size_t k = 0; k < nodes; ++k)
-        if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
-    }
-    project_to_load(p, {}, upper, level.total_load(), p);
-
-    ChainEnd end = run_chain(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
-    if (!end.stage.converged) level.gap(p, fields.gap);
-    answer.from_peak = finest && LightContact(level, fields, problem).refine(end);
-    ContactQuality at;
-    for (int round = 0;; ++round) {
-      if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
-      at = contact_quality(level, p, fields.gap);
-      if (!finest || answer.from_peak || !end.stage.converged || at.residual <= tolerance) break;
-      // Nodes that were snapped to the limit no longer balance the load.
-      end.stage.converged = round < most_snaps;
-      if (!end.stage.converged) break;
-      end = run_chain(level, fields, tolerance, ChainEffort::full);
-      if (!end.stage.converged) level.gap(p, fields.gap);
+      if (!start_gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, start_gap, p);
+      if (std::isfinite(lowest)) {
+        // Less than any shift to the load can make up for.
+        for (std::size_t k = 0; k < nodes; ++k)
+          if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
+      }
+      project_to_load(p, {}, upper, level.total_load(), p);
+      end = run_chain(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
+      if (!end.converged) level.gap(p, fields.gap);
+      answer.from_peak = finest && LightContact(level, fields, problem).refine(end);
+      for (int round = 0;; ++round) {
+        if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
+        at = contact_quality(level, p, fields.gap);
+        if (!finest || answer.from_peak || !end.converged || at.residual <= tolerance) break;
+        // Nodes that were snapped to the limit no longer balance the load.
+        end.converged = round < most_snaps;
+        if (!end.converged) break;
+        end = run_chain(level, fields, tolerance, ChainEffort::full);
+        if (!end.converged) level.gap(p, fields.gap);
+      }
     }
     if (finest) {
       answer.pressure = std::move(p);
       answer.gap = std::move(fields.gap);
       answer.offset = at.offset;
-      answer.residual = at.residual;
-      answer.converged = end.stage.converged;
+      answer.converged = end.converged;
       answer.applications = level.applications;
-      answer.stage = end.name;
+      answer.stage = end.stage;
       answer.single = level.compliance.single();
     } else {
       to_level_set(upper, level.short_wave_stiffness, at.interior_gap, fields.gap, p);
@@ -406,7 +383,6 @@ CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   answer.applications = 2;
   const ContactQuality at = contact_quality(level, p, answer.gap);
   answer.offset = at.offset;
-  answer.residual = at.residual;
   answer.converged = at.residual <= problem.tolerance;
   return answer;
 }

@@ -40,7 +40,6 @@ struct CellAnswer {
   // A light contact, where h + offset is a small difference of large heights: gap and offset are counted
   // from the highest node, and the offset is the approach.
   bool from_peak = false;
-  double residual = 0;
   bool converged = false;
   int applications = 0;  // on the finest grid
   int levels = 1;
