@@ -90,11 +90,8 @@ int coarser_side(int n, Boundary boundary) {
   return (n / 2 + 3) / 4 * 4;
 }
 
-// Where a node of one grid stands between two nodes of the other.
-struct Between {
-  int low, high;
-  double share;  // of `high`
-};
+}  // namespace
+
 Between between(double position, int n, Boundary boundary) {
   const double floor = std::floor(position);
   int low = static_cast<int>(floor), high = low + 1;
@@ -103,7 +100,6 @@ Between between(double position, int n, Boundary boundary) {
   high = std::min(high, n - 1);
   return {low, high, low == high ? 0.0 : position - floor};
 }
-}  // namespace
 
 std::optional<CoarserGrid> coarser(const LevelShape& fine) {
   const int nx = coarser_side(fine.nx, fine.boundary), ny = coarser_side(fine.ny, fine.boundary);

@@ -107,6 +107,14 @@ struct CoarserGrid {
 };
 std::optional<CoarserGrid> coarser(const LevelShape& fine);
 
+// Where a node of one grid, at `position` in cells of the other, stands between two of its n nodes along a
+// side.
+struct Between {
+  int low, high;
+  double share;  // of `high`
+};
+Between between(double position, int n, Boundary boundary);
+
 Array<double> restrict_to(const LevelShape& fine, const CoarserGrid& coarse, std::span<const double> field);
 
 // values on `coarse` -> `target` on `fine`, times `factor`.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/half_space/solver/descent.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,6 +14,15 @@
 #include "engine/core/error.hpp"
 
 namespace asperity {
+
+void DescentProgress::report(double begin, double end, double residual, double tolerance) {
+  double gained = 0;
+  if (residual > 0 && tolerance < 1)
+    gained = std::clamp(elementary::log(std::min(residual, 1.0)) / elementary::log(tolerance), 0.0, 1.0);
+  const auto now = static_cast<std::int64_t>(total * (begin + (end - begin) * gained));
+  task_.advance(std::max<std::int64_t>(0, now - done_));
+  done_ = std::max(done_, now);
+}
 
 namespace {
 
@@ -115,25 +122,6 @@ bool LightContact::refine(DescentEnd& end) {
 constexpr double coarse_tolerance = 5e-3;
 constexpr int most_snaps = 3;
 
-// Progress on a logarithmic scale of the residual, and the place where a stop is seen.
-class Progress {
- public:
-  explicit Progress(Monitor& monitor) : task_(monitor, "contact", total) {}
-  void report(double begin, double end, double residual, double tolerance) {
-    double gained = 0;
-    if (residual > 0 && tolerance < 1)
-      gained = std::clamp(elementary::log(std::min(residual, 1.0)) / elementary::log(tolerance), 0.0, 1.0);
-    const auto now = static_cast<std::int64_t>(total * (begin + (end - begin) * gained));
-    task_.advance(std::max<std::int64_t>(0, now - done_));
-    done_ = std::max(done_, now);
-  }
-
- private:
-  static constexpr std::int64_t total = 1000;
-  Task task_;
-  std::int64_t done_ = 0;
-};
-
 struct Step {                       // one grid of the nest
   std::optional<CoarserGrid> from;  // how it came from the finer one
   LevelShape shape;
@@ -217,7 +205,7 @@ void snap_to_bounds(double upper, std::span<double> p) {
 CellAnswer descend_nest(const CellProblem& problem, std::span<const double> start_pressure,
                         std::span<const double> start_gap, Monitor& monitor) {
   std::vector<Step> steps = nest(problem, !start_pressure.empty());
-  Progress progress(monitor);
+  DescentProgress progress(monitor, "contact");
   CellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
   UnsetArray<double> carried;  // the level-set field of the grid below
@@ -355,7 +343,7 @@ CellAnswer nested_descent(const CellProblem& problem, std::span<const double> st
 }
 
 CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
-  Progress progress(monitor);
+  DescentProgress progress(monitor, "contact");
   const std::size_t nodes = problem.shape.nodes();
   ContactLevel level(problem.shape, problem.heights, problem.origin, problem.factor, problem.limit,
                      problem.mean_pressure);

@@ -16,6 +16,19 @@
 
 namespace asperity {
 
+// Progress on a logarithmic scale of the residual, and the place where a stop is seen.
+class DescentProgress {
+ public:
+  DescentProgress(Monitor& monitor, const char* of) : task_(monitor, of, total) {}
+  // A grid whose share of all work goes from `begin` to `end` has come to this residual.
+  void report(double begin, double end, double residual, double tolerance);
+
+ private:
+  static constexpr std::int64_t total = 1000;
+  Task task_;
+  std::int64_t done_ = 0;
+};
+
 struct CellProblem {
   LevelShape shape;
   std::span<const double> heights;  // any unit; (height − origin)·factor is in cell units
