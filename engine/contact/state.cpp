@@ -8,7 +8,6 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
-#include <utility>
 
 #include "engine/contact/closed_solution.hpp"
 #include "engine/contact/plan.hpp"

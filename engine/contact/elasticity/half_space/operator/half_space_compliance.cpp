@@ -5,10 +5,8 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <optional>
-#include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,7 +18,6 @@
 #include "engine/contact/elasticity/half_space/preconditioner/free_tiles.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/line_extension.hpp"
-#include "engine/contact/elasticity/half_space/preconditioner/smooth_extension.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"

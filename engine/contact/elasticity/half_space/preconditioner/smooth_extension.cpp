@@ -2,7 +2,6 @@
 #include "engine/contact/elasticity/half_space/preconditioner/smooth_extension.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace asperity {
 
