@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
+#include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 #include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
 #include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/core/constants.hpp"

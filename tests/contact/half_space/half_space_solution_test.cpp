@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stiffness of a contact against closed forms, dense elimination, and the slope of load with approach.
-#include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
+#include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/contact/half_space/half_space_problems.hpp"
 
-namespace asperity::contact_stiffness_test {
+namespace asperity::half_space_solution_test {
 namespace {
 
 using namespace half_space_test;
@@ -49,4 +49,4 @@ TEST(ContactStiffness, NothingFreeIsNoneAndFullPeriodicContactIsWithoutBound) {
 }
 
 }  // namespace
-}  // namespace asperity::contact_stiffness_test
+}  // namespace asperity::half_space_solution_test
