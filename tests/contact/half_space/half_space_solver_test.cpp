@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Solves that are taken up from a store: the same bits as computed, under a key that every number of the
 // problem changes, and at no cost where there is no store.
-#include "engine/contact/elasticity/half_space/recalled_solve.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +9,7 @@
 #include "engine/contact/scene.hpp"
 #include "tests/core/shelf.hpp"
 
-namespace asperity::recalled_solve_test {
+namespace asperity::half_space_solver_test {
 namespace {
 
 HalfSpaceProblem waves() {
@@ -141,4 +139,4 @@ TEST(RecalledSolve, WithoutAStoreNoKeyIsMade) {
 }
 
 }  // namespace
-}  // namespace asperity::recalled_solve_test
+}  // namespace asperity::half_space_solver_test
