@@ -9,7 +9,7 @@
 #include "engine/contact/bodies/elastic_bodies.hpp"
 #include "engine/contact/elasticity/half_space/adhesion/adhesive_solver.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solver.hpp"
-#include "engine/contact/elasticity/half_space/preconditioner/line_extension.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"

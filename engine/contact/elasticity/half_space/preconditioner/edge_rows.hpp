@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/contact/elasticity/half_space/preconditioner/smooth_extension.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity::edge_rows {

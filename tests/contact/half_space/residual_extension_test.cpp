@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The extension along lines: what it carries where, its transpose, and contacts on cells much longer than
 // wide, which it is made for.
-#include "engine/contact/elasticity/half_space/preconditioner/line_extension.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "engine/core/cost.hpp"
 #include "tests/contact/half_space/half_space_problems.hpp"
 
-namespace asperity::line_extension_test {
+namespace asperity::residual_extension_test {
 namespace {
 
 using namespace half_space_test;
@@ -94,4 +94,4 @@ TEST(LineExtension, V2_NoiseAndWavesOnLongCells) {
 }
 
 }  // namespace
-}  // namespace asperity::line_extension_test
+}  // namespace asperity::residual_extension_test
