@@ -14,7 +14,6 @@
 #include <optional>
 #include <vector>
 
-#include "engine/contact/elasticity/half_space/preconditioner/edge_rows.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/free_tiles.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
