@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/contact/elasticity/box/accumulator.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"

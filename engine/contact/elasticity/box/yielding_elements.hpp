@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <span>
 
-#include "engine/contact/elasticity/box/accumulator.hpp"
+#include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {
