@@ -14,8 +14,8 @@
 
 #include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/bodies/geometry.hpp"
-#include "engine/contact/carried_load.hpp"
 #include "engine/contact/certificate.hpp"
+#include "engine/contact/planned_yield.hpp"
 
 namespace asperity {
 

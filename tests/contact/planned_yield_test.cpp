@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which loads are known to leave ground as it is once others were carried.
-#include "engine/contact/carried_load.hpp"
+#include "engine/contact/planned_yield.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace asperity::carried_load_test {
+namespace asperity::planned_yield_test {
 namespace {
 
 TEST(CarriedLoad, CoversItselfAndWhatIsLighterOrHarder) {
@@ -34,4 +34,4 @@ TEST(CarriedLoad, KeepsNoneThatAnotherCovers) {
 }
 
 }  // namespace
-}  // namespace asperity::carried_load_test
+}  // namespace asperity::planned_yield_test
