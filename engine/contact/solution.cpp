@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/closed_solution.hpp"
+#include "engine/contact/solution.hpp"
 
 #include "engine/core/error.hpp"
 
