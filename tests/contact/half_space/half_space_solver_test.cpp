@@ -110,16 +110,16 @@ TEST(RecalledSolve, AttractionAndItsBranchAreInTheKey) {
                             [&] { return adhere_at_approach(problem, approach, start, monitor); });
   };
   const AdhesiveAnswer deep = solve(0.002, nullptr).result;
-  const AdhesiveAnswer from_apart = solve(0.001, nullptr).result, drawn = solve(0.001, &deep).result;
+  const AdhesiveAnswer from_apart = solve(0.001, nullptr).result, retracted = solve(0.001, &deep).result;
   EXPECT_EQ(shelf.results.size(), 3U);
   const Costed<AdhesiveAnswer> again = solve(0.001, &deep);
   EXPECT_EQ(shelf.found, 1);
-  EXPECT_TRUE(std::ranges::equal(again.result.attraction.values(), drawn.attraction.values()));
-  EXPECT_EQ(again.result.mean_attraction, drawn.mean_attraction);
-  EXPECT_EQ(again.result.shares, drawn.shares);
-  EXPECT_EQ(again.result.steps, drawn.steps);
-  EXPECT_EQ(again.result.stationarity, drawn.stationarity);
-  EXPECT_EQ(again.result.first_contact.transforms, drawn.first_contact.transforms);
+  EXPECT_TRUE(std::ranges::equal(again.result.attraction.values(), retracted.attraction.values()));
+  EXPECT_EQ(again.result.mean_attraction, retracted.mean_attraction);
+  EXPECT_EQ(again.result.shares, retracted.shares);
+  EXPECT_EQ(again.result.steps, retracted.steps);
+  EXPECT_EQ(again.result.stationarity, retracted.stationarity);
+  EXPECT_EQ(again.result.first_contact.transforms, retracted.first_contact.transforms);
   const int found = shelf.found;
   for (auto change : {+[](GapTerm& t) { t.work *= 2; }, +[](GapTerm& t) { t.range *= 2; },
                       +[](GapTerm& t) { t.law = GapLaw::dugdale; }, +[](GapTerm& t) { t.edge = 0.1; },

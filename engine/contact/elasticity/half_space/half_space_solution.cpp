@@ -72,9 +72,9 @@ double contact_stiffness(const HalfSpaceProblem& problem, const HalfSpaceAnswer&
         z[k] = in(k) ? yielded_factor * r[k] : 0.0;
       v[0] = r[k] * z[k];
     })[0];
-    const double keep = old_rz > 0 ? rz / old_rz : 0;
+    const double beta = old_rz > 0 ? rz / old_rz : 0;
     old_rz = rz;
-    for_nodes(nodes, [&](std::size_t k) { d[k] = z[k] + keep * d[k]; });
+    for_nodes(nodes, [&](std::size_t k) { d[k] = z[k] + beta * d[k]; });
     compliance.apply(d, image);
     const double curvature = over_nodes<1>(nodes, [&](std::size_t k, double* v) {
       if (!yields.empty() && yields[k]) image[k] += give * d[k];

@@ -237,13 +237,13 @@ bool SlabDescent::descend(int steps) {
   const int enough = steps == 0 ? 1 : steps_a_slab_pass;
   while (steps < enough) {
     const double rz = precondition();
-    const double keep = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
+    const double beta = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
     direction_rz_ = rz;
     have_direction_ = true;
     level_.apply(
-        [keep, d = f_.direction.data(), free = f_.free.data(), z = preconditioner_.values(),
+        [beta, d = f_.direction.data(), free = f_.free.data(), z = preconditioner_.values(),
          surplus = surplus_](std::size_t k) {
-          const double next = (z[k] - surplus) + (keep != 0 ? keep * d[k] : 0.0);
+          const double next = (z[k] - surplus) + (beta != 0 ? beta * d[k] : 0.0);
           return d[k] = free[k] != 0 ? next : 0.0;
         },
         [image = f_.image.data()](std::size_t k, double u) { image[k] = u; });

@@ -304,12 +304,12 @@ void Bounds::follow_asked_approach() {
     const double squares =
         over_nodes<1>(nodes_, [&](std::size_t k, double* v) { v[0] = work_[k] * image_[k]; })[0];
     const double sigma = spectrum_.least > 0 ? std::sqrt(std::max(0.0, squares)) : infinity;
-    const double reach =
+    const double farthest =
         (start - greatest_root(residual_, rest_)) + greatest_root(residual_ + pull * sigma, rest_);
-    const double needed = own * reach + moved + gap_rounding_;
+    const double needed = own * farthest + moved + gap_rounding_;
     if (needed < margin) {
-      distance_ = reach;
-      load_error_ = sigma * reach + std::abs(total_ - at_.mean_pressure / pascal_ * n_);
+      distance_ = farthest;
+      load_error_ = sigma * farthest + std::abs(total_ - at_.mean_pressure / pascal_ * n_);
       return;
     }
     margin = 1.5 * needed;

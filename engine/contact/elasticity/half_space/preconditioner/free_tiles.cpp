@@ -279,8 +279,8 @@ inline __attribute__((always_inline)) void read_bound(Group one, EightMarks& bou
 // The sum of the four neighbours.
 template <bool odd>
 inline __attribute__((always_inline)) void add_up(const float* here, std::ptrdiff_t half, Eight& sum) {
-  const float* const aside = here + (odd ? -half : half - 1);
-  sum = (*eight(aside) + *eight(aside + 1)) + (*eight(here - 2 * half) + *eight(here + 2 * half));
+  const float* const neighbours = here + (odd ? -half : half - 1);
+  sum = (*eight(neighbours) + *eight(neighbours + 1)) + (*eight(here - 2 * half) + *eight(here + 2 * half));
 }
 
 template <bool odd>
@@ -357,8 +357,8 @@ void add_neighbours(const std::uint8_t* __restrict free, const float* __restrict
   }
   for (; k < n; ++k) {
     const float* const here = row + split(k, static_cast<std::size_t>(half));
-    const float* const aside = here + (k % 2 != 0 ? -half : half - 1);
-    const float sum = values[k] + ((aside[0] + aside[1]) + (here[-2 * half] + here[2 * half]));
+    const float* const neighbours = here + (k % 2 != 0 ? -half : half - 1);
+    const float sum = values[k] + ((neighbours[0] + neighbours[1]) + (here[-2 * half] + here[2 * half]));
     to[k] = free[k] != 0 ? sum : 0.0f;
   }
 }

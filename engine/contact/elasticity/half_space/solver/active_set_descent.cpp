@@ -39,12 +39,12 @@ constexpr std::size_t worth_rounding = std::size_t{256} * 256;  // nodes; images
 constexpr double rounding_of_steps = 2e-6, rounding_share = 0.1;  // of the tolerance, without harm
 constexpr double load_slack = 1e-6;  // of the load, that a pass leaves to a later one
 
-// A row of a direction yet without its balance of the load: what is stored of M r, what is kept of the
+// A row of a direction yet without its balance of the load: what is stored of M r, beta of the
 // direction before, and a smooth field.
 template <class Stored>
 struct Along {
   const Stored *values, *before;
-  double kept;
+  double beta;
   SmoothRow<double> smooth;
 
   // At node k of the grid, or at as many as a vector has lanes.
@@ -55,7 +55,7 @@ struct Along {
     lane_terms::read(before + k, old);
     lane_terms::read(smooth.low + k, low);
     lane_terms::read(smooth.high + k, high);
-    to += kept * old + (smooth.low_share * low + smooth.high_share * high);
+    to += beta * old + (smooth.low_share * low + smooth.high_share * high);
   }
 };
 
@@ -69,12 +69,12 @@ class DescentDirections {
   // Room for a direction, that of the one before the last; a step along that is taken first.
   Stored* next(std::span<double> pressure);
   Stored* last() { return now_.data(); }
-  // Row j, of nx nodes, of what is stored and `kept` of the direction before, with a row of a smooth field.
-  Along<Stored> row(int j, int nx, double kept, SmoothRow<double> smooth) const {
+  // Row j, of nx nodes, of what is stored and `beta` of the direction before, with a row of a smooth field.
+  Along<Stored> row(int j, int nx, double beta, SmoothRow<double> smooth) const {
     const auto begin = static_cast<std::ptrdiff_t>(j) * nx;
     smooth.low -= begin;
     smooth.high -= begin;
-    return {now_.data(), kept != 0 ? before_.data() : now_.data(), kept, smooth};
+    return {now_.data(), beta != 0 ? before_.data() : now_.data(), beta, smooth};
   }
 
   // A step along the last direction, whose image is kept until the gaps have taken it.
@@ -193,7 +193,7 @@ class Descent {
   double mean_gap_ = 0;  // of the balancing nodes
   double surplus_ = 0;   // of load in `direction`, a balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
-  double kept_ = 0;   // of the direction before, in the present one
+  double beta_ = 0;   // of conjugate gradients: of the direction before, in the present one
   double drift_ = 0;  // of the gaps, at most, by images in single precision; as a residual
   bool fresh_ = false;
   bool have_direction_ = false;
@@ -245,7 +245,7 @@ std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality
   return first_shift(at, load) - (found - load) / set_.shifted_count;
 }
 
-// The direction becomes M r, r what the gaps of the free nodes lack of their mean, kept conjugate to the one
+// The direction becomes M r, r what the gaps of the free nodes lack of their mean, made conjugate to the one
 // before if there is one. Returns r·(M r with the load kept).
 template <class Limit, class Stored>
 double Descent<Limit, Stored>::turn() {
@@ -294,7 +294,7 @@ double Descent<Limit, Stored>::turn() {
     load = added_up(parts)[0] + level_.preconditioner.smooth_sum() * shrink;
   }
   rz *= shrink;
-  kept_ = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
+  beta_ = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
   surplus_ = load / set_.balancing_count();
   direction_rz_ = rz;
   return rz;
@@ -304,7 +304,7 @@ template <class Limit, class Stored>
 Along<Stored> Descent<Limit, Stored>::along(int j) const {
   SmoothRow<double> smooth{no_field_.data(), no_field_.data(), 0, 0};
   if constexpr (!Limit::hardens) smooth = level_.preconditioner.smooth(j, 1 / level_.pressure_unit());
-  return directions_.row(j, level_.shape.nx, kept_, smooth);
+  return directions_.row(j, level_.shape.nx, beta_, smooth);
 }
 
 // What settling changes, and a fixed step of the preconditioner if K is dear, at the cost of one application,

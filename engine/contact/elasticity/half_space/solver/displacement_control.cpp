@@ -65,9 +65,10 @@ void check_approach_within_full_contact(const HalfSpaceProblem& problem, double 
                 "ask for a smaller `approach`, or press by `pressure`");
   }
   if (law.hardens()) {
-    constexpr double hidden = 1e12;
+    constexpr double greatest_ratio = 1e12;
     const double needed = law.hardening * (approach - full);
-    const double held = hidden * problem.modulus * std::max(problem.rms, approach) / problem.grid.hx();
+    const double held =
+        greatest_ratio * problem.modulus * std::max(problem.rms, approach) / problem.grid.hx();
     if (needed <= held || approach <= full) return;
     throw Error(ErrorCode::infeasible,
                 "an approach of " + metres(approach) +

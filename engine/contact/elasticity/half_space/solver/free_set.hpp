@@ -252,7 +252,7 @@ std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t 
 
 // The preconditioner of a pass: on the elastic free nodes the restricted |q|/2, on the yielding ones what one
 // node by itself would do, with the change of load taken from those that balance it. Where yielding is
-// soft beside the longest wave's compliance the two are kept apart; where it is stiff the yielding nodes
+// soft beside the longest wave's compliance the two are apart; where it is stiff the yielding nodes
 // stay in the restricted |q|/2, scaled down.
 template <class Limit>
 class SetPreconditioner {
@@ -284,12 +284,12 @@ class SetPreconditioner {
   void apply(std::span<const std::uint8_t> free, std::span<double> z) {
     if constexpr (Limit::hardens) {
       if (apart_) {
-        kept_.resize(z.size());
+        yielding_.resize(z.size());
         const double factor = 1 / (slope_ + Limit::own_compliance);
-        for_nodes(z.size(), [&](std::size_t k) { kept_[k] = free[k] == yielding ? z[k] * factor : 0.0; });
+        for_nodes(z.size(), [&](std::size_t k) { yielding_[k] = free[k] == yielding ? z[k] * factor : 0.0; });
         level_.preconditioner.apply(z, z);
         for_nodes(z.size(), [&](std::size_t k) {
-          if (free[k] == yielding) z[k] = kept_[k];
+          if (free[k] == yielding) z[k] = yielding_[k];
         });
       } else {
         const auto scale = [&](std::size_t k) {
@@ -312,7 +312,7 @@ class SetPreconditioner {
   double slope_ = 0, scale_ = 1;
   bool apart_ = true;
   Array<std::uint8_t> mask_;
-  Array<double> kept_;
+  Array<double> yielding_;
 };
 
 }  // namespace asperity

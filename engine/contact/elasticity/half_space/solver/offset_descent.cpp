@@ -249,9 +249,9 @@ bool OffsetDescent<Limit>::descend(int steps) {
     if (!(rz > 0)) break;
     if (first == 0) first = rz;
     if (careful_ && rz < careful_gain * careful_gain * first) break;
-    const double kept = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
-    for_nodes(nodes(), [n = view(), kept, z = work_.data(), d = direction_.data()](std::size_t k) {
-      const double old = kept != 0 ? kept * d[k] : 0.0;
+    const double beta = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
+    for_nodes(nodes(), [n = view(), beta, z = work_.data(), d = direction_.data()](std::size_t k) {
+      const double old = beta != 0 ? beta * d[k] : 0.0;
       d[k] = n.moves(k) ? z[k] + old : 0.0;
     });
     level_.apply(direction_, f_.image);
