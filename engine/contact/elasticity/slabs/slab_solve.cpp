@@ -101,24 +101,12 @@ void certify(Team& team, const SlabContactProblem& problem, SlabContactAnswer& a
   answer.mean_gap = found[5] / n;
   answer.energy = std::max(0.0, 0.5 * found[6] * cell);
   answer.plastic_volume = found[7] * cell;
-  Certificate& c = answer.certificate;
-  c = {};
   const double length =
       rough(problem, mean_pressure) ? problem.surface.rms : punch_length(problem, mean_pressure);
-  if (!(total > 0)) {
-    c.load = mean_pressure > 0 ? 1 : 0;
-  } else {
-    c.complementarity = (capped ? found[4] : found[3] - found[8] * total) / total;
-    c.load = std::abs(total / n - mean_pressure) / mean_pressure;
-    c.tension = std::max(0.0, -found[10]) / mean_pressure;
-    c.cap = capped ? std::max(0.0, answer.peak_pressure - cap) / cap : 0;
-  }
-  c.penetration = std::max(0.0, std::isfinite(found[9]) ? -found[9] : 0.0);
-  if (length > 0) {
-    c.complementarity = std::max(0.0, c.complementarity) / length;
-    c.penetration /= length;
-  }
-  answer.converged = c.worst() <= problem.tolerance;
+  const double complementarity = capped ? found[4] : found[3] - found[8] * total;
+  answer.certificate = certificate_of({n, total, found[10], answer.peak_pressure, complementarity, found[9]},
+                                      mean_pressure, cap, length);
+  answer.converged = answer.certificate.worst() <= problem.tolerance;
 }
 
 // The same pressure everywhere: none before the first touch, or on a flat.

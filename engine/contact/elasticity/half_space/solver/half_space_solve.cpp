@@ -216,6 +216,24 @@ Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure)
   return u;
 }
 
+Certificate certificate_of(const PressureSums& sums, double mean_pressure, double cap, double length) {
+  Certificate c;
+  if (!(sums.load > 0)) {
+    c.load = mean_pressure > 0 ? 1 : 0;
+  } else {
+    c.complementarity = sums.complementarity / sums.load;
+    c.load = std::abs(sums.load / sums.nodes - mean_pressure) / mean_pressure;
+    c.tension = std::max(0.0, -sums.least) / mean_pressure;
+    c.cap = std::isfinite(cap) ? std::max(0.0, sums.greatest - cap) / cap : 0;
+  }
+  c.penetration = std::max(0.0, std::isfinite(sums.least_gap) ? -sums.least_gap : 0.0);
+  if (length > 0) {
+    c.complementarity = std::max(0.0, c.complementarity) / length;
+    c.penetration /= length;
+  }
+  return c;
+}
+
 void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   const YieldLaw& law = problem.yield;
   const double cap = law.caps() ? law.cap : infinity;
@@ -253,26 +271,13 @@ void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   answer.contacts = static_cast<std::int64_t>(found[1]);
   answer.yielded = static_cast<std::int64_t>(found[2]);
   answer.peak_pressure = -found[8];
-
-  Certificate& c = answer.certificate;
-  c = {};
-  const double total = found[0], n = static_cast<double>(p.size());
   const double length =
       rough(problem, answer.mean_pressure) ? problem.rms : punch_length(problem, answer.mean_pressure);
-  if (!(total > 0)) {
-    c.load = answer.mean_pressure > 0 ? 1 : 0;
-  } else {
-    c.complementarity = (std::isfinite(cap) ? found[4] : found[3] - found[5] * total) / total;
-    c.load = std::abs(total / n - answer.mean_pressure) / answer.mean_pressure;
-    c.tension = std::max(0.0, -found[7]) / answer.mean_pressure;
-    c.cap = std::isfinite(cap) ? std::max(0.0, answer.peak_pressure - cap) / cap : 0;
-  }
-  c.penetration = std::max(0.0, std::isfinite(found[6]) ? -found[6] : 0.0);
-  if (length > 0) {
-    c.complementarity = std::max(0.0, c.complementarity) / length;
-    c.penetration /= length;
-  }
-  answer.converged = c.worst() <= problem.tolerance;
+  const double complementarity = finite ? found[4] : found[3] - found[5] * found[0];
+  answer.certificate = certificate_of(
+      {static_cast<double>(p.size()), found[0], found[7], answer.peak_pressure, complementarity, found[6]},
+      answer.mean_pressure, cap, length);
+  answer.converged = answer.certificate.worst() <= problem.tolerance;
 }
 
 namespace {

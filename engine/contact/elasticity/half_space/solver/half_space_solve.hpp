@@ -100,6 +100,14 @@ Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure)
 HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
                                 HalfSpaceAnswer* start, bool afresh, Monitor& monitor);
 
+// What a certificate is made of, of all nodes: Σ p, least and greatest p, Σ p (g − min g) or what a cap makes
+// of it, and the least gap where p is below the cap (infinite: nowhere).
+struct PressureSums {
+  double nodes = 0, load = 0, least = 0, greatest = 0, complementarity = 0, least_gap = 0;
+};
+// `cap` may be infinite; `length`, what gaps are measured by, 0.
+Certificate certificate_of(const PressureSums& sums, double mean_pressure, double cap, double length);
+
 // Counts, peak pressure and certificate anew, of the pressures and gaps that `answer` holds. O(n).
 void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer);
 
