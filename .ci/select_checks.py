@@ -96,7 +96,8 @@ THREADED = ("core", "surface", "metrology", "contact", "run", "bindings", "digni
 FUZZED = {"core": ("engine/core/files/json",),
           "surface": ("engine/surface/io", "engine/core/text", "engine/core/quantity", "engine/core/files/source_file",
                       "engine/core/files/text_table"),
-          "recording": ("engine/recording",),
+          "statistics": ("engine/statistics", "engine/core/files/text_encoding", "engine/core/files/text_table"),
+          "recording": ("engine/recording", "engine/statistics"),
           "bindings": ("bindings/lua",)}
 # What several reproductions and claims have in common; any other file of theirs is one test.
 SHARED_BY_REPRODUCTIONS = ("tests/reproductions/beginning.sh", "tests/reproductions/reproduction.py",

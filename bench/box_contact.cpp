@@ -8,8 +8,8 @@
 
 #include <algorithm>
 
-#include "engine/contact/elasticity/box/ascending_sort.hpp"
 #include "engine/contact/elasticity/box/box_plan.hpp"
+#include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 

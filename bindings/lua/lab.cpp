@@ -11,6 +11,8 @@
 #include "bindings/lua/run/ledger.hpp"
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/runtime/base_library.hpp"
+#include "bindings/lua/runtime/file_list.hpp"
+#include "bindings/lua/runtime/quantity_value.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/tilt_stage.hpp"
@@ -75,6 +77,8 @@ const Module& lab_module() {
     m.functions.push_back(ensemble_function());
     m.functions.push_back(work_precision_function());
     m.functions.push_back(ledger_function());
+    m.functions.push_back(files_function());
+    m.functions.push_back(quantity_function());
     m.functions.push_back(
         {.name = "help",
          .body = help,

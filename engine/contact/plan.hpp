@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/contact/bodies/geometry.hpp"
-#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/gap_term.hpp"
 #include "engine/contact/planned_yield.hpp"
 #include "engine/contact/scene.hpp"

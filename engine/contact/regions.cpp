@@ -69,18 +69,18 @@ void cut_into_runs(std::span<const std::uint8_t> row, Forest& forest, Row& runs)
   }
 }
 
-// `reach` is 0 for neighbours across an edge, 1 for corners too.
-void join_rows(const Row& above, const Row& below, int reach, int nx, bool wrap, Forest& forest) {
+// `diagonal` is 0 for neighbours across an edge, 1 for corners too.
+void join_rows(const Row& above, const Row& below, int diagonal, int nx, bool wrap, Forest& forest) {
   std::size_t a = 0, b = 0;
   while (a < above.size() && b < below.size()) {
-    if (above[a].begin < below[b].end + reach && below[b].begin < above[a].end + reach)
+    if (above[a].begin < below[b].end + diagonal && below[b].begin < above[a].end + diagonal)
       forest.join(above[a].number, below[b].number);
     if (above[a].end < below[b].end)
       ++a;
     else
       ++b;
   }
-  if (!wrap || reach == 0 || above.empty() || below.empty()) return;
+  if (!wrap || diagonal == 0 || above.empty() || below.empty()) return;
   if (above.front().begin == 0 && below.back().end == nx)
     forest.join(above.front().number, below.back().number);
   if (below.front().begin == 0 && above.back().end == nx)
@@ -91,7 +91,7 @@ void join_rows(const Row& above, const Row& below, int reach, int nx, bool wrap,
 
 Array<std::int64_t> region_sizes(std::span<const std::uint8_t> mask, int nx, int ny, Neighbours neighbours,
                                  bool wrap) {
-  const int reach = neighbours == Neighbours::eight ? 1 : 0;
+  const int diagonal = neighbours == Neighbours::eight ? 1 : 0;
   const auto width = static_cast<std::size_t>(nx);
   Forest forest;
   Row first, previous, current;
@@ -103,10 +103,10 @@ Array<std::int64_t> region_sizes(std::span<const std::uint8_t> mask, int nx, int
     if (j == 0)
       first = current;
     else
-      join_rows(previous, current, reach, nx, wrap, forest);
+      join_rows(previous, current, diagonal, nx, wrap, forest);
     std::swap(previous, current);
   }
-  if (wrap && ny > 1) join_rows(previous, first, reach, nx, wrap, forest);
+  if (wrap && ny > 1) join_rows(previous, first, diagonal, nx, wrap, forest);
   return forest.sizes();
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "engine/contact/effects/list.hpp"
 #include "engine/core/error.hpp"

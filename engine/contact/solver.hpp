@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/plan.hpp"
@@ -30,6 +31,9 @@ class Solver {
 };
 
 // Does what is done once for all loads (for box elements: the sort, O(n)).
-std::shared_ptr<const Solver> make_solver(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry);
+inline std::shared_ptr<const Solver> make_solver(const Plan& plan,
+                                                 std::shared_ptr<const ContactGeometry> geometry) {
+  return plan.model->solver(plan, std::move(geometry));
+}
 
 }  // namespace asperity

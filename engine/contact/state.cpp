@@ -8,11 +8,10 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
-#include <utility>
 
-#include "engine/contact/closed_solution.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/regions.hpp"
+#include "engine/contact/solution.hpp"
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/yield_law.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/dimension_names.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 
@@ -110,6 +111,18 @@ DisplayUnit display_unit_for(double magnitude, Dimension dimension, int digits) 
 std::string describe(Dimension dimension) {
   if (const Kind* kind = find(dimension)) return std::string(kind->name);
   return "a quantity in " + si_unit(dimension);
+}
+
+std::optional<Dimension> dimension_named(std::string_view name) {
+  for (const Kind& kind : kinds())
+    if (kind.name.substr(kind.name.find(' ') + 1) == name) return kind.dimension;
+  return {};
+}
+
+std::vector<std::string> dimension_names() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds()) names.emplace_back(kind.name.substr(kind.name.find(' ') + 1));
+  return names;
 }
 
 std::string example_quantity(Dimension dimension) {

@@ -273,6 +273,14 @@ double left_rim(const LineChart& chart, const AxisLayout& x) {
   return rim;
 }
 
+// Pixels that the numbers along y and their label take, of text of 16 points.
+double room_for_numbers(const AxisLayout& y) {
+  constexpr double label_and_gaps = 74, character = 12.5;
+  std::size_t longest = 0;
+  for (const Tic& tic : y.tics) longest = std::max(longest, characters_of(tic.label));
+  return label_and_gaps + character * static_cast<double>(longest);
+}
+
 // Where the key of a panel stands: beside the plot, whose right rim all panels share.
 std::string key_command(const std::optional<double>& right_rim) {
   if (!right_rim) return "set key outside right top Left reverse samplen 2.6 spacing 1.25\n";
@@ -377,6 +385,15 @@ std::string body_of(const LineChart& chart, const Content& content, const Axes& 
   return script + "plot " + joined(layers.behind, ", ") + "\n";
 }
 
+// As it is, with the names of its key shortened to the room beside a panel.
+LineChart with_short_names(LineChart chart) {
+  constexpr std::size_t longest = 30;
+  for (ChartSeries& series : chart.series) series.name = shortened(series.name, longest);
+  for (ChartReference& line : chart.references) line.name = shortened(line.name, longest);
+  chart.key_title = shortened(chart.key_title, longest);
+  return chart;
+}
+
 bool share_x(const LineChart& a, const LineChart& b) {
   return a.x.label == b.x.label && a.x.unit == b.x.unit && a.x.logarithmic == b.x.logarithmic &&
          a.x.names == b.x.names;
@@ -395,10 +412,12 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
   return script + body_of(chart, content, axes, "", {});
 }
 
-std::string chart_script(std::span<const LineChart> panels, PictureFormat format,
+std::string chart_script(std::span<const LineChart> given, PictureFormat format,
                          std::vector<std::string>& warnings) {
-  if (panels.size() == 1) return chart_script(panels.front(), format, warnings);
-  if (panels.empty()) throw Error(ErrorCode::bad_value, "a picture of charts has no chart");
+  if (given.size() == 1) return chart_script(given.front(), format, warnings);
+  if (given.empty()) throw Error(ErrorCode::bad_value, "a picture of charts has no chart");
+  std::vector<LineChart> panels;
+  for (const LineChart& panel : given) panels.push_back(with_short_names(panel));
   std::vector<Content> contents;
   std::size_t longest = 0;
   int height = 0;
@@ -418,7 +437,7 @@ std::string chart_script(std::span<const LineChart> panels, PictureFormat format
   double left = 0.13 * width;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     axes.push_back(axes_of(panels[k], contents[k]));
-    left = std::max(left, left_rim(panels[k], axes.back().x));
+    left = std::max({left, left_rim(panels[k], axes.back().x), room_for_numbers(axes.back().y)});
   }
   // Names are written once, below the last panel that has them.
   for (std::size_t k = 0; k + 1 < panels.size(); ++k)
@@ -428,8 +447,8 @@ std::string chart_script(std::span<const LineChart> panels, PictureFormat format
       for (Tic& tic : axes[k].x.tics) tic.label = " ";
     }
   // Room for the longest name and its sample of a line, for all panels, so that their axes stand in one line.
-  const double beside = 85 + 11.0 * static_cast<double>(longest);
-  const double right = longest == 0 ? 0.97 : 1 - std::min(0.45, beside / width);
+  const double beside = 100 + 12.0 * static_cast<double>(longest);
+  const double right = longest == 0 ? 0.97 : 1 - std::min(0.5, beside / width);
   std::string script = gnuplot_terminal(format, width, height, 16);
   script += "set multiplot layout " + std::to_string(panels.size()) + ",1\nset lmargin at screen " +
             gnuplot_number(left / width) + "\nset rmargin at screen " + gnuplot_number(right) + "\n";

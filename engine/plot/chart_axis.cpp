@@ -164,11 +164,7 @@ std::size_t characters_of(std::string_view text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-namespace {
-
-// The first of it, where it is longer than an axis has room for.
-std::string shortened(std::string_view text) {
-  constexpr std::size_t longest = 24;
+std::string shortened(std::string_view text, std::size_t longest) {
   if (characters_of(text) <= longest) return std::string(text);
   std::size_t end = 0;
   for (std::size_t count = 0; count < longest; ++count) do {
@@ -177,7 +173,10 @@ std::string shortened(std::string_view text) {
   return std::string(text.substr(0, end)) + "…";
 }
 
+namespace {
+
 AxisLayout names_layout(const ChartAxis& axis) {
+  constexpr std::size_t longest = 24;
   constexpr double plot_width = 620, character = 11.8, between = 14;  // pixels, on the usual canvas
   AxisLayout layout;
   layout.label = axis.label;
@@ -185,7 +184,7 @@ AxisLayout names_layout(const ChartAxis& axis) {
   layout.high = static_cast<double>(axis.names.size()) - 0.5;
   const double room = plot_width / static_cast<double>(axis.names.size());
   for (std::size_t k = 0; k < axis.names.size(); ++k) {
-    const std::string name = shortened(axis.names[k]);
+    const std::string name = shortened(axis.names[k], longest);
     layout.slanted |= character * static_cast<double>(characters_of(name)) + between > room;
     layout.tics.push_back({static_cast<double>(k), name});
   }

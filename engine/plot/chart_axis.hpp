@@ -53,6 +53,8 @@ std::string printed_quantity(double value, std::string_view unit, int digits = 3
 
 // Of UTF-8, as printed.
 std::size_t characters_of(std::string_view text);
+// The first characters of a text that has more than `longest`, and "…".
+std::string shortened(std::string_view text, std::size_t longest);
 
 // The greatest of 1, 2, 5 × 10^k that is not above `value` > 0.
 double round_below(double value);

@@ -128,7 +128,7 @@ void LogTable::choose_columns() {
           if (is_it(columns_[k], whole) && count++ == 0) found = k;
     if (count != 1) {
       std::vector<std::string> titles;
-      for (const Column& column : columns_) titles.push_back(column.title);
+      for (const Column& column : columns_) titles.push_back(asperity::plain_text(column.title));
       problem(here(), std::to_string(count) + " columns are titled " + shown(title) +
                           ", which `columns` calls " + quoted(name) +
                           (count == 0 ? did_you_mean(title, titles) : "; give the title with its unit"));
@@ -139,12 +139,21 @@ void LogTable::choose_columns() {
   }
 }
 
-const LogColumn* LogTable::known_as(const Column& column, bool by_other_names) const {
+// What others call a column is taken for it only where its unit says so too, or the cell below it.
+const LogColumn* LogTable::known_as(const Column& column, bool by_other_names,
+                                    const std::string& below) const {
   const auto found = std::ranges::find_if(known_, [&](const LogColumn& known) {
     if (!by_other_names) return column.name == known.name;
     if (!surely_means(column.name, known.name)) return false;
-    const std::optional<Quantity> unit = unit_in_cell(utf8_or_latin1(column.unit));
-    return column.unit.empty() || (unit && unit->dimension == known.dimension);
+    const bool said = std::ranges::any_of(form_.units, [&](const auto& pair) {
+      return pair.first == known.name || lower_case(pair.first) == column.name;
+    });
+    if (said) return true;
+    if (known.dimension == dimension::time && is_time_stamp(below)) return true;
+    const std::optional<Quantity> unit =
+        unit_in_cell(utf8_or_latin1(column.unit.empty() ? below : column.unit));
+    const std::optional<Quantity> quantity = unit ? unit : quantity_in_cell(below);
+    return quantity && quantity->dimension == known.dimension;
   });
   return found == known_.end() ? nullptr : &*found;
 }
@@ -157,7 +166,7 @@ void LogTable::match_titles() {
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       Column& column = columns_[k];
       if (column.known != nullptr) continue;
-      const LogColumn* known = known_as(column, by_other_names);
+      const LogColumn* known = known_as(column, by_other_names, below(k));
       if (known == nullptr) continue;
       const auto meaning = static_cast<std::size_t>(known->meaning);
       if (chosen[meaning] != 0 || (by_other_names && before[meaning] != 0)) continue;  // left out
@@ -186,7 +195,7 @@ std::size_t LogTable::known_names(std::string_view titles) const {
     Column column;
     column.title = cell;
     split_unit(column);
-    if (known_as(column, false) != nullptr || known_as(column, true) != nullptr) ++names;
+    if (known_as(column, false, "") != nullptr || known_as(column, true, "") != nullptr) ++names;
     if (end == std::string_view::npos) return names;
     rest.remove_prefix(end + 1);
   }
@@ -308,7 +317,9 @@ std::string LogTable::others() const {
     if (lower_case(column.title).starts_with("result ")) continue;
     const std::optional<std::string> title = meant(column);
     others += (others.empty() ? "" : ", ") + shown(column.title) +
-              (title ? " (did you mean " + quoted(*title) + "?)" : did_you_mean(column.name, names));
+              (title                                    ? " (did you mean " + quoted(*title) + "?)"
+               : known_as(column, false, "") != nullptr ? ""
+                                                        : did_you_mean(column.name, names));
   }
   return others;
 }

@@ -94,7 +94,7 @@ class LogTable {
   void choose_columns();
   void refuse_unknown_names() const;
   void match_titles();
-  const LogColumn* known_as(const Column& column, bool by_other_names) const;
+  const LogColumn* known_as(const Column& column, bool by_other_names, const std::string& below) const;
   void split_unit(Column& column) const;
   bool units_stand_below() const;
   void read_unit(std::size_t k, bool below_are_units);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/run/notebook.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
+#include "engine/core/text.hpp"
 #include "engine/run/timed_lock.hpp"
 
 namespace asperity {
@@ -23,7 +26,32 @@ Json to_json(const Cell& cell) {
 Notebook::Notebook(std::string name, std::filesystem::path csv, Journal& journal, ExpectationLog& log)
     : name_(std::move(name)), csv_(std::move(csv)), journal_(journal), log_(log) {}
 
-void Notebook::write(std::span<const Entry> row) {
+void Notebook::order_columns(const std::vector<std::string>& columns) {
+  const std::lock_guard lock(mutex_);
+  if (columns == order_) return;
+  if (!table_.columns().empty())
+    throw Error(ErrorCode::bad_state,
+                "the columns of the notebook " + quoted(name_) + " stand in another order already",
+                "give their order where the notebook is first opened");
+  Table ordered;
+  for (const std::string& column : columns) {
+    const auto [name, unit] = split_column_unit(column);
+    if (!ordered.declare_column(name))
+      throw Error(ErrorCode::bad_value, "`columns` names " + quoted(name) + " twice",
+                  "give each column one place");
+    if (!unit.empty()) ordered.declare_unit(name, unit);
+  }
+  table_ = std::move(ordered);
+  order_ = columns;
+}
+
+void Notebook::write(std::span<const Entry> given) {
+  std::vector<Entry> row(given.begin(), given.end());
+  if (const std::lock_guard lock(mutex_); !order_.empty())
+    std::ranges::stable_sort(row, {}, [this](const Entry& entry) {
+      const auto place = table_.find_column(split_column_unit(entry.column).name);
+      return place && *place < order_.size() ? *place : order_.size();
+    });
   Json values = Json::object();
   Json units;
   for (const Entry& entry : row) {

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/run/expectation.hpp"
 #include "engine/run/expectation_log.hpp"
@@ -27,6 +28,11 @@ class Notebook {
 
   const std::string& name() const { return name_; }
   const std::filesystem::path& csv() const { return csv_; }
+
+  // Columns that stand first, in this order, from the first row on; a name may carry its unit. The same order
+  // may be given again. Throws Error{bad_state} where rows or columns stand in another one already, and as
+  // Table::declare_unit does.
+  void order_columns(const std::vector<std::string>& columns);
 
   // Journal event "row". Throws as Table::check and Journal::write do, with nothing changed; and
   // Error{bad_file} if the CSV cannot be written, when row and journal line are kept and the next
@@ -57,6 +63,7 @@ class Notebook {
   ExpectationLog& log_;
   mutable std::mutex mutex_;
   Table table_;
+  std::vector<std::string> order_;
   bool stale_ = false;  // the file lacks a row or has an old header
 };
 

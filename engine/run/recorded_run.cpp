@@ -174,9 +174,10 @@ std::vector<std::string> altered_outputs(const RecordedRun& run) {
 
 std::vector<Difference> differences(const RecordedRun& recorded, const RecordedRun& again) {
   std::vector<Difference> found;
+  // What a run has read comes before what followed from it.
+  if (recorded.ended()) compare_files(recorded, again, "inputs", found);
   compare_lines(recorded, again, found);
   if (!recorded.ended()) return found;
-  compare_files(recorded, again, "inputs", found);
   compare_files(recorded, again, "outputs", found);
   const Json *one = recorded.manifest.find("expectations"), *other = again.manifest.find("expectations");
   if ((one == nullptr) != (other == nullptr) || (one != nullptr && !(*one == *other)))

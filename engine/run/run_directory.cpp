@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/digest.hpp"
+#include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/run/recorded_run.hpp"
@@ -161,11 +162,19 @@ void RunDirectory::take_up() {
     if (const Json* outputs = kept->find(mending_member)) recorded_outputs_ = *outputs;
   }
   if (!recorded_outputs_.is_null()) unhashed_.set(mending_member, recorded_outputs_);
+  const Json* read = earlier.find("inputs");
+  if (read == nullptr && kept != nullptr) read = kept->find(reading_member);
+  if (read == nullptr) return;
+  for (const Json& entry : read->list()) {
+    const Json *file = entry.find("file"), *digest = entry.find("digest");
+    if (file != nullptr && digest != nullptr) recorded_inputs_.emplace_back(file->string(), digest->string());
+  }
 }
 
 void RunDirectory::write_manifest(Durable durable) {
-  Json whole = manifest_;
-  whole.set("unhashed", unhashed_);
+  Json whole = manifest_, unhashed = unhashed_;
+  if (!finished_ && !inputs_.empty()) unhashed.set(reading_member, inputs());
+  whole.set("unhashed", std::move(unhashed));
   write_atomically(root_ / run_names::manifest, whole.text(2) + "\n", durable);
 }
 
@@ -179,9 +188,24 @@ void RunDirectory::note_unhashed(std::string_view key, Json value) {
   unhashed_.set(key, std::move(value));
 }
 
-void RunDirectory::note_input(std::string_view file, std::int64_t bytes, std::string_view digest) {
+Json RunDirectory::inputs() const {
+  Json::List list;
+  for (const Input& input : inputs_)
+    list.push_back(Json::object({{"file", input.file}, {"bytes", input.bytes}, {"digest", input.digest}}));
+  return list;
+}
+
+bool RunDirectory::note_input(std::string_view file, std::int64_t bytes, std::string_view digest) {
   const std::lock_guard lock(mutex_);
-  inputs_.insert({std::string(file), bytes, std::string(digest)});
+  const bool more = inputs_.insert({std::string(file), bytes, std::string(digest)}).second;
+  if (more && kind_ == Kind::directory && !later_ && !scratch_ && !finished_) {
+    try {
+      write_manifest(Durable::no);
+    } catch (const Error&) {  // that the manifest cannot be written is told when the run ends
+    }
+  }
+  return std::ranges::any_of(
+      recorded_inputs_, [&](const auto& known) { return known.first == file && known.second != digest; });
 }
 
 }  // namespace asperity

@@ -24,6 +24,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/core/files/atomic_file.hpp"
@@ -116,6 +117,9 @@ class RunDirectory {
   // else as named, from the working directory.
   std::filesystem::path place_to_read(std::string_view file) const;
 
+  // Names of the files that the script has written so far, as they will be listed.
+  std::vector<std::string> written() const;
+
   Journal& journal() { return *journal_; }
   // The notebook of that name, the same one each time. Throws Error{bad_value} for an empty name.
   std::shared_ptr<Notebook> notebook(std::string_view name);
@@ -124,8 +128,10 @@ class RunDirectory {
   // A member of the manifest; `unhashed` for what may differ between equal runs. Written by finish().
   void note(std::string_view key, Json value);
   void note_unhashed(std::string_view key, Json value);
-  // A file that was read, under the name the script gave, with the digest of its content.
-  void note_input(std::string_view file, std::int64_t bytes, std::string_view digest);
+  // A file that was read, under the name the script gave, with the digest of its content. It is in the
+  // manifest at once, so that a run that is taken up again knows it. Returns whether that one had read other
+  // content.
+  bool note_input(std::string_view file, std::int64_t bytes, std::string_view digest);
 
   // Ends the run: brings notebooks up to date, closes the journal with an event "end", and writes the
   // manifest with the status, outputs and verdicts. The first call counts; returns false for later
@@ -140,12 +146,15 @@ class RunDirectory {
 
  private:
   enum class Kind { directory, loose, dry };
+  // Of the manifest, until the run ends: what it has read so far.
+  static constexpr std::string_view reading_member = "inputs_so_far";
   // Of the manifest, until a run is mended: what its outputs are to be again.
   static constexpr std::string_view mending_member = "recorded_outputs";
   void make(const RunSetup& setup);
   void begin(const RunSetup& setup);
   void take_up();
   void write_manifest(Durable durable);
+  Json inputs() const;
   void wait_for_outputs(const Json& outputs) const;
   std::string unlike_recorded(const Json& outputs) const;
   void note_end(RunStatus status, std::string_view reason, Json files);
@@ -158,7 +167,8 @@ class RunDirectory {
   std::shared_ptr<RunLock> lock_;
   bool scratch_ = false;
   std::vector<std::filesystem::path> holding_;  // folders in which one was made on the way to the directory
-  Json recorded_outputs_;                       // of a finished run that is mended; else null
+  std::vector<std::pair<std::string, std::string>> recorded_inputs_;  // of a run taken up: files, digests
+  Json recorded_outputs_;  // of a finished run that is mended; else null
   bool mended_ = false;
   std::unique_ptr<Journal> journal_;
   ExpectationLog expectations_;

@@ -75,10 +75,7 @@ void RunDirectory::note_end(RunStatus status, std::string_view reason, Json file
   }
   manifest_.set("status", name(status));
   if (!reason.empty()) manifest_.set("reason", reason);
-  Json::List inputs;
-  for (const Input& input : inputs_)
-    inputs.push_back(Json::object({{"file", input.file}, {"bytes", input.bytes}, {"digest", input.digest}}));
-  manifest_.set("inputs", std::move(inputs)).set("outputs", std::move(files));
+  manifest_.set("inputs", inputs()).set("outputs", std::move(files));
   if (status != RunStatus::killed && !journal_->is_lost())
     if (const std::optional<JournalFacts> facts = journal_->facts())
       manifest_.set("journal", Json::object({{"lines", facts->lines}, {"digest", facts->digest}}));

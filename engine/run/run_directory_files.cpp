@@ -89,6 +89,11 @@ fs::path RunDirectory::place_to_read(std::string_view file) const {
   return fs::exists(in_run, ignored) ? in_run : given;
 }
 
+std::vector<std::string> RunDirectory::written() const {
+  const std::lock_guard lock(mutex_);
+  return {outputs_.begin(), outputs_.end()};
+}
+
 std::shared_ptr<Notebook> RunDirectory::notebook(std::string_view name) {
   if (name.empty()) throw Error(ErrorCode::bad_value, "a notebook has an empty name", "give it a name");
   const auto find = [&]() -> std::shared_ptr<Notebook> {

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-#include "engine/contact/bodies/lattice_isometry.hpp"
+#include "engine/contact/bodies/pose.hpp"
 #include "engine/contact/scene.hpp"
 
 namespace asperity {

@@ -41,7 +41,7 @@ class SpecimenPair {
   explicit SpecimenPair(const Scene& scene);
 
   // The state under this load. The bodies come back elastically at release; what yielded stays. Under a load
-  // that they have carried as they lie, or less, nothing yields again (carried_load.hpp). Warns once where
+  // that they have carried as they lie, or less, nothing yields again (planned_yield.hpp). Warns once where
   // bodies that do not continue across the rim lie on a periodic half-space, where a dwell is named and creep
   // is not, and where a turn off the lattice maps the yielded volume badly (it is scaled to be kept). Where
   // the scene asks for an error, the first press under load chooses cells and tolerance for it and

@@ -42,18 +42,17 @@ bool same_cell(const Cell& a, const Cell& b) {
   return *x == *y || std::abs(*x - *y) <= relative * std::max(std::abs(*x), std::abs(*y));
 }
 
-namespace {
-
-// "load [N]" -> {"load", "N"}; anything else is a name without a unit.
-TableColumn split_unit(std::string_view name) {
+TableColumn split_column_unit(std::string_view name) {
   const std::size_t open = name.rfind(" [");
   if (name.ends_with(']') && open != std::string_view::npos && open > 0 && open + 3 < name.size())
     return {std::string(name.substr(0, open)), std::string(name.substr(open + 2, name.size() - open - 3))};
   return {std::string(name), {}};
 }
 
+namespace {
+
 TableColumn column_of(const Entry& entry) {
-  TableColumn column = split_unit(entry.column);
+  TableColumn column = split_column_unit(entry.column);
   if (!entry.unit.empty()) column.unit = entry.unit;
   return column;
 }
@@ -130,7 +129,7 @@ std::vector<std::string> Table::column_names() const {
 }
 
 std::optional<std::size_t> Table::find_column(std::string_view name) const {
-  const TableColumn wanted = split_unit(name);
+  const TableColumn wanted = split_column_unit(name);
   for (std::size_t k = 0; k < columns_.size(); ++k)
     if (columns_[k].name == wanted.name && (wanted.unit.empty() || columns_[k].unit == wanted.unit)) return k;
   return {};

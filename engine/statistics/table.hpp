@@ -43,6 +43,9 @@ struct TableColumn {
   std::string unit;
 };
 
+// "load [N]" is the column load with the unit N; anything else is a name without a unit.
+TableColumn split_column_unit(std::string_view name);
+
 class Table {
  public:
   Table() = default;

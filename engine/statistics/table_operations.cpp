@@ -239,7 +239,7 @@ std::string table_text(const Table& table, std::size_t most) {
     }
   }
   if (rows < table.rows()) text += "\n  and " + std::to_string(table.rows() - rows) + " more";
-  return text;
+  return plain_text(std::move(text));
 }
 
 }  // namespace asperity

@@ -97,7 +97,8 @@ class MeasuredTable {
                   "give their heads, as in columns={ \"time [s]\", \"load [kN]\" }");
     for (const TableCell& head : lines_.heads()) {
       const TableHead parts = table_head(head.text);
-      columns_.push_back({head.text, parts.name, utf8_or_latin1(parts.unit)});
+      columns_.push_back(
+          {plain_text(head.text), plain_text(parts.name), plain_text(utf8_or_latin1(parts.unit))});
     }
     const bool below = units_stand_below();
     for (std::size_t k = 0; below && k < std::min(columns_.size(), lines_.below().size()); ++k)

@@ -73,6 +73,15 @@ TEST(Completion, FollowsChainsOfCallsToTheirEnd) {
   EXPECT_TRUE(offers("local s = given or lab.surface.flat{}\ns:|", "rotated"));
 }
 
+TEST(Completion, KnowsWhatOperatorsGive) {
+  const std::string surfaces =
+      "local lab = require \"asperity\"\nlocal a, b = lab.surface.flat{}, lab.surface.flat{}\n";
+  for (const char* expression : {"a - b", "2 * (a + b) / 3", "-a", "b * 2", "a:levelled() - 0.5 * b"})
+    EXPECT_TRUE(offers(surfaces + "local d = " + expression + "\nd:|", "roughness")) << expression;
+  for (const char* expression : {"#a", "a.measured - b.measured", "not a"})
+    EXPECT_FALSE(offers(surfaces + "local d = " + expression + "\nd:|", "roughness")) << expression;
+}
+
 TEST(Completion, KnowsWhatAForLoopTurnsThrough) {
   const std::string contact = "local c = lab.contact{}\n";
   EXPECT_TRUE(offers(contact + "for st in c:sweep{ pressure={1, 2} } do st.|", "area_fraction"));

@@ -91,7 +91,7 @@ TEST(Adhesion, BodiesDrawnApartHoldLongerThanBodiesBroughtTogether) {
   EXPECT_LT(leaving.load(), coming.load());
 }
 
-// Along a sweep each state is drawn from the turns before it. Drawn further apart and let back it lies
+// Along a sweep each state follows from the turns before it. Pulled further apart and let back it lies
 // between the two branches: the nodes at the rim of the contact hold both ways.
 TEST(Adhesion, TurnsGoneThroughBeforeTellTheBranch) {
   const auto contact = ready(adhering(0.01, 0.02));

@@ -11,7 +11,7 @@
 #include "engine/contact/effects/adhesion.hpp"
 #include "engine/contact/effects/capillarity.hpp"
 #include "engine/contact/effects/tangential.hpp"
-#include "engine/contact/elasticity/layer/layer_plan.hpp"
+#include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/surface/generators/sine.hpp"
 #include "tests/contact/contacts.hpp"

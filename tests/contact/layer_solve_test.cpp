@@ -8,10 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "engine/contact/elasticity/half_space/contact_stiffness.hpp"
-#include "engine/contact/elasticity/half_space/solver/approach_solve.hpp"
-#include "engine/contact/elasticity/half_space/solver/flattening_solve.hpp"
-#include "engine/contact/elasticity/half_space/solver/full_contact.hpp"
+#include "engine/contact/elasticity/half_space/half_space_solution.hpp"
+#include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
+#include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/cost.hpp"
 #include "tests/contact/contacts.hpp"

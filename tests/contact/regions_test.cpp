@@ -15,7 +15,7 @@ struct Mask {
   std::vector<std::uint8_t> on;
 };
 
-Mask drawn(const std::vector<std::string>& rows) {
+Mask mask_of(const std::vector<std::string>& rows) {
   Mask mask{static_cast<int>(rows.front().size()), static_cast<int>(rows.size()), {}};
   for (const std::string& row : rows)
     for (const char c : row) mask.on.push_back(c == '#' ? 1 : 0);
@@ -59,32 +59,32 @@ std::vector<std::int64_t> flooded(Mask mask, Neighbours neighbours, bool wrap) {
 }
 
 TEST(Regions, CornersJoinOnlyEightNeighbours) {
-  const Mask mask = drawn({"##..", "..#.", "...#"});
+  const Mask mask = mask_of({"##..", "..#.", "...#"});
   EXPECT_EQ(sizes(mask, Neighbours::four, false), (std::vector<std::int64_t>{2, 1, 1}));
   EXPECT_EQ(sizes(mask, Neighbours::eight, false), (std::vector<std::int64_t>{4}));
 }
 
 TEST(Regions, WrapJoinsAcrossRimsAndCorners) {
-  const Mask mask = drawn({"#..#", "....", "....", "#..#"});
+  const Mask mask = mask_of({"#..#", "....", "....", "#..#"});
   EXPECT_EQ(sizes(mask, Neighbours::eight, false).size(), 4U);
   EXPECT_EQ(sizes(mask, Neighbours::four, true), (std::vector<std::int64_t>{4}));
-  const Mask corners = drawn({"#...", "....", "...#"});
+  const Mask corners = mask_of({"#...", "....", "...#"});
   EXPECT_EQ(sizes(corners, Neighbours::four, true).size(), 2U);
   EXPECT_EQ(sizes(corners, Neighbours::eight, true).size(), 1U);
 }
 
 TEST(Regions, BranchesThatMeetLateAreOneRegion) {
-  EXPECT_EQ(sizes(drawn({"#.#.#", "#.#.#", "#####"}), Neighbours::four, false),
+  EXPECT_EQ(sizes(mask_of({"#.#.#", "#.#.#", "#####"}), Neighbours::four, false),
             (std::vector<std::int64_t>{11}));
-  EXPECT_EQ(sizes(drawn({"#####", "#...#", "#.#.#", "#...#", "#####"}), Neighbours::four, false),
+  EXPECT_EQ(sizes(mask_of({"#####", "#...#", "#.#.#", "#...#", "#####"}), Neighbours::four, false),
             (std::vector<std::int64_t>{16, 1}));
 }
 
 TEST(Regions, EmptyAndFullTiles) {
-  EXPECT_TRUE(sizes(drawn({"...", "..."}), Neighbours::eight, true).empty());
+  EXPECT_TRUE(sizes(mask_of({"...", "..."}), Neighbours::eight, true).empty());
   for (const bool wrap : {false, true})
-    EXPECT_EQ(sizes(drawn({"###", "###"}), Neighbours::four, wrap), (std::vector<std::int64_t>{6}));
-  EXPECT_EQ(sizes(drawn({"#"}), Neighbours::eight, true), (std::vector<std::int64_t>{1}));
+    EXPECT_EQ(sizes(mask_of({"###", "###"}), Neighbours::four, wrap), (std::vector<std::int64_t>{6}));
+  EXPECT_EQ(sizes(mask_of({"#"}), Neighbours::eight, true), (std::vector<std::int64_t>{1}));
 }
 
 TEST(Regions, AgreeWithAFloodFillOnRandomTiles) {
@@ -104,21 +104,21 @@ TEST(Regions, AgreeWithAFloodFillOnRandomTiles) {
 }
 
 TEST(BoundaryEdges, CountsBothDirectionsApart) {
-  const Mask mask = drawn({"....", ".##.", "...."});
+  const Mask mask = mask_of({"....", ".##.", "...."});
   const BoundaryEdges edges = boundary_edges(mask.on, 4, 3, false);
   EXPECT_EQ(edges.between_columns, 2);
   EXPECT_EQ(edges.between_rows, 4);
 }
 
 TEST(BoundaryEdges, TheRimOfATileIsNoEdgeUnlessItWraps) {
-  const Mask mask = drawn({"##..", "##.."});
+  const Mask mask = mask_of({"##..", "##.."});
   const BoundaryEdges open = boundary_edges(mask.on, 4, 2, false),
                       closed = boundary_edges(mask.on, 4, 2, true);
   EXPECT_EQ(open.between_columns, 2);
   EXPECT_EQ(open.between_rows, 0);
   EXPECT_EQ(closed.between_columns, 4);
   EXPECT_EQ(closed.between_rows, 0);
-  const Mask full = drawn({"###", "###"});
+  const Mask full = mask_of({"###", "###"});
   for (const bool wrap : {false, true}) {
     const BoundaryEdges none = boundary_edges(full.on, 3, 2, wrap);
     EXPECT_EQ(none.between_columns + none.between_rows, 0);

@@ -249,6 +249,12 @@ TEST(Chart, PanelsStandBelowEachOtherOverOneRange) {
   EXPECT_NE(first, std::string::npos);
   EXPECT_NE(script.find("set xrange [0.8:6.2]", first + 1), std::string::npos);
   EXPECT_NE(script.find("$panel1line0"), std::string::npos);
+  EXPECT_NE(script.find("set lmargin at screen 0.13\n"), std::string::npos);
+  // Longer numbers along y: their label needs room left of them.
+  above.series[0].y = {0.003, 0.004, 0.005};
+  EXPECT_EQ(chart_script(std::vector<LineChart>{above, below}, PictureFormat::svg, warnings)
+                .find("set lmargin at screen 0.13\n"),
+            std::string::npos);
   // Of different quantities each has its own.
   below.x.label = "force";
   EXPECT_EQ(

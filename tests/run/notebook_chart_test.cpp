@@ -157,10 +157,11 @@ TEST(NotebookChart, FileNameIsSafe) {
 
 Table grits() {
   Table table;
+  double N = 0;
   for (const char* grit : {"P80", "P120", "P80"}) {
-    const std::vector<Entry> row = {
-        {"grit", grit}, {"Ra", table.rows() + 1.0, "um"}, {"N", table.rows() + 0.0}};
+    const std::vector<Entry> row = {{"grit", grit}, {"Ra", N + 1, "um"}, {"N", N}};
     table.append(row);
+    ++N;
   }
   return table;
 }

@@ -329,6 +329,28 @@ TEST_F(RunDirectoryTest, F1IsLockedToItsEnd) {
   EXPECT_EQ(error_of([&] { RunDirectory taken_up(again); }), "");
 }
 
+// What was read is known though the run be cut off, and so is what has changed since.
+TEST_F(RunDirectoryTest, KnowsWhatTheRunItTakesUpHasRead) {
+  RunSetup s = setup();
+  s.out = folder / "r";
+  {
+    RunDirectory run(s);
+    EXPECT_FALSE(run.note_input("a.csv", 10, "d1"));
+    EXPECT_FALSE(run.note_input("b.csv", 10, "d2"));
+    EXPECT_EQ(manifest(run).find("unhashed")->find("inputs_so_far")->list().size(), 2U);
+    EXPECT_EQ(manifest(run).find("inputs"), nullptr);
+  }  // cut off
+  RunSetup again = setup();
+  again.resume = s.out;
+  RunDirectory run(again);
+  EXPECT_FALSE(run.note_input("a.csv", 10, "d1"));
+  EXPECT_TRUE(run.note_input("b.csv", 10, "another"));
+  EXPECT_FALSE(run.note_input("c.csv", 10, "d3"));
+  EXPECT_TRUE(run.finish(RunStatus::done));
+  EXPECT_EQ(manifest(run).find("inputs")->list().size(), 3U);
+  EXPECT_EQ(manifest(run).find("unhashed")->find("inputs_so_far"), nullptr);
+}
+
 // F1: who makes and locks a directory for another process holds it, and leaves nothing where nothing was
 // begun.
 TEST_F(RunDirectoryTest, F1OnePreparedForAnotherProcessIsLockedThroughout) {

@@ -41,6 +41,7 @@ means:chart{ x="N", y="mean", interval={ "low", "high" }, file="means.svg", line
 refused(function() book:mean "body" end, 'column `body` holds the text "worn" in row 1')
 refused(function() book:mean("mv") end, "`column` names `mv`, which is no column of the notebook", "did you mean `mu`?")
 refused(function() book:mean("mu", { by="M" }) end, "`by` names `M`")
+refused(function() means:mean("mean", { by="n" }) end, "`by` names the column `n`, and the means have one of that name")
 refused(function() book:mean("mu", { confidence=1 }) end, "confidence")
 refused(function() book:mean("mu", { interval="boot" }) end, "interval")
 refused(function() book:mean("mu", { where={ N=9 } }) end, "there is no number to take the mean of")

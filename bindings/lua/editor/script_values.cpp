@@ -88,6 +88,26 @@ std::string type_text(const ScriptType& type) {
   return std::visit(Shower{}, type.data);
 }
 
+namespace {
+
+// The operator of a native value on either side, if its class has one for this sign; "" is the sign before a
+// value.
+const Operator* operator_of(const ScriptType& left, const ScriptType& right, std::string_view sign) {
+  const std::string_view event = sign == "+"   ? "__add"
+                                 : sign == "-" ? "__sub"
+                                 : sign == "*" ? "__mul"
+                                 : sign == "/" ? "__div"
+                                 : sign == ""  ? "__unm"
+                                               : "";
+  for (const ScriptType* side : {&left, &right})
+    if (const auto* type = side->as<const Class*>())
+      for (const Operator& operation : (*type)->operators)
+        if (operation.event == event) return &operation;
+  return nullptr;
+}
+
+}  // namespace
+
 ScriptTypeList ScriptTypes::values(std::size_t& k, int depth) const {
   ScriptTypeList all;
   for (;;) {
@@ -130,6 +150,8 @@ ScriptType ScriptTypes::value(std::size_t& k, int depth) const {
       result = result.known() ? result : right;
     else if (sign == "..")
       result = {ScriptType::Text{}};
+    else if (const Operator* of_class = operator_of(result, right, sign))
+      result = script_type(of_class->returns);
     else
       result = {ScriptType::Number{}};
   }
@@ -137,8 +159,9 @@ ScriptType ScriptTypes::value(std::size_t& k, int depth) const {
 }
 
 ScriptTypeList ScriptTypes::operand(std::size_t& k, int depth, std::size_t stop) const {
-  bool changed = false;
+  bool changed = false, negated = true;  // by nothing else than "-"
   while (k < stop && (is(k, "not") || is(k, "-") || is(k, "#") || is(k, "~"))) {
+    negated = negated && is(k, "-");
     ++k;
     changed = true;
   }
@@ -170,8 +193,10 @@ ScriptTypeList ScriptTypes::operand(std::size_t& k, int depth, std::size_t stop)
     ++k;
     types = {{}};
   }
-  if (changed) types = {{ScriptType::Number{}}};
-  return types;
+  if (!changed) return types;
+  const Operator* negative =
+      negated && !types.empty() ? operator_of(types.front(), types.front(), "") : nullptr;
+  return {negative != nullptr ? script_type(negative->returns) : ScriptType{ScriptType::Number{}}};
 }
 
 void ScriptTypes::suffixes(std::size_t& k, ScriptTypeList& types, int depth, std::size_t stop) const {

@@ -7,6 +7,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_analysis.hpp"
+#include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "engine/run/notebook_chart.hpp"
 #include "engine/run/run_directory.hpp"
@@ -23,7 +24,28 @@ RunDirectory& run_of(const Call& call) {
   return *session.run;
 }
 
-Values open_notebook(Call& call) { return {object(run_of(call).notebook(call.text(1, "name")))}; }
+struct NotebookKeys {
+  std::vector<std::string> columns;
+};
+
+const Block<NotebookKeys>& notebook_block() {
+  static const Block<NotebookKeys> block{
+      "notebook",
+      {custom<NotebookKeys>("columns", "string[]",
+                            "the names of columns in the order in which they stand, with units or without",
+                            [](const Argument& value, const OptionInfo& info, NotebookKeys& keys,
+                               Problems& problems) { read_texts(value, info, keys.columns, problems); })
+           .defaults_to("in the order of their names, as rows bring them")}};
+  return block;
+}
+
+Values open_notebook(Call& call) {
+  const NotebookKeys keys = call.options(notebook_block(), 2);
+  for (const std::string& column : keys.columns) parse_unit(split_column_unit(column).unit);
+  const std::shared_ptr<Notebook> book = run_of(call).notebook(call.text(1, "name"));
+  if (!keys.columns.empty()) book->order_columns(keys.columns);
+  return {object(book)};
+}
 
 // --- rows
 
@@ -122,6 +144,8 @@ Function notebook_function() {
       .sentence =
           "The notebook of that name: rows kept as <name>.csv in the run directory, written as they come.",
       .parameters = {{"name", "string", "of the notebook and its file"}},
+      .options = &notebook_block(),
+      .options_optional = true,
       .returns = "Notebook",
       .example = "local book = lab.notebook \"stiffness\""};
 }

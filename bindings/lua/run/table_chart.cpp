@@ -152,10 +152,11 @@ std::vector<Option<C>> panel_keys(bool first) {
   keys.push_back(flag("in_order", &C::in_order, "join rows as they were written, for loops that come back"));
   keys.push_back(
       custom<C>("lines", "boolean|table[]",
-                "whether to join the points; or a list of lines across, each with y or x, a number in the "
-                "column's unit or a quantity, and a name",
+                "whether to join the points: where a fit is drawn or names stand along x they are not, "
+                "unless asked for; or a list of lines across, each with y or x, a number in the column's "
+                "unit or a quantity, and a name",
                 read_lines)
-          .defaults_to("true; false where a fit is drawn, or names stand along x"));
+          .defaults_to("true"));
   keys.push_back(flag("points", &C::points, "mark the points"));
   keys.push_back(custom<C>("fit", "Fit|Fit[]",
                            "what t:fit gave for these columns, drawn with the band of the curve", read_fits));

@@ -99,6 +99,7 @@ class ScriptModel {
     struct Fill {
       const std::vector<FitStart>* start;
       int operator()(lua_State* L) {
+        luaL_checkstack(L, static_cast<int>(start->size()) + 4, nullptr);
         lua_createtable(L, 0, static_cast<int>(start->size()));
         for (const FitStart& parameter : *start) {
           lua_pushlstring(L, parameter.name.data(), parameter.name.size());

@@ -35,7 +35,7 @@ const Block<FromKeys>& from_block() {
 
 struct ReadKeys : TableForm {};
 
-const Block<ReadKeys>& read_block() {
+const Block<ReadKeys>& read_table_block() {
   static const Block<ReadKeys> block = [] {
     std::vector<Option<ReadKeys>> keys(table_form_keys().begin(), table_form_keys().end());
     keys.push_back(custom<TableForm>(
@@ -54,7 +54,7 @@ const Block<ReadKeys>& read_block() {
 
 Values read_table_file(Call& call) {
   const std::string path = readable_path(call, call.text(1, "path"));
-  const TableForm form = call.options(read_block(), 2);
+  const TableForm form = call.options(read_table_block(), 2);
   Monitor& monitor = call.session().monitor();
   const SourceFile file(path, monitor);
   note_input(call, path);
@@ -108,7 +108,7 @@ const Module& table_module() {
                      "words are texts. "
                      "What may be read in two ways is an error that names the key that decides.",
          .parameters = {{"path", "string", "the file"}},
-         .options = &read_block(),
+         .options = &read_table_block(),
          .options_optional = true,
          .returns = "Table",
          .example = "local t = lab.table.read(\"mu.csv\", { unit={ force=\"N\" } })",

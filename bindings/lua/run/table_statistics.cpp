@@ -51,10 +51,18 @@ Cell cell_of_number(const std::optional<double>& number) {
 }
 
 std::vector<TableColumn> mean_columns(const Rows& table, const MeanKeys& keys, const std::string& unit) {
-  std::vector<TableColumn> columns;
-  for (const std::string& name : keys.by) columns.push_back(table.columns()[table.column(name, "by")]);
-  for (const char* name : {"mean", "sd", "u", "low", "high"}) columns.push_back({name, unit});
-  for (const char* name : {"n", "left_out", "skewness", "interval"}) columns.push_back({name, ""});
+  std::vector<TableColumn> columns, found;
+  for (const char* name : {"mean", "sd", "u", "low", "high"}) found.push_back({name, unit});
+  for (const char* name : {"n", "left_out", "skewness", "interval"}) found.push_back({name, ""});
+  for (const std::string& name : keys.by) {
+    columns.push_back(table.columns()[table.column(name, "by")]);
+    for (const TableColumn& other : found)
+      if (other.name == columns.back().name)
+        throw Error(ErrorCode::bad_value,
+                    "`by` names the column " + quoted(other.name) + ", and the means have one of that name",
+                    "give the column of the rows another name");
+  }
+  columns.insert(columns.end(), found.begin(), found.end());
   return columns;
 }
 
@@ -72,6 +80,7 @@ Values mean_of_column(Call& call) {
   const std::string column = call.text(1, "column");
   const Rows table = rows_of(*whole, keys.where.rows(*whole));
   const std::string unit = table.columns()[table.column(column, "column")].unit;
+  std::vector<TableColumn> columns = mean_columns(table, keys, unit);
   const std::vector<GroupMean> groups = means_of(table, column, keys.by, keys.interval, keys.confidence);
   std::vector<std::vector<Cell>> rows;
   for (const GroupMean& group : groups) {
@@ -87,7 +96,7 @@ Values mean_of_column(Call& call) {
     rows.push_back(std::move(row));
     warn_of_group(call, column, keys, group);
   }
-  Rows means(mean_columns(table, keys, unit), std::move(rows));
+  Rows means(std::move(columns), std::move(rows));
   means.rename("the means of " + quoted(column));
   return {object(std::move(means))};
 }
@@ -127,7 +136,7 @@ void read_bins(const Argument& value, const OptionInfo& info, HistogramKeys& key
     });
 }
 
-const Block<HistogramKeys>& histogram_block() {
+const Block<HistogramKeys>& column_histogram_block() {
   using K = HistogramKeys;
   static const Block<K> block{
       "histogram",
@@ -186,7 +195,7 @@ void draw_histogram(Call& call, const HistogramKeys& keys, const TableColumn& co
 }
 
 Values histogram_of_column(Call& call) {
-  const HistogramKeys keys = call.options(histogram_block());
+  const HistogramKeys keys = call.options(column_histogram_block());
   if (keys.file) picture_format(*keys.file);
   const auto whole = table_of_self(call);
   const Rows table = rows_of(*whole, keys.where.rows(*whole));
@@ -227,7 +236,7 @@ Function histogram_method() {
   return {.name = "histogram",
           .body = histogram_of_column,
           .sentence = "How often the values of a column fall into bins; `file` draws it.",
-          .options = &histogram_block(),
+          .options = &column_histogram_block(),
           .returns = "Histogram",
           .example = "print(book:histogram{ of=\"mu\", bins=2 })",
           .heavy = true};

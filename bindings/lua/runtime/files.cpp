@@ -6,6 +6,7 @@
 
 #include "bindings/lua/registry/case_input.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
 
@@ -39,7 +40,9 @@ void note_input(const Call& call, const std::string& path) {
   const std::filesystem::path inside =
       root.empty() ? "" : std::filesystem::path(path).lexically_relative(root);
   const bool own = !inside.empty() && *inside.begin() != "..";
-  session.run->note_input(own ? inside.string() : path, bytes, file_digest(path));
+  if (session.run->note_input(own ? inside.string() : path, bytes, file_digest(path)) && !own)
+    session.monitor().inform("\"" + plain_text(path) +
+                             "\" is not what it was when the run that is taken up had read it");
 }
 
 std::optional<double> read_unit(const Argument& value, const OptionInfo& info, Problems& problems) {

@@ -200,7 +200,8 @@ const Class& class_of<Study>() {
                      "rings about what nothing beats, and marks at the rim for settings that failed or were "
                      "left out; returns "
                      "the file.",
-         .parameters = {{"path", "string?", "an .svg, .png or .pdf under the run directory; default <name>.svg"}},
+         .parameters = {{"path", "string?",
+                         "an .svg, .png or .pdf under the run directory; default <name>.svg"}},
          .returns = "string",
          .example = "study:chart \"work_precision.svg\"",
          .heavy = true},

@@ -210,7 +210,7 @@ const Block<ScaleDependenceKeys>& scale_dependence_block() {
   return block;
 }
 
-const RecordType<ScaleDependence>& scale_type() {
+const RecordType<ScaleDependence>& scale_dependence_type() {
   using S = ScaleDependence;
   static const RecordType<S> type{
       "ScaleDependence",
@@ -234,7 +234,7 @@ Values scale_dependence_of(Call& call) {
     std::sort(keys.cells.rbegin(), keys.cells.rend());
   else
     std::sort(keys.cells.begin(), keys.cells.end());
-  return {scale_type()(scale_dependence(surface, keys.of, keys.along, keys.cells))};
+  return {scale_dependence_type()(scale_dependence(surface, keys.of, keys.along, keys.cells))};
 }
 
 struct ReliabilityKeys {
@@ -353,7 +353,7 @@ std::vector<Function> parameter_methods() {
   };
 }
 
-std::vector<const RecordInfo*> parameter_results() { return {&scale_type(), &reliability_type()}; }
+std::vector<const RecordInfo*> parameter_results() { return {&scale_dependence_type(), &reliability_type()}; }
 
 template <>
 const Class& class_of<ArealParameters>() {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bindings/lua/registry/guard.hpp"
@@ -33,8 +34,12 @@ const RecordType<Roughness>& roughness_type(bool areal) {
        "of the pairs along each direction that were, nan where there is none"},
       {"peak", &R::peak, dimension::length, "the greatest height, as stored"},
       {"valley", &R::valley, dimension::length, "the least height, as stored"},
-      {"mean", &R::mean, dimension::length, "of the heights, as stored"},
-      {"measured", &R::measured, measured_sentence}};
+      {"mean", &R::mean, dimension::length, "of the heights, as stored"}};
+  static const Fields measured{{"measured", &R::measured, measured_sentence}};
+  const auto with_measured = [](Fields all) {
+    all.insert(all.end(), measured.begin(), measured.end());
+    return all;
+  };
   static const Fields areal_names{{"Sa", &R::Ra, dimension::length, "Ra by its areal name"},
                                   {"Sq", &R::Rq, dimension::length, "Rq by its areal name"},
                                   {"Sz", &R::amplitude, dimension::length, "amplitude by its areal name"},
@@ -42,12 +47,13 @@ const RecordType<Roughness>& roughness_type(bool areal) {
                                   {"Sku", &R::kurtosis, "kurtosis by its areal name"},
                                   {"Sdq", &R::rms_slope, "rms_slope by its areal name"}};
   static const RecordType<R> of_profile{"Roughness", "roughness",
-                                        "Amplitude and slope statistics of a profile (ISO 21920-2).", both};
+                                        "Amplitude and slope statistics of a profile (ISO 21920-2).",
+                                        with_measured(both)};
   static const RecordType<R> of_surface{"ArealRoughness", "roughness",
-                                        "Amplitude and slope statistics of a surface (ISO 25178-2).", [] {
+                                        "Amplitude and slope statistics of a surface (ISO 25178-2).", [&] {
                                           Fields all = both;
                                           all.insert(all.end(), areal_names.begin(), areal_names.end());
-                                          return all;
+                                          return with_measured(std::move(all));
                                         }()};
   return areal ? of_surface : of_profile;
 }

@@ -297,7 +297,7 @@ Function outliers_function(Body body, bool surface) {
       .options = &outliers_block(),
       .options_optional = true,
       .returns = surface ? "Outliers" : "ProfileOutliers",
-      .example = surface ? "print(s:outliers{ factor=8 }.marked)" : "print(p:outliers{ window=7 }.marked)",
+      .example = surface ? "print(s:outliers{ factor=8 }.marked)" : "print(p:outliers{ window=15 }.marked)",
       .heavy = true};
 }
 
@@ -361,7 +361,7 @@ std::vector<Function> missing_point_methods_of_profile() {
            .sentence = "The profile with more samples that count as not measured.",
            .options = &mask_profile_block(),
            .returns = "Profile",
-           .example = "print(p:masked{ outliers={ rule=\"mad\", factor=8 } }.measured)",
+           .example = "print(p:masked{ outliers={ rule=\"mad\", factor=8, window=15 } }.measured)",
            .heavy = true},
           {.name = "filled",
            .body = fill_profile,

@@ -44,7 +44,7 @@ struct MeasuredProfile {
   double section;
 };
 
-const RecordType<MeasuredProfile>& profile_type() {
+const RecordType<MeasuredProfile>& profile_parameters_type() {
   using M = MeasuredProfile;
   const auto sectioned = [](SectionedValue ProfileParameters::*member) {
     return [member](const M& m) { return (m.values.*member).value; };
@@ -137,7 +137,7 @@ Values profile_parameters_of(Call& call) {
          metres(*preparation.S));
   ProfileParameters values =
       profile_parameters(prepared.profile, {.sections = prepared.sections, .threshold = keys.threshold});
-  return {profile_type()({std::move(values), std::move(prepared), preparation.section})};
+  return {profile_parameters_type()({std::move(values), std::move(prepared), preparation.section})};
 }
 
 }  // namespace
@@ -153,6 +153,6 @@ Function profile_parameters_method() {
           .returns = "ProfileParameters",
           .example = "print(p:profile_parameters{ class=\"Sc3\", F=1 }.Rz)"};
 }
-const RecordInfo& profile_parameters_result() { return profile_type(); }
+const RecordInfo& profile_parameters_result() { return profile_parameters_type(); }
 
 }  // namespace asperity::lua

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/contact/bodies/geometry.hpp"
-#include "engine/contact/carried_load.hpp"
+#include "engine/contact/planned_yield.hpp"
 
 namespace asperity {
 

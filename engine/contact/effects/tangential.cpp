@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "engine/contact/effects/plasticity.hpp"
-#include "engine/contact/elasticity/layer/layer_plan.hpp"
+#include "engine/contact/elasticity/layer/elastic_layer.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"

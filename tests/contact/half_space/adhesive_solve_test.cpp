@@ -51,7 +51,7 @@ AdhesiveAnswer under(const AdhesiveProblem& problem, double load, const Adhesive
   return adhere_at_pressure(problem, load / problem.contact.grid.area(), start, Monitor::silent());
 }
 
-// The greatest pull that is carried, by bisection to 0.1 % of 2πwR; each load drawn from no load.
+// The greatest pull that is carried, by bisection to 0.1 % of 2πwR; each load gone to from no load.
 double pull_off(const AdhesiveProblem& problem) {
   const AdhesiveAnswer rest = under(problem, 0);
   double held = 0.5, lost = 1.1;
@@ -78,22 +78,22 @@ TEST_P(Paraboloid, OfShortRangePullsOffAsJohnsonKendallAndRobertsSay) {
   const AdhesiveProblem problem = paraboloid(144, 0.9, GetParam(), short_range, 1e-3);
   const AdhesiveAnswer pressed = at(problem, 0.02);
   double least = 0;
-  AdhesiveAnswer drawn = pressed;
+  AdhesiveAnswer retracted = pressed;
   for (const double approach : {-0.02, -0.03, -0.0358988, -0.042}) {
-    drawn = at(problem, approach, &drawn);
-    least = std::min(least, force(problem, drawn));
+    retracted = at(problem, approach, &retracted);
+    least = std::min(least, force(problem, retracted));
     if (approach == -0.0358988) {
-      EXPECT_NEAR(radius(problem, drawn), 0.3281715, 0.03 * 0.3281715);
+      EXPECT_NEAR(radius(problem, retracted), 0.3281715, 0.03 * 0.3281715);
     }
   }
   EXPECT_NEAR(least, -0.0471238898, 0.03 * 0.0471238898);
-  // Under a prescribed approach it is drawn on past the greatest pull.
-  drawn = at(problem, -0.97 * 0.0746726, &drawn);
-  EXPECT_GT(radius(problem, drawn), 0.1577684);
-  EXPECT_GT(force(problem, drawn), least);
-  EXPECT_LT(force(problem, drawn), -0.0261799);
-  drawn = at(problem, -1.03 * 0.0746726, &drawn);
-  EXPECT_EQ(drawn.contact.contacts, 0);
+  // Under a prescribed approach it is followed past the greatest pull.
+  retracted = at(problem, -0.97 * 0.0746726, &retracted);
+  EXPECT_GT(radius(problem, retracted), 0.1577684);
+  EXPECT_GT(force(problem, retracted), least);
+  EXPECT_LT(force(problem, retracted), -0.0261799);
+  retracted = at(problem, -1.03 * 0.0746726, &retracted);
+  EXPECT_EQ(retracted.contact.contacts, 0);
 }
 
 TEST_P(Paraboloid, OfShortRangeTouchesWithoutLoadAsJohnsonKendallAndRobertsSay) {

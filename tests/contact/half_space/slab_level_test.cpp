@@ -9,7 +9,6 @@
 
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/slabs/slab_preconditioner.hpp"
-#include "engine/contact/elasticity/slabs/slab_transfer.hpp"
 #include "engine/core/arithmetic/random.hpp"
 
 namespace asperity::slab_level_test {

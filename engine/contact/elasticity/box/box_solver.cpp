@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/contact/elasticity/box/accumulator.hpp"
+#include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 

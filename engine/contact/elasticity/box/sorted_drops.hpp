@@ -6,6 +6,7 @@
 // non-negative terms, so nothing cancels and W and d hold to a few ulp. Knows no pressure and no unit.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,6 +14,51 @@
 #include "engine/core/memory.hpp"
 
 namespace asperity {
+
+// A running sum kept as an unevaluated pair of doubles: each addition is exact to about 2⁻¹⁰⁶ of the
+// sum. Source: Knuth's TwoSum and Dekker (1971), "A floating-point technique for extending the
+// available precision". Scaling every term by a power of two scales the sum bit for bit.
+class Accumulator {
+ public:
+  explicit Accumulator(double start = 0) : high_(start) {}
+
+  void add(double x) {
+    const double sum = high_ + x;
+    const double part = sum - high_;
+    low_ += (high_ - (sum - part)) + (x - part);
+    renormalise(sum);
+  }
+  // Adds a·b without rounding the product.
+  void add_product(double a, double b) {
+    const double product = a * b;
+    add(product);
+    add(std::fma(a, b, -product));
+  }
+  void add(const Accumulator& other) {
+    add(other.high_);
+    add(other.low_);
+  }
+  void subtract(const Accumulator& other) {
+    add(-other.high_);
+    add(-other.low_);
+  }
+  double value() const { return high_; }
+
+ private:
+  void renormalise(double sum) {
+    high_ = sum + low_;
+    low_ -= high_ - sum;
+  }
+  double high_;
+  double low_ = 0;
+};
+
+// Sorting many non-negative doubles. Their bit patterns sort as integers, so a radix sort on eleven
+// bits at a time (M. Herf, "Radix tricks") does it in at most six passes over memory. Sorted doubles
+// without NaN are one sequence whatever the method, so the choice of method never shows in a result.
+// Ascending, in place. Every value must be >= +0.0 (no -0.0) and not NaN. O(n); a second array of the
+// same length is held while it runs. Looks at the stop flag between passes.
+void sort_ascending(Array<double>& values);
 
 class SortedDrops {
  public:

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "engine/contact/bodies/deformed_bodies.hpp"
+#include "engine/contact/bodies/elastic_bodies.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
 #include "engine/contact/planned_yield.hpp"

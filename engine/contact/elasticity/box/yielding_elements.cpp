@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/contact/elasticity/box/ascending_sort.hpp"
+#include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/core/monitor.hpp"
 
 namespace asperity {

@@ -8,15 +8,44 @@
 // else. The order of the nodes shows in no bit.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "engine/contact/elasticity/box/accumulator.hpp"
-#include "engine/contact/elasticity/box/element_law.hpp"
+#include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/core/memory.hpp"
 
 namespace asperity {
+
+// The pressure that one element carries at a depth, where it may yield: p = k δ up to its yield pressure Y,
+// then Y itself (perfectly plastic) or Y + (δ − Y/k)/(1/k + 1/K_h), the two springs one after the other. A
+// rigid element carries Y as soon as it is touched, then Y + K_h δ. Never falls with the depth.
+struct ElementLaw {
+  double stiffness = 0;  // k, Pa/m; infinite: rigid
+  double hardening = 0;  // K_h, Pa/m; 0: perfectly plastic
+
+  bool rigid() const { return !std::isfinite(stiffness); }
+  double depth_at_yield(double yield) const { return yield / stiffness; }  // 0 of a rigid one
+  // Pa/m, past the yield pressure.
+  double slope_past_yield() const { return hardening == 0 ? 0 : 1 / (1 / stiffness + 1 / hardening); }
+
+  bool touched(double depth) const { return rigid() ? depth >= 0 : depth > 0; }
+  bool yields(double depth, double yield) const { return touched(depth) && depth >= depth_at_yield(yield); }
+  double pressure(double depth, double yield) const {
+    if (!touched(depth)) return 0;
+    if (yields(depth, yield)) return yield + slope_past_yield() * (depth - depth_at_yield(yield));
+    return std::min(stiffness * depth, yield);
+  }
+  // What of the shortening stays. From the depth and not from the pressure, in which a weak hardening leaves
+  // few digits of it.
+  double plastic_part(double depth, double yield) const {
+    if (!yields(depth, yield)) return 0;
+    const double past = depth - depth_at_yield(yield);
+    return hardening == 0 || rigid() ? past : past * (stiffness / (stiffness + hardening));
+  }
+};
 
 // A plane between two depths: pressures are those at `low`, and `share` of what they grow by up to `high`.
 struct RestingPlane {

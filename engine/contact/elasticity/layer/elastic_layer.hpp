@@ -10,7 +10,8 @@
 // is more. Of Poisson's ratio 1/2 K(0) is 0, and on a bonded base K goes as q² t³.
 #pragma once
 
-#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
+#include "engine/contact/elastic_model.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 
 namespace asperity {
 
@@ -30,5 +31,14 @@ WaveShare wave_share(const ElasticLayer& layer);
 
 // K(0) E*/t = (1 − 2ν)/(1 − ν)², E* being that of the layer alone.
 double uniform_share(double poisson);
+
+// A contact on an elastic layer: what a scene may ask of one, and what it adds to a plan. The layer is the
+// lower body, of its material, on a rigid base; what presses on it is rigid. The solver is that of the
+// half-space with another multiplier.
+struct LayerOptions {
+  double thickness = 0;  // m, > 0
+  LayerBase base = LayerBase::bonded;
+  static const ElasticModel& model();
+};
 
 }  // namespace asperity

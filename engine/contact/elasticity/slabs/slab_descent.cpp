@@ -7,11 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "engine/contact/elasticity/half_space/solver/descent_rules.hpp"
-#include "engine/contact/elasticity/slabs/slab_gradient.hpp"
 #include "engine/contact/elasticity/slabs/slab_preconditioner.hpp"
 #include "engine/contact/elasticity/slabs/slab_quality.hpp"
-#include "engine/core/constants.hpp"
 
 namespace asperity {
 
@@ -20,6 +17,63 @@ using namespace descent_rules;
 
 constexpr int steps_a_slab_pass =
     2;  // applications of K, as of a dear pass in half_space/active_set_descent.cpp
+
+// Spectral projected gradients, as in half_space/descent.hpp. From fields.pressure, feasible. Whether it
+// converged within the applications given.
+bool slab_gradient(SlabLevel& level, SlabFields& f, double tolerance, int most_applications) {
+  constexpr std::size_t window = 8;
+  constexpr int renewals = 20;  // steps between applications that remove the drift of the gap
+  const double upper = level.cap;
+  const int last = level.applications + most_applications;
+  double *const p = f.pressure.data(), *const g = f.gap.data();
+  double *const d = f.direction.data(), *const image = f.image.data();
+  level.gap(f.pressure, f.gap);
+  bool fresh = true;
+  std::array<double, window> energies;
+  energies.fill(-std::numeric_limits<double>::infinity());
+  double energy = 0, pace = 0.5;
+  energies[0] = energy;
+  for (int step = 0;; ++step) {
+    const SlabQuality at = slab_quality(level, f.pressure, f.gap);
+    level.team.work([&] {
+      if (level.report) level.report(at.residual);
+    });
+    if (at.residual < tolerance) {
+      if (fresh) return true;
+      level.gap(f.pressure, f.gap);
+      fresh = true;
+      continue;
+    }
+    if (level.applications >= last || !std::isfinite(at.residual)) return false;
+
+    level.each([=, middle = at.interior_gap](std::size_t k) { d[k] = p[k] - pace * (g[k] - middle); });
+    project_slabs_to_load(level, f.direction, nullptr, f.direction);
+    level.apply([=](std::size_t k) { return d[k] -= p[k]; }, [=](std::size_t k, double u) { image[k] = u; });
+    const auto sums = level.over<4>([=, middle = at.interior_gap](std::size_t k, double* v) {
+      v[0] = (g[k] - middle) * d[k];
+      v[1] = d[k] * image[k];
+      v[2] = image[k] * image[k];
+      v[3] = d[k] * d[k];
+    });
+    const double slope = sums[0], curvature = sums[1];
+    if (!(curvature > 0)) return false;
+    const double highest = *std::max_element(energies.begin(), energies.end());
+    const double t = energy + slope + 0.5 * curvature > highest ? std::min(1.0, -slope / curvature) : 1.0;
+    level.each([=](std::size_t k) {
+      p[k] = t == 1 ? p[k] + d[k] : std::min(std::max(p[k] + t * d[k], 0.0), upper);
+      g[k] += t * image[k];
+    });
+    energy += t * slope + 0.5 * t * t * curvature;
+    energies[static_cast<std::size_t>(step + 1) % window] = energy;
+    fresh = false;
+    pace = step % 2 == 0 ? sums[3] / curvature : curvature / sums[2];
+    if (step % renewals == renewals - 1) {
+      project_slabs_to_load(level, f.pressure, nullptr, f.pressure);
+      level.gap(f.pressure, f.gap);
+      fresh = true;
+    }
+  }
+}
 
 class SlabDescent {
  public:
@@ -183,13 +237,13 @@ bool SlabDescent::descend(int steps) {
   const int enough = steps == 0 ? 1 : steps_a_slab_pass;
   while (steps < enough) {
     const double rz = precondition();
-    const double keep = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
+    const double beta = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
     direction_rz_ = rz;
     have_direction_ = true;
     level_.apply(
-        [keep, d = f_.direction.data(), free = f_.free.data(), z = preconditioner_.values(),
+        [beta, d = f_.direction.data(), free = f_.free.data(), z = preconditioner_.values(),
          surplus = surplus_](std::size_t k) {
-          const double next = (z[k] - surplus) + (keep != 0 ? keep * d[k] : 0.0);
+          const double next = (z[k] - surplus) + (beta != 0 ? beta * d[k] : 0.0);
           return d[k] = free[k] != 0 ? next : 0.0;
         },
         [image = f_.image.data()](std::size_t k, double u) { image[k] = u; });
@@ -216,9 +270,9 @@ bool SlabDescent::descend(int steps) {
 
 bool SlabDescent::run() {
   level_.gap(f_.pressure, f_.gap);
-  bool fresh = true, have_old = false;
-  double best = infinity, least = infinity, before = infinity;
-  int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
+  bool fresh = true;
+  Watch watch;
+  int renewals = 0;
   std::fill(f_.old_free.begin(), f_.old_free.end(), std::uint8_t{255});
   for (;;) {
     SlabQuality at = slab_quality(level_, f_.pressure, f_.gap);
@@ -236,26 +290,22 @@ bool SlabDescent::run() {
       std::fill(f_.old_free.begin(), f_.old_free.end(), std::uint8_t{255});
       continue;
     }
-    without_gain = at.residual < 0.9 * best ? 0 : without_gain + 1;
-    if (without_gain == 0) best = at.residual;
-    slow_ones = at.residual > slow * least ? slow_ones + 1 : 0;
-    least = std::min(least, at.residual);
-    if (at.residual > jump * before) ++jumps;
-    before = at.residual;
-    if (without_gain > passes_without_gain || level_.applications > most_ || !std::isfinite(at.residual)) {
+    watch.take(at.residual);
+    if (watch.without_gain() > passes_without_gain || level_.applications > most_ ||
+        !std::isfinite(at.residual)) {
       project(at, f_.pressure);
       return false;
     }
-    if ((slow_ones >= slow_passes || jumps >= jumps_in_a_cycle) && have_old) {
+    const Watch::Advice advice = watch.advice();
+    if (advice == Watch::Advice::average_passes) {
       level_.each([p = f_.pressure.data(), g = f_.gap.data(), q = f_.old_pressure.data(),
                    old = f_.old_gap.data()](std::size_t k) {
         p[k] = 0.5 * (p[k] + q[k]);
         g[k] = 0.5 * (g[k] + old[k]);
       });
-      have_direction_ = have_old = fresh = false;
-      slow_ones = jumps = 0;
+      have_direction_ = false;
       at = slab_quality(level_, f_.pressure, f_.gap);
-    } else if ((have_old = slow_ones + 1 >= slow_passes || jumps + 1 >= jumps_in_a_cycle)) {
+    } else if (advice == Watch::Advice::remember_pass) {
       level_.team.work([&] {
         f_.old_pressure = f_.pressure;
         f_.old_gap = f_.gap;
@@ -283,9 +333,9 @@ SlabFields::SlabFields(Team& team, std::size_t nodes) {
   team.agree();
 }
 
-SlabEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort) {
+DescentEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort) {
   constexpr int quick = 300, shake = 12, last_resort = 3000;
-  SlabEnd end;
+  DescentEnd end;
   for (int stage = 0; stage < (effort == ChainEffort::full ? 5 : 3) && !end.converged; ++stage) {
     if (stage % 2 == 0 && stage < 4) {
       end.stage = stage == 0 ? "preconditioned descent" : "preconditioned descent, restarted";

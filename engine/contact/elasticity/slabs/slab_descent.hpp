@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The descents of a contact in slabs: the quick one of half_space/active_set_descent.hpp (preconditioned
+// The descents of a contact in slabs: the quick one of half_space/active_set_descent.cpp (preconditioned
 // conjugate gradients on the free set, what the clipping changes travelling with a fixed preconditioned step)
-// and the sure one of half_space/spectral_gradient.hpp, in the same turn. All decisions follow sums over the
+// and the sure one of half_space/descent.hpp, in the same turn. All decisions follow sums over the
 // processes, so that every process makes the same ones.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "engine/contact/elasticity/half_space/solver/descent_chain.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/slabs/slab_level.hpp"
 
 namespace asperity {
@@ -24,12 +24,7 @@ struct SlabFields {
   Array<std::uint8_t> free, old_free;
 };
 
-struct SlabEnd {
-  bool converged = false;
-  std::string stage;
-};
-
 // From fields.pressure, feasible, until a stage converges.
-SlabEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort);
+DescentEnd descend_in_slabs(SlabLevel& level, SlabFields& fields, double tolerance, ChainEffort effort);
 
 }  // namespace asperity

@@ -2,7 +2,8 @@
 // The contact problem of a periodic half-space on one of the nested grids, in slabs of rows over a team of
 // processes: minimise ½ p·Kp − h·p over 0 <= p <= H with a given mean of p, K = 2/|q| and 0 for the mean. In
 // the cell units of half_space/contact_level.hpp: hx = 1, hy = aspect, E* = 1, heights over the rms. Every
-// member that is not const is work of all processes together.
+// member that is not const is work of all processes together. Also the way between nested grids, whose rows
+// change hands where the two are dealt out in other ways.
 #pragma once
 
 #include <array>
@@ -15,6 +16,7 @@
 #include <span>
 
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 #include "engine/core/slabs/row_exchange.hpp"
 #include "engine/core/slabs/team.hpp"
 
@@ -25,6 +27,15 @@ struct SlabShape {
   double aspect = 1;
   double weight = 1;  // of one transform, in transforms of the finest grid
 };
+
+// Over the nodes of this process, then over the processes, as over_nodes.
+template <std::size_t sums, std::size_t minima = 0, class Term>
+std::array<double, sums + minima> over_slabs(Team& team, std::size_t nodes, Term term) {
+  std::array<double, sums + minima> own{};
+  for (std::size_t i = sums; i < own.size(); ++i) own[i] = std::numeric_limits<double>::infinity();
+  team.work([&] { own = over_nodes<sums, minima>(nodes, term); });
+  return team.reduce<sums, minima>(own);
+}
 
 class SlabLevel {
  public:
@@ -47,13 +58,9 @@ class SlabLevel {
   double height(std::size_t k) const { return (heights_[k] - origin_) * factor_; }
   void count_from(double origin) { origin_ = origin; }
 
-  // Over the nodes of this process, then over the processes, as over_nodes and for_nodes.
   template <std::size_t sums, std::size_t minima = 0, class Term>
   std::array<double, sums + minima> over(Term term) {
-    std::array<double, sums + minima> own{};
-    for (std::size_t i = sums; i < own.size(); ++i) own[i] = std::numeric_limits<double>::infinity();
-    team.work([&] { own = over_nodes<sums, minima>(nodes(), term); });
-    return team.reduce<sums, minima>(own);
+    return over_slabs<sums, minima>(team, nodes(), term);
   }
   template <class Body>
   void each(Body body) {
@@ -129,5 +136,13 @@ class SlabLevel {
   double origin_, factor_;
   std::unique_ptr<SlabFourier> fourier_;
 };
+
+// `fine` and `coarse` in slabs of the same team. The values of this process on the coarse grid.
+Array<double> restrict_slabs(Team& team, const Slab& fine, const CoarserGrid& coarse,
+                             std::span<const double> field);
+
+// values on `coarse` -> `target` on `fine`, times `factor`.
+void prolong_slabs(Team& team, const CoarserGrid& coarse, std::span<const double> values, double factor,
+                   const Slab& fine, std::span<double> target);
 
 }  // namespace asperity

@@ -2,39 +2,81 @@
 #include "engine/contact/elasticity/slabs/slab_nest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
 #include "engine/contact/elasticity/slabs/slab_descent.hpp"
-#include "engine/contact/elasticity/slabs/slab_light_contact.hpp"
 #include "engine/contact/elasticity/slabs/slab_quality.hpp"
-#include "engine/contact/elasticity/slabs/slab_transfer.hpp"
+#include "engine/contact/yield_law.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 
 namespace asperity {
 
 namespace {
-constexpr double coarse_tolerance = 1e-3;
+constexpr double light = 0.01;  // an approach, of what gaps are measured by
+constexpr double soft = 1e-3;   // what one node at the cap sinks, of the same
 
-class Progress {
- public:
-  explicit Progress(Monitor& monitor) : task_(monitor, "contact in slabs", total) {}
-  void report(double begin, double end, double residual, double tolerance) {
-    double gained = 0;
-    if (residual > 0 && tolerance < 1)
-      gained = std::clamp(elementary::log(std::min(residual, 1.0)) / elementary::log(tolerance), 0.0, 1.0);
-    const auto now = static_cast<std::int64_t>(total * (begin + (end - begin) * gained));
-    task_.advance(std::max<std::int64_t>(0, now - done_));
-    done_ = std::max(done_, now);
+// Once more from the pressures there are; false, and they stay, where that does not converge.
+bool again(SlabLevel& level, SlabFields& fields, double tolerance, double length, DescentEnd& end) {
+  level.length = length;
+  Array<double> before;
+  level.team.work([&] { before = fields.pressure; });
+  level.team.agree();
+  const DescentEnd finer = descend_in_slabs(level, fields, tolerance, ChainEffort::brief);
+  if (finer.converged)
+    end = finer;
+  else
+    fields.pressure = std::move(before);
+  return finer.converged;
+}
+
+// Contacts so light, or on ground so soft, that the ground moves by far less than the rms height: taken on
+// until they are right to a share of how far it moves, as in half_space/nested_descent.cpp. Returns whether
+// gaps and offset are counted from the highest node afterwards.
+bool refine_light_contact_in_slabs(SlabLevel& level, SlabFields& fields, const SlabCellProblem& problem,
+                                   DescentEnd& end) {
+  const double length = level.length, cap = level.cap, tolerance = problem.tolerance;
+  const auto offset = [&] { return slab_quality(level, fields.pressure, fields.gap).offset; };
+  const auto sunk = [&](double p) {
+    return LinearHardening::own_compliance * std::sqrt(level.shape.aspect) * p;
+  };
+  double approach = (problem.highest - problem.origin) * problem.factor + offset();
+  const bool from_peak = approach < light * length;
+  if (from_peak) {
+    level.count_from(problem.highest);
+    const double alone = sunk(level.total_load());
+    if (!(approach > 0) || !std::isfinite(cap)) approach = std::min(approach > 0 ? approach : alone, alone);
+    for (int round = 0; round < 60; ++round) {
+      if (!again(level, fields, tolerance, approach, end)) break;
+      approach = offset();
+      if (!(approach > 0) || approach > 0.5 * level.length) break;
+    }
   }
+  const bool is_soft = std::isfinite(cap) && sunk(cap) < soft * length;
+  if (is_soft) {
+    // All is at the cap above some height and open below it; nodes there share the rest: the first of them.
+    std::array<double, 1> own{std::numeric_limits<double>::quiet_NaN()};
+    const Array<double>& p = fields.pressure;
+    for (std::size_t k = 0; k < p.size() && std::isnan(own[0]); ++k)
+      if (p[k] > 0 && p[k] < cap) own[0] = problem.heights[k];
+    const Array<double> all = level.team.gather(own);
+    const auto there = std::find_if(all.begin(), all.end(), [](double h) { return !std::isnan(h); });
+    if (there != all.end()) {
+      level.count_from(*there);
+      again(level, fields, tolerance, sunk(cap), end);
+    }
+    level.count_from(from_peak ? problem.highest : problem.origin);
+  }
+  if (from_peak || is_soft) level.gap(fields.pressure, fields.gap);
+  level.length = length;
+  return from_peak;
+}
 
- private:
-  static constexpr std::int64_t total = 1000;
-  Task task_;
-  std::int64_t done_ = 0;
-};
+constexpr double coarse_tolerance = 1e-3;
 
 struct Step {                       // one grid of the nest
   std::optional<CoarserGrid> from;  // how it came from the finer one
@@ -106,7 +148,7 @@ SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& proble
   // A process may have no rows, so that an empty start says nothing there.
   const bool warm = team.reduce<1>({static_cast<double>(start_pressure.size())})[0] > 0;
   std::vector<Step> steps = nest(team, problem, warm);
-  Progress progress(monitor);
+  DescentProgress progress(monitor, "contact in slabs");
   SlabCellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
   Array<double> carried;  // the level-set field of the grid below
@@ -140,7 +182,8 @@ SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& proble
     }
     project_slabs_to_load(level, p, nullptr, p);
 
-    SlabEnd end = descend_in_slabs(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
+    DescentEnd end =
+        descend_in_slabs(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
     if (!end.converged) level.gap(p, fields.gap);
     if (finest) {
       answer.from_peak = refine_light_contact_in_slabs(level, fields, problem, end);
@@ -164,7 +207,7 @@ SlabCellAnswer nested_descent_in_slabs(Team& team, const SlabCellProblem& proble
 }
 
 SlabCellAnswer full_contact_in_slabs(Team& team, const SlabCellProblem& problem, Monitor& monitor) {
-  Progress progress(monitor);
+  DescentProgress progress(monitor, "contact in slabs");
   SlabLevel level(team, problem.shape, problem.heights, problem.origin, problem.factor, problem.cap,
                   problem.mean_pressure);
   level.length = problem.length;

@@ -83,20 +83,21 @@ void SlabPreconditioner::sweep(bool adjoint) {
   if (slab.rows() == 0) return;
   const auto row = [&](int j) { return field_.data() + static_cast<std::size_t>(j) * slab.width(); };
   const auto mask = [&](int j) { return mask_.data() + static_cast<std::size_t>(j) * slab.width(); };
-  const auto kept = [&](int s) { return before_.data() + static_cast<std::size_t>(s - 1) * slab.width(); };
+  const auto before = [&](int s) { return before_.data() + static_cast<std::size_t>(s - 1) * slab.width(); };
   for (int t = 1; t < rows + sweeps; ++t) {
     for (int s = 1; s <= sweeps; ++s) {
       const int j = t - s;
       // What lacks neighbours that have been through the sweeps before is never looked at again.
       if (j < s || j >= rows - s) {
-        if (j == s - 1) std::copy_n(row(j), nx, kept(s));
+        if (j == s - 1) std::copy_n(row(j), nx, before(s));
         continue;
       }
       if (adjoint)
-        gather_back({kept(s), mask(j - 1)}, {row(j), mask(j)}, {row(j + 1), mask(j + 1)}, nx, fresh_.data());
+        gather_back({before(s), mask(j - 1)}, {row(j), mask(j)}, {row(j + 1), mask(j + 1)}, nx,
+                    fresh_.data());
       else
-        extend(kept(s), row(j), row(j + 1), mask(j), nx, fresh_.data());
-      std::copy_n(row(j), nx, kept(s));
+        extend(before(s), row(j), row(j + 1), mask(j), nx, fresh_.data());
+      std::copy_n(row(j), nx, before(s));
       std::copy_n(fresh_.data(), nx, row(j));
     }
   }

@@ -5,11 +5,18 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/contact/elasticity/half_space/solver/unconverged.hpp"
+#include "engine/contact/bodies/elastic_bodies.hpp"
+#include "engine/contact/bodies/geometry.hpp"
+#include "engine/contact/elasticity/half_space/half_space_plan.hpp"
+#include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
+#include "engine/contact/elasticity/slabs/slab_level.hpp"
 #include "engine/contact/elasticity/slabs/slab_nest.hpp"
+#include "engine/contact/plan.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
@@ -34,15 +41,6 @@ void check(const SlabContactProblem& problem, double mean_pressure) {
                 "press with less than the hardness");
 }
 
-// Over the nodes of this process, then over the processes.
-template <std::size_t sums, std::size_t minima = 0, class Term>
-std::array<double, sums + minima> over(Team& team, std::size_t nodes, Term term) {
-  std::array<double, sums + minima> own{};
-  for (std::size_t i = sums; i < own.size(); ++i) own[i] = infinity;
-  team.work([&] { own = over_nodes<sums, minima>(nodes, term); });
-  return team.reduce<sums, minima>(own);
-}
-
 // As in half_space/half_space_solve.cpp.
 double punch_length(const SlabContactProblem& problem, double mean_pressure) {
   return mean_pressure / problem.modulus * std::sqrt(problem.surface.grid.area());
@@ -59,7 +57,7 @@ double rough_slope(Team& team, const SlabSurface& surface) {
   const Slab& slab = surface.slab;
   const std::size_t nx = slab.width(), nodes = slab.nodes();
   const double* const h = surface.heights->data();
-  const auto sums = over<3>(team, nodes, [=](std::size_t k, double* v) {
+  const auto sums = over_slabs<3>(team, nodes, [=](std::size_t k, double* v) {
     const double x = h[k % nx + 1 < nx ? k + 1 : k + 1 - nx] - h[k];
     const bool has_next = k + nx < nodes;
     const double y = has_next ? h[k + nx] - h[k] : 0.0;
@@ -79,8 +77,8 @@ void certify(Team& team, const SlabContactProblem& problem, SlabContactAnswer& a
   const double *const p = answer.pressure.data(), *const g = answer.gap.data();
   const double* const h = problem.surface.heights->data();
   const bool capped = std::isfinite(cap);
-  const auto found =
-      over<8, 4>(team, answer.pressure.size(), [=, approach = answer.approach](std::size_t k, double* v) {
+  const auto found = over_slabs<8, 4>(
+      team, answer.pressure.size(), [=, approach = answer.approach](std::size_t k, double* v) {
         const double displacement = g[k] + (approach - (peak - h[k]));
         v[0] = p[k];
         v[1] = p[k] > 0 ? 1.0 : 0.0;
@@ -103,24 +101,12 @@ void certify(Team& team, const SlabContactProblem& problem, SlabContactAnswer& a
   answer.mean_gap = found[5] / n;
   answer.energy = std::max(0.0, 0.5 * found[6] * cell);
   answer.plastic_volume = found[7] * cell;
-  Certificate& c = answer.certificate;
-  c = {};
   const double length =
       rough(problem, mean_pressure) ? problem.surface.rms : punch_length(problem, mean_pressure);
-  if (!(total > 0)) {
-    c.load = mean_pressure > 0 ? 1 : 0;
-  } else {
-    c.complementarity = (capped ? found[4] : found[3] - found[8] * total) / total;
-    c.load = std::abs(total / n - mean_pressure) / mean_pressure;
-    c.tension = std::max(0.0, -found[10]) / mean_pressure;
-    c.cap = capped ? std::max(0.0, answer.peak_pressure - cap) / cap : 0;
-  }
-  c.penetration = std::max(0.0, std::isfinite(found[9]) ? -found[9] : 0.0);
-  if (length > 0) {
-    c.complementarity = std::max(0.0, c.complementarity) / length;
-    c.penetration /= length;
-  }
-  answer.converged = c.worst() <= problem.tolerance;
+  const double complementarity = capped ? found[4] : found[3] - found[8] * total;
+  answer.certificate = certificate_of({n, total, found[10], answer.peak_pressure, complementarity, found[9]},
+                                      mean_pressure, cap, length);
+  answer.converged = answer.certificate.worst() <= problem.tolerance;
 }
 
 // The same pressure everywhere: none before the first touch, or on a flat.
@@ -202,6 +188,154 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
     throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations,
                       problem.surface.grid);
   return answer;
+}
+
+SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper, const Effects& effects) {
+  SurfaceTraits traits;
+  traits.material = lower;
+  // Of the bodies only what they are made of matters: a tile of one node stands for them.
+  Scene scene{Surface({1, 1, 1, 1}, Field(1, 1), std::move(traits)), upper, Boundary::periodic,
+              HalfSpaceOptions{}};
+  scene.effects = effects;
+  check(scene);
+  const ContactGeometry geometry(scene, LatticeIsometry(1, 1));
+  SlabTerms terms;
+  terms.modulus = contact_modulus(geometry, "the half-space needs `young` and `poisson`", "", "");
+  terms.cap = std::numeric_limits<double>::infinity();
+  if (const Plan plan = make_plan(scene, geometry); plan.yield) {
+    if (plan.yield->hardens())
+      throw Error(ErrorCode::bad_value, "`effects.plasticity.hardening` is not computed over ranks",
+                  "leave it out, so that the pressure stays at the hardness, or use lab.contact");
+    terms.cap = plan.yield->hardness();
+  }
+  return terms;
+}
+
+// The load that brings two bodies in slabs together by so much: a bracketed secant over the logarithm of the
+// load, begun on a grid of a quarter of the nodes, where it costs little, and finished by a few solves on the
+// finest, each from the one before.
+namespace {
+
+constexpr int most_solves = 60;
+constexpr double least_nodes = 64 * 64;
+
+// The same contact on the next coarser grid, heights counted as on the fine one.
+std::optional<SlabContactProblem> coarser_problem(Team& team, const SlabContactProblem& problem) {
+  const SlabSurface& fine = problem.surface;
+  if (fine.slab.all_nodes() <= least_nodes) return {};
+  const auto next = coarser({fine.grid.nx, fine.grid.ny, fine.grid.hy() / fine.grid.hx()});
+  if (!next) return {};
+  SlabContactProblem result = problem;
+  SlabSurface& surface = result.surface;
+  surface.grid.nx = next->shape.nx;
+  surface.grid.ny = next->shape.ny;
+  surface.slab = team.slab(next->shape.nx, next->shape.ny);
+  Array<double> heights = restrict_slabs(team, fine.slab, *next, *fine.heights);
+  std::array<double, 2> own{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (const double h : heights) own = {std::min(own[0], h), std::min(own[1], -h)};
+  team.work([&] { surface.heights = std::make_shared<const Array<double>>(std::move(heights)); });
+  const auto ends = team.reduce<0, 2>(own);
+  surface.valley = ends[0];
+  surface.peak = -ends[1];
+  result.best_effort = true;
+  return result;
+}
+
+struct Root {
+  double logarithm = 0;  // of the load
+  double slope = 0;      // d approach / d ln load; 0 where nothing is known
+};
+
+struct Found {
+  SlabContactAnswer answer;
+  Root root;
+  bool reached = false;
+};
+
+// `target` is the approach of the planes, from the first touch of the finest grid's `peak`.
+Found search(Team& team, const SlabContactProblem& problem, double target, double peak, Root root,
+             double accuracy, Monitor& monitor) {
+  SlabContactProblem now = problem;
+  now.best_effort = true;
+  const double share = std::min(1.0, target / problem.surface.rms);
+  now.tolerance = std::max(1e-13, 0.2 * std::min(problem.tolerance, accuracy) * share);
+  const double highest = elementary::log(problem.cap) - 1e-12;  // infinite without a cap
+  double low = -infinity, high = infinity, low_excess = 0, high_excess = 0;
+  Found found;
+  double x = std::min(root.logarithm, highest), last_x = x, last_excess = 0;
+  for (int solve = 0; solve < most_solves; ++solve) {
+    found.answer =
+        solve_slabs_at_pressure(team, now, elementary::exp(x), solve > 0 ? &found.answer : nullptr, monitor);
+    const double excess = found.answer.offset + peak - target;
+    if (solve > 0 && x != last_x) {
+      const double slope = (excess - last_excess) / (x - last_x);
+      if (slope > 0) root.slope = slope;
+    }
+    root.logarithm = x;
+    if (std::abs(excess) <= accuracy * target) {
+      found.reached = true;
+      break;
+    }
+    (excess < 0 ? low : high) = x;
+    (excess < 0 ? low_excess : high_excess) = excess;
+    last_x = x;
+    last_excess = excess;
+    if (excess < 0 && x >= highest) break;
+    // What the slope says, within the bracket and not too far beyond it.
+    constexpr double furthest = 3;
+    double next =
+        root.slope > 0 ? x - std::clamp(excess / root.slope, -furthest, furthest) : x + (excess < 0 ? 1 : -1);
+    if (std::isfinite(low) && std::isfinite(high)) {
+      const double margin = 1e-3 * (high - low);
+      if (!(next > low && next < high)) next = low - low_excess * (high - low) / (high_excess - low_excess);
+      next = solve % 4 == 3 ? 0.5 * (low + high) : std::clamp(next, low + margin, high - margin);
+      if (high - low < 1e-14 * std::abs(high)) break;
+    }
+    x = std::min(next, highest);
+    if (std::abs(x) > 600) break;
+  }
+  found.root = root;
+  return found;
+}
+
+}  // namespace
+
+SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& problem, double approach,
+                                          Monitor& monitor) {
+  if (!(approach >= 0) || !std::isfinite(approach))
+    throw Error(ErrorCode::bad_value, "`approach` is " + metres(approach), "give zero or a length above it");
+  if (approach == 0) return solve_slabs_at_pressure(team, problem, 0, nullptr, monitor);
+  const SlabSurface& surface = problem.surface;
+  const double full = surface.peak - surface.mean;
+  if (!std::isfinite(problem.cap) && approach >= full)
+    throw Error(ErrorCode::infeasible,
+                "`approach` is " + metres(approach) + ", and all of the tile touches at " + metres(full) +
+                    ": past full contact no load brings a periodic tile closer",
+                "give less, or `pressure`");
+  Root root;
+  root.logarithm =
+      elementary::log(0.1 * problem.modulus * approach / std::max(surface.grid.size_x, surface.grid.size_y));
+  constexpr double light = 0.2, rough_accuracy = 1e-3;
+  if (approach > light * surface.rms)
+    if (const auto coarse = coarser_problem(team, problem))
+      root = search(team, *coarse, approach, surface.peak, root, rough_accuracy, monitor).root;
+  Found found = search(team, problem, approach, surface.peak, root, problem.tolerance, monitor);
+  SlabContactAnswer& answer = found.answer;
+  answer.certificate.load = std::abs(answer.approach - approach) / approach;
+  answer.converged = answer.certificate.worst() <= problem.tolerance;
+  if (!found.reached && answer.approach < approach && std::isfinite(problem.cap))
+    throw Error(ErrorCode::infeasible,
+                "`approach` is " + metres(approach) +
+                    ", and under the greatest load that `hardness` allows it is " + metres(answer.approach),
+                "give less, or `pressure`");
+  if (!answer.converged && !problem.best_effort)
+    throw Error(ErrorCode::not_converged,
+                "the approach of " + metres(approach) + " was missed by " +
+                    metres(answer.approach - approach) + " with a residual of " +
+                    format_short(answer.certificate.worst(), 3) + " where `tolerance` asks for " +
+                    format_short(problem.tolerance, 3),
+                "ask for a larger `tolerance`, or accept the best reached with `on_failure = \"best\"`");
+  return std::move(found.answer);
 }
 
 }  // namespace asperity

@@ -7,9 +7,11 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "engine/contact/certificate.hpp"
+#include "engine/contact/scene.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/surface/slabs/slab_surface.hpp"
 
@@ -50,5 +52,16 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
 // no load does.
 SlabContactAnswer solve_slabs_at_approach(Team& team, const SlabContactProblem& problem, double approach,
                                           Monitor& monitor);
+
+// What materials and effects make of a contact in slabs under a flat, asked of the same code as for a contact
+// in one process.
+struct SlabTerms {
+  double modulus = 0;  // E*, Pa
+  double cap = 0;      // Pa; infinite where nothing yields
+};
+
+// Throws Error{bad_state} naming effect, body and property where a material lacks one; {bad_value} for
+// hardening, which is not computed in slabs.
+SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper, const Effects& effects);
 
 }  // namespace asperity

@@ -6,7 +6,7 @@
 // an ordinary contact with the attraction held fixed, whose minimum lowers the energy again
 // (majorise–minimise). As K >= 0 and σ falls with g the steps are monotone too: begun without attraction
 // they close in from outside and end on the branch of bodies brought together; begun with the attraction of
-// a deeper contact they end on the branch of bodies drawn apart. So each branch is followed through its
+// a deeper contact they end on the branch of bodies pulled apart. So each branch is followed through its
 // jump, and what is reached is stable from the side it was reached from.
 #pragma once
 

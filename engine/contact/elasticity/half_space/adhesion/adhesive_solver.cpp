@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/contact/elasticity/half_space/half_space_solution.hpp"
+#include "engine/contact/elasticity/half_space/half_space_solver.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
-#include "engine/contact/elasticity/half_space/recalled_solve.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"

@@ -2,7 +2,7 @@
 // Two elastic half-spaces whose faces attract each other: adhesive_solve.hpp for the bodies of a contact as
 // they lie. Loads and approaches may be below zero. Bodies are brought together from apart, or, where the
 // request says `preload`, taken there first, turn by turn. Under a pull they are pressed by no load
-// first: a pull brings nothing together. The last turn is kept, so that requests drawn from the same turns,
+// first: a pull brings nothing together. The last turn is kept, so that requests after the same turns,
 // as those of a sweep are, go there once; no bit depends on it. Of what a press costs, the first contact of
 // each turn is elasticity's; the tangents are the attractions', parted by what each pulls in the end.
 #pragma once

@@ -74,12 +74,11 @@ class Bounds {
   }
 
  private:
-  bool faces(std::size_t k) const { return !problem_.overhangs || !std::isnan((*problem_.heights)[k]); }
+  bool faces(std::size_t k) const { return problem_.faces(k); }
   double pressure(std::size_t k) const { return pressure_[k]; }
   // Where the law of the pressure changes: the cap, or the yield pressure.
   double limit(std::size_t k) const {
-    if (!problem_.yield.hardens()) return cap_;
-    return (problem_.yield.yield ? (*problem_.yield.yield)[k] : problem_.yield.cap) / pascal_;
+    return problem_.yield.hardens() ? problem_.yield.yields_at(k) / pascal_ : cap_;
   }
   double opening(std::size_t k) const {
     return give_ > 0 ? give_ * std::max(0.0, pressure(k) - limit(k)) : 0.0;
@@ -305,12 +304,12 @@ void Bounds::follow_asked_approach() {
     const double squares =
         over_nodes<1>(nodes_, [&](std::size_t k, double* v) { v[0] = work_[k] * image_[k]; })[0];
     const double sigma = spectrum_.least > 0 ? std::sqrt(std::max(0.0, squares)) : infinity;
-    const double reach =
+    const double farthest =
         (start - greatest_root(residual_, rest_)) + greatest_root(residual_ + pull * sigma, rest_);
-    const double needed = own * reach + moved + gap_rounding_;
+    const double needed = own * farthest + moved + gap_rounding_;
     if (needed < margin) {
-      distance_ = reach;
-      load_error_ = sigma * reach + std::abs(total_ - at_.mean_pressure / pascal_ * n_);
+      distance_ = farthest;
+      load_error_ = sigma * farthest + std::abs(total_ - at_.mean_pressure / pascal_ * n_);
       return;
     }
     margin = 1.5 * needed;

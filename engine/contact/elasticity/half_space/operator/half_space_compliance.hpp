@@ -4,18 +4,47 @@
 // that only displacement from the mean is given; or that of a layer on a rigid base, ComplianceMultiplier.
 // Free: the sum of Love's coefficients over the loaded cells, by a transform padded with zeros; no wrap.
 // Symmetric, positive (periodic: semi-definite). Rectangular, odd and prime grids of any aspect; no friction,
-// one material.
+// one material. Also both kernels by themselves, the multiplier of a wave and Love's coefficient of a cell.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "engine/contact/boundary.hpp"
-#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
 
 namespace asperity {
+
+// What a periodic tile makes of one wave of pressure: K(q) = 2/(E*|q|) of a half-space, and a share of that
+// of what lies in its place, told by the model of elasticity that knows it (WaveShare). Operators and
+// preconditioners ask once for each wave of a grid, in cell units (hx = 1, E* = 1), and keep what they need.
+struct WaveShare {
+  // In [0, 1] at x = |q| length, 0 at 0; goes to 1 as x grows, and past x = 4 K(q) falls.
+  std::function<double(double x)> share;
+  double length = 0;                 // m
+  double uniform = 0;                // K(0) E*/length; 0: a mean pressure moves nothing
+  std::vector<double> parameters{};  // by which it differs from others, for digests
+};
+
+struct ComplianceMultiplier {
+  std::function<double(double x)> share_of{};               // none: a half-space
+  double length = std::numeric_limits<double>::infinity();  // of a WaveShare, in cells along x
+  double uniform = 0;                                       // K(0); 0: a mean pressure moves nothing
+
+  bool shares() const { return share_of != nullptr; }
+  // K(q)·q/2, 1 of a half-space. q > 0.
+  double share(double q) const { return shares() ? share_of(q * length) : 1; }
+  // The greatest K of waves from q on: that of q, but where short waves meet what is softer to them.
+  double greatest_from(double q) const;
+  // On a grid whose cells are `pitch` times as wide.
+  ComplianceMultiplier on_coarser(double pitch) const;
+};
+
+// On cells `hx` m wide. `with_mean`: with its K(0).
+ComplianceMultiplier in_cells(const WaveShare& share, double hx, bool with_mean);
 
 class HalfSpaceCompliance {
  public:
@@ -77,6 +106,27 @@ class HalfSpaceCompliance {
  private:
   struct Parts;
   std::unique_ptr<Parts> parts_;
+};
+
+// The displacement of an elastic half-space under a uniformly loaded rectangle (Love 1929):
+// u(x, y) = 1/(π E*) ∬ dξ dη / √((x−ξ)² + (y−η)²), here with E* = 1 and a rectangle of 1 × aspect.
+// The textbook form is a difference of four logarithms that cancels away from the rectangle, so it is
+// used on the rectangle only; elsewhere one integral is done in closed form without cancellation and
+// the other by Gauss's rule, and far away moments of the rectangle are enough. The relative error is
+// below 1e-13 at any distance. No anisotropy, no shear.
+class LoveKernel {
+ public:
+  // The rectangle is 1 wide along x and `aspect` > 0 along y.
+  explicit LoveKernel(double aspect);
+  // Displacement under a unit pressure at (i, j·aspect) from the centre of the rectangle: between
+  // nodes i and j are integers. Even in both. Thread-safe.
+  double operator()(double i, double j) const;
+
+ private:
+  double far(double x, double y) const;
+
+  double aspect_;
+  double far_;  // square of the distance beyond which moments are used
 };
 
 }  // namespace asperity

@@ -16,6 +16,10 @@
 #include <limits>
 #include <span>
 
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+#include <immintrin.h>
+#endif
+
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -125,14 +129,12 @@ struct Lanes {
 };
 
 // Over the nodes from `begin` to `end`, on this thread.
-template <std::size_t sums, std::size_t minima, class Take, class Term>
-std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, Take take,
-                                               const Term& term) {
+template <std::size_t sums, std::size_t minima, class Term>
+std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, const Term& term) {
   const Term own = term;
   Lanes<sums, minima> block;
   std::size_t k = begin;
-  for (; k + nodes_a_chunk <= end; k += nodes_a_chunk)
-    if (take(k, k + nodes_a_chunk)) block.take_chunk(k, own);
+  for (; k + nodes_a_chunk <= end; k += nodes_a_chunk) block.take_chunk(k, own);
   for (std::size_t lane = 0; k < end; ++k, lane = (lane + 1) % lanes_a_block) block.take(k, lane, own);
   return block.total();
 }
@@ -153,13 +155,6 @@ std::array<double, sums + minima> gather_blocks(std::size_t nodes, const Range& 
   return total;
 }
 
-template <std::size_t sums, std::size_t minima, class Take, class Term>
-std::array<double, sums + minima> gather(std::size_t nodes, Take take, const Term& term) {
-  return gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
-    return gather_range<sums, minima>(begin, end, take, term);
-  });
-}
-
 }  // namespace node_loop
 
 // body(k) for each node.
@@ -178,14 +173,9 @@ void for_marked_nodes(std::span<const std::uint8_t> marks, Body body) {
 // minimum; both are returned in that order. A minimum over nothing is +∞.
 template <std::size_t sums, std::size_t minima = 0, class Term>
 std::array<double, sums + minima> over_nodes(std::size_t nodes, Term term) {
-  return node_loop::gather<sums, minima>(nodes, node_loop::All{}, term);
-}
-
-// Sums over the nodes with a mark that is not 0. `term` is also called for some of the others, for which it
-// must give 0.
-template <std::size_t sums, class Term>
-std::array<double, sums> over_marked_nodes(std::span<const std::uint8_t> marks, Term term) {
-  return node_loop::gather<sums, 0>(marks.size(), node_loop::Marked{marks.data()}, term);
+  return node_loop::gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
+    return node_loop::gather_range<sums, minima>(begin, end, term);
+  });
 }
 
 // A stretch of nodes on this thread, for what hands out rows: body(k) for each, and sums of term(k, v).
@@ -196,7 +186,7 @@ void for_stretch(std::size_t begin, std::size_t end, const Body& body) {
 }
 template <std::size_t sums, class Term>
 std::array<double, sums> over_stretch(std::size_t begin, std::size_t end, const Term& term) {
-  return node_loop::gather_range<sums, 0>(begin, end, node_loop::All{}, term);
+  return node_loop::gather_range<sums, 0>(begin, end, term);
 }
 // The sums of stretches, added up in their order.
 template <std::size_t sums>
@@ -205,6 +195,113 @@ std::array<double, sums> added_up(const Array<std::array<double, sums>>& parts) 
   for (const auto& part : parts)
     for (std::size_t i = 0; i < sums; ++i) total[i] += part[i];
   return total;
+}
+
+// The same sums and minima in the same lanes and blocks, and so the same bits, for the few loops that every
+// pass of a descent waits for: their terms are written for eight nodes at once, with the sums in registers,
+// where a compiler left to itself goes through memory or branches. A term is a template of Value, a vector of
+// lanes or, for the last nodes of a stretch, a double; read() and put() move either from and to fields, and a
+// comparison chooses between values of it: `a < b ? c : d`.
+namespace lane_terms {
+
+using node_loop::LaneVector;
+static_assert(lanes_a_block == 8);
+typedef double Doubles __attribute__((vector_size(64), aligned(8), may_alias));
+typedef float Floats __attribute__((vector_size(32), aligned(4), may_alias));
+typedef std::uint8_t Bytes __attribute__((vector_size(8), aligned(1), may_alias));
+typedef std::uint16_t Words __attribute__((vector_size(16)));
+typedef std::int32_t Integers __attribute__((vector_size(32)));
+
+inline void read(const double* from, double& to) { to = *from; }
+inline void read(const float* from, double& to) { to = static_cast<double>(*from); }
+inline void read(const std::uint8_t* from, double& to) { to = *from; }
+inline void put(const double& from, double* to) { *to = from; }
+inline void put(const double& from, float* to) { *to = static_cast<float>(from); }
+inline void put(const double& from, std::uint8_t* to) {
+  *to = static_cast<std::uint8_t>(static_cast<int>(from));
+}
+
+inline void read(const double* from, LaneVector& to) { to = *reinterpret_cast<const Doubles*>(from); }
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+// What takes a compiler left to itself several instructions each.
+inline void read(const float* from, LaneVector& to) {
+  to = reinterpret_cast<LaneVector>(_mm512_maskz_cvtps_pd(0xff, _mm256_loadu_ps(from)));
+}
+inline void read(const std::uint8_t* from, LaneVector& to) {
+  const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+  to = reinterpret_cast<LaneVector>(_mm512_maskz_cvtepi32_pd(0xff, _mm256_cvtepu8_epi32(bytes)));
+}
+#else
+inline void read(const float* from, LaneVector& to) {
+  to = __builtin_convertvector(*reinterpret_cast<const Floats*>(from), LaneVector);
+}
+// In steps that are single instructions.
+inline void read(const std::uint8_t* from, LaneVector& to) {
+  const Words words = __builtin_convertvector(*reinterpret_cast<const Bytes*>(from), Words);
+  const Integers integers = __builtin_convertvector(words, Integers);
+  to = __builtin_convertvector(integers, LaneVector);
+}
+#endif
+inline void put(const LaneVector& from, double* to) { *reinterpret_cast<Doubles*>(to) = from; }
+inline void put(const LaneVector& from, float* to) {
+  *reinterpret_cast<Floats*>(to) = __builtin_convertvector(from, Floats);
+}
+inline void put(const LaneVector& from, std::uint8_t* to) {
+  const Integers integers = __builtin_convertvector(from, Integers);
+  const Words words = __builtin_convertvector(integers, Words);
+  *reinterpret_cast<Bytes*>(to) = __builtin_convertvector(words, Bytes);
+}
+
+template <std::size_t sums, std::size_t minima, class Term>
+std::array<double, sums + minima> gather_range(std::size_t begin, std::size_t end, const Term& term) {
+  const Term own = term;
+  node_loop::Lanes<sums, minima> block;
+  std::size_t k = begin;
+  for (; k + lanes_a_block <= end; k += lanes_a_block) {
+    LaneVector v[sums + minima];
+    own(k, v);
+    for (std::size_t i = 0; i < sums + minima; ++i) {
+      LaneVector& into = block.lanes[i];
+      if (i < sums)
+        into += v[i];
+      else
+        into = v[i] < into ? v[i] : into;
+    }
+  }
+  for (std::size_t lane = 0; k < end; ++k, ++lane) block.take(k, lane, own);
+  return block.total();
+}
+
+template <class Body>
+void visit_range(std::size_t begin, std::size_t end, const Body& body) {
+  const Body own = body;
+  std::size_t k = begin;
+  for (; k + lanes_a_block <= end; k += lanes_a_block) own.template operator()<LaneVector>(k);
+  for (; k < end; ++k) own.template operator()<double>(k);
+}
+
+}  // namespace lane_terms
+
+// As over_nodes and over_stretch.
+template <std::size_t sums, std::size_t minima = 0, class Term>
+std::array<double, sums + minima> over_lanes(std::size_t nodes, Term term) {
+  return node_loop::gather_blocks<sums, minima>(nodes, [&](std::size_t begin, std::size_t end) {
+    return lane_terms::gather_range<sums, minima>(begin, end, term);
+  });
+}
+// As for_nodes and for_stretch, body.operator()<Value>(k) being for eight nodes or for one.
+template <class Body>
+void for_lanes(std::size_t nodes, Body body) {
+  for_node_blocks(nodes,
+                  [&](std::size_t begin, std::size_t end) { lane_terms::visit_range(begin, end, body); });
+}
+template <class Body>
+void for_lanes_of_stretch(std::size_t begin, std::size_t end, const Body& body) {
+  lane_terms::visit_range(begin, end, body);
+}
+template <std::size_t sums, class Term>
+std::array<double, sums> over_lanes_of_stretch(std::size_t begin, std::size_t end, const Term& term) {
+  return lane_terms::gather_range<sums, 0>(begin, end, term);
 }
 
 }  // namespace asperity

@@ -11,15 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include "engine/contact/elasticity/half_space/preconditioner/edge_rows.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/free_tiles.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
-#include "engine/contact/elasticity/half_space/preconditioner/line_extension.hpp"
-#include "engine/contact/elasticity/half_space/preconditioner/smooth_extension.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"

@@ -17,8 +17,8 @@
 #include <span>
 
 #include "engine/contact/boundary.hpp"
-#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
-#include "engine/contact/elasticity/half_space/preconditioner/smooth_extension.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/preconditioner/residual_extension.hpp"
 
 namespace asperity {
 

@@ -1,13 +1,369 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/half_space/preconditioner/free_tiles.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cstring>
 #include <memory>
+#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace asperity {
+
+namespace edge_rows {
+
+namespace {
+
+typedef float Eight __attribute__((vector_size(32)));
+typedef std::int32_t EightMarks __attribute__((vector_size(32)));
+typedef std::uint32_t EightWords __attribute__((vector_size(32)));
+// The same anywhere in memory. Only what is read or written through a pointer to such a type is taken not to
+// be aligned: references and arguments of templates lose that, with Clang, and so do values bound to a
+// reference.
+typedef float EightAnywhere __attribute__((vector_size(32), aligned(4), may_alias));
+typedef double EightDoublesAnywhere __attribute__((vector_size(64), aligned(8), may_alias));
+typedef std::uint8_t EightBytes __attribute__((vector_size(8), aligned(1), may_alias));
+typedef std::uint16_t EightShorts __attribute__((vector_size(16)));
+typedef std::uint16_t EightPairs __attribute__((vector_size(16), aligned(1), may_alias));
+
+// Vectors are passed and returned by reference or pointer alone.
+inline __attribute__((always_inline)) const EightAnywhere* eight(const float* at) {
+  return reinterpret_cast<const EightAnywhere*>(at);
+}
+inline __attribute__((always_inline)) EightAnywhere* eight(float* at) {
+  return reinterpret_cast<EightAnywhere*>(at);
+}
+inline __attribute__((always_inline)) const EightDoublesAnywhere* eight(const double* at) {
+  return reinterpret_cast<const EightDoublesAnywhere*>(at);
+}
+
+// Not 0 where the even, and the odd, of sixteen bytes are not.
+inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, EightMarks& even,
+                                                      EightMarks& odd) {
+  const EightPairs pairs = *reinterpret_cast<const EightPairs*>(bytes);
+  constexpr bool little = std::endian::native == std::endian::little;
+  const EightPairs low = pairs & 0xff, high = pairs >> 8;
+  even = __builtin_convertvector(little ? low : high, EightMarks);
+  odd = __builtin_convertvector(little ? high : low, EightMarks);
+}
+
+// Not 0 where one of eight bytes is not; in steps that are single instructions.
+inline __attribute__((always_inline)) void read_marks(const std::uint8_t* bytes, EightMarks& marks) {
+  const EightShorts words = __builtin_convertvector(*reinterpret_cast<const EightBytes*>(bytes), EightShorts);
+  marks = __builtin_convertvector(words, EightMarks);
+}
+
+inline __attribute__((always_inline)) void take_apart(const Eight& low, const Eight& high, Eight& even,
+                                                      Eight& odd) {
+  even = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
+  odd = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
+}
+
+inline __attribute__((always_inline)) void merge(const Eight& even, const Eight& odd, float* to) {
+  *eight(to) = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
+  *eight(to + group) = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+
+inline __attribute__((always_inline)) void eight_of(const SmoothRow<float>& row, std::size_t k, Eight& to) {
+  to = row.low_share * *eight(row.low + k) + row.high_share * *eight(row.high + k);
+}
+inline float at(const SmoothRow<float>& row, std::size_t k) {
+  return row.low_share * row.low[k] + row.high_share * row.high[k];
+}
+
+}  // namespace
+
+void pack(const std::uint8_t* bytes, std::size_t n, std::size_t place, std::uint64_t* words) {
+  std::size_t k = 0;
+  if (place % 8 == 0) {
+    for (; k + 8 <= n; k += 8) {
+      std::uint64_t eight;
+      std::memcpy(&eight, bytes + k, sizeof eight);
+      if constexpr (std::endian::native == std::endian::big) eight = __builtin_bswap64(eight);
+      // Gathers the lowest bits of the bytes in the highest byte.
+      const std::uint64_t packed = (eight * 0x0102040810204080u) >> 56;
+      words[(place + k) / bits] |= packed << ((place + k) % bits);
+    }
+  }
+  for (; k < n; ++k)
+    words[(place + k) / bits] |= static_cast<std::uint64_t>(bytes[k]) << ((place + k) % bits);
+}
+
+bool differ(const std::uint8_t* a, const std::uint8_t* b, std::size_t n) {
+  std::uint8_t any = 0;
+  for (std::size_t k = 0; k < n; ++k) any |= static_cast<std::uint8_t>((a[k] != 0) != (b[k] != 0));
+  return any != 0;
+}
+
+void fill_bits(std::size_t place, std::size_t n, std::uint64_t* words) {
+  while (n > 0) {
+    const std::size_t within = place % bits, length = std::min(n, bits - within);
+    words[place / bits] |= (~std::uint64_t{0} >> (bits - length)) << within;
+    place += length;
+    n -= length;
+  }
+}
+
+void widen(Array<std::uint64_t>& field, int rows, std::size_t row_words, Array<std::uint64_t>& work) {
+  const std::size_t words = static_cast<std::size_t>(rows) * row_words;
+  for (std::size_t first = 0; first < words; first += row_words)
+    for (std::size_t k = 0; k < row_words; ++k) {
+      const std::size_t w = first + k;
+      std::uint64_t word = field[w] | field[w] << 1 | field[w] >> 1;
+      if (k > 0) word |= field[w - 1] >> (bits - 1);
+      if (k + 1 < row_words) word |= field[w + 1] << (bits - 1);
+      if (first > 0) word |= field[w - row_words];
+      if (w + row_words < words) word |= field[w + row_words];
+      work[w] = word;
+    }
+  std::swap(field, work);
+}
+
+void copy_marks(const std::uint8_t* __restrict from, std::size_t n, std::uint8_t* __restrict to) {
+  for (std::size_t k = 0; k < n; ++k) to[k] = from[k] != 0 ? 1 : 0;
+}
+
+void add_times(double factor, const double* __restrict from, std::size_t n, double* __restrict to) {
+  for (std::size_t k = 0; k < n; ++k) to[k] += factor * from[k];
+}
+
+void convert(const double* __restrict from, double factor, double offset, std::size_t n,
+             float* __restrict to) {
+  for (std::size_t k = 0; k < n; ++k) to[k] = static_cast<float>(offset + factor * from[k]);
+}
+
+void convert(const float* __restrict from, double scale, std::size_t n, double* __restrict to) {
+  for (std::size_t k = 0; k < n; ++k) to[k] = static_cast<double>(from[k]) * scale;
+}
+
+void add_free(const std::uint8_t* __restrict free, const SmoothRow<double>& from, std::size_t n,
+              double* __restrict to) {
+  const SmoothRow<double> row = from;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double value = row.low_share * row.low[k] + row.high_share * row.high[k];
+    to[k] += free[k] != 0 ? value : 0.0;
+  }
+}
+
+void fill(const SmoothRow<float>& from, std::size_t n, float* __restrict to) {
+  const SmoothRow<float> row = from;
+  for (std::size_t k = 0; k < n; ++k) to[k] = row.low_share * row.low[k] + row.high_share * row.high[k];
+}
+
+void add_marks(const std::uint8_t* __restrict free, std::size_t n,
+               const SmoothExtension::Sums::Row<double>& to) {
+  double* __restrict low = to.low, * __restrict high = to.high;
+  const double low_share = to.low_share, high_share = to.high_share;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double value = free[k];
+    low[k] += low_share * value;
+    high[k] += high_share * value;
+  }
+}
+
+void add_residual(const std::uint8_t* free, const double* values, double slope, double offset, std::size_t n,
+                  const SmoothExtension::Sums::Row<float>& sums) {
+  const SmoothExtension::Sums::Row<float> to = sums;
+  std::size_t k = 0;
+  for (; k + group <= n; k += group) {
+    const Eight all = __builtin_convertvector(offset + slope * *eight(values + k), Eight), none = {};
+    EightMarks marks;
+    read_marks(free + k, marks);
+    const Eight value = marks != 0 ? all : none;
+    *eight(to.low + k) += to.low_share * value;
+    *eight(to.high + k) += to.high_share * value;
+  }
+  for (; k < n; ++k) {
+    const float value = free[k] != 0 ? static_cast<float>(offset + slope * values[k]) : 0.0f;
+    to.low[k] += to.low_share * value;
+    to.high[k] += to.high_share * value;
+  }
+}
+
+void add_difference(const float* __restrict a, const float* __restrict b, std::size_t n,
+                    const SmoothExtension::Sums::Row<float>& to) {
+  float* __restrict low = to.low, * __restrict high = to.high;
+  const float low_share = to.low_share, high_share = to.high_share;
+  for (std::size_t k = 0; k < n; ++k) {
+    const float value = a[k] - b[k];
+    low[k] += low_share * value;
+    high[k] += high_share * value;
+  }
+}
+
+void add_values(const float* __restrict values, std::size_t n, const SmoothExtension::Sums::Row<float>& to) {
+  float* __restrict low = to.low, * __restrict high = to.high;
+  const float low_share = to.low_share, high_share = to.high_share;
+  for (std::size_t k = 0; k < n; ++k) {
+    low[k] += low_share * values[k];
+    high[k] += high_share * values[k];
+  }
+}
+
+// Where column p of a row is.
+inline std::size_t split(std::size_t column, std::size_t half) { return column % 2 * half + column / 2; }
+
+void start_free(const std::uint8_t* __restrict free, const double* __restrict values, double slope,
+                double offset, const SmoothRow<float>& smooth, std::size_t n, std::size_t place,
+                std::size_t half, float* __restrict now) {
+  const SmoothRow<float> less = smooth;
+  std::size_t k = 0;
+  const auto one = [&] {
+    now[split(place + k, half)] =
+        free[k] != 0 ? static_cast<float>(offset + slope * values[k]) - at(less, k) : 0.0f;
+    ++k;
+  };
+  while (k < n && (place + k) % columns != 0) one();
+  for (; k + columns <= n; k += columns) {
+    Eight low, high;
+    eight_of(less, k, low);
+    eight_of(less, k + group, high);
+    low = __builtin_convertvector(offset + slope * *eight(values + k), Eight) - low;
+    high = __builtin_convertvector(offset + slope * *eight(values + k + group), Eight) - high;
+    Eight even, odd;
+    take_apart(low, high, even, odd);
+    EightMarks free_even, free_odd;
+    read_marks(free + k, free_even, free_odd);
+    const Eight none = {};
+    float* const to = now + (place + k) / 2;
+    *eight(to) = free_even != 0 ? even : none;
+    *eight(to + half) = free_odd != 0 ? odd : none;
+  }
+  while (k < n) one();
+}
+
+void start_bound(const float* __restrict values, std::size_t n, std::size_t place, std::size_t half,
+                 float* __restrict given, float* __restrict now) {
+  std::size_t k = 0;
+  const auto one = [&] {
+    const std::size_t at = split(place + k, half);
+    given[at] = values[k];
+    now[at] = 0;
+    ++k;
+  };
+  while (k < n && (place + k) % columns != 0) one();
+  for (; k + columns <= n; k += columns) {
+    const std::size_t to = (place + k) / 2;
+    Eight even, odd;
+    const Eight low = *eight(values + k), high = *eight(values + k + group);
+    take_apart(low, high, even, odd);
+    const Eight none = {};
+    *eight(given + to) = even;
+    *eight(given + to + half) = odd;
+    *eight(now + to) = *eight(now + to + half) = none;
+  }
+  while (k < n) one();
+}
+
+Group group_of(std::size_t start, std::size_t lane, std::uint64_t marks) {
+  // The even bits of the sixteen, side by side.
+  std::uint64_t bound = marks >> lane & 0x5555;
+  bound = (bound | bound >> 1) & 0x3333;
+  bound = (bound | bound >> 2) & 0x0f0f;
+  bound = (bound | bound >> 4) & 0x00ff;
+  return static_cast<Group>(start) | static_cast<Group>(bound << start_bits);
+}
+
+namespace {
+inline std::size_t start_of(Group one) { return one & ((Group{1} << start_bits) - 1); }
+// Not 0 for the nodes of a group that sweeps change.
+inline __attribute__((always_inline)) void read_bound(Group one, EightMarks& bound) {
+  constexpr std::uint32_t first = Group{1} << start_bits;
+  const EightWords bits_of = {first,      first << 1, first << 2, first << 3,
+                              first << 4, first << 5, first << 6, first << 7};
+  bound = reinterpret_cast<EightMarks>((EightWords{} + one) & bits_of);
+}
+
+// The sum of the four neighbours.
+template <bool odd>
+inline __attribute__((always_inline)) void add_up(const float* here, std::ptrdiff_t half, Eight& sum) {
+  const float* const neighbours = here + (odd ? -half : half - 1);
+  sum = (*eight(neighbours) + *eight(neighbours + 1)) + (*eight(here - 2 * half) + *eight(here + 2 * half));
+}
+
+template <bool odd>
+void sweep(std::span<const Group> groups, std::ptrdiff_t half, float share, float* now) {
+  for (const Group one : groups) {
+    float* const at = now + start_of(one);
+    Eight sum;
+    add_up<odd>(at, half, sum);
+    EightMarks bound;
+    read_bound(one, bound);
+    const Eight here = *eight(at);
+    *eight(at) = bound != 0 ? share * sum : here;
+  }
+}
+
+template <bool odd>
+void sweep_back(std::span<const Group> groups, std::ptrdiff_t half, float share,
+                const float* __restrict given, float* now) {
+  for (const Group one : groups) {
+    float* const at = now + start_of(one);
+    Eight sum;
+    add_up<odd>(at, half, sum);
+    EightMarks bound;
+    read_bound(one, bound);
+    const Eight none = {};
+    *eight(at) = bound != 0 ? share * (*eight(given + start_of(one)) + sum) : none;
+  }
+}
+}  // namespace
+
+void sweep_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t half, float share, float* now) {
+  odd ? sweep<true>(groups, half, share, now) : sweep<false>(groups, half, share, now);
+}
+
+void sweep_back_groups(std::span<const Group> groups, bool odd, std::ptrdiff_t half, float share,
+                       const float* given, float* now) {
+  odd ? sweep_back<true>(groups, half, share, given, now)
+      : sweep_back<false>(groups, half, share, given, now);
+}
+
+void merge(const float* __restrict row, std::ptrdiff_t half, const SmoothRow<float>& smooth, std::size_t n,
+           float* __restrict to) {
+  const SmoothRow<float> more = smooth;
+  std::size_t k = 0;
+  for (; k + columns <= n; k += columns) {
+    const Eight even = *eight(row + k / 2), odd = *eight(row + half + k / 2);
+    Eight low = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
+    Eight high = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
+    Eight smooth_low, smooth_high;
+    eight_of(more, k, smooth_low);
+    eight_of(more, k + group, smooth_high);
+    *eight(to + k) = low + smooth_low;
+    *eight(to + k + group) = high + smooth_high;
+  }
+  for (; k < n; ++k) to[k] = row[split(k, static_cast<std::size_t>(half))] + at(more, k);
+}
+
+void add_neighbours(const std::uint8_t* __restrict free, const float* __restrict values,
+                    const float* __restrict row, std::ptrdiff_t half, std::size_t n, float* __restrict to) {
+  std::size_t k = 0;
+  for (; k + columns <= n; k += columns) {
+    Eight even, odd;
+    add_up<false>(row + k / 2, half, even);
+    add_up<true>(row + half + k / 2, half, odd);
+    Eight even_value, odd_value;
+    const Eight low = *eight(values + k), high = *eight(values + k + group);
+    take_apart(low, high, even_value, odd_value);
+    EightMarks free_even, free_odd;
+    read_marks(free + k, free_even, free_odd);
+    const Eight none = {};
+    even += even_value;
+    odd += odd_value;
+    merge(free_even != 0 ? even : none, free_odd != 0 ? odd : none, to + k);
+  }
+  for (; k < n; ++k) {
+    const float* const here = row + split(k, static_cast<std::size_t>(half));
+    const float* const neighbours = here + (k % 2 != 0 ? -half : half - 1);
+    const float sum = values[k] + ((neighbours[0] + neighbours[1]) + (here[-2 * half] + here[2 * half]));
+    to[k] = free[k] != 0 ? sum : 0.0f;
+  }
+}
+
+}  // namespace edge_rows
 
 using namespace edge_rows;
 

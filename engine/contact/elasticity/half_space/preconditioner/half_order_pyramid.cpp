@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/contact/elasticity/half_space/operator/lane_terms.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/parallel.hpp"
@@ -112,7 +112,7 @@ struct FiveRows {
 };
 
 // The sums over the rows of the stencil: what stays in its column, with what comes from the coarse grid, goes
-// one and goes two columns aside.
+// one and goes two columns to either side.
 void stencil_columns(const FiveRows& five, const float* coarse, int n, float* c0, float* c1, float* c2) {
   each(n, [=, rows = five]<class Value>(int i) {
     Value far_below, below, here, above, far_above, from_coarse;
@@ -260,7 +260,7 @@ void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
   const bool finest = &fine == &levels_.front();
   Array<std::array<double, 1>> products(finest ? static_cast<std::size_t>(blocks) : 0);
   parallel_for(blocks, [&](std::int64_t block) {
-    MarginedRow aside(nx, wraps_), far_aside(nx, wraps_), weighted(coarse.nx, wraps_);
+    MarginedRow near_columns(nx, wraps_), far_columns(nx, wraps_), weighted(coarse.nx, wraps_);
     UnsetArray<float> centre(static_cast<std::size_t>(nx));
     const int first = static_cast<int>(block) * rows;
     for (int j = first; j < std::min(first + rows, fine.ny); ++j) {
@@ -270,10 +270,11 @@ void HalfOrderPyramid::add_up(Level& fine, const Level& coarse) {
       weighted.close();
       const FiveRows five{row(fine.in, fine, j - 2), row(fine.in, fine, j - 1), row(fine.in, fine, j),
                           row(fine.in, fine, j + 1), row(fine.in, fine, j + 2)};
-      stencil_columns(five, weighted.values(), nx, centre.data(), aside.values(), far_aside.values());
-      aside.close();
-      far_aside.close();
-      stencil_rows(centre.data(), aside.values(), far_aside.values(), nx, fine.row_out(j));
+      stencil_columns(five, weighted.values(), nx, centre.data(), near_columns.values(),
+                      far_columns.values());
+      near_columns.close();
+      far_columns.close();
+      stencil_rows(centre.data(), near_columns.values(), far_columns.values(), nx, fine.row_out(j));
       if (finest)
         products[static_cast<std::size_t>(block)][0] += product_of_rows(fine.row_in(j), fine.row_out(j), nx);
     }

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/contact/boundary.hpp"
-#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/core/fourier/fourier_filter.hpp"
 #include "engine/core/memory.hpp"
 

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/half_space/solver/active_set_descent.hpp"
-
+// The quick stage: preconditioned conjugate gradients on the current free set, with pressures allowed outside
+// their bounds until the next pass: one step a pass where nothing has to be settled, else a few. What the
+// clipping changes is not paid for by an application of its own but travels with a fixed preconditioned
+// (Richardson) step. On cells much longer than wide it leaves lines their loads (load_projection.hpp).
+// Two-cycles of a few nodes are broken by averaging two passes, exact because g is linear in p. It has no
+// proof of convergence; it stops when it no longer gains.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 
 #include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
-#include "engine/contact/elasticity/half_space/solver/descent_directions.hpp"
-#include "engine/contact/elasticity/half_space/solver/descent_nodes.hpp"
-#include "engine/contact/elasticity/half_space/solver/descent_rules.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/free_set.hpp"
-#include "engine/contact/elasticity/half_space/solver/line_loads.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
-#include "engine/contact/elasticity/half_space/solver/set_preconditioner.hpp"
 
 namespace asperity {
 
@@ -37,6 +39,99 @@ constexpr std::size_t worth_rounding = std::size_t{256} * 256;  // nodes; images
 constexpr double rounding_of_steps = 2e-6, rounding_share = 0.1;  // of the tolerance, without harm
 constexpr double load_slack = 1e-6;  // of the load, that a pass leaves to a later one
 
+// A row of a direction yet without its balance of the load: what is stored of M r, beta of the
+// direction before, and a smooth field.
+template <class Stored>
+struct Along {
+  const Stored *values, *before;
+  double beta;
+  SmoothRow<double> smooth;
+
+  // At node k of the grid, or at as many as a vector has lanes.
+  template <class Value>
+  void read(std::size_t k, Value& to) const {
+    Value old, low, high;
+    lane_terms::read(values + k, to);
+    lane_terms::read(before + k, old);
+    lane_terms::read(smooth.low + k, low);
+    lane_terms::read(smooth.high + k, high);
+    to += beta * old + (smooth.low_share * low + smooth.high_share * high);
+  }
+};
+
+// The direction that pressures are moved along and the one before it, and the steps along them that pressures
+// and gaps have yet to take: taken where these are read next, a step costs no pass over memory of its own.
+// Any rounding of a direction is as good, since pressures and gaps go by what has been rounded: Stored is
+// float or double.
+template <class Stored>
+class DescentDirections {
+ public:
+  // Room for a direction, that of the one before the last; a step along that is taken first.
+  Stored* next(std::span<double> pressure);
+  Stored* last() { return now_.data(); }
+  // Row j, of nx nodes, of what is stored and `beta` of the direction before, with a row of a smooth field.
+  Along<Stored> row(int j, int nx, double beta, SmoothRow<double> smooth) const {
+    const auto begin = static_cast<std::ptrdiff_t>(j) * nx;
+    smooth.low -= begin;
+    smooth.high -= begin;
+    return {now_.data(), beta != 0 ? before_.data() : now_.data(), beta, smooth};
+  }
+
+  // A step along the last direction, whose image is kept until the gaps have taken it.
+  void go(double length, const double* image) {
+    step_.along[0].length = step_.gap_length = length;
+    step_.image = image;
+  }
+  // No step along the last direction, which may be anything, as may its image: `finite` is read in its place.
+  void drop_last(std::span<const double> finite) {
+    step_.along[0] = {0, step_.along[1].direction};
+    step_.image = finite.data();
+  }
+
+  // Steps not yet taken, for whoever takes them; none are left.
+  PressureStep<Stored> hand_over() { return std::exchange(step_, {}); }
+  // That of the gaps alone.
+  ContactPreconditioner::Step hand_over_gaps(std::span<double> gap) {
+    const double length = std::exchange(step_.gap_length, 0);
+    return length != 0 ? ContactPreconditioner::Step{gap.data(), length, step_.image}
+                       : ContactPreconditioner::Step{};
+  }
+  void take(std::span<double> pressure, std::span<double> gap);
+
+ private:
+  UnsetArray<Stored> now_, before_;
+  PressureStep<Stored> step_{};
+};
+
+template <class Stored>
+Stored* DescentDirections<Stored>::next(std::span<double> pressure) {
+  using Step = typename PressureStep<Stored>::Along;
+  Step &latest = step_.along[0], &oldest = step_.along[1];
+  if (oldest.length != 0)
+    for_lanes(pressure.size(), [oldest, p = pressure.data()]<class Value>(std::size_t k) {
+      Value value, change;
+      lane_terms::read(p + k, value);
+      lane_terms::read(oldest.direction + k, change);
+      value += oldest.length * change;
+      lane_terms::put(value, p + k);
+    });
+  before_.resize(pressure.size());
+  std::swap(now_, before_);
+  oldest = latest.length != 0 ? latest : Step{0, now_.data()};
+  latest = {0, now_.data()};
+  return now_.data();
+}
+
+template <class Stored>
+void DescentDirections<Stored>::take(std::span<double> pressure, std::span<double> gap) {
+  const PressureStep<Stored> step = hand_over();
+  if (step.none()) return;
+  for_lanes(pressure.size(), [step, p = pressure.data(), g = gap.data()]<class Value>(std::size_t k) {
+    Value at, apart;
+    step.take(k, p, g, at, apart);
+  });
+}
+
 template <class Limit, class Stored>
 class Descent {
  public:
@@ -57,7 +152,7 @@ class Descent {
         steps_a_pass_(dear_ ? steps_of_dear_pass : steps_a_pass),
         no_field_(Limit::hardens ? static_cast<std::size_t>(level.shape.nx) : 0) {}
 
-  StageEnd run();
+  bool run();
 
  private:
   std::size_t nodes() const { return f_.pressure.size(); }
@@ -98,7 +193,7 @@ class Descent {
   double mean_gap_ = 0;  // of the balancing nodes
   double surplus_ = 0;   // of load in `direction`, a balancing node
   double balance_ = std::numeric_limits<double>::quiet_NaN();
-  double kept_ = 0;   // of the direction before, in the present one
+  double beta_ = 0;   // of conjugate gradients: of the direction before, in the present one
   double drift_ = 0;  // of the gaps, at most, by images in single precision; as a residual
   bool fresh_ = false;
   bool have_direction_ = false;
@@ -150,7 +245,7 @@ std::optional<double> Descent<Limit, Stored>::shift_to_load(const ContactQuality
   return first_shift(at, load) - (found - load) / set_.shifted_count;
 }
 
-// The direction becomes M r, r what the gaps of the free nodes lack of their mean, kept conjugate to the one
+// The direction becomes M r, r what the gaps of the free nodes lack of their mean, made conjugate to the one
 // before if there is one. Returns r·(M r with the load kept).
 template <class Limit, class Stored>
 double Descent<Limit, Stored>::turn() {
@@ -199,7 +294,7 @@ double Descent<Limit, Stored>::turn() {
     load = added_up(parts)[0] + level_.preconditioner.smooth_sum() * shrink;
   }
   rz *= shrink;
-  kept_ = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
+  beta_ = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
   surplus_ = load / set_.balancing_count();
   direction_rz_ = rz;
   return rz;
@@ -209,7 +304,7 @@ template <class Limit, class Stored>
 Along<Stored> Descent<Limit, Stored>::along(int j) const {
   SmoothRow<double> smooth{no_field_.data(), no_field_.data(), 0, 0};
   if constexpr (!Limit::hardens) smooth = level_.preconditioner.smooth(j, 1 / level_.pressure_unit());
-  return directions_.row(j, level_.shape.nx, kept_, smooth);
+  return directions_.row(j, level_.shape.nx, beta_, smooth);
 }
 
 // What settling changes, and a fixed step of the preconditioner if K is dear, at the cost of one application,
@@ -336,59 +431,38 @@ bool Descent<Limit, Stored>::descend(int steps) {
 }
 
 template <class Limit, class Stored>
-StageEnd Descent<Limit, Stored>::run() {
+bool Descent<Limit, Stored>::run() {
   level_.gap(f_.pressure, f_.gap);
   fresh_ = true;
-  StageEnd end;
-  double least = end.best;
-  int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
-  double before = end.best;
-  bool have_old = false;
+  Watch watch;
+  int renewals = 0;
   f_.old_free.assign(nodes(), 255);
   for (;;) {
     ContactQuality at = quality();
-    end.residual = at.residual;
     if (level_.report) level_.report(at.residual);
     if (at.residual < tolerance_) {
       const bool loaded = std::abs(at.load - level_.total_load()) < tolerance_ * level_.total_load();
-      if (!exact_ || (at.within && fresh_ && loaded)) {
-        end.converged = true;
-        end.best = at.residual;
-        return end;
-      }
+      if (!exact_ || (at.within && fresh_ && loaded)) return true;
       if (++renewals > most_renewals) {  // feasible pressures are worse again each time
         project(at, f_.pressure);
-        return end;
+        return false;
       }
       renew(at);
       have_direction_ = false;
       continue;
     }
-    if (at.residual < 0.9 * end.best) {
-      end.best = at.residual;
-      without_gain = 0;
-    } else {
-      ++without_gain;
-    }
-    slow_ones = at.residual > slow * least ? slow_ones + 1 : 0;
-    least = std::min(least, at.residual);
-    if (at.residual > jump * before) ++jumps;
-    before = at.residual;
-    if (without_gain > passes_without_gain || level_.applications > most_ || !std::isfinite(at.residual)) {
+    watch.take(at.residual);
+    if (watch.without_gain() > passes_without_gain || level_.applications > most_ ||
+        !std::isfinite(at.residual)) {
       project(at, f_.pressure);
-      return end;
+      return false;
     }
-    if ((slow_ones >= slow_passes || jumps >= jumps_in_a_cycle) && have_old) {
-      for_nodes(nodes(), [n = view(), p = f_.old_pressure.data(), g = f_.old_gap.data()](std::size_t k) {
-        n.pressure[k] = 0.5 * (n.pressure[k] + p[k]);
-        n.gap[k] = 0.5 * (n.gap[k] + g[k]);
-      });
-      have_direction_ = have_old = fresh_ = false;
-      slow_ones = jumps = 0;
+    const Watch::Advice advice = watch.advice();
+    if (advice == Watch::Advice::remember_pass) f_.remember_pass();
+    if (advice == Watch::Advice::average_passes) {
+      f_.average_passes();
+      have_direction_ = false;
       at = quality();
-    } else if ((have_old = slow_ones + 1 >= slow_passes || jumps + 1 >= jumps_in_a_cycle)) {
-      f_.old_pressure = f_.pressure;
-      f_.old_gap = f_.gap;
     }
 
     set_ = mark_free_set(limit_, at, balance_, first_shift(at, level_.total_load()), f_.pressure, f_.gap,
@@ -406,7 +480,7 @@ StageEnd Descent<Limit, Stored>::run() {
     if (settles) settle_step(at, afresh);
     if (!descend(settles ? 1 : 0)) {  // the free nodes are in balance to the last bit
       project(at, f_.pressure);
-      return end;
+      return false;
     }
     balance_ = mean_gap_;
     std::swap(f_.free, f_.old_free);
@@ -414,8 +488,8 @@ StageEnd Descent<Limit, Stored>::run() {
 }
 }  // namespace
 
-StageEnd active_set_descent(ContactLevel& level, DescentFields& fields, double tolerance,
-                            int most_applications, bool exact) {
+bool active_set_descent(ContactLevel& level, DescentFields& fields, double tolerance, int most_applications,
+                        bool exact) {
   const auto run = [&]<class Stored>(const auto& limit, Stored) {
     return Descent<std::remove_cvref_t<decltype(limit)>, Stored>(level, limit, fields, tolerance,
                                                                  most_applications, exact)

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/core/parallel.hpp"
+
 namespace asperity {
 
 namespace {
@@ -74,6 +76,87 @@ void ContactLevel::gap_beside(std::span<const double> p, double mean, std::span<
     });
   };
   compliance.apply_in_double(source, sink, g);
+}
+
+namespace {
+constexpr int least_side = 32;
+
+// Nodes of the coarser side: an even half where there is one to be had, so that nesting can go on.
+int coarser_side(int n, Boundary boundary) {
+  if (n < 2 * least_side) return n;
+  if (n % 2 == 0) return n / 2;
+  if (boundary == Boundary::free) return (n + 1) / 2;
+  // Four times a number, so that the grids below are nested and short transforms are quick.
+  return (n / 2 + 3) / 4 * 4;
+}
+
+}  // namespace
+
+Between between(double position, int n, Boundary boundary) {
+  const double floor = std::floor(position);
+  int low = static_cast<int>(floor), high = low + 1;
+  if (boundary == Boundary::periodic) return {low % n, high % n, position - floor};
+  low = std::min(low, n - 1);
+  high = std::min(high, n - 1);
+  return {low, high, low == high ? 0.0 : position - floor};
+}
+
+std::optional<CoarserGrid> coarser(const LevelShape& fine) {
+  const int nx = coarser_side(fine.nx, fine.boundary), ny = coarser_side(fine.ny, fine.boundary);
+  if (nx == fine.nx && ny == fine.ny) return {};
+  CoarserGrid coarse;
+  // A free tile keeps every other node; a periodic one must close on itself.
+  auto pitch = [&](int n, int m) {
+    if (n == m) return 1.0;
+    return fine.boundary == Boundary::free ? 2.0 : static_cast<double>(n) / m;
+  };
+  coarse.pitch_x = pitch(fine.nx, nx);
+  coarse.pitch_y = pitch(fine.ny, ny);
+  coarse.shape = fine;
+  coarse.shape.nx = nx;
+  coarse.shape.ny = ny;
+  coarse.shape.aspect = fine.aspect * (coarse.pitch_y / coarse.pitch_x);
+  coarse.shape.multiplier = fine.multiplier.on_coarser(coarse.pitch_x);
+  return coarse;
+}
+
+Array<double> restrict_to(const LevelShape& fine, const CoarserGrid& coarse, std::span<const double> field) {
+  const int nx = coarse.shape.nx, ny = coarse.shape.ny;
+  Array<double> result(coarse.shape.nodes());
+  parallel_for(ny, [&](std::int64_t j) {
+    const Between y = between(static_cast<double>(j) * coarse.pitch_y, fine.ny, fine.boundary);
+    const double* low = field.data() + static_cast<std::size_t>(y.low) * static_cast<std::size_t>(fine.nx);
+    const double* high = field.data() + static_cast<std::size_t>(y.high) * static_cast<std::size_t>(fine.nx);
+    double* out = result.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(nx);
+    for (int i = 0; i < nx; ++i) {
+      const Between x = between(i * coarse.pitch_x, fine.nx, fine.boundary);
+      auto along = [&](const double* row) {
+        return x.share == 0 ? row[x.low] : row[x.low] + x.share * (row[x.high] - row[x.low]);
+      };
+      out[i] = y.share == 0 ? along(low) : along(low) + y.share * (along(high) - along(low));
+    }
+  });
+  return result;
+}
+
+void prolong(const CoarserGrid& coarse, std::span<const double> values, double factor, const LevelShape& fine,
+             std::span<double> target) {
+  const int nx = coarse.shape.nx, ny = coarse.shape.ny;
+  Array<Between> columns(static_cast<std::size_t>(fine.nx));
+  for (int i = 0; i < fine.nx; ++i)
+    columns[static_cast<std::size_t>(i)] = between(i / coarse.pitch_x, nx, fine.boundary);
+  parallel_for(fine.ny, [&](std::int64_t j) {
+    const Between y = between(static_cast<double>(j) / coarse.pitch_y, ny, fine.boundary);
+    const double* low = values.data() + static_cast<std::size_t>(y.low) * static_cast<std::size_t>(nx);
+    const double* high = values.data() + static_cast<std::size_t>(y.high) * static_cast<std::size_t>(nx);
+    double* out = target.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(fine.nx);
+    for (int i = 0; i < fine.nx; ++i) {
+      const Between& x = columns[static_cast<std::size_t>(i)];
+      const double a = low[x.low] + x.share * (low[x.high] - low[x.low]);
+      const double b = high[x.low] + x.share * (high[x.high] - high[x.low]);
+      out[i] = factor * (a + y.share * (b - a));
+    }
+  });
 }
 
 }  // namespace asperity

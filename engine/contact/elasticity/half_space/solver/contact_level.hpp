@@ -2,18 +2,22 @@
 // The contact problem on one of the nested grids, in its own cell units: hx = 1, hy = aspect, E* = 1,
 // heights divided by the rms of the finest grid, pressures by E*·rms/hx. Holds the operator and
 // its preconditioner on the free nodes; the descents read the heights from the caller's field, so that none
-// are copied.
+// are copied. And the way between nested grids, whose sides are not halved below 32 cells: down, heights at
+// the nodes of a coarser grid, injected where its nodes are nodes of the finer one, interpolated linearly
+// otherwise; up, a field interpolated bilinearly, round the rim on a periodic tile.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "engine/contact/boundary.hpp"
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
-#include "engine/contact/elasticity/half_space/operator/pressure_limit.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
+#include "engine/contact/yield_law.hpp"
+#include "engine/core/memory.hpp"
 
 namespace asperity {
 
@@ -95,5 +99,26 @@ class ContactLevel {
   std::span<const double> heights_;
   double origin_, factor_, unit_;
 };
+
+// The next coarser grid with its pitches in cells of the finer one; none where no side can be halved.
+struct CoarserGrid {
+  LevelShape shape;  // weight not set
+  double pitch_x = 2, pitch_y = 2;
+};
+std::optional<CoarserGrid> coarser(const LevelShape& fine);
+
+// Where a node of one grid, at `position` in cells of the other, stands between two of its n nodes along a
+// side.
+struct Between {
+  int low, high;
+  double share;  // of `high`
+};
+Between between(double position, int n, Boundary boundary);
+
+Array<double> restrict_to(const LevelShape& fine, const CoarserGrid& coarse, std::span<const double> field);
+
+// values on `coarse` -> `target` on `fine`, times `factor`.
+void prolong(const CoarserGrid& coarse, std::span<const double> values, double factor, const LevelShape& fine,
+             std::span<double> target);
 
 }  // namespace asperity

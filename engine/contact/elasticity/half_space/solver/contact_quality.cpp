@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/contact/elasticity/half_space/operator/lane_terms.hpp"
 #include "engine/core/constants.hpp"
 
 namespace asperity {

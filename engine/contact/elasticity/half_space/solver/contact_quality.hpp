@@ -8,7 +8,7 @@
 #include <limits>
 #include <span>
 
-#include "engine/contact/elasticity/half_space/operator/lane_terms.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 
 namespace asperity {

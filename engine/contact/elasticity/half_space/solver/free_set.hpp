@@ -2,16 +2,18 @@
 // The nodes whose pressure is free in a pass: those strictly between the bounds, and those at a bound whose
 // gap says they should leave it. A node settled on a bound in this pass may not come back on its stale
 // gap. Free nodes are elastic or past their yield pressure; the load is balanced by the elastic ones
-// while there are any, for the others hardly move.
+// while there are any, for the others hardly move. Also these nodes as the loops of a descent see them, and
+// the preconditioner on them.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "engine/contact/elasticity/half_space/operator/lane_terms.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
 #include "engine/core/memory.hpp"
@@ -85,13 +87,12 @@ std::array<double, free_sums> mark_elastic(double upper, double offset, double s
   });
 }
 
-// Marks `free` with Freedom values, comparing with `before`. At least two nodes are free, the nearest to
-// leaving their bound if need be. `shift` is what is tried on the elastic interior.
+// Marks `free` with Freedom values, comparing with `before`; gaps below `offset` pull nodes off zero. `shift`
+// is what is tried on the elastic interior.
 template <class Limit>
-FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balance, double shift,
-                      std::span<const double> p, std::span<const double> g,
-                      std::span<const std::uint8_t> before, std::span<std::uint8_t> free) {
-  const double offset = at.interior_gap;
+FreeSet mark_nodes(const Limit& limit, double offset, double balance, double shift, std::span<const double> p,
+                   std::span<const double> g, std::span<const std::uint8_t> before,
+                   std::span<std::uint8_t> free) {
   std::array<double, Limit::hardens ? free_sums + 3 : free_sums> sums;
   if constexpr (!Limit::hardens)
     sums = std::isfinite(limit.upper())
@@ -130,9 +131,19 @@ FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balan
     set.yielding_count = sums[free_sums];
     set.settling_count = sums[free_sums + 1];
     set.yielding_gap = sums[free_sums + 2];
-  }
-  if constexpr (Limit::hardens)
     set.yielding_worth = Limit::own_compliance / (limit.yielding_slope() + Limit::own_compliance);
+  }
+  return set;
+}
+
+// The same about the gap of the interior. At least two nodes are free, the nearest to leaving their bound if
+// need be.
+template <class Limit>
+FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balance, double shift,
+                      std::span<const double> p, std::span<const double> g,
+                      std::span<const std::uint8_t> before, std::span<std::uint8_t> free) {
+  const double offset = at.interior_gap;
+  FreeSet set = mark_nodes(limit, offset, balance, shift, p, g, before, free);
   constexpr std::size_t few = 9;
   if (set.count() + set.settling_count >= 2 || p.size() < 2) return set;
   Array<double> distance(p.size());
@@ -149,5 +160,159 @@ FreeSet mark_free_set(const Limit& limit, const ContactQuality& at, double balan
     }
   return set;
 }
+
+// One node of a descent, as the loops over the nodes see it: its fields by plain pointers and the law of its
+// pressure by value, small enough to be taken along into every loop.
+template <class Limit>
+struct DescentNodes {
+  double *pressure, *gap;
+  std::uint8_t* free;
+  Limit limit;
+  double balance;
+
+  double settled(std::size_t k) const { return limit.settle(k, pressure[k], gap[k], balance); }
+  // The gap of a free node with the opening it would have if it went on yielding, or not, as marked.
+  double total_gap(std::size_t k) const {
+    const double elastic_gap = gap[k];
+    if constexpr (Limit::hardens) {
+      const double opening = limit.compliance * (pressure[k] - limit.yields_at(k));
+      return elastic_gap + (free[k] == yielding ? opening : 0.0);
+    } else {
+      return elastic_gap;
+    }
+  }
+  bool moves(std::size_t k) const {
+    if constexpr (Limit::hardens)
+      return free[k] == elastic || free[k] == yielding;
+    else
+      return free[k] != fixed;
+  }
+  // Whether pressure q, settled, belongs to the elastic interior, which is shifted to the load.
+  bool shifts(std::size_t k, [[maybe_unused]] double q, [[maybe_unused]] bool any_interior) const {
+    if constexpr (Limit::hardens)
+      return q > 0 && (q < limit.yields_at(k) || !any_interior);
+    else  // the same of the pressure as of q, without waiting for it
+      return (pressure[k] > 0) & (pressure[k] < limit.upper());
+  }
+};
+
+// gap += unit · image, the image of a stretch of nodes from `begin`. The sum of the total gaps of those that
+// balance the load.
+template <class Limit>
+std::array<double, 1> take_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
+                                 const double* image, double unit, Freedom balancing) {
+  const double* const from = image - begin;
+  if constexpr (Limit::hardens)
+    return over_stretch<1>(begin, end, [=, n = nodes](std::size_t k, double* v) {
+      n.gap[k] += from[k] * unit;
+      const double gap = n.total_gap(k);
+      v[0] = n.free[k] == balancing ? gap : 0.0;
+    });
+  else
+    return over_lanes_of_stretch<1>(begin, end, [=, n = nodes]<class Value>(std::size_t k, Value* v) {
+      Value gap, change, mark;
+      lane_terms::read(n.gap + k, gap);
+      lane_terms::read(from + k, change);
+      lane_terms::read(n.free + k, mark);
+      const Value none = {};
+      gap += change * unit;
+      lane_terms::put(gap, n.gap + k);
+      v[0] = mark > none ? gap : none;
+    });
+}
+
+// Of a stretch of nodes from `begin`, `image` being what K makes of `direction` there, kept in `to`: the sum
+// of their products, that of the image with the opening of ground that yields over those that balance the
+// load, and, of ground that does not harden, that of the direction with what gaps lack of `mean`.
+template <class Limit, class Stored>
+std::array<double, 3> weigh_image(const DescentNodes<Limit>& nodes, std::size_t begin, std::size_t end,
+                                  Freedom balancing, double mean, const Stored* direction,
+                                  const double* image, double* to) {
+  const double* const from = image - begin;
+  return over_lanes_of_stretch<3>(begin, end, [=, n = nodes]<class Value>(std::size_t k, Value* v) {
+    Value d, value, mark;
+    lane_terms::read(direction + k, d);
+    lane_terms::read(from + k, value);
+    lane_terms::put(value, to + k);
+    lane_terms::read(n.free + k, mark);
+    const Value none = {}, at = none + static_cast<double>(balancing);
+    if constexpr (Limit::hardens) {
+      const Value yields = none + static_cast<double>(yielding), opening = n.limit.yielding_slope() * d;
+      value += mark == yields ? opening : none;
+      v[2] = none;
+    } else {
+      Value gap;
+      lane_terms::read(n.gap + k, gap);
+      v[2] = d * (mean - gap);
+    }
+    v[0] = d * value;
+    v[1] = mark == at ? value : none;
+  });
+}
+
+// The preconditioner of a pass: on the elastic free nodes the restricted |q|/2, on the yielding ones what one
+// node by itself would do, with the change of load taken from those that balance it. Where yielding is
+// soft beside the longest wave's compliance the two are apart; where it is stiff the yielding nodes
+// stay in the restricted |q|/2, scaled down.
+template <class Limit>
+class SetPreconditioner {
+ public:
+  SetPreconditioner(ContactLevel& level, const Limit& limit) : level_(level) {
+    if constexpr (Limit::hardens) {
+      slope_ = limit.yielding_slope();
+      apart_ = slope_ > stiff_slope;
+      scale_ = std::sqrt(1 / (1 + slope_ / Limit::own_compliance));
+    }
+  }
+
+  void set_free(std::span<const std::uint8_t> free) {
+    if constexpr (Limit::hardens) {
+      mask_.resize(free.size());
+      for_nodes(free.size(), [&](std::size_t k) {
+        mask_[k] = free[k] == elastic || (free[k] == yielding && !apart_) ? 1 : 0;
+      });
+      level_.preconditioner.set_free(mask_);
+    } else {
+      level_.preconditioner.set_free(free);
+    }
+  }
+
+  // Whether yielding nodes are left to themselves.
+  bool apart() const { return apart_; }
+
+  // z = M r in place, without the balance of the load.
+  void apply(std::span<const std::uint8_t> free, std::span<double> z) {
+    if constexpr (Limit::hardens) {
+      if (apart_) {
+        yielding_.resize(z.size());
+        const double factor = 1 / (slope_ + Limit::own_compliance);
+        for_nodes(z.size(), [&](std::size_t k) { yielding_[k] = free[k] == yielding ? z[k] * factor : 0.0; });
+        level_.preconditioner.apply(z, z);
+        for_nodes(z.size(), [&](std::size_t k) {
+          if (free[k] == yielding) z[k] = yielding_[k];
+        });
+      } else {
+        const auto scale = [&](std::size_t k) {
+          if (free[k] == yielding) z[k] *= scale_;
+        };
+        for_nodes(z.size(), scale);
+        level_.preconditioner.apply(z, z);
+        for_nodes(z.size(), scale);
+      }
+    } else {
+      level_.preconditioner.apply(z, z);
+    }
+  }
+
+ private:
+  // dw/dp in cell units; measured: below it the scaled |q|/2 takes fewer steps, above it the two apart.
+  static constexpr double stiff_slope = 3;
+
+  ContactLevel& level_;
+  double slope_ = 0, scale_ = 1;
+  bool apart_ = true;
+  Array<std::uint8_t> mask_;
+  Array<double> yielding_;
+};
 
 }  // namespace asperity

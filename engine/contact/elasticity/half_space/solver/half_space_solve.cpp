@@ -3,15 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
-#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/nested_descent.hpp"
-#include "engine/contact/elasticity/half_space/solver/unconverged.hpp"
 #include "engine/core/arithmetic/bracketed_secant.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
@@ -19,6 +15,28 @@
 #include "engine/core/text.hpp"
 
 namespace asperity {
+
+std::string unconverged_hint(const Grid& grid) {
+  constexpr double much_longer = 4;
+  const double aspect = std::max(grid.hx(), grid.hy()) / std::min(grid.hx(), grid.hy());
+  if (aspect >= much_longer)
+    return "the cells are " + format_short(aspect, 3) +
+           " times longer than wide: ask for cells nearer to square, a larger `tolerance`, or accept the "
+           "best "
+           "reached with `on_failure = \"best\"`";
+  return "ask for a larger `tolerance`, a finer grid for the same surface, or accept the best reached with "
+         "`on_failure = \"best\"`";
+}
+
+void throw_unconverged(double mean_pressure, const Certificate& reached, double tolerance, int applications,
+                       const Grid& grid) {
+  throw Error(ErrorCode::not_converged,
+              "the contact at " + format_quantity(mean_pressure, dimension::pressure) +
+                  " reached a residual of " + format_short(reached.worst(), 3) +
+                  " where `tolerance` asks for " + format_short(tolerance, 3) + ", after " +
+                  std::to_string(applications) + " applications of the half-space",
+              unconverged_hint(grid));
+}
 
 namespace {
 
@@ -165,8 +183,6 @@ LevelShape level_shape(const HalfSpaceProblem& problem, bool with_mean) {
           multiplier_of(problem, with_mean)};
 }
 
-double yields_at(const YieldLaw& law, std::size_t k) { return law.yield ? (*law.yield)[k] : law.cap; }
-
 }  // namespace
 
 double uniform_compliance(const HalfSpaceProblem& problem) {
@@ -200,6 +216,24 @@ Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure)
   return u;
 }
 
+Certificate certificate_of(const PressureSums& sums, double mean_pressure, double cap, double length) {
+  Certificate c;
+  if (!(sums.load > 0)) {
+    c.load = mean_pressure > 0 ? 1 : 0;
+  } else {
+    c.complementarity = sums.complementarity / sums.load;
+    c.load = std::abs(sums.load / sums.nodes - mean_pressure) / mean_pressure;
+    c.tension = std::max(0.0, -sums.least) / mean_pressure;
+    c.cap = std::isfinite(cap) ? std::max(0.0, sums.greatest - cap) / cap : 0;
+  }
+  c.penetration = std::max(0.0, std::isfinite(sums.least_gap) ? -sums.least_gap : 0.0);
+  if (length > 0) {
+    c.complementarity = std::max(0.0, c.complementarity) / length;
+    c.penetration /= length;
+  }
+  return c;
+}
+
 void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   const YieldLaw& law = problem.yield;
   const double cap = law.caps() ? law.cap : infinity;
@@ -210,7 +244,7 @@ void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   std::array<double, 9> found;
   if (law.hardens())
     found = over_nodes<5, 4>(p.size(), [&](std::size_t k, double* v) {
-      const double past = p[k] - yields_at(law, k), gap = g[k] + std::max(0.0, past) * per_hardening;
+      const double past = p[k] - law.yields_at(k), gap = g[k] + std::max(0.0, past) * per_hardening;
       v[0] = p[k];
       v[1] = p[k] > 0 ? 1.0 : 0.0;
       v[2] = past > 0 ? 1.0 : 0.0;
@@ -237,26 +271,13 @@ void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer) {
   answer.contacts = static_cast<std::int64_t>(found[1]);
   answer.yielded = static_cast<std::int64_t>(found[2]);
   answer.peak_pressure = -found[8];
-
-  Certificate& c = answer.certificate;
-  c = {};
-  const double total = found[0], n = static_cast<double>(p.size());
   const double length =
       rough(problem, answer.mean_pressure) ? problem.rms : punch_length(problem, answer.mean_pressure);
-  if (!(total > 0)) {
-    c.load = answer.mean_pressure > 0 ? 1 : 0;
-  } else {
-    c.complementarity = (std::isfinite(cap) ? found[4] : found[3] - found[5] * total) / total;
-    c.load = std::abs(total / n - answer.mean_pressure) / answer.mean_pressure;
-    c.tension = std::max(0.0, -found[7]) / answer.mean_pressure;
-    c.cap = std::isfinite(cap) ? std::max(0.0, answer.peak_pressure - cap) / cap : 0;
-  }
-  c.penetration = std::max(0.0, std::isfinite(found[6]) ? -found[6] : 0.0);
-  if (length > 0) {
-    c.complementarity = std::max(0.0, c.complementarity) / length;
-    c.penetration /= length;
-  }
-  answer.converged = c.worst() <= problem.tolerance;
+  const double complementarity = finite ? found[4] : found[3] - found[5] * found[0];
+  answer.certificate = certificate_of(
+      {static_cast<double>(p.size()), found[0], found[7], answer.peak_pressure, complementarity, found[6]},
+      answer.mean_pressure, cap, length);
+  answer.converged = answer.certificate.worst() <= problem.tolerance;
 }
 
 namespace {
@@ -319,7 +340,7 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   // What nothing faces is out of the contact already, but for what a pass may have left there by rounding.
   if (problem.overhangs)
     for (std::size_t k = 0; k < answer.pressure.size(); ++k)
-      if (std::isnan((*problem.heights)[k])) answer.pressure[k] = 0;
+      if (!problem.faces(k)) answer.pressure[k] = 0;
   answer.mean_pressure = mean_pressure;
   const double offset = cell.offset * units.height;
   const double peak = peak_of(problem);

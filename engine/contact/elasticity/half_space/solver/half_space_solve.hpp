@@ -7,6 +7,7 @@
 // contact is an exact filter. No friction, no adhesion; half-space slopes are taken as small.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,7 +15,7 @@
 
 #include "engine/contact/boundary.hpp"
 #include "engine/contact/certificate.hpp"
-#include "engine/contact/elasticity/half_space/operator/compliance_multiplier.hpp"
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/yield_law.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/monitor.hpp"
@@ -38,6 +39,9 @@ struct HalfSpaceProblem {
   // for that alone; pressures, gaps and the certificate are double all the same.
   bool single = false;
   double weight = 1;  // of one transform in what is counted: less on a grid coarser than the one asked for
+
+  // Whether something faces the ground at node k.
+  bool faces(std::size_t k) const { return !overhangs || !std::isnan((*heights)[k]); }
 };
 
 struct HalfSpaceAnswer {
@@ -96,7 +100,23 @@ Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure)
 HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
                                 HalfSpaceAnswer* start, bool afresh, Monitor& monitor);
 
+// What a certificate is made of, of all nodes: Σ p, least and greatest p, Σ p (g − min g) or what a cap makes
+// of it, and the least gap where p is below the cap (infinite: nowhere).
+struct PressureSums {
+  double nodes = 0, load = 0, least = 0, greatest = 0, complementarity = 0, least_gap = 0;
+};
+// `cap` may be infinite; `length`, what gaps are measured by, 0.
+Certificate certificate_of(const PressureSums& sums, double mean_pressure, double cap, double length);
+
 // Counts, peak pressure and certificate anew, of the pressures and gaps that `answer` holds. O(n).
 void certify(const HalfSpaceProblem& problem, HalfSpaceAnswer& answer);
+
+// Throws Error{not_converged}: what was reached under the mean pressure [Pa] after so many applications of
+// the half-space, and what would work.
+[[noreturn]] void throw_unconverged(double mean_pressure, const Certificate& reached, double tolerance,
+                                    int applications, const Grid& grid);
+
+// What would work; names cells that are much longer than wide, which converge badly.
+std::string unconverged_hint(const Grid& grid);
 
 }  // namespace asperity

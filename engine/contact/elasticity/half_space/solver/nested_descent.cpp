@@ -3,44 +3,124 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "engine/contact/elasticity/half_space/solver/contact_quality.hpp"
-#include "engine/contact/elasticity/half_space/solver/descent_chain.hpp"
-#include "engine/contact/elasticity/half_space/solver/level_transfer.hpp"
-#include "engine/contact/elasticity/half_space/solver/light_contact.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
-#include "engine/contact/elasticity/half_space/solver/offset_descent.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity {
 
-namespace {
-constexpr double coarse_tolerance = 5e-3;
-constexpr int most_snaps = 3;
+void DescentProgress::report(double begin, double end, double residual, double tolerance) {
+  double gained = 0;
+  if (residual > 0 && tolerance < 1)
+    gained = std::clamp(elementary::log(std::min(residual, 1.0)) / elementary::log(tolerance), 0.0, 1.0);
+  const auto now = static_cast<std::int64_t>(total * (begin + (end - begin) * gained));
+  task_.advance(std::max<std::int64_t>(0, now - done_));
+  done_ = std::max(done_, now);
+}
 
-// Progress on a logarithmic scale of the residual, and the place where a stop is seen.
-class Progress {
+namespace {
+
+double greatest(std::span<const double> values) {
+  return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
+}
+
+// Contacts so light, or on ground so soft, that the ground moves by far less than the rms height. What is
+// right to a share of the rms then says nothing of how the load is shared. So the solve goes on, its gaps
+// counted from the height that matters, where they are sums of small terms and not small differences of large
+// heights, and measured by how far the ground there moves.
+class LightContact {
  public:
-  explicit Progress(Monitor& monitor) : task_(monitor, "contact", total) {}
-  void report(double begin, double end, double residual, double tolerance) {
-    double gained = 0;
-    if (residual > 0 && tolerance < 1)
-      gained = std::clamp(elementary::log(std::min(residual, 1.0)) / elementary::log(tolerance), 0.0, 1.0);
-    const auto now = static_cast<std::int64_t>(total * (begin + (end - begin) * gained));
-    task_.advance(std::max<std::int64_t>(0, now - done_));
-    done_ = std::max(done_, now);
-  }
+  LightContact(ContactLevel& level, DescentFields& fields, const CellProblem& problem)
+      : level_(level), fields_(fields), problem_(problem) {}
+
+  // From the feasible pressures and gaps in `fields`, where a chain left them; what it cannot better stays as
+  // it was, and ordinary contacts are left alone. `gap` belongs to the pressures again afterwards. Returns
+  // whether gaps and offset are counted from the highest node, so that the offset is the approach.
+  bool refine(DescentEnd& end);
 
  private:
-  static constexpr std::int64_t total = 1000;
-  Task task_;
-  std::int64_t done_ = 0;
+  static constexpr double light = 0.01;  // an approach, of what gaps are measured by
+  static constexpr double soft = 1e-3;   // what one node at the cap sinks, of the same
+
+  // Once more from the pressures there are; false, and they stay, where that does not converge.
+  bool again(double length, DescentEnd& end);
+  void by_approach(double approach, DescentEnd& end);
+  void at_the_cap(double cap, DescentEnd& end);
+  double offset() const { return contact_quality(level_, fields_.pressure, fields_.gap).offset; }
+  // What one node sinks, about, under the pressure `p` on it alone.
+  double sunk(double p) const { return LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * p; }
+
+  ContactLevel& level_;
+  DescentFields& fields_;
+  const CellProblem& problem_;
 };
+
+bool LightContact::again(double length, DescentEnd& end) {
+  level_.length = length;
+  const UnsetArray<double> before = fields_.pressure;
+  const DescentEnd finer = run_chain(level_, fields_, problem_.tolerance, ChainEffort::brief);
+  if (finer.converged)
+    end = finer;
+  else
+    fields_.pressure = before;
+  return finer.converged;
+}
+
+void LightContact::by_approach(double approach, DescentEnd& end) {
+  constexpr double right = 0.5;  // of the approach that gaps were measured by
+  constexpr int most_rounds = 60;
+  // Without a limit on its pressure the highest node alone would sink so far; the first approach is perhaps
+  // only what the tolerance left.
+  const double alone = sunk(level_.total_load());
+  const bool elastic =
+      !std::isfinite(greatest_pressure(level_.limit)) && std::holds_alternative<PressureCap>(level_.limit);
+  if (!(approach > 0) || elastic) approach = std::min(approach > 0 ? approach : alone, alone);
+  for (int round = 0; round < most_rounds; ++round) {
+    if (!again(approach, end)) return;
+    approach = offset();
+    if (!(approach > 0) || approach > right * level_.length) return;
+  }
+}
+
+// Soft ground: all is at the cap above some height, and all is open below; nodes at that height share the
+// rest.
+void LightContact::at_the_cap(double cap, DescentEnd& end) {
+  const UnsetArray<double>& p = fields_.pressure;
+  for (std::size_t k = 0; k < p.size(); ++k)
+    if (p[k] > 0 && p[k] < cap) {
+      level_.count_from(problem_.heights[k]);
+      again(sunk(cap), end);
+      return;
+    }
+}
+
+bool LightContact::refine(DescentEnd& end) {
+  const double highest = greatest(problem_.heights), length = level_.length;
+  const double cap = greatest_pressure(level_.limit);
+  const double approach = (highest - problem_.origin) * problem_.factor + offset();
+  const bool from_peak = approach < light * length;
+  if (from_peak) {
+    level_.count_from(highest);
+    by_approach(approach, end);
+  }
+  const bool is_soft = std::isfinite(cap) && sunk(cap) < soft * length;
+  if (is_soft) {
+    at_the_cap(cap, end);
+    level_.count_from(from_peak ? highest : problem_.origin);
+  }
+  if (from_peak || is_soft) level_.gap(fields_.pressure, fields_.gap);
+  level_.length = length;
+  return from_peak;
+}
+
+constexpr double coarse_tolerance = 5e-3;
+constexpr int most_snaps = 3;
 
 struct Step {                       // one grid of the nest
   std::optional<CoarserGrid> from;  // how it came from the finer one
@@ -107,10 +187,6 @@ std::vector<Step> nest(const CellProblem& problem, bool alone) {
   return steps;
 }
 
-double greatest(std::span<const double> values) {
-  return -over_nodes<0, 1>(values.size(), [&](std::size_t k, double* v) { v[0] = -values[k]; })[0];
-}
-
 // A pressure within rounding of a bound is at the bound: left off it, it would count as free ground, and
 // alone fix an offset that nothing else determines. Rounding is that of the sum of the pressures there are:
 // under a light load all of them are nothing beside the bound.
@@ -129,7 +205,7 @@ void snap_to_bounds(double upper, std::span<double> p) {
 CellAnswer descend_nest(const CellProblem& problem, std::span<const double> start_pressure,
                         std::span<const double> start_gap, Monitor& monitor) {
   std::vector<Step> steps = nest(problem, !start_pressure.empty());
-  Progress progress(monitor);
+  DescentProgress progress(monitor, "contact");
   CellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
   UnsetArray<double> carried;  // the level-set field of the grid below
@@ -155,16 +231,18 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
     DescentFields fields(nodes);
     UnsetArray<double>& p = fields.pressure;
     const double lowest = problem.lowest;
+    if (!start_pressure.empty()) {
+      std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
+    } else if (carried.empty()) {
+      std::fill(p.begin(), p.end(), problem.offset ? 0.0 : step.mean_pressure);
+    } else {
+      const CoarserGrid& from = *steps[l + 1].from;
+      prolong(from, carried, 1 / from.pitch_x, step.shape, p);
+      carried = UnsetArray<double>();
+    }
+    DescentEnd end;
+    ContactQuality at;
     if (problem.offset) {
-      if (!start_pressure.empty()) {
-        std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
-      } else if (carried.empty()) {
-        std::fill(p.begin(), p.end(), 0.0);
-      } else {
-        const CoarserGrid& from = *steps[l + 1].from;
-        prolong(from, carried, 1 / from.pitch_x, step.shape, p);
-        carried = UnsetArray<double>();
-      }
       const bool gap_known = !start_gap.empty();
       if (gap_known)
         std::copy(start_gap.begin(), start_gap.end(), fields.gap.begin());
@@ -175,66 +253,39 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
       const ChainEffort effort = !finest          ? ChainEffort::start
                                  : problem.afresh ? ChainEffort::full
                                                   : ChainEffort::brief;
-      const ChainEnd end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, gap_known);
-      if (!end.stage.converged) level.gap(p, fields.gap);
-      if (finest) {
-        answer.pressure = std::move(p);
-        answer.gap = std::move(fields.gap);
-        answer.offset = *problem.offset;
-        answer.from_peak = true;
-        answer.residual = end.stage.residual;
-        answer.converged = end.stage.converged;
-        answer.applications = level.applications;
-        answer.stage = end.name;
-        answer.single = level.compliance.single();
-      } else {
-        to_level_set(upper, level.short_wave_stiffness, *problem.offset, fields.gap, p);
-        carried = std::move(p);
-        step.heights = Array<double>();
-      }
-      continue;
-    }
-    if (!start_pressure.empty()) {
-      std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
-      if (!start_gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, start_gap, p);
-    } else if (carried.empty()) {
-      std::fill(p.begin(), p.end(), step.mean_pressure);
+      end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, gap_known);
+      if (!end.converged) level.gap(p, fields.gap);
+      at.offset = at.interior_gap = *problem.offset;
+      answer.from_peak = true;
     } else {
-      const CoarserGrid& from = *steps[l + 1].from;
-      prolong(from, carried, 1 / from.pitch_x, step.shape, p);
-      carried = UnsetArray<double>();
-    }
-    if (std::isfinite(lowest)) {
-      // Less than any shift to the load can make up for.
-      for (std::size_t k = 0; k < nodes; ++k)
-        if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
-    }
-    project_to_load(p, {}, upper, level.total_load(), p);
-
-    ChainEnd end = run_chain(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
-    if (!end.stage.converged) level.gap(p, fields.gap);
-    answer.from_peak =
-        finest && refine_light_contact(level, fields, {problem.heights, problem.origin, problem.factor},
-                                       tolerance, end);
-    ContactQuality at;
-    for (int round = 0;; ++round) {
-      if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
-      at = contact_quality(level, p, fields.gap);
-      if (!finest || answer.from_peak || !end.stage.converged || at.residual <= tolerance) break;
-      // Nodes that were snapped to the limit no longer balance the load.
-      end.stage.converged = round < most_snaps;
-      if (!end.stage.converged) break;
-      end = run_chain(level, fields, tolerance, ChainEffort::full);
-      if (!end.stage.converged) level.gap(p, fields.gap);
+      if (!start_gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, start_gap, p);
+      if (std::isfinite(lowest)) {
+        // Less than any shift to the load can make up for.
+        for (std::size_t k = 0; k < nodes; ++k)
+          if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
+      }
+      project_to_load(p, {}, upper, level.total_load(), p);
+      end = run_chain(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
+      if (!end.converged) level.gap(p, fields.gap);
+      answer.from_peak = finest && LightContact(level, fields, problem).refine(end);
+      for (int round = 0;; ++round) {
+        if (finest && std::isfinite(upper)) snap_to_bounds(upper, p);
+        at = contact_quality(level, p, fields.gap);
+        if (!finest || answer.from_peak || !end.converged || at.residual <= tolerance) break;
+        // Nodes that were snapped to the limit no longer balance the load.
+        end.converged = round < most_snaps;
+        if (!end.converged) break;
+        end = run_chain(level, fields, tolerance, ChainEffort::full);
+        if (!end.converged) level.gap(p, fields.gap);
+      }
     }
     if (finest) {
       answer.pressure = std::move(p);
       answer.gap = std::move(fields.gap);
       answer.offset = at.offset;
-      answer.residual = at.residual;
-      answer.converged = end.stage.converged;
+      answer.converged = end.converged;
       answer.applications = level.applications;
-      answer.stage = end.name;
+      answer.stage = end.stage;
       answer.single = level.compliance.single();
     } else {
       to_level_set(upper, level.short_wave_stiffness, at.interior_gap, fields.gap, p);
@@ -292,7 +343,7 @@ CellAnswer nested_descent(const CellProblem& problem, std::span<const double> st
 }
 
 CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
-  Progress progress(monitor);
+  DescentProgress progress(monitor, "contact");
   const std::size_t nodes = problem.shape.nodes();
   ContactLevel level(problem.shape, problem.heights, problem.origin, problem.factor, problem.limit,
                      problem.mean_pressure);
@@ -320,7 +371,6 @@ CellAnswer full_contact(const CellProblem& problem, Monitor& monitor) {
   answer.applications = 2;
   const ContactQuality at = contact_quality(level, p, answer.gap);
   answer.offset = at.offset;
-  answer.residual = at.residual;
   answer.converged = at.residual <= problem.tolerance;
   return answer;
 }

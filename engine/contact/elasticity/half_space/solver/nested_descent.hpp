@@ -2,7 +2,7 @@
 // The contact problem on nested grids: solved roughly on the coarsest, carried up as a field whose level
 // sets are the edges of contact and of the capped ground, and finished on the finest by a chain of stages,
 // each starting from the feasible pressures of the one before. Cell units of the finest grid throughout its
-// interface.
+// interface. Also the problem's light end, solved further, and full contact, an exact filter.
 #pragma once
 
 #include <limits>
@@ -15,6 +15,19 @@
 #include "engine/core/monitor.hpp"
 
 namespace asperity {
+
+// Progress on a logarithmic scale of the residual, and the place where a stop is seen.
+class DescentProgress {
+ public:
+  DescentProgress(Monitor& monitor, const char* of) : task_(monitor, of, total) {}
+  // A grid whose share of all work goes from `begin` to `end` has come to this residual.
+  void report(double begin, double end, double residual, double tolerance);
+
+ private:
+  static constexpr std::int64_t total = 1000;
+  Task task_;
+  std::int64_t done_ = 0;
+};
 
 struct CellProblem {
   LevelShape shape;
@@ -40,7 +53,6 @@ struct CellAnswer {
   // A light contact, where h + offset is a small difference of large heights: gap and offset are counted
   // from the highest node, and the offset is the approach.
   bool from_peak = false;
-  double residual = 0;
   bool converged = false;
   int applications = 0;  // on the finest grid
   int levels = 1;

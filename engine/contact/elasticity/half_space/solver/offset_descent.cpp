@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/half_space/solver/offset_descent.hpp"
-
+// The contact at a given offset δ, on one grid: 0 <= p <= H with g = K p − h − δ (and what yielded) as the
+// law of the pressure has it, and no load to keep. Preconditioned conjugate gradients on the free set,
+// pressures being allowed outside their bounds until the next pass, as in active_set_descent.cpp; there the
+// load balances the gaps of the free nodes, here these are brought to δ itself. So no load is sought, and one
+// that hardly tells offsets apart, or hardly depends on them, costs no more than another. Where that stalls,
+// passes that each lower the energy ½ p·Kp − (h + δ)·p take over, for a while.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <type_traits>
 #include <variant>
 
-#include "engine/contact/elasticity/half_space/solver/descent_nodes.hpp"
-#include "engine/contact/elasticity/half_space/solver/descent_rules.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/free_set.hpp"
-#include "engine/contact/elasticity/half_space/solver/line_loads.hpp"
-#include "engine/contact/elasticity/half_space/solver/set_preconditioner.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/core/constants.hpp"
 
 namespace asperity {
@@ -21,8 +23,8 @@ namespace {
 // Of conjugate gradients: of a pass that settles, whose settling carries a step of the preconditioner where K
 // is dear, and of the careful stage, whose passes all lower the energy.
 constexpr int quick_steps = 3, quick_steps_if_dear = 2, careful_steps = 24;
-constexpr double careful_gain = 0.03;  // of a residual, that ends its steps
-constexpr int careful_patience = 40;   // passes; they lower the energy, which the residual need not follow
+constexpr double careful_gain = 0.03;            // of a residual, that ends its steps
+constexpr int careful_passes_without_gain = 40;  // they lower the energy, which the residual need not follow
 // The opening of a single node in contact, as in contact_quality.cpp.
 constexpr double touching_weight = 0.125;
 
@@ -51,7 +53,7 @@ class OffsetDescent {
         work_(fields.pressure.size()),
         direction_(fields.pressure.size()) {}
 
-  StageEnd run(bool gap_known);
+  bool run(bool gap_known);
 
  private:
   std::size_t nodes() const { return f_.pressure.size(); }
@@ -70,11 +72,11 @@ class OffsetDescent {
     std::copy(work_.begin(), work_.end(), f_.pressure.begin());
     find_gap();
   }
-  void mark();
   double turn(double target);
   void settle_step();
   bool all_free() const {
-    return immobile_ && elastic_ == static_cast<double>(nodes()) && yielding_ == 0 && settling_ == 0;
+    return immobile_ && set_.elastic_count == static_cast<double>(nodes()) && set_.yielding_count == 0 &&
+           set_.settling_count == 0;
   }
   void shift_all();
   bool descend(int steps);
@@ -94,8 +96,8 @@ class OffsetDescent {
   const ChainEffort effort_;
   const bool careful_, periodic_, immobile_, dear_;
   Array<double> work_, direction_;
-  double elastic_ = 0, yielding_ = 0, settling_ = 0;  // nodes
-  bool changed_ = true, fresh_ = false, have_direction_ = false;
+  FreeSet set_;
+  bool fresh_ = false, have_direction_ = false;
   double direction_rz_ = 0;
   double residual_ = infinity;
 };
@@ -137,33 +139,6 @@ OffsetQuality OffsetDescent<Limit>::quality() const {
   return at;
 }
 
-template <class Limit>
-void OffsetDescent<Limit>::mark() {
-  const auto sums = over_nodes<4>(
-      nodes(), [n = view(), offset = offset_, before = f_.old_free.data()](std::size_t k, double* v) {
-        const double p = n.pressure[k], gap = n.gap[k];
-        std::uint8_t kind = fixed;
-        if constexpr (Limit::hardens) {
-          const double q = n.settled(k);
-          kind = q > 0 || (gap < offset && p >= 0) ? elastic : fixed;
-          if (p > n.limit.yields_at(k)) kind = q != p ? settling : yielding;
-        } else {
-          const double upper = n.limit.upper();
-          const bool leaves = p <= upper && gap > offset, enters = p >= 0 && gap < offset;
-          kind = (p > 0 ? (p < upper || leaves) : enters) ? elastic : fixed;
-        }
-        n.free[k] = kind;
-        v[0] = kind == elastic ? 1.0 : 0.0;
-        v[1] = kind == yielding ? 1.0 : 0.0;
-        v[2] = kind == settling ? 1.0 : 0.0;
-        v[3] = kind == before[k] ? 0.0 : 1.0;
-      });
-  elastic_ = sums[0];
-  yielding_ = sums[1];
-  settling_ = sums[2];
-  changed_ = sums[3] != 0;
-}
-
 // work_ = M r, r what the gaps of the free nodes lack of `target`. Returns r·M r.
 template <class Limit>
 double OffsetDescent<Limit>::turn(double target) {
@@ -171,7 +146,7 @@ double OffsetDescent<Limit>::turn(double target) {
     return n.moves(k) ? target - n.total_gap(k) : 0.0;
   };
   // Whose constant the preconditioner does not see.
-  const bool full = elastic_ + yielding_ == static_cast<double>(nodes());
+  const bool full = set_.count() == static_cast<double>(nodes());
   const bool all_that_moves = full || (Limit::hardens && !preconditioner_.apart());
   const auto counts = [n = view(), all_that_moves](std::size_t k) {
     return n.free[k] == elastic || (all_that_moves && n.moves(k));
@@ -192,7 +167,7 @@ double OffsetDescent<Limit>::turn(double target) {
     // A constant on nearly all nodes is what the few others lack of it.
     const double lacking = LinearHardening::own_compliance * std::sqrt(level_.shape.aspect) * others;
     const double elastically = std::min(level_.greatest_compliance * sums[1], lacking);
-    const double yields = all_that_moves ? limit_.yielding_slope() * yielding_ : 0.0;
+    const double yields = all_that_moves ? limit_.yielding_slope() * set_.yielding_count : 0.0;
     double gives = elastically + yields;
     if (!immobile_) gives += level_.shape.multiplier.uniform * sums[1] * (sums[1] / all);
     if (gives > 0) level = sums[0] / gives;
@@ -233,9 +208,9 @@ void OffsetDescent<Limit>::settle_step() {
     n.gap[k] += image[k];
     if (n.free[k] == settling) n.free[k] = yielding;
   });
-  if (settling_ > 0) {
-    yielding_ += settling_;
-    settling_ = 0;
+  if (set_.settling_count > 0) {
+    set_.yielding_count += set_.settling_count;
+    set_.settling_count = 0;
     preconditioner_.set_free(f_.free);
   }
 }
@@ -274,9 +249,9 @@ bool OffsetDescent<Limit>::descend(int steps) {
     if (!(rz > 0)) break;
     if (first == 0) first = rz;
     if (careful_ && rz < careful_gain * careful_gain * first) break;
-    const double kept = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
-    for_nodes(nodes(), [n = view(), kept, z = work_.data(), d = direction_.data()](std::size_t k) {
-      const double old = kept != 0 ? kept * d[k] : 0.0;
+    const double beta = have_direction_ && direction_rz_ > 0 ? rz / direction_rz_ : 0.0;
+    for_nodes(nodes(), [n = view(), beta, z = work_.data(), d = direction_.data()](std::size_t k) {
+      const double old = beta != 0 ? beta * d[k] : 0.0;
       d[k] = n.moves(k) ? z[k] + old : 0.0;
     });
     level_.apply(direction_, f_.image);
@@ -388,67 +363,50 @@ bool OffsetDescent<Limit>::go_downhill() {
 }
 
 template <class Limit>
-StageEnd OffsetDescent<Limit>::run(bool gap_known) {
+bool OffsetDescent<Limit>::run(bool gap_known) {
   using namespace descent_rules;
   if (!gap_known) find_gap();
-  StageEnd end;
-  double least = end.best, before = end.best;
-  int without_gain = 0, slow_ones = 0, jumps = 0, renewals = 0;
-  bool have_old = false;
+  Watch watch;
+  int renewals = 0;
   f_.old_free.assign(nodes(), 255);
   for (;;) {
     OffsetQuality at = quality();
-    end.residual = residual_ = at.residual;
+    residual_ = at.residual;
     if (level_.report) level_.report(at.residual);
     if (at.residual < tolerance_) {
-      end.best = std::min(end.best, at.residual);
       if (effort_ == ChainEffort::start || (at.within && (fresh_ || effort_ == ChainEffort::brief))) {
         settle();
-        end.converged = true;
-        return end;
+        return true;
       }
       if (++renewals > most_renewals) {
         settle();
-        return end;
+        return false;
       }
       renew();
       continue;
     }
-    if (at.residual < 0.9 * end.best) {
-      end.best = at.residual;
-      without_gain = 0;
-    } else {
-      ++without_gain;
-    }
-    slow_ones = at.residual > slow * least ? slow_ones + 1 : 0;
-    least = std::min(least, at.residual);
-    if (at.residual > jump * before) ++jumps;
-    before = at.residual;
-    const int patience = careful_ ? careful_patience : passes_without_gain;
-    if (without_gain > patience || level_.applications > most_ || !std::isfinite(at.residual)) {
+    watch.take(at.residual);
+    const int most_without_gain = careful_ ? careful_passes_without_gain : passes_without_gain;
+    if (watch.without_gain() > most_without_gain || level_.applications > most_ ||
+        !std::isfinite(at.residual)) {
       settle();
-      return end;
+      return false;
     }
-    if (!careful_ && (slow_ones >= slow_passes || jumps >= jumps_in_a_cycle) && have_old) {
-      for_nodes(nodes(), [n = view(), p = f_.old_pressure.data(), g = f_.old_gap.data()](std::size_t k) {
-        n.pressure[k] = 0.5 * (n.pressure[k] + p[k]);
-        n.gap[k] = 0.5 * (n.gap[k] + g[k]);
-      });
-      have_direction_ = have_old = false;
-      slow_ones = jumps = 0;
+    const Watch::Advice advice = careful_ ? Watch::Advice::go_on : watch.advice();
+    if (advice == Watch::Advice::remember_pass) f_.remember_pass();
+    if (advice == Watch::Advice::average_passes) {
+      f_.average_passes();
+      have_direction_ = false;
       at = quality();
-    } else if ((have_old = slow_ones + 1 >= slow_passes || jumps + 1 >= jumps_in_a_cycle)) {
-      f_.old_pressure = f_.pressure;
-      f_.old_gap = f_.gap;
     }
-    mark();
-    if (changed_) preconditioner_.set_free(f_.free);
-    if (!at.within || changed_) have_direction_ = false;
+    set_ = mark_nodes(limit_, offset_, offset_, 0, f_.pressure, f_.gap, f_.old_free, f_.free);
+    if (set_.changed) preconditioner_.set_free(f_.free);
+    if (!at.within || set_.changed) have_direction_ = false;
     fresh_ = false;
     if (careful_) {
       if (!go_downhill()) {
         settle();
-        return end;
+        return false;
       }
       std::swap(f_.free, f_.old_free);
       continue;
@@ -456,14 +414,14 @@ StageEnd OffsetDescent<Limit>::run(bool gap_known) {
     if (!at.within) settle_step();
     if (!descend(at.within ? 0 : 1)) {
       settle();
-      return end;
+      return false;
     }
     std::swap(f_.free, f_.old_free);
   }
 }
 
-StageEnd offset_descent(ContactLevel& level, DescentFields& fields, double offset, double tolerance, int most,
-                        ChainEffort effort, bool careful, bool gap_known) {
+bool offset_descent(ContactLevel& level, DescentFields& fields, double offset, double tolerance, int most,
+                    ChainEffort effort, bool careful, bool gap_known) {
   return std::visit(
       [&](const auto& limit) {
         return OffsetDescent<std::remove_cvref_t<decltype(limit)>>(level, limit, fields, offset, tolerance,
@@ -475,17 +433,17 @@ StageEnd offset_descent(ContactLevel& level, DescentFields& fields, double offse
 
 }  // namespace
 
-ChainEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double offset, double tolerance,
-                          ChainEffort effort, bool gap_known) {
+DescentEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double offset, double tolerance,
+                            ChainEffort effort, bool gap_known) {
   constexpr int quick = 150, careful = 80;
-  ChainEnd end;
-  end.name = "preconditioned descent at a given approach";
-  end.stage = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
-  if (end.stage.converged || effort == ChainEffort::start) return end;
+  DescentEnd end;
+  end.stage = "preconditioned descent at a given approach";
+  end.converged = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
+  if (end.converged || effort == ChainEffort::start) return end;
   // One of the solves of a search: on long cells the load is found sooner.
   if (effort == ChainEffort::brief && keeps_line_loads(level.shape.aspect)) return end;
-  end.name = "preconditioned descent at a given approach, downhill";
-  end.stage = offset_descent(level, fields, offset, tolerance, careful, effort, true, false);
+  end.stage = "preconditioned descent at a given approach, downhill";
+  end.converged = offset_descent(level, fields, offset, tolerance, careful, effort, true, false);
   return end;
 }
 
