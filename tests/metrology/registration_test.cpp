@@ -164,7 +164,7 @@ TEST(Registration, CellsAndSizesMayDiffer) {
 
 TEST(Registration, ASmallPatchAndANarrowBandAreFound) {
   const Surface map = ground(512, 300);
-  const Registration patch = registered(cropped(map, 301, 77, 40, 36), map, turns_up_to(3));
+  const Registration patch = registered(cropped(map, 301, 77, 64, 64), map, turns_up_to(3));
   EXPECT_NEAR(patch.shift_x, 301 * cell, 1e-4 * cell);
   EXPECT_NEAR(patch.shift_y, 77 * cell, 1e-4 * cell);
   const Registration band =

@@ -18,13 +18,12 @@ namespace asperity::registration {
 
 namespace {
 
-constexpr double short_sigma = 1, long_sigma = 15;  // nodes of the coarse map
-constexpr double clip = 1.2;                        // root mean squares
-constexpr std::size_t peaks_of_angle = 3;
-constexpr int peak_radius = 3;  // nodes
+constexpr double short_sigma = 1, greatest_long_sigma = 15, least_long_sigma = 3;  // nodes of the coarse map
+constexpr double clip = 1.2;                                                       // root mean squares
+constexpr int peak_radius = 3;                                                     // nodes
 
 // Zero where nothing was measured.
-Field band_passed(const HeightMap& map) {
+Field band_passed(const HeightMap& map, double long_sigma) {
   const SmoothMap fine = smoothed_map(map, short_sigma * map.hx);
   const SmoothMap broad = smoothed_map(map, long_sigma * map.hx);
   Field band(map.nx(), map.ny());
@@ -78,6 +77,7 @@ struct Search {
   int period_x, period_y;
   double middle_x, middle_y;  // of the before-map, from its node (0, 0)
   Reach reach;
+  std::size_t peaks;  // that are kept of an angle
 };
 
 // Peaks within reach, highest first.
@@ -126,7 +126,7 @@ std::vector<Candidate> peaks(const Search& search, double angle) {
       return std::abs(k.pose.x - c.pose.x) <= peak_radius && std::abs(k.pose.y - c.pose.y) <= peak_radius;
     });
     if (!close) kept.push_back(c);
-    if (kept.size() == peaks_of_angle) break;
+    if (kept.size() == search.peaks) break;
   }
   return kept;
 }
@@ -147,7 +147,10 @@ std::vector<double> angles(const CoarseOptions& options) {
 
 std::vector<Candidate> coarse_candidates(const HeightMap& before, const HeightMap& after,
                                          const CoarseOptions& options, Monitor& monitor) {
-  const Field before_band = band_passed(before), after_band = band_passed(after);
+  // Waves much longer than the smaller map is wide are told there from its mean alone.
+  const int narrowest = std::min({before.nx(), before.ny(), after.nx(), after.ny()});
+  const double long_sigma = std::clamp(narrowest / 6.0, least_long_sigma, greatest_long_sigma);
+  const Field before_band = band_passed(before, long_sigma), after_band = band_passed(after, long_sigma);
   const double spacing = before.hx;
   // The box around the turned after-map: of the greatest turn for few degrees, its diagonal for more.
   const double quarter = std::min(options.greatest_turn, 0.5 * std::numbers::pi);
@@ -173,8 +176,9 @@ std::vector<Candidate> coarse_candidates(const HeightMap& before, const HeightMa
   Field padded(px, py);
   for (int j = 0; j < before_band.ny(); ++j)
     std::copy(before_band.row(j).begin(), before_band.row(j).end(), padded.row(j).begin());
-  const Search search{
-      after_band, fourier_forward(padded), px, py, 0.5 * (before.nx() - 1), 0.5 * (before.ny() - 1), reach};
+  const Search search{after_band, fourier_forward(padded), px,
+                      py,         0.5 * (before.nx() - 1), 0.5 * (before.ny() - 1),
+                      reach,      options.of_an_angle};
   const std::vector<double> turns = angles(options);
   std::vector<std::vector<Candidate>> of_angles(turns.size());
   Task task(monitor, "looking for the place of the map", static_cast<std::int64_t>(turns.size()));

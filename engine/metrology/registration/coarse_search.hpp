@@ -5,6 +5,7 @@
 // always the right one.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "engine/core/monitor.hpp"
@@ -20,6 +21,7 @@ struct CoarseOptions {
          from_y = 0;  // cells: where the after-map's centre stands, from that of the before-map, unshifted
   double step = 0;    // rad, between angles
   int candidates = 8;
+  std::size_t of_an_angle = 3;  // peaks that are kept of each
 };
 
 struct Candidate {

@@ -175,6 +175,12 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
   search.from_x = 0.5 * (after.extent_x() - before.extent_x());
   search.from_y = 0.5 * (after.extent_y() - before.extent_y());
   search.step = limits.greatest_turn >= std::numbers::pi ? degree : 0.75 * degree;
+  // A small map is like more places of a large one.
+  const double smaller = std::min(after.extent_x() * after.extent_y(), before.extent_x() * before.extent_y());
+  if (smaller < 0.25 * area) {
+    search.candidates = 32;
+    search.of_an_angle = 12;
+  }
   const std::vector<Candidate> candidates = coarse_candidates(coarse_before, coarse_after, search, monitor);
   const Judged coarse = judged(coarse_before, coarse_after, candidates, search, monitor);
 
