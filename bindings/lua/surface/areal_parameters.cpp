@@ -323,7 +323,7 @@ std::vector<Function> parameter_methods() {
        .options = &areal_block(),
        .options_optional = true,
        .returns = "ArealParameters",
-       .example = "local p = s:areal_parameters{ F=1, S=\"2.5 um\", L=\"0.8 mm\" }"},
+       .example = "print(s:areal_parameters{ F=1, S=\"50 um\", L=\"0.4 mm\" }.Sq)"},
       {.name = "bearing",
        .body = bearing_of,
        .sentence =
@@ -343,7 +343,7 @@ std::vector<Function> parameter_methods() {
        .options = &scale_dependence_block(),
        .options_optional = true,
        .returns = "ScaleDependence",
-       .example = "local d = s:scale_dependence{ of=\"slope\" }"},
+       .example = "print(s:scale_dependence{ of=\"slope\" }.value[1])"},
       {.name = "reliability",
        .body = reliability_of,
        .sentence = "From which scale on the map can be what a spherical tip would have measured.",
@@ -388,7 +388,7 @@ const Class& class_of<ArealParameters>() {
                   .sentence = "Why a parameter is not defined on this map; nil where it is.",
                   .parameters = {{"name", "string", "of a field, such as \"Str\""}},
                   .returns = "string?",
-                  .example = "print(p.Str or p:why_not \"Str\")"}};
+                  .example = "local a = s:areal_parameters() print(a.Str or a:why_not \"Str\")"}};
     return c;
   }();
   return type;
@@ -418,25 +418,25 @@ const Class& class_of<MaterialRatioCurve>() {
                   .sentence = "The height above which a share of the points lies, Smc(ratio).",
                   .parameters = {{"ratio", "number", "0 to 1"}},
                   .returns = "number",
-                  .example = "curve:height(0.1)"},
+                  .example = "print(s:bearing():height(0.1))"},
                  {.name = "ratio",
                   .body = curve_ratio,
                   .sentence = "The share of the points at or above a height, Smr(height).",
                   .parameters = {{"height", "quantity", "from the mean"}},
                   .returns = "number",
-                  .example = "curve:ratio(\"0.2 um\")"},
+                  .example = "print(s:bearing():ratio \"0.2 um\")"},
                  {.name = "material_volume",
                   .body = curve_material,
                   .sentence = "Material above the height of a ratio, per area, Vm(ratio), in m.",
                   .parameters = {{"ratio", "number", "0 to 1"}},
                   .returns = "number",
-                  .example = "curve:material_volume(0.1)"},
+                  .example = "print(s:bearing():material_volume(0.1))"},
                  {.name = "void_volume",
                   .body = curve_void,
                   .sentence = "Void below the height of a ratio, per area, Vv(ratio), in m.",
                   .parameters = {{"ratio", "number", "0 to 1"}},
                   .returns = "number",
-                  .example = "curve:void_volume(0.8)"}};
+                  .example = "print(s:bearing():void_volume(0.8))"}};
     return c;
   }();
   return type;
@@ -465,7 +465,7 @@ const Class& class_of<Autocorrelation>() {
          .sentence = "At a lag of i cells along x and j along y; nan where no pair of points was measured.",
          .parameters = {{"i", "integer", "along x"}, {"j", "integer", "along y"}},
          .returns = "number",
-         .example = "f:at(3, 0)"}};
+         .example = "print(s:autocorrelation():at(0, 3))"}};
     return c;
   }();
   return type;

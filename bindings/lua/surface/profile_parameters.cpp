@@ -151,7 +151,7 @@ Function profile_parameters_method() {
               "rest evaluated in sections. Neither section nor class is guessed.",
           .options = &profile_parameters_block(),
           .returns = "ProfileParameters",
-          .example = "print(p:profile_parameters{ class=\"Sc3\", F=1 }.Rz)"};
+          .example = "print(p:profile_parameters{ section=\"0.1 mm\", F=1 }.Rz)"};
 }
 const RecordInfo& profile_parameters_result() { return profile_parameters_type(); }
 

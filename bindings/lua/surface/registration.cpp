@@ -132,7 +132,7 @@ Function registered_to_method() {
       .options = &registration_block(),
       .options_optional = true,
       .returns = "Registration",
-      .example = "local worn = after:registered_to(before, { angle=\"5 deg\" }).surface",
+      .example = "local worn = s:registered_to(s, { angle=\"5 deg\" }).surface",
       .heavy = true};
 }
 
