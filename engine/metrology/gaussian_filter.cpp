@@ -43,6 +43,10 @@ GaussianFilter checked(const GaussianFilter& filter) {
                 "waves between the two are kept, so `short_wave` must be the smaller");
   GaussianFilter result = filter;
   if (result.long_wave && std::isinf(*result.long_wave)) result.long_wave.reset();
+  if (result.robust && !result.long_wave)
+    throw Error(ErrorCode::bad_value, "`robust` is given without a finite `long_wave`",
+                "it is the mean line of `long_wave` that is robust; leave it out where only short waves are "
+                "attenuated");
   return result;
 }
 
@@ -175,11 +179,16 @@ Field filter_periodic(Field z, const Grid& grid, const GaussianFilter& filter) {
   return fourier_inverse(std::move(spectrum));
 }
 
-// The mean surface of one cut-off over the measured nodes: Σ w z / Σ w, NaN elsewhere.
-Field mean_of_measured(const Field& z, const Grid& grid, bool periodic, double cut_off) {
-  Field sum = z, weight(z.nx(), z.ny(), 1);
+// The mean surface of one cut-off over the measured nodes: Σ w z / Σ w, NaN elsewhere. `own`, where it is
+// given, are weights of the nodes beside those of the filter.
+Field mean_of_measured(const Field& z, const Grid& grid, bool periodic, double cut_off,
+                       const Field* own = nullptr) {
+  Field sum = z, weight = own ? *own : Field(z.nx(), z.ny(), 1);
   for (std::size_t k = 0; k < z.size(); ++k)
-    if (std::isnan(z[k])) sum[k] = weight[k] = 0;
+    if (std::isnan(z[k]))
+      sum[k] = weight[k] = 0;
+    else
+      sum[k] *= weight[k];
   for (Field* const part : {&sum, &weight}) {
     if (periodic)
       *part = filter_periodic(std::move(*part), grid, {.short_wave = cut_off, .long_wave = {}});
@@ -190,10 +199,55 @@ Field mean_of_measured(const Field& z, const Grid& grid, bool periodic, double c
   return sum;
 }
 
+double median_magnitude(const Field& residuals) {
+  Array<double> magnitudes;
+  magnitudes.reserve(residuals.size());
+  for (const double r : residuals.values())
+    if (!std::isnan(r)) magnitudes.push_back(std::abs(r));
+  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
+  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
+  return *middle;
+}
+
+// The mean surface that Tukey's biweight of the residuals leaves to the bulk of the heights.
+Field robust_mean(const Field& z, const Grid& grid, bool periodic, double cut_off) {
+  constexpr int most_iterations = 100;
+  constexpr double settled = 1e-4;
+  Field mean = mean_of_measured(z, grid, periodic, cut_off), weight(z.nx(), z.ny(), 1);
+  double before = 0;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    Field residuals = z;
+    for (std::size_t k = 0; k < z.size(); ++k) residuals[k] -= mean[k];
+    const double c = 4.4478 * median_magnitude(residuals);
+    if (c == 0) {
+      if (iteration == 0) return mean;  // flat
+      throw Error(ErrorCode::not_converged,
+                  "more than half of the heights lie exactly on their robust mean line, which leaves the "
+                  "others no scale",
+                  "filter without `robust`, or mark what stands out with `masked`");
+    }
+    if (iteration > 0 && std::abs(c - before) <= settled * c) return mean;
+    before = c;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      const double r = residuals[k] / c;
+      weight[k] = std::abs(r) < 1 ? (1 - r * r) * (1 - r * r) : 0;
+    }
+    const Field old = std::move(mean);
+    mean = mean_of_measured(z, grid, periodic, cut_off, &weight);
+    // Where nothing within the kernel's reach has a weight, the mean is what it was.
+    for (std::size_t k = 0; k < z.size(); ++k)
+      if (!std::isfinite(mean[k]) && !std::isnan(z[k])) mean[k] = old[k];
+  }
+  throw Error(ErrorCode::not_converged,
+              "the robust mean line still moves after " + std::to_string(most_iterations) + " iterations",
+              "filter without `robust`, or take another `long_wave`");
+}
+
 void filter_measured(Field& z, const Grid& grid, bool periodic, const GaussianFilter& filter) {
   if (filter.short_wave) z = mean_of_measured(z, grid, periodic, *filter.short_wave);
   if (!filter.long_wave) return;
-  const Field smooth = mean_of_measured(z, grid, periodic, *filter.long_wave);
+  const Field smooth = filter.robust ? robust_mean(z, grid, periodic, *filter.long_wave)
+                                     : mean_of_measured(z, grid, periodic, *filter.long_wave);
   for (std::size_t k = 0; k < z.size(); ++k) z[k] -= smooth[k];
 }
 
@@ -208,7 +262,7 @@ double mean_of_known(const Field& z, bool holes) {
 Field filtered(Field z, const Grid& grid, bool periodic, bool holes, const GaussianFilter& filter) {
   const double mean = mean_of_known(z, holes);
   for (double& value : z.values()) value -= mean;
-  if (holes)
+  if (holes || filter.robust)
     filter_measured(z, grid, periodic, filter);
   else if (periodic)
     z = filter_periodic(std::move(z), grid, filter);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/metrology/gaussian_filter.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "engine/core/parallel.hpp"
 #include "tests/metrology/test_fields.hpp"
@@ -179,6 +182,42 @@ TEST(GaussianFilter, RefusesCutOffsThatMeanNothing) {
             "`short_wave` 2 m is not below `long_wave` 2 m; waves between the two are kept, so `short_wave` "
             "must be "
             "the smaller");
+}
+
+// A groove of 10 um in a waviness of 1 um: the robust mean surface goes across it, the linear one into it.
+TEST(RobustFilter, GoesAcrossADeepGroove) {
+  const int n = 256;
+  Field z(n, n), waviness(n, n);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      waviness(i, j) = 1e-6 * std::sin(2 * std::numbers::pi * i / 256);
+      z(i, j) = waviness(i, j) + 0.05e-6 * std::sin(1.9 * i + 2.3 * j) - (i >= 120 && i < 126 ? 10e-6 : 0);
+    }
+  const Surface s(Grid{n, n, 256e-6, 256e-6}, z);
+  const auto worst = [&](bool robust) {
+    const Surface rough = gaussian_filtered(s, {.short_wave = {}, .long_wave = 40e-6, .robust = robust});
+    double error = 0;  // of the mean surface beside the groove, away from the rims
+    for (int i = 100; i < 146; ++i)
+      if (i < 120 || i >= 126)
+        error = std::max(error, std::abs(z(i, 128) - rough.height(i, 128) - waviness(i, 128)));
+    return error;
+  };
+  EXPECT_GT(worst(false), 1e-6);
+  EXPECT_LT(worst(true), 0.1e-6);
+}
+
+TEST(RobustFilter, LeavesHolesAloneAndRefusesWhatHasNoScale) {
+  Field z(64, 64);
+  for (std::size_t k = 0; k < z.size(); ++k) z[k] = 1e-6 * std::sin(0.37 * static_cast<double>(k));
+  z(5, 5) = std::numeric_limits<double>::quiet_NaN();
+  const Surface rough = gaussian_filtered(Surface::with_holes(Grid{64, 64, 64e-6, 64e-6}, z),
+                                          {.short_wave = {}, .long_wave = 20e-6, .robust = true});
+  EXPECT_EQ(rough.measured(), 64u * 64 - 1);
+  EXPECT_TRUE(std::isnan(rough.height(5, 5)));
+  EXPECT_THROW(gaussian_filtered(rough, {.short_wave = 5e-6, .long_wave = {}, .robust = true}), Error);
+  const Surface flat(Grid{64, 64, 64e-6, 64e-6}, Field(64, 64, 3e-6));
+  EXPECT_NEAR(gaussian_filtered(flat, {.short_wave = {}, .long_wave = 20e-6, .robust = true}).height(3, 3), 0,
+              1e-18);
 }
 
 }  // namespace

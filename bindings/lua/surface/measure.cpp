@@ -171,7 +171,11 @@ const Block<GaussianFilter>& filter_block() {
                 "waves shorter than this are attenuated"),
        quantity(
            "long_wave", &O::long_wave, dimension::length, above(0).or_never(),
-           "waves longer than this are attenuated; the `long_wave` of a generator is the longest it makes")}};
+           "waves longer than this are attenuated; the `long_wave` of a generator is the longest it makes"),
+       flag("robust", &O::robust,
+            "the mean line of `long_wave` follows the bulk of the heights, not deep scratches or spikes (ISO "
+            "16610-31, "
+            "-71; biweights of the residuals)")}};
   return block;
 }
 
