@@ -2,10 +2,10 @@
 -- F8: forms of press logs that were named in the error and not read. Each is read as the same two presses.
 local lab = require "asperity"
 local function claim(name, data, options)
-  local file <close> = assert(io.open("log.csv", "wb"))
+  local file <close> = assert(io.open("log.txt", "wb"))
   file:write(data)
   file:close()
-  local ok, protocol = pcall(lab.protocol.read, "log.csv", options)
+  local ok, protocol = pcall(lab.protocol.read, "log.txt", options)
   assert(ok, name .. ": " .. tostring(protocol))
   local text = {}
   for _, event in ipairs(protocol:events()) do text[#text + 1] = event.text end

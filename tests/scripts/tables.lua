@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Tables as values: read from a file, chosen from, joined, written and read back; a notebook is one too.
 --! exit: 0
---! output: scans/angles.csv": 4 rows of 3 columns
+--! output: scans/angles.txt": 4 rows of 3 columns
 --! output:   N angle [deg]  tag
 --! output: all held
 local lab = require "asperity"
@@ -10,8 +10,8 @@ local function write(path, text)
   local file <close> = assert(io.open(path, "w"))
   file:write(text)
 end
-write("scans/angles.csv", "Versuch;Winkel [\u{b0}];tag\n1;30;new\n2;33,5;new\n4;36;worn\n8;;worn\n")
-local t = lab.table.read("scans/angles.csv", { columns={ angle="Winkel", N="Versuch" } })
+write("scans/angles.txt", "Versuch;Winkel [\u{b0}];tag\n1;30;new\n2;33,5;new\n4;36;worn\n8;;worn\n")
+local t = lab.table.read("scans/angles.txt", { columns={ angle="Winkel", N="Versuch" } })
 print(t)
 assert(#t == 4 and table.concat(t.columns, " ") == "N angle tag")
 assert(t.units.angle == "rad" and t.units.N == nil)
@@ -37,11 +37,11 @@ local made = lab.table.from({ { N=1, ["angle [deg]"]=30 }, { N=2, angle="33.5 de
 assert(made.units.angle == "rad")
 near(made:rows()[2].angle, math.rad(33.5))
 -- A folder, in the order of its names.
-write("scans/b10.csv", "x\n1\n")
-write("scans/b9.csv", "x\n1\n")
-local files = lab.files "scans/*.csv"
-assert(table.concat(files, " ") == "scans/angles.csv scans/b10.csv scans/b9.csv", table.concat(files, " "))
-assert(#lab.files "scans/b?.csv" == 1 and #lab.table.read(files[3]) == 1)
+write("scans/b10.txt", "x\n1\n")
+write("scans/b9.txt", "x\n1\n")
+local files = lab.files "scans/*.txt"
+assert(table.concat(files, " ") == "scans/angles.txt scans/b10.txt scans/b9.txt", table.concat(files, " "))
+assert(#lab.files "scans/b?.txt" == 1 and #lab.table.read(files[3]) == 1)
 -- Quantities.
 assert(lab.quantity "250 um" == 2.5e-4 and lab.quantity(3) == 3)
 assert(lab.quantity("640 HV", "pressure") == 640 * 9806650 and lab.quantity("37 deg", "rad") == math.rad(37))
