@@ -42,7 +42,7 @@
 ---@field amplitude number peak to valley (m)
 ---@field skewness number of the heights; 0 where all are equal
 ---@field kurtosis number of the heights; 3 of Gaussian ones, 0 where all are equal
----@field rms_slope number root mean square slope between neighbouring nodes, never across the rim
+---@field rms_slope number root mean square slope between neighbouring nodes, never across the rim; where points were not measured, of the pairs along each direction that were, nan where there is none
 ---@field peak number the greatest height, as stored (m)
 ---@field valley number the least height, as stored (m)
 ---@field mean number of the heights, as stored (m)
@@ -52,6 +52,7 @@
 ---@field Ssk number skewness by its areal name
 ---@field Sku number kurtosis by its areal name
 ---@field Sdq number rms_slope by its areal name
+---@field measured integer|nil how many points were measured, the others left out; nil where every point was
 
 ---Power spectral density, one entry of each list a shell of waves that holds any, by rising q.
 ---@class asperity.Spectrum
@@ -60,6 +61,7 @@
 ---@field count integer[] waves of each shell, those of both signs counted
 ---@field rms_height number root of the power of all waves: Rq without a window (m)
 ---@field rms_slope number root mean square slope of the waves that interpolate the heights
+---@field measured integer|nil how many points were measured, the others left out; nil where every point was
 ---@field window string the taper that was used, "none" or "hann"
 ---@field units string of q and C, in words
 
@@ -71,8 +73,63 @@
 ---@field steps number[] in samples; with "psd" wavelengths
 ---@field r_squared number of the line through the lengths, both on logarithmic axes
 ---@field profiles integer how many gave a D
+---@field measured integer|nil how many points were measured, the others left out; nil where every point was
 ---@field resolved boolean whether D can be believed, as far as the method itself can tell
 ---@field reason string|nil why it is not resolved; nil where it is
+
+---Measured points that a rule takes for outliers; none is removed.
+---@class asperity.Outliers
+---@field marked integer how many points are outliers by the rule
+---@field measured integer how many points were measured, outliers among them
+---@field rule string by which they were found
+---@field factor number of the rule
+---@field window integer of the rule, in points
+---@field deviation number 1.4826 times the median absolute deviation of the residuals (m)
+---@field limit number how far a residual may lie from their median: factor times deviation (m)
+---@field mask asperity.Field 1 where a point was measured and is no outlier, else 0: for s:masked{ mask= }
+
+---Root mean square slope, curvature or height by the distance over which it is taken.
+---@class asperity.ScaleDependence
+---@field distance number[] of the whole stencil, m, rising; of heights the width of the blocks
+---@field value number[] root mean square at each distance: a slope, 1/m or m; nan where nothing was measured
+---@field least number[] of curvature alone: the most negative at each distance, 1/m
+
+---From which scale on a tip of this radius can have measured what stands in the map: shorter stencils have, somewhere, hollows sharper than the tip. 0: all scales; half the map: none.
+---@class asperity.Reliability
+---@field x number of stencils along x (m)
+---@field y number of stencils along y (m)
+---@field cut_off number the greater of the two (m)
+
+---Where a map measured after lies on one measured before: turned counter-clockwise by `angle` about the centre of its nodes, then moved by `shift`, both maps' first nodes having lain on each other.
+---@class asperity.Registration
+---@field surface asperity.Surface the map after, on the cells of the map before, less `tilt` and `lift`: not measured where the map after does not reach or one of the nodes around was not measured; between its nodes a cubic spline
+---@field shift asperity.RegistrationShift from the map after to that before, of the centre of the map after
+---@field angle number from the map after to that before, counter-clockwise, from -pi to pi (rad)
+---@field tilt asperity.RegistrationTilt slopes of the map after above that before, along the latter's axes
+---@field lift number height of the map after above that before, at the centre of the map after, where neither is worn (m)
+---@field u asperity.RegistrationUncertainty their standard uncertainties
+---@field scale number of lengths and heights: 1, neither is ever stretched
+---@field residual number how well unworn ground agrees: 1.4826 times the median of the differences above zero, both maps smoothed by one cell (m)
+---@field overlap number share of the map before's measured nodes where `surface` is measured
+---@field explained number share of the variance of the heights that the placement explains, where they are not worn
+---@field second_best number the same of the best placement elsewhere, on coarser maps; near to `explained` it is a warning
+
+---Standard uncertainties of a registration, from leaving out one of 4 x 4 tiles of the map at a time.
+---@class asperity.RegistrationUncertainty
+---@field shift asperity.RegistrationShift of the shift
+---@field angle number of the turn (rad)
+---@field tilt asperity.RegistrationTilt of the slopes
+---@field lift number of the height (m)
+
+---A shift in the plane, or its standard uncertainty.
+---@class asperity.RegistrationShift
+---@field x number along x (m)
+---@field y number along y (m)
+
+---Slopes of one map above another, or their standard uncertainties.
+---@class asperity.RegistrationTilt
+---@field x number slope along x
+---@field y number slope along y
 
 ---Amplitude and slope statistics of a profile (ISO 21920-2).
 ---@class asperity.Roughness
@@ -81,10 +138,58 @@
 ---@field amplitude number peak to valley (m)
 ---@field skewness number of the heights; 0 where all are equal
 ---@field kurtosis number of the heights; 3 of Gaussian ones, 0 where all are equal
----@field rms_slope number root mean square slope between neighbouring nodes, never across the rim
+---@field rms_slope number root mean square slope between neighbouring nodes, never across the rim; where points were not measured, of the pairs along each direction that were, nan where there is none
 ---@field peak number the greatest height, as stored (m)
 ---@field valley number the least height, as stored (m)
 ---@field mean number of the heights, as stored (m)
+---@field measured integer|nil how many points were measured, the others left out; nil where every point was
+
+---Measured points that a rule takes for outliers; none is removed.
+---@class asperity.ProfileOutliers
+---@field marked integer how many points are outliers by the rule
+---@field measured integer how many points were measured, outliers among them
+---@field rule string by which they were found
+---@field factor number of the rule
+---@field window integer of the rule, in points
+---@field deviation number 1.4826 times the median absolute deviation of the residuals (m)
+---@field limit number how far a residual may lie from their median: factor times deviation (m)
+---@field mask number[] 1 where a sample was measured and is no outlier, else 0: for p:masked{ mask= }
+
+---The parameters of ISO 21920-2 of a trace after F-operation, S- and L-filter, half a section cut off at either end.
+---@class asperity.ProfileParameters
+---@field Ra number mean magnitude about the mean line, over the evaluation length (m)
+---@field Rq number root mean square about the mean line, over the evaluation length (m)
+---@field Rsk number skewness of the heights
+---@field Rku number kurtosis of the heights
+---@field Rp number greatest height above the mean line, mean over the sections (m)
+---@field Rv number greatest depth below it, mean over the sections (m)
+---@field Rz number Rp + Rv (m)
+---@field Rt number highest less lowest point of the evaluation length (m)
+---@field Rpt number greatest of the sections' heights (m)
+---@field Rvt number greatest of the sections' depths (m)
+---@field Rzx number greatest height within a section moved sample by sample (m)
+---@field Rdq number|nil root mean square slope by the rule of seven samples, three dropped at each end
+---@field Rdq_edges number|nil root mean square slope by forward differences
+---@field Rda number|nil mean magnitude of the slope, by forward differences
+---@field Rdr number|nil developed length over length, less 1, by forward differences
+---@field Rsm number|nil mean width of the elements by crossings of the mean line; nil where none is whole (m)
+---@field Rc number|nil mean height of the elements; nil where none is whole (m)
+---@field elements integer how many, of the passes from the left and from the right
+---@field Rk number core height: the fall of the least-squares line of the material ratio curve over its flattest 40 % (m)
+---@field Rpk number reduced peak height (m)
+---@field Rvk number reduced dale depth (m)
+---@field Rmrk1 number material ratio at the upper end of the core, 0 to 1
+---@field Rmrk2 number material ratio at the lower end of the core, 0 to 1
+---@field Rpkx number from the core to the highest point (m)
+---@field Rvkx number from the core to the lowest point (m)
+---@field Rdc number height between the material ratios 2.5 % and 50 % (m)
+---@field u_Ra number|nil standard uncertainty of Ra from its scatter over the sections; nil of one section (m)
+---@field u_Rq number|nil the same of Rq (m)
+---@field u_Rz number|nil the same of Rz; with five sections 95 % lie within 2.78 of it (m)
+---@field sections integer that entered
+---@field section number length of each, and nesting index of the L-filter (m)
+---@field measured integer samples that were measured
+---@field profile asperity.Profile the roughness profile
 
 ---How far the contact conditions are from being met, each relative.
 ---@class asperity.Certificate
@@ -261,6 +366,53 @@
 ---@field slip_fraction number of the contact area that slips
 ---@field displacement number|nil of the bodies over each other; nil on a half-space (m)
 
+---A curve fitted to two columns by least squares. Intervals are Student's, of linearised parameters.
+---@class asperity.Fit
+---@field name string|nil what charts call it; nil where it has none
+---@field x string the column along
+---@field y string the column that was fitted
+---@field model string what was fitted
+---@field method string how
+---@field parameters table<string, asperity.FitParameter> each parameter under its name: value, u, low, high
+---@field values table<string, number> the estimates by name, to call the model with
+---@field names string[] of the parameters, in the order of `correlation`
+---@field correlation number[][] of the estimates of the parameters
+---@field r_squared number|nil share of the scatter of y that the curve explains; nil where every y is the same
+---@field residual_sd number standard deviation of a point of weight 1 about the curve
+---@field residuals number[] y less the curve, for each row that was used
+---@field rows integer[] the rows that were used, counted from 1 after `where`
+---@field n integer rows that were used
+---@field left_out integer rows with an empty cell, no finite number or a weight of 0
+---@field degrees integer degrees of freedom: rows less parameters
+---@field confidence number of the intervals
+---@field curve asperity.FitCurve the curve with its band, for drawing
+---@field warnings string[] what is hardly determined
+
+---A parameter of a fit, in the units of its columns.
+---@class asperity.FitParameter
+---@field value number its estimate
+---@field u number its standard uncertainty
+---@field low number lower end of its interval
+---@field high number upper end of its interval
+
+---A fitted curve over the range of its points, with the pointwise interval of the curve.
+---@class asperity.FitCurve
+---@field x number[] places, ascending
+---@field y number[] the curve there
+---@field low number[] lower end of its interval there
+---@field high number[] upper end of its interval there
+
+---How often the values of a column fall into bins.
+---@class asperity.Histogram
+---@field edges number[] of the bins in the column's unit, one more than bins; a bin holds its lower edge
+---@field counts integer[] values in each bin
+---@field density number[] share of the values per width of each bin
+---@field n integer values in the bins
+---@field below integer values below the first edge
+---@field above integer values above the last edge
+---@field left_out integer cells that are empty or no finite number
+---@field rule string by which the bins were chosen
+
 ---How far the contact conditions are from being met, each relative.
 ---@class asperity.SpreadCertificate
 ---@field penetration number greatest overlap of the bodies where the pressure is below its cap, over the rms height of both
@@ -284,7 +436,7 @@ local Material = {}
 ---@field bins? integer shells of equal ratio; 0: one a multiple of the fundamental (integer at least 0, default 0)
 
 ---@class asperity.options.surface.fractal_dimension
----@field method? "length"|"psd"|"structure"|"box"|"madogram" profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure function, box counting or madogram; the `lengths` of the result are what the method measures at each of its `steps`, profile lengths by "length" alone ("length"|"psd"|"structure"|"box"|"madogram", default "length")
+---@field method? "length"|"psd"|"structure"|"box"|"madogram" profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure function, box counting or madogram; the `lengths` of the result are what the method measures at each of its `steps`, profile lengths by "length" alone; "psd" and "box" refuse points not measured ("length"|"psd"|"structure"|"box"|"madogram", default "length")
 ---@field steps? integer[] steps in samples, e.g. {1, 2, 4, 8, 16} (integer[], default {1, 2, 4, 8, 16})
 ---@field offsets? boolean method length: average over all starting points (boolean, default false)
 ---@field pooled? boolean one line through the average over profiles instead of the mean of each one's D (boolean, default false)
@@ -294,6 +446,7 @@ local Material = {}
 ---@class asperity.options.surface.filtered
 ---@field short_wave? number|string waves shorter than this are attenuated (a length above 0)
 ---@field long_wave? number|string waves longer than this are attenuated; the `long_wave` of a generator is the longest it makes (a length above 0, or math.huge for never)
+---@field robust? boolean the mean line of `long_wave` follows the bulk of the heights, not deep scratches or spikes (ISO 16610-31, -71; biweights of the residuals) (boolean, default false)
 
 ---@class asperity.options.surface.picture
 ---@field title? string above the picture (string)
@@ -305,6 +458,24 @@ local Material = {}
 
 ---@class asperity.options.surface.levelled
 ---@field degree? integer of the polynomial taken away: 0 the mean, 1 the plane, 2 the quadratic form (integer from 0 to 5, default 1)
+
+---@class asperity.options.surface.outliers
+---@field rule? "mad" "mad": a point is an outlier if its height less the median of the measured ones around it lies farther from the median of all such residuals than factor times 1.4826 times their median absolute deviation, which of Gaussian residuals is their standard deviation ("mad", default "mad")
+---@field factor? number in standard deviations of Gaussian residuals (number above 0, default 6)
+---@field window? integer odd number of points a side of the square (of a profile: of the stretch) around a point whose median is taken (integer from 3 to 31, default 5)
+
+---@class asperity.options.surface.masked
+---@field where? function function(x, y, z) that answers true where a measured point is to count as not measured; all in metres (function)
+---@field outliers? "mad"|table outliers by this rule, as s:outliers finds them, count as not measured; their number is told in a warning: the rule, or a table with its keys ("mad"|table)
+---@field mask? asperity.Field points where this field of the same cells is 0 or nan count as not measured (Field)
+
+---@class asperity.options.surface.filled
+---@field by? "interpolate" "interpolate": the harmonic continuation of the heights around, which never leaves their range and is smoother than they are; filled ground lowers slopes ("interpolate")
+---@field value? number|string this height (a length)
+
+---@class asperity.options.surface.registered_to
+---@field angle? number|string greatest turn that is looked for, to either side; from half a turn on the whole circle, which takes some ten times as long as a few degrees (an angle at least 0, default "360 deg")
+---@field at_most? number|string greatest `shift` that is looked for; without it whatever leaves a tenth of the maps on top of each other (a length above 0)
 
 ---@class asperity.options.surface.scaled
 ---@field amplitude? number|string peak to valley to reach (a length at least 0)
@@ -341,6 +512,21 @@ local Material = {}
 ---@class asperity.options.surface.profiles
 ---@field along? "x"|"y" rows or columns ("x"|"y", default "x")
 
+---@class asperity.options.surface.areal_parameters
+---@field F? integer F-operation: degree of the polynomial taken away first; without it none (integer from 0 to 5)
+---@field S? number|string nesting index of the S-filter: shorter waves are attenuated; without it none (a length above 0)
+---@field L? number|string nesting index of the L-filter: longer waves are attenuated; without it none (a length above 0)
+---@field pruning? number of Sz: how far a hill must rise above its saddle to count (number from 0 to 1, default 0.05)
+
+---@class asperity.options.surface.scale_dependence
+---@field of? "slope"|"curvature"|"height" slope over a distance, curvature over twice a distance, or height about the planes of blocks ("slope"|"curvature"|"height", default "slope")
+---@field along? "x"|"y" which way the stencils lie ("x"|"y", default "x")
+---@field cells? integer[] distances in cells; of heights the blocks a side (integer[], default {1, 2, 4, …} to a quarter of the map)
+
+---@class asperity.options.surface.reliability
+---@field tip number|string radius of the tip that measured the map (a length above 0, required)
+---@field share? number of 1/tip: what curvature makes a scale suspect (number above 0, default 0.5)
+
 ---Heights on a regular grid of cells; an immutable value whose methods return new ones.
 ---@class asperity.Surface
 ---@field cells table cells along x and y
@@ -349,24 +535,31 @@ local Material = {}
 ---@field periodic boolean whether the heights continue smoothly across the rim
 ---@field aliased_share number share of the variance past Nyquist; nil where it is not known
 ---@field peak_to_valley number greatest less least height (m)
----@field digest string of grid and heights: equal surfaces have equal digests
+---@field digest string of grid, heights and holes: equal surfaces have equal digests
+---@field measured integer how many points were measured; all of them where the surface has no holes
+---@field mask asperity.Field 1 where a point was measured, 0 where not
+---@operator add(asperity.Surface): asperity.Surface
+---@operator sub(asperity.Surface): asperity.Surface
+---@operator unm: asperity.Surface
+---@operator mul(number): asperity.Surface
+---@operator div(number): asperity.Surface
 local Surface = {}
 
----Height of node (i, j) in metres, counted from 0.
+---Height of node (i, j) in metres, counted from 0; nan where it was not measured.
 ---@param i integer along x
 ---@param j integer along y
 ---@return number
 function Surface:height(i, j) end
 
----All heights as a table of rows, heights[j+1][i+1].
+---All heights as a table of rows, heights[j+1][i+1]; nan at points that were not measured.
 ---@return number[][]
 function Surface:heights() end
 
----Amplitude and slope statistics of all nodes (ISO 25178-2), nothing levelled or filtered first. Its amplitude is peak to valley; that of lab.surface.sine is half of it.
+---Amplitude and slope statistics of all measured nodes (ISO 25178-2), nothing levelled or filtered first. Its amplitude is peak to valley; that of lab.surface.sine is half of it.
 ---@return asperity.ArealRoughness
 function Surface:roughness() end
 
----Radially averaged power spectral density.
+---Radially averaged power spectral density; points that were not measured are set to the mean, which takes from its power and adds rims.
 ---@param options? asperity.options.surface.spectrum
 ---@return asperity.Spectrum
 function Surface:spectrum(options) end
@@ -376,26 +569,47 @@ function Surface:spectrum(options) end
 ---@return asperity.FractalDimension
 function Surface:fractal_dimension(options) end
 
----ISO 16610 Gaussian filter.
+---ISO 16610 Gaussian filter; points that were not measured have no weight and stay so.
 ---@param options asperity.options.surface.filtered
 ---@return asperity.Surface
 function Surface:filtered(options) end
 
----Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy (Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit.
+---Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy (Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit, points that were not measured too. .sur (Digital Surf) rounds heights to 2^-30 of the greatest and the size to single precision.
 ---@param path string under the run directory
 ---@return string
 function Surface:write(path) end
 
----A picture of the heights as PNG, true to scale, with scale and colour bars.
+---A picture of the heights as PNG, true to scale, with scale and colour bars; points that were not measured are left blank.
 ---@param path string a .png under the run directory
 ---@param options? asperity.options.surface.picture
 ---@return string
 function Surface:picture(path, options) end
 
----Less the least-squares polynomial of a degree.
+---Less the least-squares polynomial of a degree, fitted to the measured nodes.
 ---@param options? asperity.options.surface.levelled
 ---@return asperity.Surface
 function Surface:levelled(options) end
+
+---Which measured points a rule takes for outliers, and how many; none is removed: s:masked{ outliers= } or mask= does that.
+---@param options? asperity.options.surface.outliers
+---@return asperity.Outliers
+function Surface:outliers(options) end
+
+---The surface with more points that count as not measured. Statistics, filters and pictures leave them out; who needs every point, as a contact does, refuses them.
+---@param options asperity.options.surface.masked
+---@return asperity.Surface
+function Surface:masked(options) end
+
+---The surface with a height at every point that was not measured.
+---@param options asperity.options.surface.filled
+---@return asperity.Surface
+function Surface:filled(options) end
+
+---Laid on a map of the same ground measured before: shift, turn and tilt are found through wear, noise and holes, and nothing is stretched. Wear takes height away: what stands lower than before does not pull. Cells and sizes of the two may differ. An error where the maps cannot tell: too little overlap, other ground, ground that repeats itself or has no features in some direction.
+---@param before asperity.Surface what it is laid on
+---@param options? asperity.options.surface.registered_to
+---@return asperity.Registration
+function Surface:registered_to(before, options) end
 
 ---Stretched in height to an amplitude, rms height or Ra.
 ---@param options asperity.options.surface.scaled
@@ -407,7 +621,7 @@ function Surface:scaled(options) end
 ---@return asperity.Surface
 function Surface:shifted(options) end
 
----Turned counter-clockwise seen from above: quarter turns exactly, other angles by interpolation, which takes from short waves: there and back Rq falls by 0.02 % at waves of 16 cells, 0.2 % at 8 and 3 % at 4.
+---Turned counter-clockwise seen from above: quarter turns exactly, other angles by interpolation, which takes from short waves: there and back Rq falls by 0.02 % at waves of 16 cells, 0.2 % at 8 and 3 % at 4. Where it touches a point that was not measured there is none.
 ---@param angle number|string to turn by
 ---@return asperity.Surface
 function Surface:rotated(angle) end
@@ -421,15 +635,20 @@ function Surface:mirrored() end
 ---@return asperity.Surface
 function Surface:cropped(options) end
 
----The same surface on other cells: through the spectrum if periodic, else by cubic interpolation.
+---The same surface on other cells: through the spectrum if periodic, else by cubic interpolation, as it is wherever there are points not measured; where that touches one there is none.
 ---@param options asperity.options.surface.resampled
 ---@return asperity.Surface
 function Surface:resampled(options) end
 
----The sum of two surfaces of equal cells and size.
+---The sum of two surfaces of equal cells and size; a point that was not measured on one of them is none of the sum.
 ---@param other asperity.Surface what to add
 ---@return asperity.Surface
 function Surface:plus(other) end
+
+---The difference of two surfaces of equal cells and size: heights less those of the other. A point that was not measured on one of them is none of the difference.
+---@param other asperity.Surface what to take away
+---@return asperity.Surface
+function Surface:minus(other) end
 
 ---Heights above a plane brought down to it; the tile keeps its size, which `cropped` changes.
 ---@param options asperity.options.surface.cut
@@ -451,12 +670,35 @@ function Surface:profile(options) end
 ---@return asperity.Profile[]
 function Surface:profiles(options) end
 
+---The areal parameters of ISO 25178-2, of the map as it is or after F-operation, S- and L-filter. Each group is computed when a field of it is first read.
+---@param options? asperity.options.surface.areal_parameters
+---@return asperity.ArealParameters
+function Surface:areal_parameters(options) end
+
+---The material ratio curve (Abbott-Firestone) of the measured heights, exact and not binned.
+---@return asperity.MaterialRatioCurve
+function Surface:bearing() end
+
+---The autocorrelation of the heights about their mean, by pairs of measured points, nothing wrapped, to lags of half the map.
+---@return asperity.Autocorrelation
+function Surface:autocorrelation() end
+
+---Slope, curvature or height by scale (Sanner et al. 2022).
+---@param options? asperity.options.surface.scale_dependence
+---@return asperity.ScaleDependence
+function Surface:scale_dependence(options) end
+
+---From which scale on the map can be what a spherical tip would have measured.
+---@param options asperity.options.surface.reliability
+---@return asperity.Reliability
+function Surface:reliability(options) end
+
 ---@class asperity.options.profile.spectrum
 ---@field window? "automatic"|"none"|"hann" taper towards the rim; automatic: none for periodic surfaces, otherwise hann ("automatic"|"none"|"hann", default "automatic")
 ---@field bins? integer shells of equal ratio; 0: one a multiple of the fundamental (integer at least 0, default 0)
 
 ---@class asperity.options.profile.fractal_dimension
----@field method? "length"|"psd"|"structure"|"box"|"madogram" profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure function, box counting or madogram; the `lengths` of the result are what the method measures at each of its `steps`, profile lengths by "length" alone ("length"|"psd"|"structure"|"box"|"madogram", default "length")
+---@field method? "length"|"psd"|"structure"|"box"|"madogram" profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure function, box counting or madogram; the `lengths` of the result are what the method measures at each of its `steps`, profile lengths by "length" alone; "psd" and "box" refuse points not measured ("length"|"psd"|"structure"|"box"|"madogram", default "length")
 ---@field steps? integer[] steps in samples, e.g. {1, 2, 4, 8, 16} (integer[], default {1, 2, 4, 8, 16})
 ---@field offsets? boolean method length: average over all starting points (boolean, default false)
 ---@field pooled? boolean one line through the average over profiles instead of the mean of each one's D (boolean, default false)
@@ -465,6 +707,7 @@ function Surface:profiles(options) end
 ---@class asperity.options.profile.filtered
 ---@field short_wave? number|string waves shorter than this are attenuated (a length above 0)
 ---@field long_wave? number|string waves longer than this are attenuated; the `long_wave` of a generator is the longest it makes (a length above 0, or math.huge for never)
+---@field robust? boolean the mean line of `long_wave` follows the bulk of the heights, not deep scratches or spikes (ISO 16610-31, -71; biweights of the residuals) (boolean, default false)
 
 ---@class asperity.options.profile.levelled
 ---@field degree? integer of the polynomial taken away: 0 the mean, 1 the plane, 2 the quadratic form (integer from 0 to 5, default 1)
@@ -475,6 +718,28 @@ function Surface:profiles(options) end
 ---@class asperity.options.profile.picture
 ---@field title? string above the picture (string)
 
+---@class asperity.options.profile.outliers
+---@field rule? "mad" "mad": a point is an outlier if its height less the median of the measured ones around it lies farther from the median of all such residuals than factor times 1.4826 times their median absolute deviation, which of Gaussian residuals is their standard deviation ("mad", default "mad")
+---@field factor? number in standard deviations of Gaussian residuals (number above 0, default 6)
+---@field window? integer odd number of points a side of the square (of a profile: of the stretch) around a point whose median is taken (integer from 3 to 31, default 5)
+
+---@class asperity.options.profile.masked
+---@field where? function function(x, z) that answers true where a measured sample is to count as not measured; both in metres (function)
+---@field outliers? "mad"|table outliers by this rule, as s:outliers finds them, count as not measured; their number is told in a warning: the rule, or a table with its keys ("mad"|table)
+---@field mask? number[] samples where this list has 0 or nan count as not measured (number[])
+
+---@class asperity.options.profile.filled
+---@field by? "interpolate" "interpolate": the harmonic continuation of the heights around, which never leaves their range and is smoother than they are; filled ground lowers slopes ("interpolate")
+---@field value? number|string this height (a length)
+
+---@class asperity.options.profile.profile_parameters
+---@field section? number|string length of a section and nesting index Nic of the L-filter; this or `class` (a length above 0)
+---@field class? string setting class of ISO 21920-3, "Sc1" to "Sc5": it gives `section` and `S` (string)
+---@field sections? integer how many (integer from 1 to 1000, default 5)
+---@field F? integer F-operation: degree of the polynomial taken away first; without it none (integer from 0 to 5)
+---@field S? number|string nesting index Nis of the S-filter: shorter waves are attenuated; without it none (a length above 0)
+---@field threshold? number of Rp and Rv: lower hills and dales are no elements of Rsm and Rc (number from 0 to 1, default 0.1)
+
 ---Heights at equal spacing along a line, or once around a closed outline; an immutable value.
 ---@class asperity.Profile
 ---@field points integer number of samples
@@ -482,9 +747,11 @@ function Surface:profiles(options) end
 ---@field length number samples times spacing (m)
 ---@field radius number of a closed outline, whose heights are r - radius; else nil (m)
 ---@field digest string equal profiles have equal digests
+---@field measured integer how many samples were measured; all of them where the profile has no holes
+---@field mask number[] 1 for a sample that was measured, 0 for one that was not
 local Profile = {}
 
----All heights in metres.
+---All heights in metres; nan at samples that were not measured.
 ---@return number[]
 function Profile:heights() end
 
@@ -492,12 +759,12 @@ function Profile:heights() end
 ---@return number[]
 function Profile:positions() end
 
----x and y of the points of a closed outline: two tables.
+---x and y of the points of a closed outline: two tables, with nan for points not measured.
 ---@return number[]
 ---@return number[]
 function Profile:outline() end
 
----Amplitude and slope statistics (ISO 21920-2), nothing levelled or filtered first.
+---Amplitude and slope statistics of the measured samples (ISO 21920-2), nothing levelled or filtered first.
 ---@return asperity.Roughness
 function Profile:roughness() end
 
@@ -526,7 +793,7 @@ function Profile:levelled(options) end
 ---@return asperity.Profile
 function Profile:cut(options) end
 
----A drawing of the profile, or of the shape of a closed outline: .svg or .png.
+---A drawing of the profile, or of the shape of a closed outline: .svg, .png or .pdf.
 ---@param path string under the run directory
 ---@param options? asperity.options.profile.picture
 ---@return string
@@ -536,6 +803,109 @@ function Profile:picture(path, options) end
 ---@param path string under the run directory
 ---@return string
 function Profile:write(path) end
+
+---Which measured points a rule takes for outliers, and how many; none is removed: p:masked{ outliers= } or mask= does that.
+---@param options? asperity.options.profile.outliers
+---@return asperity.ProfileOutliers
+function Profile:outliers(options) end
+
+---The profile with more samples that count as not measured.
+---@param options asperity.options.profile.masked
+---@return asperity.Profile
+function Profile:masked(options) end
+
+---The profile with a height at every sample that was not measured; by="interpolate" is the straight line across a gap, and the last height at an end.
+---@param options asperity.options.profile.filled
+---@return asperity.Profile
+function Profile:filled(options) end
+
+---The parameters of ISO 21920-2: the trace is filtered, half a section cut off at either end, and the rest evaluated in sections. Neither section nor class is guessed.
+---@param options asperity.options.profile.profile_parameters
+---@return asperity.ProfileParameters
+function Profile:profile_parameters(options) end
+
+---The areal parameters of a map (ISO 25178-2), of the points that were measured. One that the map does not define is nil: why_not says why.
+---@class asperity.ArealParameters
+---@field Sa number|nil mean magnitude of the heights about their mean (m)
+---@field Sq number|nil root mean square of the heights about their mean (m)
+---@field Ssk number|nil skewness of the heights (moments over n); nil where all are equal
+---@field Sku number|nil kurtosis of the heights, 3 of Gaussian ones; nil where all are equal
+---@field Sp number|nil greatest height above the mean (m)
+---@field Sv number|nil greatest depth below the mean (m)
+---@field Sz number|nil Sp + Sv (m)
+---@field Sdq number|nil root mean square slope: over the edges along x and those along y, each by its own number
+---@field Sdq_seven number|nil root mean square slope by the rule of seven samples along both axes
+---@field Sdr number|nil developed area over the area of the cells, less 1: the mean of both splittings into triangles
+---@field Sal number|nil shortest way on which the autocorrelation falls to 0.2: rays every half degree over a cubic spline (m)
+---@field Str number|nil shortest over longest of these ways; nil where one of them leaves half the map
+---@field Str_bound number|nil where Str is nil, what it is below
+---@field Std number|nil direction of the lay, from x towards y: where waves have most power, in bins of half a degree, turned by a right angle; it means nothing where Str is near 1 (rad)
+---@field Std_wave number|nil direction of the waves of most power, at right angles to Std (rad)
+---@field Sk number|nil core height: the fall of the least-squares line of the material ratio curve over its flattest 40 % (m)
+---@field Spk number|nil reduced peak height (m)
+---@field Svk number|nil reduced dale depth (m)
+---@field Smr1 number|nil material ratio at the upper end of the core, 0 to 1
+---@field Smr2 number|nil material ratio at the lower end of the core, 0 to 1
+---@field Spkx number|nil from the core to the highest point (m)
+---@field Svkx number|nil from the core to the lowest point (m)
+---@field Sk_window number|nil material ratio at which the flattest 40 % begin; near a knee of the curve Sk, Spk and Smr1 hang on it
+---@field Sxp number|nil height between the material ratios 2.5 % and 50 % (m)
+---@field Vmp number|nil peak material volume per area, to 10 % (m)
+---@field Vmc number|nil core material volume per area, 10 to 80 % (m)
+---@field Vvc number|nil core void volume per area, 10 to 80 % (m)
+---@field Vvv number|nil dale void volume per area, from 80 % (m)
+---@field Spd number|nil peaks per area: summits that stand `pruning` of Sz above their saddle, none at the rim or beside a hole (m^-2)
+---@field Svd number|nil pits per area, by the same rule (m^-2)
+---@field Spc number|nil mean curvature of the peaks, by three samples each way (m^-1)
+---@field S5p number|nil mean height of the five highest peaks above the mean; nil under five (m)
+---@field S5v number|nil mean depth of the five deepest pits; nil under five (m)
+---@field S10z number|nil S5p + S5v (m)
+---@field measured integer points that were measured
+---@field prepared asperity.Surface the map after F-operation, S- and L-filter
+---@field how string what was done to the map first, in words
+local ArealParameters = {}
+
+---Why a parameter is not defined on this map; nil where it is.
+---@param name string of a field, such as "Str"
+---@return string|nil
+function ArealParameters:why_not(name) end
+
+---Which share of the points lies above each height; heights count from the mean, ratios from 0 to 1.
+---@class asperity.MaterialRatioCurve
+---@field measured integer points that were measured
+---@field mean number of the heights, from which those of the curve count (m)
+local MaterialRatioCurve = {}
+
+---The height above which a share of the points lies, Smc(ratio).
+---@param ratio number 0 to 1
+---@return number
+function MaterialRatioCurve:height(ratio) end
+
+---The share of the points at or above a height, Smr(height).
+---@param height any from the mean
+---@return number
+function MaterialRatioCurve:ratio(height) end
+
+---Material above the height of a ratio, per area, Vm(ratio), in m.
+---@param ratio number 0 to 1
+---@return number
+function MaterialRatioCurve:material_volume(ratio) end
+
+---Void below the height of a ratio, per area, Vv(ratio), in m.
+---@param ratio number 0 to 1
+---@return number
+function MaterialRatioCurve:void_volume(ratio) end
+
+---The autocorrelation of a surface at lags of whole cells, 1 at the origin.
+---@class asperity.Autocorrelation
+---@field lags table the longest lags along x and y, in cells
+local Autocorrelation = {}
+
+---At a lag of i cells along x and j along y; nan where no pair of points was measured.
+---@param i integer along x
+---@param j integer along y
+---@return number
+function Autocorrelation:at(i, j) end
 
 ---@class asperity.options.contact.press
 ---@field pressure? number|string mean pressure over the tile (a pressure)
@@ -838,7 +1208,7 @@ local Ledger = {}
 ---@field digest string equal styluses have equal digests
 local Stylus = {}
 
----Traces at random places and angles, as the tip gives them: nothing is levelled or filtered. On a periodic surface they go on past the rim; on any other they stay inside. The list also holds tip_effect, what the tip changed against a needle on the same lines, and lines, where each trace begins and its angle.
+---Traces at random places and angles, as the tip gives them: nothing is levelled or filtered. On a periodic surface they go on past the rim; on any other they stay inside. The list also holds tip_effect, what the tip changed against a needle on the same lines, and lines, where each trace begins and its angle. Over points that were not measured only a needle (tip=0) goes: its traces have holes there.
 ---@param surface asperity.Surface what is measured
 ---@param options? asperity.options.stylus.scan
 ---@return asperity.Profile[]|{ tip_effect: asperity.TipEffect, lines: asperity.Traverse[] }
@@ -888,7 +1258,7 @@ function Protocol:repeated(options) end
 function Protocol:plus(next) end
 
 ---Draws load over time with rises, holds, peaks, releases and turns marked and labelled, over what was recorded if it was detected in a recording; without recorded times over the time its dwells add up to, or event by event. Returns the file.
----@param path string an .svg or .png under the run directory
+---@param path string an .svg, .png or .pdf under the run directory
 ---@param options? asperity.options.protocol.chart
 ---@return string
 function Protocol:chart(path, options) end
@@ -970,21 +1340,55 @@ function TiltStage:slip_growth(options) end
 ---@field should_fail? boolean a negative control: the expectation must not hold (boolean, default false)
 ---@field label? string shown with the verdict (string)
 
+---@class asperity.options.notebook.joined
+---@field by string|string[] the column, or columns, in which rows that belong together are equal (string|string[], required)
+---@field suffix? string behind the names of the other's columns that both tables have, such as "_predicted" (string)
+---@field unmatched? "error"|"leave out"|"keep" what becomes of rows that find none in the other table: an error, nothing, or a row in which the other's cells are empty ("error"|"leave out"|"keep", default "error")
+
+---@class asperity.options.notebook.mean
+---@field by? string|string[] a column, or columns: one mean for the rows that are equal in them (string|string[])
+---@field where? table only rows in which these columns hold these values (table)
+---@field confidence? number the share of such intervals that hold the mean (number above 0 and below 1, default 0.95)
+---@field interval? "t"|"log" Student's t; or, for values above 0 that are clearly skewed, the log interval of Cox, which assumes that their logarithms are normal ("t"|"log", default "t")
+
+---@class asperity.options.notebook.fit
+---@field x string the column along (string, required)
+---@field y string the column that is fitted (string, required)
+---@field model "linear"|"power"|function "linear": y = intercept + slope x; "power": y = a x^b; or a function(x, q) that returns y from x and the table q of the parameters, in the units of the columns ("linear"|"power"|function, required)
+---@field start? table for a function: its parameters by name, with values to begin from (table)
+---@field weights? string a column of relative weights, such as 1/u² with u the uncertainty of y; all alike without it (string)
+---@field where? table only rows in which these columns hold these values (table)
+---@field confidence? number of the intervals of parameters and curve (number above 0 and below 1, default 0.95)
+---@field name? string what charts call it (string)
+
+---@class asperity.options.notebook.histogram
+---@field of string the column (string, required)
+---@field bins? integer|number[] how many bins of equal width, or a list of their edges in the column's unit or as quantities (integer|number[], default by the rule of Freedman and Diaconis)
+---@field where? table only rows in which these columns hold these values (table)
+---@field density? boolean draw the share of values per width instead of their number (boolean, default false)
+---@field title? string above the picture (string)
+---@field x_label? string instead of the column's name (string)
+---@field file? string draws it: an .svg, .png or .pdf under the run directory (string)
+
 ---@class asperity.options.notebook.chart
 ---@field x string the column along (string, required)
 ---@field y string|string[] the column, or columns of one unit, up (string|string[], required)
 ---@field one_line_per? string a column; one line for each of its values (string)
 ---@field spread? boolean|string error bars: true for the scatter of rows that share x, or a column that holds them (boolean|string)
+---@field interval? table error bars: the columns that hold their lower and upper ends, as t:mean gives them ({string, string})
 ---@field where? table only rows in which these columns hold these values (table)
 ---@field log_x? boolean logarithmic axis along (boolean, default false)
 ---@field log_y? boolean logarithmic axis up (boolean, default false)
 ---@field in_order? boolean join rows as they were written, for loops that come back (boolean, default false)
----@field lines? boolean join the points (boolean, default true)
+---@field lines? boolean|table[] whether to join the points: where a fit is drawn or names stand along x they are not, unless asked for; or a list of lines across, each with y or x, a number in the column's unit or a quantity, and a name (boolean|table[], default true)
 ---@field points? boolean mark the points (boolean, default true)
+---@field fit? asperity.Fit|asperity.Fit[] what t:fit gave for these columns, drawn with the band of the curve (Fit|Fit[])
+---@field functions? table<string, function> functions of x drawn as lines under their names, in the units of the columns (table<string, function>)
 ---@field title? string above the chart (string)
 ---@field x_label? string instead of the column's name (string)
 ---@field y_label? string instead of the column's name (string)
----@field file? string an .svg or .png under the run directory; default <notebook>-<y>-<x>.svg (string)
+---@field below? table a second panel below, with the same keys but for `file`; `x` is that of the first unless given (table)
+---@field file? string an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a table table-<y>-<x>.svg (string)
 
 ---Rows of free columns, with expectations about them and charts of them.
 ---@class asperity.Notebook
@@ -1000,6 +1404,10 @@ function Notebook:write(row) end
 ---@param units table unit of each column
 function Notebook:units(units) end
 
+---The rows written so far as a table, a value that later rows do not change.
+---@return asperity.Table
+function Notebook:table() end
+
 ---All rows as tables.
 ---@return table[]
 function Notebook:rows() end
@@ -1010,10 +1418,146 @@ function Notebook:rows() end
 ---@return boolean
 function Notebook:expect(column, options) end
 
+---The rows in which these columns hold these values, as a table: numbers, strings, booleans, or lists of them, any of which may stand there. A quantity is counted in the unit of its column.
+---@param filter table values by the names of their columns
+---@return asperity.Table
+function Notebook:where(filter) end
+
+---The cells of a column as a list: numbers, nan where a cell is empty; or texts, "" where one is.
+---@param column string its name
+---@return any[]
+function Notebook:column(column) end
+
+---Each row beside the rows of another table, or notebook, that are equal to it in the columns `by`: as measured numbers stand beside computed ones.
+---@param other asperity.Table|asperity.Notebook the other table
+---@param options asperity.options.notebook.joined
+---@return asperity.Table
+function Notebook:joined(other, options) end
+
+---The mean of a column with its interval, as a table: one row, or one for each group of rows. Its columns are those of `by`, then mean, sd (standard deviation), u (standard uncertainty of the mean), low and high (the interval), n, left_out (cells that are empty or no finite number), skewness and interval (how it was computed).
+---@param column string the column
+---@param options? asperity.options.notebook.mean
+---@return asperity.Table
+function Notebook:mean(column, options) end
+
+---Fits a curve to two columns by least squares: parameters with intervals and correlation, R², residuals. `chart{ fit= }` draws it with its band. Parameters that the rows do not determine are an error that names them.
+---@param options asperity.options.notebook.fit
+---@return asperity.Fit
+function Notebook:fit(options) end
+
+---How often the values of a column fall into bins; `file` draws it.
+---@param options asperity.options.notebook.histogram
+---@return asperity.Histogram
+function Notebook:histogram(options) end
+
 ---Draws columns against a column; returns the file.
 ---@param options asperity.options.notebook.chart
 ---@return string
 function Notebook:chart(options) end
+
+---@class asperity.options.table.joined
+---@field by string|string[] the column, or columns, in which rows that belong together are equal (string|string[], required)
+---@field suffix? string behind the names of the other's columns that both tables have, such as "_predicted" (string)
+---@field unmatched? "error"|"leave out"|"keep" what becomes of rows that find none in the other table: an error, nothing, or a row in which the other's cells are empty ("error"|"leave out"|"keep", default "error")
+
+---@class asperity.options.table.mean
+---@field by? string|string[] a column, or columns: one mean for the rows that are equal in them (string|string[])
+---@field where? table only rows in which these columns hold these values (table)
+---@field confidence? number the share of such intervals that hold the mean (number above 0 and below 1, default 0.95)
+---@field interval? "t"|"log" Student's t; or, for values above 0 that are clearly skewed, the log interval of Cox, which assumes that their logarithms are normal ("t"|"log", default "t")
+
+---@class asperity.options.table.fit
+---@field x string the column along (string, required)
+---@field y string the column that is fitted (string, required)
+---@field model "linear"|"power"|function "linear": y = intercept + slope x; "power": y = a x^b; or a function(x, q) that returns y from x and the table q of the parameters, in the units of the columns ("linear"|"power"|function, required)
+---@field start? table for a function: its parameters by name, with values to begin from (table)
+---@field weights? string a column of relative weights, such as 1/u² with u the uncertainty of y; all alike without it (string)
+---@field where? table only rows in which these columns hold these values (table)
+---@field confidence? number of the intervals of parameters and curve (number above 0 and below 1, default 0.95)
+---@field name? string what charts call it (string)
+
+---@class asperity.options.table.histogram
+---@field of string the column (string, required)
+---@field bins? integer|number[] how many bins of equal width, or a list of their edges in the column's unit or as quantities (integer|number[], default by the rule of Freedman and Diaconis)
+---@field where? table only rows in which these columns hold these values (table)
+---@field density? boolean draw the share of values per width instead of their number (boolean, default false)
+---@field title? string above the picture (string)
+---@field x_label? string instead of the column's name (string)
+---@field file? string draws it: an .svg, .png or .pdf under the run directory (string)
+
+---@class asperity.options.table.chart
+---@field x string the column along (string, required)
+---@field y string|string[] the column, or columns of one unit, up (string|string[], required)
+---@field one_line_per? string a column; one line for each of its values (string)
+---@field spread? boolean|string error bars: true for the scatter of rows that share x, or a column that holds them (boolean|string)
+---@field interval? table error bars: the columns that hold their lower and upper ends, as t:mean gives them ({string, string})
+---@field where? table only rows in which these columns hold these values (table)
+---@field log_x? boolean logarithmic axis along (boolean, default false)
+---@field log_y? boolean logarithmic axis up (boolean, default false)
+---@field in_order? boolean join rows as they were written, for loops that come back (boolean, default false)
+---@field lines? boolean|table[] whether to join the points: where a fit is drawn or names stand along x they are not, unless asked for; or a list of lines across, each with y or x, a number in the column's unit or a quantity, and a name (boolean|table[], default true)
+---@field points? boolean mark the points (boolean, default true)
+---@field fit? asperity.Fit|asperity.Fit[] what t:fit gave for these columns, drawn with the band of the curve (Fit|Fit[])
+---@field functions? table<string, function> functions of x drawn as lines under their names, in the units of the columns (table<string, function>)
+---@field title? string above the chart (string)
+---@field x_label? string instead of the column's name (string)
+---@field y_label? string instead of the column's name (string)
+---@field below? table a second panel below, with the same keys but for `file`; `x` is that of the first unless given (table)
+---@field file? string an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a table table-<y>-<x>.svg (string)
+
+---Rows under named columns with units, read from a file, made of rows or taken from a notebook; an immutable value whose methods return new ones. Its numbers are in SI; those of a notebook stay in the units of its columns.
+---@class asperity.Table
+---@field columns string[] the names of its columns, in order
+---@field units table<string, string> the unit of each column that has one
+---@field name string where it came from, as errors call it
+---@field digest string of columns, units and cells: equal tables have equal digests
+local Table = {}
+
+---All rows as tables, numbers in SI; an empty cell is nil.
+---@return table[]
+function Table:rows() end
+
+---Writes it as CSV, with units in the heads; lab.table.read gives it back to the bit.
+---@param path string a .csv under the run directory
+---@return string
+function Table:write(path) end
+
+---The rows in which these columns hold these values, as a table: numbers, strings, booleans, or lists of them, any of which may stand there. A quantity is counted in the unit of its column.
+---@param filter table values by the names of their columns
+---@return asperity.Table
+function Table:where(filter) end
+
+---The cells of a column as a list: numbers, nan where a cell is empty; or texts, "" where one is.
+---@param column string its name
+---@return any[]
+function Table:column(column) end
+
+---Each row beside the rows of another table, or notebook, that are equal to it in the columns `by`: as measured numbers stand beside computed ones.
+---@param other asperity.Table|asperity.Notebook the other table
+---@param options asperity.options.table.joined
+---@return asperity.Table
+function Table:joined(other, options) end
+
+---The mean of a column with its interval, as a table: one row, or one for each group of rows. Its columns are those of `by`, then mean, sd (standard deviation), u (standard uncertainty of the mean), low and high (the interval), n, left_out (cells that are empty or no finite number), skewness and interval (how it was computed).
+---@param column string the column
+---@param options? asperity.options.table.mean
+---@return asperity.Table
+function Table:mean(column, options) end
+
+---Fits a curve to two columns by least squares: parameters with intervals and correlation, R², residuals. `chart{ fit= }` draws it with its band. Parameters that the rows do not determine are an error that names them.
+---@param options asperity.options.table.fit
+---@return asperity.Fit
+function Table:fit(options) end
+
+---How often the values of a column fall into bins; `file` draws it.
+---@param options asperity.options.table.histogram
+---@return asperity.Histogram
+function Table:histogram(options) end
+
+---Draws columns against a column; returns the file.
+---@param options asperity.options.table.chart
+---@return string
+function Table:chart(options) end
 
 ---@class asperity.options.study.cheapest
 ---@field error number greatest error, relative to the truth (absolute where the truth is 0) (number above 0, required)
@@ -1033,7 +1577,7 @@ local Study = {}
 function Study:rows() end
 
 ---Draws error against time on logarithmic axes, a line per way, bars from the fastest to the slowest run, rings about what nothing beats, and marks at the rim for settings that failed or were left out; returns the file.
----@param path? string an .svg or .png under the run directory; default <name>.svg
+---@param path? string an .svg, .png or .pdf under the run directory; default <name>.svg
 ---@return string
 function Study:chart(path) end
 
@@ -1153,6 +1697,9 @@ function SpreadState:write(name, path) end
 ---@field probe_pressure? number|string[] at which a half-space contact is solved, each raised until enough nodes touch; a box contact is solved at its weight, and so is a half-space whose weight presses harder than the least of these (a pressure[], default {"1 MPa", "3 MPa"})
 ---@field scatter? number relative standard deviation of the friction force from trial to trial (number at least 0, default 0)
 
+---@class asperity.options.lab.notebook
+---@field columns? string[] the names of columns in the order in which they stand, with units or without (string[], default in the order of their names, as rows bring them)
+
 ---@class asperity.options.lab.ensemble
 ---@field over? table name -> list of values; every combination is a case, in the order of the names with the last one varying fastest (table)
 ---@field cases? table the cases themselves, a list of tables, in place of over (table)
@@ -1202,8 +1749,9 @@ function lab.tilt_stage(options) end
 
 ---The notebook of that name: rows kept as <name>.csv in the run directory, written as they come.
 ---@param name string of the notebook and its file
+---@param options? asperity.options.lab.notebook
 ---@return asperity.Notebook
-function lab.notebook(name) end
+function lab.notebook(name, options) end
 
 ---Runs a function for every case of a study, on all threads, and returns one row a case: the case's own values and what the function returned. Order and values do not depend on the number of threads. A case that fails is told on standard error and the others run on; then `on_failure` says what becomes of it.
 ---@param options asperity.options.lab.ensemble
@@ -1218,6 +1766,17 @@ function lab.work_precision(options) end
 ---What this run has done so far and what it cost, call by call and effect by effect, with what is in no line at the end.
 ---@return asperity.Ledger
 function lab.ledger() end
+
+---The files of a folder whose names match a pattern, in the order of their names, as lab.surface.read and the other readers take them: * stands for any characters, ? for one. Which files there were is recorded, and a replay tells where others are there.
+---@param pattern string a folder and a pattern of names in it
+---@return string[]
+function lab.files(pattern) end
+
+---A quantity as a number in SI, as every key of the language takes it: lab.quantity "250 um" is 2.5e-4. A plain number stays as it is.
+---@param quantity string|number a number with a unit
+---@param kind? string what it has to be: "length", "pressure", …, or a unit of it
+---@return number
+function lab.quantity(quantity, kind) end
 
 ---What the laboratory can do, or one function, value or field of it, as text.
 ---@param topic? any what to explain: a name or part of one, a key, or the function or value itself; nothing lists the topics
@@ -1326,7 +1885,7 @@ lab.units = {}
 ---@field size? number|string|table size of the map, where the file has none (a length|{a length, a length} above 0)
 ---@field unit? number|string length of one height of the file, where it has no unit, e.g. "um" (a length above 0)
 ---@field unit_xy? number|string length of one number of a position, in x y z points and in profiles of two columns that do not say it, e.g. "mm" (a length above 0)
----@field fill? "interpolate"|a length what missing points become; without it they are an error ("interpolate"|a length)
+---@field fill? "interpolate"|a length what points that were not measured become; without it they stay missing ("interpolate"|a length)
 ---@field format? string read as this format whatever the file looks like: "x3p", "sdf", "sur", "opd", "bcr", "gwy", "hdf5", "npy", "text", "xyz" or "stylus-csv" (string)
 ---@field channel? string which of several maps in an HDF5, GWY or OPD file, by its name (string)
 ---@field material? asperity.Material what the body is made of (Material)
@@ -1380,7 +1939,7 @@ function lab.surface.from_function(options) end
 ---@return asperity.Surface
 function lab.surface.from_table(options) end
 
----A measured surface from a file: X3P, SDF, SUR, OPD, BCR, GWY, HDF5, NPY, text matrix, x y z triples or a profiler's CSV, known by its content, then by its extension. Over x y z triples a line such as "x [mm];y [mm];z [um]" says their units.
+---A measured surface from a file: X3P, SDF, SUR, OPD, BCR, GWY, HDF5, NPY, text matrix, x y z triples or a profiler's CSV, known by its content, then by its extension. Points that it marks as not measured stay missing. Over x y z triples a line such as "x [mm];y [mm];z [um]" says their units.
 ---@param path string the file
 ---@param options? asperity.options.lab.surface.read
 ---@return asperity.Surface
@@ -1390,7 +1949,7 @@ function lab.surface.read(path, options) end
 ---@field spacing? number|string distance between samples, where the file has none (a length above 0)
 ---@field unit? number|string length of one height of the file, where it has no unit, e.g. "um" (a length above 0)
 ---@field unit_xy? number|string length of one number of a position, in x y z points and in profiles of two columns that do not say it, e.g. "mm" (a length above 0)
----@field fill? "interpolate"|a length what missing points become; without it they are an error ("interpolate"|a length)
+---@field fill? "interpolate"|a length what points that were not measured become; without it they stay missing ("interpolate"|a length)
 ---@field format? string read as this format whatever the file looks like (string)
 ---@field channel? string which of several arrays in an HDF5, GWY or OPD file, by its name (string)
 
@@ -1417,6 +1976,15 @@ function lab.profile.read(path, options) end
 ---@field least_overshoot? number an overshoot by less is none, as a share of the load beside it; nor one within six times the noise (number above 0 and below 1, default 0.01)
 ---@field least_turn? number|string a turn by less is none (an angle above 0, default "0.5 deg")
 ---@field turn_step? number|string turns are whole multiples of this, and are rounded to them (an angle above 0, default none: turns are as they were read)
+---@field equal_times? "error"|"spread" what becomes of samples of a recording that share a time, as those of a fast logger with a slow clock do: an error, or they are spread evenly until the next time ("error"|"spread", default "error")
+---@field columns? table own names of columns, each with its head in the file, as in { load="Kraft" }; where two heads differ in their units alone, with the unit. Or a list: the heads of a file that has none (table)
+---@field skip? integer lines above the heads that are left out (integer at least 0, default 0)
+---@field unit? table units of columns that the file says none for, or others than it says: { load="kN" }; "1" for plain numbers, "date" for dates that a spreadsheet wrote as numbers of days (table)
+---@field dates? "day first"|"month first" the order in dates such as 03/04/2026 ("day first"|"month first", default as a date of the column tells that has a day after the 12th)
+---@field clock? "h:min"|"min:s" what times such as 10:30 are ("h:min"|"min:s")
+---@field decimal? "."|"," the decimal sign ("."|",", default as the numbers of the file tell together)
+---@field thousands? ","|"."|" "|"'" what parts thousands (","|"."|" "|"'", default nothing)
+---@field separator? ","|";"|"tab"|"blank" what parts the cells (","|";"|"tab"|"blank", default as the line of heads tells)
 
 ---@class asperity.options.lab.protocol
 ---@field press? table puts a load on, as c:press does (table)
@@ -1430,7 +1998,7 @@ function lab.profile.read(path, options) end
 ---@overload fun(options: asperity.options.lab.protocol[]): asperity.Protocol
 lab.protocol = {}
 
----A protocol from a press log. Its columns are named with units, such as time [s], pressure [MPa] or load [N]; cells are parted by commas, semicolons or tabs; other columns are left out with a warning, those titled "result ..." without. With a row an event there may be rotation [deg], dwell [min], and place for a seed: a row turns the upper body by its rotation from where it lies, then presses for its dwell; no pressure takes the load off, and so does a turn under load. In a recording, load or pressure and the stage's angle [deg] sampled all the time, rises, holds, peaks, releases and turns are detected; print(p) lists them with the lines they came from and the thresholds, and what the noise leaves uncertain is a warning or an error. Press times are those of the beginning of the hold.
+---A protocol from a press log. Its columns are named with units, such as time [s], pressure [MPa] or load [N], and read as lab.table.read reads any table, times that are dates too, from the first on; force, Kraft, Druck, Zeit and the like are understood; other columns are left out with a warning, those titled "result ..." without. With a row an event there may be rotation [deg], dwell [min], and place for a seed: a row turns the upper body by its rotation from where it lies, then presses for its dwell; no pressure takes the load off, and so does a turn under load. In a recording, load or pressure and the stage's angle [deg] sampled all the time, rises, holds, peaks, releases and turns are detected; print(p) lists them with the lines they came from and the thresholds, and what the noise leaves uncertain is a warning or an error. Press times are those of the beginning of the hold.
 ---@param path string the file
 ---@param options? asperity.options.lab.protocol.read
 ---@return asperity.Protocol
@@ -1594,5 +2162,36 @@ function lab.spread.read(path, options) end
 ---@param options asperity.options.lab.spread.contact
 ---@return asperity.SpreadContact
 function lab.spread.contact(options) end
+
+---@class asperity.options.lab.table.read
+---@field columns? table own names of columns, each with its head in the file, as in { load="Kraft" }; where two heads differ in their units alone, with the unit. Or a list: the heads of a file that has none (table)
+---@field skip? integer lines above the heads that are left out (integer at least 0, default 0)
+---@field unit? table units of columns that the file says none for, or others than it says: { load="kN" }; "1" for plain numbers, "date" for dates that a spreadsheet wrote as numbers of days (table)
+---@field dates? "day first"|"month first" the order in dates such as 03/04/2026 ("day first"|"month first", default as a date of the column tells that has a day after the 12th)
+---@field clock? "h:min"|"min:s" what times such as 10:30 are ("h:min"|"min:s")
+---@field decimal? "."|"," the decimal sign ("."|",", default as the numbers of the file tell together)
+---@field thousands? ","|"."|" "|"'" what parts thousands (","|"."|" "|"'", default nothing)
+---@field separator? ","|";"|"tab"|"blank" what parts the cells (","|";"|"tab"|"blank", default as the line of heads tells)
+---@field text? string|string[] columns that hold texts, whatever their cells look like (string|string[])
+---@field stamps? "first"|"1970" what dates and times of day are counted from, in seconds: the first one of their column, or the beginning of 1970 ("first"|"1970", default "first")
+
+---@class asperity.options.lab.table.from
+---@field columns? string[] the names of columns in the order in which they stand (string[], default in the order of their names, as rows bring them)
+
+---Tables of measured or computed numbers under named columns with units.
+---@class asperity.lab.table
+lab.table = {}
+
+---A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Latin-1): a line of heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. Units stand in the heads, load [N], load (N), load / N, or in the line below, or in the cells; numbers with a unit come in SI. Dates and times of day become seconds, ISO 8601 and local forms; columns of words are texts. What may be read in two ways is an error that names the key that decides.
+---@param path string the file
+---@param options? asperity.options.lab.table.read
+---@return asperity.Table
+function lab.table.read(path, options) end
+
+---A table of rows that a script has. A column may carry its unit in its name, and a cell may be a quantity.
+---@param rows table[] rows, each a table of columns and their values
+---@param options? asperity.options.lab.table.from
+---@return asperity.Table
+function lab.table.from(rows, options) end
 
 return lab
