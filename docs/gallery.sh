@@ -23,6 +23,8 @@ rotation_memory:slope_by_contacts.svg
 rough_on_rough:rough_on_rough.svg
 how_bodies_give_way:areas.svg
 stylus_and_tip:stylus-and-tip-slope_kept-tip.svg
+worn_pair:lost.svg
+angles:angles.svg
 measured_specimen:pressure.png
 replay_press_log:press_log.svg
 01_roughness:lines.svg

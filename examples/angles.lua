@@ -14,11 +14,13 @@
 
 local lab = require "asperity"
 local arguments = require "asperity.arguments"
-local given = arguments({ table = "examples/data/tilt_angles.csv", cells = 128, seeds = 6 }, ...)
+local given = arguments({ table = "", cells = 128, seeds = 6 }, ...)
+local folder = (arg and arg[0] or ""):match "^(.*)/" or "."
+local path = given.table == "" and folder .. "/data/tilt_angles.csv" or given.table
 local um, deg = lab.units.um, lab.units.deg
 
 -- 1. Measured: read, and brought to one row a specimen.
-local trials = lab.table.read(given.table, { skip = 1, columns = { Ra = "Rauheit Ra", angle = "Winkel", trial = "Versuch" } })
+local trials = lab.table.read(path, { skip = 1, columns = { Ra = "Rauheit Ra", angle = "Winkel", trial = "Versuch" } })
 local measured = trials:mean("angle", { by = "Ra" })
 print(trials)
 

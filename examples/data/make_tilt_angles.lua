@@ -2,7 +2,7 @@
 -- Makes tilt_angles.csv, the table that examples/angles.lua reads: tilt angles of five faces of rising roughness, five
 -- trials each, as a German spreadsheet would write them. No stage was there.
 --
---   asperity run examples/data/make_tilt_angles.lua --out /tmp/angles && cp /tmp/angles/tilt_angles.csv examples/data/
+--   asperity run examples/data/make_tilt_angles.lua --out /tmp/angles && cp /tmp/angles/tilt_angles.txt examples/data/tilt_angles.csv
 local lab = require "asperity"
 local steel = lab.material "steel"
 local law = lab.friction{ tau0 = "500 MPa", alpha = 0.2 }
@@ -19,5 +19,5 @@ for k, ra in ipairs{ 0.2, 0.4, 0.8, 1.6, 3.2 } do
     lines[#lines + 1] = ("S%d;%s;%d;%s"):format(k, german(ra, 1), trial, german(math.deg(t.held), 1))
   end
 end
-local file <close> = io.open("tilt_angles.csv", "w")
+local file <close> = io.open("tilt_angles.txt", "w")
 file:write(table.concat(lines, "\r\n"), "\r\n")

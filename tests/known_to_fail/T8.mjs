@@ -23,6 +23,6 @@ const contrast = (a, b) => (Math.max(bright(a), bright(b)) + 0.05) / (Math.min(b
 const least = Math.min(...[...Array(101).keys()].map((k) => contrast(bytes(maps[`interpolate${map}`](k / 100)), none)));
 claim('the grey of no contact stands out from each pressure by 3:1', least >= 3, least.toFixed(2));
 
-const pictures = readFileSync(new URL('../../bindings/lua/contact/state_class.cpp', import.meta.url), 'utf8');
-const [, heat] = /name == "pressure"\) options\.palette = "(\w+)"/.exec(pictures);
+const pictures = readFileSync(new URL('../../bindings/lua/surface/field_class.cpp', import.meta.url), 'utf8');
+const [, heat] = /f\.name == "pressure"\) options\.palette = "(\w+)"/.exec(pictures);
 claim('pictures and page have one scale of pressure', map.toLowerCase() === heat, map, heat);

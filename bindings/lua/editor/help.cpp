@@ -193,6 +193,7 @@ struct Topic {
   std::string text;
   std::string sentence;     // of the text
   bool exact_name = false;  // found by its name as it is written alone: `Tilt` is not meant by "tilt"
+  bool of_record = false;   // a field of a result, which few look for by its bare name alone
 };
 
 std::vector<Topic> all_topics() {
@@ -223,7 +224,7 @@ std::vector<Topic> all_topics() {
       const std::string name = type->name + "." + field.name;
       topics.push_back(
           {name, name + ", of " + givers + ": " + field.sentence + " (" + describe_field(field) + ")\n",
-           field.sentence});
+           field.sentence, false, true});
     }
   }
   return topics;
@@ -279,12 +280,14 @@ bool has_word(std::string_view sentence, std::string_view word) {
 
 // A line for each topic and key that has the words in its name, then for those that have them in a sentence.
 // "" where there is none, and for a single letter, which is in every name.
-std::string hits_help(const std::string& asked, const std::vector<Topic>& topics) {
+// `beside` what was found by its very name.
+std::string hits_help(const std::string& asked, const std::vector<Topic>& topics, bool beside) {
   const std::string word = lowered(asked);
   if (word.size() < 2 || word.find_first_not_of(' ') == std::string::npos) return "";
   std::vector<std::string> by_name, by_sentence;
   const auto look = [&](const std::string& name, std::string_view own, const std::string& sentence,
                         const std::string& type) {
+    if (beside && lowered(own) == word) return;
     if (lowered(own).find(word) != std::string::npos)
       by_name.push_back(name + ": " + sentence);
     else if (has_word(lowered(sentence + " " + type), word))
@@ -299,7 +302,8 @@ std::string hits_help(const std::string& asked, const std::vector<Topic>& topics
   if (found == 0) return "";
   by_name.insert(by_name.end(), by_sentence.begin(), by_sentence.end());
   constexpr std::size_t most = 40;
-  std::string text = "nothing is called " + quoted(asked) + "; it is part of\n";
+  std::string text =
+      beside ? quoted(asked) + " is part of\n" : "nothing is called " + quoted(asked) + "; it is part of\n";
   for (std::size_t k = 0; k < std::min(found, most); ++k) text += "  " + by_name[k] + "\n";
   if (found > most) text += "  and " + std::to_string(found - most) + " more\n";
   return text;
@@ -443,11 +447,20 @@ std::string help_text(const std::string& topic) {
     if (!t.exact_name && (same_word(t.name, topic) || same_word(t.name, "lab." + topic))) return t.text;
   // A bare name may mean several things: `close`, `roughness`. Show them all.
   std::string found;
+  bool fields_alone = true;
   for (const Topic& t : topics)
-    if (!t.exact_name && same_word(last_name(t.name), topic)) found += (found.empty() ? "" : "\n") + t.text;
-  if (const std::string keys = keys_help(topic); !keys.empty()) found += (found.empty() ? "" : "\n") + keys;
+    if (!t.exact_name && same_word(last_name(t.name), topic)) {
+      found += (found.empty() ? "" : "\n") + t.text;
+      fields_alone = fields_alone && t.of_record;
+    }
+  if (const std::string keys = keys_help(topic); !keys.empty()) {
+    found += (found.empty() ? "" : "\n") + keys;
+    fields_alone = false;
+  }
+  if (!found.empty() && !fields_alone) return found;
+  if (const std::string hits = hits_help(topic, topics, !found.empty()); !hits.empty())
+    return found + (found.empty() ? "" : "\n") + hits;
   if (!found.empty()) return found;
-  if (const std::string hits = hits_help(topic, topics); !hits.empty()) return hits;
   std::vector<std::string> names;
   for (const Function* function : functions_with_options())
     for (const NamedOption& named : all_options(*function->options)) names.push_back(last_name(named.name));
