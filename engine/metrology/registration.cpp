@@ -56,7 +56,8 @@ Field laid_on(const HeightMap& after, const HeightMap& before, const Pose& pose,
   const bool holes = known_count(filled.values()) < filled.size();
   if (holes) fill_harmonic(filled, after.hx, after.hy, monitor);
   const NaturalSpline spline(filled);
-  const auto [sine, cosine] = elementary::sincos(pose.turn);
+  const elementary::SineCosine turned = elementary::sincos(pose.turn);
+  const double sine = turned.sine, cosine = turned.cosine;
   Field result(before.nx(), before.ny());
   const auto row = [&](int j) {
     for (int i = 0; i < before.nx(); ++i) {

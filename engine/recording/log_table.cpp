@@ -117,7 +117,7 @@ void LogTable::split_unit(Column& column) const {
 void LogTable::choose_columns() {
   for (const auto& [name, title] : form_.names) {
     const LogColumn& known = *std::ranges::find(known_, std::string_view(name), &LogColumn::name);
-    const auto is_it = [&](const Column& column, bool whole) {
+    const auto is_it = [&, title = std::string_view(title)](const Column& column, bool whole) {
       return lower_case(column.title) == lower_case(trimmed(title)) ||
              (!whole && column.name == lower_case(trimmed(title)));
     };

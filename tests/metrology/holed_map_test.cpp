@@ -103,7 +103,7 @@ Surface mostly_missing(int nx, int ny, std::vector<std::pair<int, int>> measured
 
 TEST(HoledMap, HasTheParametersOfOtherPrograms) {
   const auto& [complete, holed, reference] = holed_map();
-  const auto expect = [&](const std::string& name, double value) {
+  const auto expect = [&reference = reference](const std::string& name, double value) {
     EXPECT_NEAR(value, reference.at(name), 1e-9 * std::abs(reference.at(name))) << name;
   };
   const Roughness r = roughness(holed);
@@ -272,7 +272,7 @@ TEST(HoledMap, DimensionByPairsThatWereMeasured) {
   EXPECT_NEAR(found.lengths.front(), mean_of_rows, 1e-12);
   for (const DimensionMethod method : {DimensionMethod::psd, DimensionMethod::box}) {
     options.method = method;
-    EXPECT_NE(testing::error_text([&] {
+    EXPECT_NE(testing::error_text([&, &holed = holed] {
                 fractal_dimension(holed, options);
               }).find("5058 of 65536 were not measured"),
               std::string::npos);

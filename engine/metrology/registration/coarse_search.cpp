@@ -155,7 +155,8 @@ std::vector<Candidate> coarse_candidates(const HeightMap& before, const HeightMa
   // The box around the turned after-map: of the greatest turn for few degrees, its diagonal for more.
   const double quarter = std::min(options.greatest_turn, 0.5 * std::numbers::pi);
   const double diagonal = elementary::hypot(after.nx(), after.ny());
-  const auto [sine, cosine] = elementary::sincos(quarter);
+  const elementary::SineCosine of_quarter = elementary::sincos(quarter);
+  const double sine = of_quarter.sine, cosine = of_quarter.cosine;
   const auto box = [&](double along, double across) {
     return std::min(diagonal, options.greatest_turn < 0.25 * std::numbers::pi ? along * cosine + across * sine
                                                                               : diagonal);

@@ -117,7 +117,8 @@ class Problem {
   std::size_t sample(const Pose& pose, const Plane& plane) {
     const HeightMap& after = maps_.after();
     const NaturalSpline& before = maps_.before();
-    const auto [sine, cosine] = elementary::sincos(pose.turn);
+    const elementary::SineCosine turned = elementary::sincos(pose.turn);
+    const double sine = turned.sine, cosine = turned.cosine;
     const double to_x = 1 / maps_.before_hx(), to_y = 1 / maps_.before_hy();
     const double middle_x = 0.5 * (before.nx() - 1), middle_y = 0.5 * (before.ny() - 1);
     for_rows([&](int row) {
