@@ -197,9 +197,12 @@ Json RunDirectory::inputs() const {
 
 bool RunDirectory::note_input(std::string_view file, std::int64_t bytes, std::string_view digest) {
   const std::lock_guard lock(mutex_);
-  const bool more = inputs_.insert({std::string(file), bytes, std::string(digest)}).second;
-  if (more && kind_ == Kind::directory && !later_ && !scratch_ && !finished_) {
+  inputs_.insert({std::string(file), bytes, std::string(digest)});
+  // Thousands of files are told of in eighths of what there are, or each would write all of them again.
+  const bool due = inputs_.size() > inputs_on_disk_ + inputs_on_disk_ / 8;
+  if (due && kind_ == Kind::directory && !later_ && !scratch_ && !finished_) {
     try {
+      inputs_on_disk_ = inputs_.size();
       write_manifest(Durable::no);
     } catch (const Error&) {  // that the manifest cannot be written is told when the run ends
     }

@@ -128,9 +128,9 @@ class RunDirectory {
   // A member of the manifest; `unhashed` for what may differ between equal runs. Written by finish().
   void note(std::string_view key, Json value);
   void note_unhashed(std::string_view key, Json value);
-  // A file that was read, under the name the script gave, with the digest of its content. It is in the
-  // manifest at once, so that a run that is taken up again knows it. Returns whether that one had read other
-  // content.
+  // A file that was read, under the name the script gave, with the digest of its content. The
+  // manifest tells of it while the run goes on (of many files in eighths of what there are), so that a run
+  // that is taken up again knows it. Returns whether that one had read other content.
   bool note_input(std::string_view file, std::int64_t bytes, std::string_view digest);
 
   // Ends the run: brings notebooks up to date, closes the journal with an event "end", and writes the
@@ -189,6 +189,7 @@ class RunDirectory {
     auto operator<=>(const Input&) const = default;
   };
   std::set<Input> inputs_;
+  std::size_t inputs_on_disk_ = 0;  // how many of them the manifest tells of while the run goes on
   std::vector<std::shared_ptr<Notebook>> notebooks_;
   std::atomic<bool> finished_{false};
 };
