@@ -11,7 +11,7 @@
 -- (registered_to), and the difference is what was lost. Then the program presses the map measured before by the
 -- same loads, and both are read on the same ground: Ra, skewness, the lost volume per area, and how alike the damage is.
 -- The prediction takes away a little too much under the light load: the part that was measured has not all of the
--- highest peaks, and what lies outside carries load too. With the whole face in view it is within 3 %.
+-- highest peaks, and what lies outside carries load too. With the whole face in view it is within 4 %.
 
 local lab = require "asperity"
 local arguments = require "asperity.arguments"
