@@ -337,6 +337,13 @@ TEST(ArealParameters, OnlyWhatIsReadIsComputed) {
   EXPECT_EQ(p.groups_computed(), 4);
 }
 
+TEST(ArealParameters, WithoutPruningHillsAreNoise) {
+  const Surface map = p1();
+  EXPECT_EQ(hills(map, 0).peaks, 135u);
+  EXPECT_EQ(hills(map, .01).peaks, 58u);
+  EXPECT_EQ(hills(map, .1).peaks, 20u);
+}
+
 TEST(ArealParameters, OneSpikeTakesTheHillsWithIt) {
   const Surface s = of(64, 64, 1, 1, [](int i, int j) {
     return i == 31 && j == 20 ? 1000.0 : std::sin(2 * pi * i / 16) * std::sin(2 * pi * j / 16);

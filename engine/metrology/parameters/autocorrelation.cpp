@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/fourier/fourier.hpp"
@@ -11,6 +12,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -80,10 +82,8 @@ Autocorrelation::Autocorrelation(const Surface& surface)
                std::to_string(grid.ny) + " cells was asked for",
            "it needs at least two cells each way");
   const Field& z = surface.measured_heights();
-  Array<double> known;
-  known.reserve(surface.measured());
-  for (const double h : z.values())
-    if (!std::isnan(h)) known.push_back(h);
+  const MeasuredValues measured(surface);
+  const std::span<const double> known = measured.values();
   const double mean = exact_mean(known, r);
   const double unit = std::ldexp(1.0, -scale_exponent(std::max(r.max - mean, mean - r.min)));
   const double squares = blocked_sums<1>(known.size(),
@@ -92,7 +92,6 @@ Autocorrelation::Autocorrelation(const Surface& surface)
                                            return std::array{v * v};
                                          })[0] /
                          static_cast<double>(known.size());
-  known = {};
 
   const int width = good_fourier_length(grid.nx + lags_x_), height = good_fourier_length(grid.ny + lags_y_);
   const auto pad = [&](const auto& value) {

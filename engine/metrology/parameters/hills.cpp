@@ -12,6 +12,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -142,12 +143,7 @@ Hills hills(const Surface& surface, double pruning) {
     }
     result.Spc = sum / static_cast<double>(peaks.size());
   }
-  // About the mean of the measured heights.
-  Array<double> known;
-  known.reserve(surface.measured());
-  for (const double h : z.values())
-    if (!std::isnan(h)) known.push_back(h);
-  const double mean = exact_mean(known, r);
+  const double mean = exact_mean(MeasuredValues(surface).values(), r);
   result.S5p = mean_of_five(z, peaks, mean, 1);
   result.S5v = mean_of_five(z, pits, mean, -1);
   if (result.S5p && result.S5v) result.S10z = *result.S5p + *result.S5v;

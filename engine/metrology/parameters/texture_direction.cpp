@@ -10,6 +10,7 @@
 #include "engine/core/fourier/fourier.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/blocked_sums.hpp"
+#include "engine/surface/operations/missing_points.hpp"
 
 namespace asperity {
 
@@ -61,12 +62,7 @@ TextureDirection texture_direction(const Surface& surface) {
   const Range r = surface.height_range();
   if (r.span() == 0) refuse("the direction of a flat surface was asked for", "it needs heights that differ");
   const Field& z = surface.measured_heights();
-  Array<double> known;
-  known.reserve(surface.measured());
-  for (const double h : z.values())
-    if (!std::isnan(h)) known.push_back(h);
-  const double mean = exact_mean(known, r);
-  known = {};
+  const double mean = exact_mean(MeasuredValues(surface).values(), r);
   const double unit = std::ldexp(1.0, -scale_exponent(std::max(r.max - mean, mean - r.min)));
   const Array<double> along_x = hann(grid.nx), along_y = hann(grid.ny);
   Field windowed(grid.nx, grid.ny);
