@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Sources that differ from a commit compile each by itself, with every warning an error: builds that compile several at
-# once do not see an #include that is missing, nor what shadows what. Headers too; and where a header gave up an
-# #include, all sources that include it.
+# once do not see an #include that is missing, nor what shadows what. Headers too, by the source of their name where that
+# includes them first; and where a header gave up an #include, all sources that include it.
 #
 #   alone.sh COMMIT        what differs from the commit, committed or not
 #   alone.sh --everything  every source
@@ -22,6 +22,18 @@ else
   # shellcheck disable=SC2086  # a list of words
   if [ -n "$poorer" ]; then files=$(printf '%s\n' $files $(graph $poorer) | sort -u); fi
 fi
+# A header whose source is compiled and includes it first is compiled there.
+# shellcheck disable=SC2086  # a list of words
+files=$(printf '%s\n' $files | while read -r path; do
+  source=${path%.hpp}.cpp
+  case $path in
+    *.hpp)
+      ! { printf '%s\n' "$files" | grep -qxF "$source" &&
+        [ "$(sed -n '/^#include/ { p; q }' "$source")" = "#include \"$path\"" ]; } || continue
+      ;;
+  esac
+  printf '%s\n' "$path"
+done)
 [ -n "$files" ] || { echo "no source differs"; exit 0; }
 
 flags="-std=c++20 -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor

@@ -4,11 +4,11 @@
 # promise, leak, time-out or excess of memory, keeps the input that made it and says how to run it again.
 # What grows out of a corpus stays in the build folder, where the next run goes on. As many run at once as there are
 # processors.
-# usage: run.sh [--seconds N] [--build FOLDER] [--jobs N] [--floors "core surface recording bindings"] [TARGET...]
+# usage: run.sh [--seconds N] [--build FOLDER] [--jobs N] [--floors "core statistics surface recording bindings"] [TARGET...]
 set -eu
 cd "$(dirname -- "$0")/../.."
 
-seconds=10 build=build/sanitize jobs=$(nproc) targets= floors="core surface recording bindings" one=
+seconds=10 build=build/sanitize jobs=$(nproc) targets= floors="core statistics surface recording bindings" one=
 while [ $# -gt 0 ]; do
   case $1 in
     --seconds) seconds=$2; shift 2 ;;
