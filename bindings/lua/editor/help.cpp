@@ -196,7 +196,7 @@ struct Topic {
   bool of_record = false;   // a field of a result, which few look for by its bare name alone
 };
 
-std::vector<Topic> all_topics() {
+std::vector<Topic> collect_topics() {
   std::vector<Topic> topics;
   for (const Module* module : modules()) {
     topics.push_back({module->path, module_help(*module), module->sentence});
@@ -227,6 +227,12 @@ std::vector<Topic> all_topics() {
            field.sentence, false, true});
     }
   }
+  return topics;
+}
+
+// What the catalogue registers is there before anything asks.
+const std::vector<Topic>& all_topics() {
+  static const std::vector<Topic> topics = collect_topics();
   return topics;
 }
 
@@ -438,7 +444,7 @@ void cats_function(std::string& page, const Function& function, const std::strin
 
 std::string help_text(const std::string& topic) {
   if (topic.empty()) return topics_help();
-  const std::vector<Topic> topics = all_topics();
+  const std::vector<Topic>& topics = all_topics();
   // `Surface` is the value and `surface` the module: the case counts where it tells them apart.
   for (const std::string& name : {topic, "lab." + topic})
     for (const Topic& t : topics)
