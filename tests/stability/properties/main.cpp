@@ -22,6 +22,9 @@
 #include "tests/stability/properties/property.hpp"
 
 namespace asperity::stability {
+
+bool counts_scenes = true;
+
 namespace {
 
 const Family* const families[] = {&conditions,         &monotony, &rescaling, &symmetry, &events,
@@ -63,9 +66,13 @@ Settings read(int count, char** words) {
   return settings;
 }
 
-Verdict judged(const Family& family, const Trial& trial, std::uint64_t salt) {
+// `beyond`: counts the scenes of which doubles hold no more.
+Verdict judged(const Family& family, const Trial& trial, std::uint64_t salt, int& beyond) {
   try {
     return family.check(trial, salt);
+  } catch (const BeyondDoubles&) {
+    ++beyond;
+    return {};
   } catch (const Error& error) {
     return Broken{"no " + std::string(name(error.code())) + " error", error.what()};
   }
@@ -83,11 +90,12 @@ struct Failure {
 // The smallest scene found that breaks the same property.
 Failure shrunk(const Family& family, Failure failure, std::uint64_t salt) {
   const double begin = seconds();
+  int beyond = 0;
   constexpr double patience = 20;  // s
   for (bool smaller = true; smaller && seconds() - begin < patience;) {
     smaller = false;
     for (const Trial& next : simpler(failure.trial)) {
-      const Verdict verdict = judged(family, next, salt);
+      const Verdict verdict = judged(family, next, salt, beyond);
       if (!verdict || verdict->property != failure.broken.property) continue;
       failure = {next, *verdict};
       smaller = true;
@@ -104,19 +112,21 @@ int run(const Family& family, const Settings& settings) {
   const int of_family = std::max(1, static_cast<int>(settings.share * family.scenes));
   const int scenes = settings.scenes > 0 ? settings.scenes : of_family;
   std::map<std::string, int> broken;
-  int count = 0;
+  int count = 0, beyond = 0;
   for (int n = 0; n < scenes; ++n) {
     const std::uint64_t index = settings.first + static_cast<std::uint64_t>(n);
     const std::uint64_t salt = splitmix64(settings.seed, index);
     const Trial trial = draw_trial(settings.seed, index, family.wanted);
-    const Verdict verdict = judged(family, trial, salt);
+    const Verdict verdict = judged(family, trial, salt, beyond);
     if (!verdict) continue;
     ++count;
     const std::string scene = "scene " + std::to_string(index) + " of seed " + std::to_string(settings.seed);
     std::printf("%s: broken by %s (%s): %s: %s\n", family.name, scene.c_str(), trial.heights.c_str(),
                 verdict->property.c_str(), verdict->how.c_str());
     if (broken[verdict->property]++ >= shown_of_each) continue;
+    counts_scenes = false;
     const Failure least = shrunk(family, {trial, *verdict}, salt);
+    counts_scenes = true;
     std::printf("---- the smallest scene found that breaks it\n%s----\n",
                 script(least.trial,
                        std::string(family.name) + ", " + scene + ", made smaller: " + least.broken.property +
@@ -130,7 +140,8 @@ int run(const Family& family, const Settings& settings) {
       ++count;
       std::printf("%s: %s: %s\n", family.name, verdict->property.c_str(), verdict->how.c_str());
     }
-  std::printf("%s: %d scenes, %d broken, %.1f s\n", family.name, scenes, count, seconds() - begin);
+  std::printf("%s: %d scenes, %d broken, %d of which doubles hold no more, %.1f s\n", family.name, scenes,
+              count, beyond, seconds() - begin);
   for (const auto& [property, times] : broken) std::printf("  %5d  %s\n", times, property.c_str());
   std::fflush(stdout);
   return count;

@@ -58,7 +58,7 @@ Verdict compare(const Trial& trial, const Field& expected, const Field& found, c
   return Broken{what + " bodies give the same pressures", exact(worst / peak) + " of the peak"};
 }
 
-Verdict views_agree(const Trial& trial, std::uint64_t salt) {
+Verdict check(const Trial& trial, std::uint64_t salt) {
   const Grid grid = trial.scene.lower.grid();
   const int nx = grid.nx, ny = grid.ny;
   const Stream stream(salt, "shift");
@@ -84,19 +84,6 @@ Verdict views_agree(const Trial& trial, std::uint64_t salt) {
       return broken;
   }
   return {};
-}
-
-Verdict check(const Trial& trial, std::uint64_t salt) {
-  try {
-    return views_agree(trial, salt);
-  } catch (const Error& error) {
-    Scene best = trial.scene;
-    best.accuracy.on_failure = Accuracy::OnFailure::best;
-    if (error.code() != ErrorCode::not_converged ||
-        !doubles_hold_no_more(trial, pressed(best, trial.pressure)))
-      throw;
-    return {};
-  }
 }
 
 }  // namespace

@@ -184,9 +184,12 @@ SlabContactAnswer solve_slabs_at_pressure(Team& team, const SlabContactProblem& 
   answer.solver = found.stage;
   if (found.levels > 1) answer.solver += " on " + std::to_string(found.levels) + " nested grids";
   certify(team, problem, answer);
-  if (!answer.converged && !problem.best_effort)
+  if (!answer.converged && !problem.best_effort) {
+    const double weight = std::isfinite(problem.cap) ? problem.cap / mean_pressure : 1.0;
     throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations,
-                      problem.surface.grid);
+                      problem.surface.grid,
+                      rounding_residual(std::abs(answer.approach), flat ? 0.0 : height, weight));
+  }
   return answer;
 }
 

@@ -119,7 +119,7 @@ HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, con
               what + " was sought to a residual of " + format_short(answer.certificate.worst(), 3) +
                   " where `tolerance` asks for " + format_short(problem.tolerance, 3) + ", in " +
                   std::to_string(answer.iterations) + " applications of the half-space",
-              unconverged_hint(problem.grid));
+              unconverged_hint(problem.grid, answer.certificate.worst(), rounding_residual(problem, answer)));
 }
 
 struct SoughtByLoad {

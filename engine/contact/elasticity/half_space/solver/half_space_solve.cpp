@@ -16,7 +16,18 @@
 
 namespace asperity {
 
-std::string unconverged_hint(const Grid& grid) {
+double rounding_residual(double lengths, double rms, double weight) {
+  constexpr double most_roundings = 100;
+  return rms > 0 ? most_roundings * 0x1p-53 * std::max(1.0, weight) * lengths / rms : 0.0;
+}
+
+std::string unconverged_hint(const Grid& grid, double reached, double rounding) {
+  if (reached < rounding)
+    return "gaps are differences of lengths so much greater than the heights that double precision may hold "
+           "no "
+           "less than " +
+           format_short(rounding, 2) +
+           " here: ask for a larger `tolerance`, or accept the best reached with `on_failure = \"best\"`";
   constexpr double much_longer = 4;
   const double aspect = std::max(grid.hx(), grid.hy()) / std::min(grid.hx(), grid.hy());
   if (aspect >= much_longer)
@@ -29,13 +40,13 @@ std::string unconverged_hint(const Grid& grid) {
 }
 
 void throw_unconverged(double mean_pressure, const Certificate& reached, double tolerance, int applications,
-                       const Grid& grid) {
+                       const Grid& grid, double rounding) {
   throw Error(ErrorCode::not_converged,
               "the contact at " + format_quantity(mean_pressure, dimension::pressure) +
                   " reached a residual of " + format_short(reached.worst(), 3) +
                   " where `tolerance` asks for " + format_short(tolerance, 3) + ", after " +
                   std::to_string(applications) + " applications of the half-space",
-              unconverged_hint(grid));
+              unconverged_hint(grid, reached.worst(), rounding));
 }
 
 namespace {
@@ -184,6 +195,15 @@ LevelShape level_shape(const HalfSpaceProblem& problem, bool with_mean) {
 }
 
 }  // namespace
+
+double rounding_residual(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
+  double lengths = std::abs(answer.approach) + known_range(problem.heights->values()).span();
+  if (problem.yield.hardens() && std::isfinite(problem.yield.cap))  // what yielded is a difference of such
+    lengths += problem.yield.cap / problem.yield.hardening;
+  const double weight =
+      problem.yield.caps() && answer.mean_pressure > 0 ? problem.yield.cap / answer.mean_pressure : 1.0;
+  return rough(problem, answer.mean_pressure) ? rounding_residual(lengths, problem.rms, weight) : 0.0;
+}
 
 double uniform_compliance(const HalfSpaceProblem& problem) {
   return problem.share ? problem.share->length * problem.share->uniform / problem.modulus : 0;
@@ -431,6 +451,24 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
 
 namespace {
 
+// At an approach or, where the descent stalls there, at a third of it, and so on. `approach` becomes what was
+// solved at. After the first try nothing is begun with: `start` may be far from any solution.
+HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& approach, HalfSpaceAnswer start,
+                                   Monitor& monitor) {
+  constexpr double less = 0.3;
+  constexpr int tries = 5;
+  const int before = start.iterations;
+  HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, &start, true, monitor);
+  answer.iterations += before;
+  for (int n = 0; n < tries && !answer.converged; ++n) {
+    if (n > 0) approach *= less;
+    const int so_far = answer.iterations;
+    answer = solve_at_offset(problem, approach, infinity, nullptr, true, monitor);
+    answer.iterations += so_far;
+  }
+  return answer;
+}
+
 // Where ground is so soft once it yields that no descent balances the load: the approach that brings it,
 // which never falls as the load grows. None where that does not converge either. `begun`: an answer that did
 // not.
@@ -441,11 +479,8 @@ std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& proble
   HalfSpaceAnswer answer = begun;
   double approach = begun.approach;
   for (int solve = 0; solve < most_solves && approach > 0; ++solve) {
-    const int before = answer.iterations;
-    if (before - begun.iterations > most_applications) break;
-    HalfSpaceAnswer start = std::move(answer);
-    answer = solve_at_offset(problem, approach, infinity, &start, true, monitor);
-    answer.iterations += before;
+    if (answer.iterations - begun.iterations > most_applications) break;
+    answer = solve_about_offset(problem, approach, std::move(answer), monitor);
     if (!answer.converged) break;
     const double found = answer.mean_pressure;
     if (std::abs(found - mean_pressure) <= 0.5 * problem.tolerance * mean_pressure) {
@@ -511,7 +546,8 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   if (!answer.converged && problem.yield.hardens())
     if (auto sought = sought_by_approach(problem, mean_pressure, answer, monitor)) return std::move(*sought);
   if (!answer.converged && !problem.best_effort)
-    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations, grid);
+    throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations, grid,
+                      rounding_residual(problem, answer));
   return answer;
 }
 
