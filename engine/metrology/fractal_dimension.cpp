@@ -7,11 +7,15 @@
 #include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
+#include "engine/metrology/dimension_scaling.hpp"
 #include "engine/metrology/length_ratio.hpp"
 #include "engine/metrology/line_fit.hpp"
+#include "engine/metrology/parameters/scale_dependence.hpp"
 #include "engine/metrology/profile_statistics.hpp"
 #include "engine/metrology/spectral_bands.hpp"
 
@@ -29,6 +33,8 @@ struct ProfileSet {
   bool wrap = false;
   std::int64_t points = 0, measured = 0;  // of all
   double range = 0, magnitude = 0;        // m, the greatest of all
+  double spacing = 0;                     // m, the least of all
+  double tip_cut_off = 0;                 // m, where a tip was given: of the worst of all
   struct One {
     Array<double> heights;
     double spacing = 0;
@@ -247,6 +253,38 @@ std::string gap_in_spectrum(int samples, bool wrap, std::span<const double> log_
          "ends or bends; draw `spectrum`, or use the method `structure`";
 }
 
+// Why the steps are not those of one dimension; empty where they are. `statistics` have logarithms.
+std::string lack_of_scaling(DimensionMethod method, std::span<const double> steps,
+                            std::span<const double> statistics, const FractalDimension& found, bool offsets,
+                            int samples) {
+  std::vector<std::pair<double, double>> sorted;
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    sorted.emplace_back(steps[k], log_ordinate(method, statistics[k]));
+  std::ranges::sort(sorted);
+  std::vector<double> rising, ordinates;
+  for (const auto& [step, ordinate] : sorted) {
+    rising.push_back(step);
+    ordinates.push_back(ordinate);
+  }
+  const auto [at_zero, per_slope] = relation(method);
+  const ScalingSteps scaling{rising, ordinates, at_zero, per_slope};
+  if (method == DimensionMethod::box) return smooth_in_small_boxes(scaling, found.D);
+  const bool few_starts = method == DimensionMethod::length && !offsets;
+  return running_dimension(scaling, found.D, samples, found.profiles, few_starts ? 1.2 : 0.5);
+}
+
+// Why a tip may have made what short steps show; empty where it has not, or none was given.
+std::string shown_by_tip(const ProfileSet& set, double radius, std::span<const double> steps, bool is_psd) {
+  const double shortest = *std::ranges::min_element(steps) * set.spacing;
+  if (!(shortest < set.tip_cut_off)) return {};
+  const auto um = [](double length) { return format_quantity(length, dimension::length); };
+  std::string reason = (is_psd ? "waves of " : "steps of ") + um(shortest) + " may show the tip of " +
+                       um(radius) + ": curvatures are within its own from " + um(set.tip_cut_off) + " on; ";
+  if (is_psd) return reason + "use the method `structure` with longer `steps`";
+  return reason + "give `steps` of " + format_short(std::ceil(set.tip_cut_off / set.spacing)) +
+         " samples and more";
+}
+
 FractalDimension unresolved(std::string reason) {
   FractalDimension result;
   result.reason = std::move(reason);
@@ -314,6 +352,11 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
     result.error = std::sqrt(block_sum(D) / static_cast<double>(D.size() - 1));
   }
 
+  if (method == DimensionMethod::box) {
+    const double bias = box_counting_bias(result.D, set.shortest);
+    result.error = std::sqrt(result.error * result.error + bias * bias);
+  }
+
   if (D.size() + gappy < tables.D.size())
     result.reason = std::to_string(tables.D.size() - D.size() - gappy) + " of " +
                     count_text(tables.D.size(), "profile") + " have equal heights";
@@ -335,8 +378,22 @@ FractalDimension measure(const ProfileSet& set, const FractalDimensionOptions& o
                     " is outside 1 … 2: the heights do not scale over these " + (is_psd ? "bands" : "steps");
   if (result.reason.empty() && is_psd)
     result.reason = gap_in_spectrum(set.shortest, wrap, log_steps, statistics, pooled.line);
+  if (result.reason.empty() && options.tip)
+    result.reason = shown_by_tip(set, *options.tip, step_values, is_psd);
+  if (result.reason.empty() && !is_psd)
+    result.reason = lack_of_scaling(method, step_values, statistics, result, options.offsets, set.shortest);
   result.resolved = result.reason.empty();
   return result;
+}
+
+double cut_off_of_trace(const Profile& profile, double radius) {
+  const std::span<const double> z = profile.measured_heights();
+  Field row(profile.size(), 1);
+  std::ranges::copy(z, row.values().begin());
+  SurfaceTraits traits;
+  traits.periodic = profile.closed();
+  const Grid grid = make_grid(profile.size(), 1, profile.size() * profile.spacing(), profile.spacing());
+  return tip_cut_off(Surface(grid, std::move(row), std::move(traits)), ScaleAxis::x, radius);
 }
 
 }  // namespace
@@ -357,6 +414,12 @@ FractalDimension fractal_dimension(const Surface& surface, const FractalDimensio
   set.shortest = along_x && along_y ? std::min(grid.nx, grid.ny) : (along_x ? grid.nx : grid.ny);
   set.longest = along_x && along_y ? std::max(grid.nx, grid.ny) : set.shortest;
   set.wrap = options.wrap.value_or(false);
+  set.spacing = std::min(along_x ? grid.hx() : infinity, along_y ? grid.hy() : infinity);
+  if (options.tip) {
+    if (along_x) set.tip_cut_off = tip_cut_off(surface, ScaleAxis::x, *options.tip);
+    if (along_y)
+      set.tip_cut_off = std::max(set.tip_cut_off, tip_cut_off(surface, ScaleAxis::y, *options.tip));
+  }
   const Range r = surface.height_range();
   set.range = r.span();
   set.points = static_cast<std::int64_t>(grid.nodes());
@@ -389,6 +452,7 @@ FractalDimension fractal_dimension(std::span<const Profile> profiles,
   ProfileSet set;
   set.count = static_cast<std::int64_t>(profiles.size());
   set.shortest = profiles.front().size();
+  set.spacing = infinity;
   bool closed = true;
   for (const Profile& profile : profiles) {
     set.shortest = std::min(set.shortest, profile.size());
@@ -399,6 +463,8 @@ FractalDimension fractal_dimension(std::span<const Profile> profiles,
     set.range = std::max(set.range, r.span());
     set.magnitude = std::max({set.magnitude, std::abs(r.min), std::abs(r.max)});
     closed = closed && profile.closed();
+    set.spacing = std::min(set.spacing, profile.spacing());
+    if (options.tip) set.tip_cut_off = std::max(set.tip_cut_off, cut_off_of_trace(profile, *options.tip));
   }
   set.wrap = options.wrap.value_or(closed);
   set.read = [profiles](std::int64_t p, ProfileSet::One& one) {

@@ -11,7 +11,7 @@
 //              mean powers of bands of ratio √2 from half the length to 3 samples
 //              (spectral_bands.hpp)
 //   box        M = boxes of side s/(n-1) that the profile enters ~ s^-D, after both its length and
-//              its height are scaled to 1
+//              its height are scaled to 1; finds too little of every D (dimension_scaling.hpp has how much)
 //
 // `length` depends on the scale of the heights: see length_ratio.hpp. The others do not.
 // Nothing is levelled or filtered first.
@@ -42,13 +42,18 @@ struct FractalDimensionOptions {
   std::optional<bool> wrap;
   // `length`: average over all starting points, not only sample 0.
   bool offsets = false;
+  // m: radius of the tip that traced the profiles. Steps below its reliability cut-off (scale_dependence.hpp)
+  // are then not believed.
+  std::optional<double> tip;
   // One line through the statistic averaged over profiles, not the mean of each profile's D.
   bool pooled = false;
 };
 
 struct FractalDimension {
   double D = 1;
-  double error = 0;  // standard deviation of D over profiles; of one profile, standard error of the fit
+  // Standard deviation of D over profiles; of one profile, standard error of the fit. Of `box`, the root of
+  // its square and that of the bias of box counting.
+  double error = 0;
   // The statistic at every step, averaged over profiles (psd: by its logarithm), and the steps
   // (psd: wavelengths) in samples. structure and psd in m², madogram in m, the others plain.
   std::vector<double> lengths, steps;
@@ -61,8 +66,10 @@ struct FractalDimension {
 
 // `resolved` is false, with a reason, where heights are equal to rounding, fewer than three steps
 // (psd: three bands) fit, some profiles are flat, heights repeat, D falls outside 1 … 2 by more than its
-// error, for `psd`, where a band is empty (spectral_bands.hpp), or, for `length`, where the profile is so
-// flat that a Gaussian one of the same slopes would show less than this share of D - 1.
+// error, where D runs from step to step or small boxes find the profile smooth (dimension_scaling.hpp), where
+// steps are shorter than `tip` can show, for `psd`, where a band is empty (spectral_bands.hpp), or, for
+// `length`, where the profile is so flat that a Gaussian one of the same slopes would show less than this
+// share of D - 1.
 inline constexpr double length_share_wanted = 0.9;
 
 // With points that were not measured, `length`, `structure` and `madogram` are means over the steps of which

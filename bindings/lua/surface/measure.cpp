@@ -87,9 +87,19 @@ const RecordType<FractalDimension>& fractal_dimension_type() {
   static const RecordType<F> type{
       "FractalDimension",
       "fractal dimension",
-      "The fractal dimension of profiles, and what it was found from.",
+      "The fractal dimension of profiles, and what it was found from. Of exact fractional Brownian profiles "
+      "of "
+      "D = 1.1, 1.5 and 1.9 the methods find, on 150 samples: structure and madogram 1.15, 1.50, 1.92; psd "
+      "0.99, "
+      "1.49, 2.15; box 1.06, 1.27, 1.53; length of steep heights 1.14, 1.49, 1.92. On 8000: structure and "
+      "madogram "
+      "1.12, 1.50, 1.90; psd 1.05, 1.50, 1.96; box 1.07, 1.39, 1.70; length of steep heights 1.11, 1.49, "
+      "1.91.",
       {{"D", &F::D, "fractal dimension of the profiles, from 1 to 2"},
-       {"error", &F::error, "standard deviation of D over the profiles; of one, standard error of its line"},
+       {"error", &F::error,
+        "standard deviation of D over the profiles, of one, standard error of its line; with \"box\" the "
+        "bias of "
+        "counting boxes too, as measured on fractional Brownian profiles"},
        {"lengths", &F::lengths,
         "what the method measures at each step, averaged over the profiles: m^2 of \"structure\" and "
         "\"psd\", m "
@@ -98,7 +108,10 @@ const RecordType<FractalDimension>& fractal_dimension_type() {
        {"r_squared", &F::r_squared, "of the line through the lengths, both on logarithmic axes"},
        {"profiles", &F::profiles, "how many gave a D"},
        {"measured", &F::measured, measured_sentence},
-       {"resolved", &F::resolved, "whether D can be believed, as far as the method itself can tell"},
+       {"resolved", &F::resolved,
+        "whether D can be believed, as far as the method itself can tell: not where the dimension runs from "
+        "step to "
+        "step, as below the shortest wave of a face or the reach of a tip"},
        {"reason", [](const F& f) { return f.reason.empty() ? std::nullopt : std::optional(f.reason); },
         "why it is not resolved; nil where it is"}}};
   return type;
@@ -143,6 +156,8 @@ const Block<FractalDimensionOptions>& fractal_dimension_block(bool surface) {
                   })
             .defaults_to("{1, 2, 4, 8, 16}"),
         flag("offsets", &O::offsets, "method length: average over all starting points"),
+        quantity("tip", &O::tip, dimension::length, above(0),
+                 "radius of the tip that traced it: steps below its reliability cut-off are not believed"),
         flag("pooled", &O::pooled,
              "one line through the average over profiles instead of the mean of each one's D"),
         custom<O>("wrap", "boolean", "steps continue across the rim",
