@@ -34,7 +34,8 @@ replay_press_log:press_log.svg
 05_turning:on_quartz.svg
 06_tilt:angles.svg
 07_accuracy:tolerance.svg
-08_press_log:volume.svg'
+08_press_log:volume.svg
+09_same_numbers:touching.svg'
 
 scripts() { find examples scripts/lessons -name '*.lua' ! -path 'examples/accuracy/*' ! -path 'examples/data/*'; }
 path_of() { scripts | grep "/$1\.lua\$"; }

@@ -71,8 +71,8 @@ TEST(Lesson, WithoutAPartIsAnError) {
             std::string::npos);
 }
 
-TEST(Lessons, AreEightInOrder) {
-  ASSERT_EQ(lessons().size(), 8u);
+TEST(Lessons, AreNineInOrder) {
+  ASSERT_EQ(lessons().size(), 9u);
   int number = 0;
   for (const Lesson& lesson : lessons()) {
     EXPECT_EQ(lesson.number, ++number) << lesson.file;
