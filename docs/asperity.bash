@@ -29,7 +29,7 @@ _asperity() {
       mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     serve:--names) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
     run:--seed|run:--limit-time|run:--out|run:--threads|run:--limit-memory|run:--resume|run:--reuse|run:--store-limit|run:--store|run:--shard|run:--read|run:--without-barriers|run:--limit-disk|replay:--from|replay:--set|replay:--out|replay:--threads|replay:--limit-memory|replay:--read|replay:--without-barriers|replay:--limit-disk|replay:--limit-time|accuracy:--seed|accuracy:--limit-time|accuracy:--out|accuracy:--threads|accuracy:--limit-memory|accuracy:--at-most|accuracy:--repeats|accuracy:--truth|serve:--port|serve:--out|serve:--runs|serve:--limit-time|serve:--limit-memory|serve:--classroom|serve:--students|serve:--names|check:--seed|check:--limit-time|explain:--seed|explain:--limit-time|repl:--out|repl:--threads|repl:--limit-memory|repl:--seed|repl:--limit-time|lesson:--out|lesson:--threads|lesson:--limit-memory) ;;
-    lesson:*) mapfile -t COMPREPLY < <(compgen -W "roughness fractal_dimension boxes_and_half_space real_area turning tilt accuracy press_log" -- "$word") ;;
+    lesson:*) mapfile -t COMPREPLY < <(compgen -W "roughness fractal_dimension boxes_and_half_space real_area turning tilt accuracy press_log same_numbers" -- "$word") ;;
     run:* | check:* | explain:* | accuracy:*)
       mapfile -t COMPREPLY < <(compgen -f -X '!*.lua' -- "$word"; compgen -d -- "$word") ;;
   esac

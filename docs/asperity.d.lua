@@ -838,6 +838,12 @@ function Profile:profile_parameters(options) end
 ---@field Sdq number|nil root mean square slope: over the edges along x and those along y, each by its own number
 ---@field Sdq_seven number|nil root mean square slope by the rule of seven samples along both axes
 ---@field Sdr number|nil developed area over the area of the cells, less 1: the mean of both splittings into triangles
+---@field u_Sa number|nil standard uncertainty of Sa: s/√16 of its values on 4 x 4 tiles, which must be ten Sal wide; 2.13 times for 95 % (m)
+---@field u_Sq number|nil standard uncertainty of Sq, as u_Sa (m)
+---@field u_Ssk number|nil standard uncertainty of Ssk, as u_Sa
+---@field u_Sku number|nil standard uncertainty of Sku, as u_Sa
+---@field u_Sdq number|nil standard uncertainty of Sdq, as u_Sa
+---@field u_Sdr number|nil standard uncertainty of Sdr, as u_Sa
 ---@field Sal number|nil shortest way on which the autocorrelation falls to 0.2: rays every half degree over a cubic spline (m)
 ---@field Str number|nil shortest over longest of these ways; nil where one of them leaves half the map
 ---@field Str_bound number|nil where Str is nil, what it is below

@@ -57,6 +57,7 @@ struct ArealParameters::Groups {
   MadeOnce<Hills> hills;
   MadeOnce<std::optional<TextureAspect>> texture;
   MadeOnce<std::optional<TextureDirection>> direction;
+  MadeOnce<ArealUncertainty> uncertainty;
 
   Groups(Surface m, ArealPreparation p) : map(std::move(m)), preparation(p) {}
 };
@@ -123,6 +124,11 @@ const std::optional<TextureDirection>& ArealParameters::direction() const {
     }
   });
 }
+const ArealUncertainty& ArealParameters::uncertainty() const {
+  return groups_->uncertainty.get(groups_->computed, [&] {
+    return areal_uncertainty(prepared(), texture() ? texture()->Sal : std::nullopt);
+  });
+}
 
 std::string ArealParameters::why_not(const std::string& parameter) const {
   const auto one_of = [&](std::initializer_list<const char*> names) {
@@ -134,6 +140,15 @@ std::string ArealParameters::why_not(const std::string& parameter) const {
   if (parameter == "Sdq_seven" && !slopes().Sdq_seven)
     return "nowhere were a point and three neighbours each way along both axes measured";
   if (parameter == "Sdr" && !slopes().Sdr) return "no cell has four measured corners";
+  if (parameter.starts_with("u_")) {
+    const ArealUncertainty& u = uncertainty();
+    if (!u.why_not.empty()) return u.why_not;
+    const std::pair<const char*, const std::optional<double>&> all[] = {{"u_Sa", u.Sa},   {"u_Sq", u.Sq},
+                                                                        {"u_Ssk", u.Ssk}, {"u_Sku", u.Sku},
+                                                                        {"u_Sdq", u.Sdq}, {"u_Sdr", u.Sdr}};
+    for (const auto& [name, value] : all)
+      if (parameter == name && !value) return "one of sixteen tiles does not define it";
+  }
   if (one_of({"Sal", "Str", "Str_bound"})) {
     if (!texture()) return flat ? "all heights are equal" : "the map is one node wide";
     if (parameter == "Sal" && !texture()->Sal)

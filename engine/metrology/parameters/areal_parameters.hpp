@@ -11,6 +11,7 @@
 #include <string>
 
 #include "engine/metrology/parameters/areal_slopes.hpp"
+#include "engine/metrology/parameters/areal_uncertainty.hpp"
 #include "engine/metrology/parameters/autocorrelation.hpp"
 #include "engine/metrology/parameters/hills.hpp"
 #include "engine/metrology/parameters/material_ratio.hpp"
@@ -47,6 +48,7 @@ class ArealParameters {
   const std::optional<TextureAspect>& texture() const;
   // None where heights are equal, and where no wave lies in the band.
   const std::optional<TextureDirection>& direction() const;
+  const ArealUncertainty& uncertainty() const;
 
   // Why a parameter is not defined on this map, by its name; empty where it is. Computes its group.
   std::string why_not(const std::string& parameter) const;
