@@ -394,7 +394,13 @@ std::string State::text(const std::string& of_the_cells) const {
   if (error.plastic_volume)
     result += ", plastic volume " + within(plastic_volume(), *error.plastic_volume, dimension::volume) +
               " with " + format_short(100 * plastic_fraction(), 3) + " % of the tile at the limit";
-  if (!of_the_cells.empty()) result += "; " + of_the_cells;
+  // Of what is mostly the greatest part of the whole error the solver knows nothing.
+  if (result.find("±") != std::string::npos)
+    result += of_the_cells.empty()
+                  ? "; ± is the solver's alone: cells, seed and inputs are not in it"
+                  : "; ± is the solver's alone, " + of_the_cells + "; seed and inputs are in neither";
+  else if (!of_the_cells.empty())
+    result += "; " + of_the_cells;
   const Cost& total = cost().total;
   constexpr double mebibyte = 1 << 20;
   return result + "; residual " + format_short(residual(), 2) + (converged() ? "" : " (not converged)") +

@@ -307,6 +307,10 @@ TiltResult raise(const SpecimenPair& pair, const JunctionLaw& law, const TiltTri
     add_sentence(result.note, "at rest for " + format_quantity(*options.rest, dimension::time) +
                                   ", tau0 grew by a factor of " +
                                   format_short(strengthening(pair.scene().effects, options.rest)));
+  if (result.trials.size() > 1)
+    add_sentence(
+        result.note,
+        "`spread` is of trials on one pair of faces: what other seeds or specimens give is not in it");
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include "bindings/lua/run/notebook.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "bindings/lua/registry/session.hpp"
@@ -9,8 +10,10 @@
 #include "bindings/lua/run/table_analysis.hpp"
 #include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
+#include "engine/core/text.hpp"
 #include "engine/run/notebook_chart.hpp"
 #include "engine/run/run_directory.hpp"
+#include "engine/statistics/sample_mean.hpp"
 
 namespace asperity::lua {
 
@@ -128,11 +131,27 @@ Values expect(Call& call) {
   return {call.self<Notebook>().expect(expectation).passed};
 }
 
+// The mean of every column of numbers that differ, with its standard error.
 std::string describe_notebook(const void* self) {
+  constexpr std::size_t most_means = 12;
   const auto& book = *static_cast<const Notebook*>(self);
   const Table table = book.table();
-  return "notebook \"" + book.name() + "\": " + std::to_string(table.rows()) + " rows of " +
-         std::to_string(table.columns().size()) + " columns";
+  std::string result = "notebook \"" + book.name() + "\": " + std::to_string(table.rows()) + " rows of " +
+                       std::to_string(table.columns().size()) + " columns";
+  std::size_t shown = 0;
+  for (std::size_t c = 0; c < table.columns().size() && shown < most_means; ++c) {
+    std::vector<double> values;
+    for (std::size_t r = 0; r < table.rows(); ++r)
+      if (const Cell& cell = table.cell(r, c); is_number(cell) && std::isfinite(*number_in(cell)))
+        values.push_back(*number_in(cell));
+    if (values.size() < 2 || std::ranges::minmax(values).min == std::ranges::minmax(values).max) continue;
+    const SampleMean mean = sample_mean(values);
+    const TableColumn& column = table.columns()[c];
+    result += "\n  " + column.name + ": " + format_short(mean.mean, 4) + " ± " +
+              format_short(*mean.standard_error, 2) + (column.unit.empty() ? "" : " " + column.unit) +
+              (shown++ == 0 ? " (mean ± standard error, n = " : " (n = ") + std::to_string(mean.count) + ")";
+  }
+  return result;
 }
 
 }  // namespace
