@@ -28,4 +28,5 @@ co(v) co(v)
 assert(pcall(function() return v + 1 end))
 local kept <const> = v
 local a, b = (function(...) return ... end)(v, v)
+assert(v == 3 and #s:heights() == 4096, "what is asserted of a result is known in a run alone")
 print(a + b, #all)

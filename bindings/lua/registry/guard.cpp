@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/registry/guard.hpp"
 
+#include <string_view>
+
 namespace asperity::lua {
 
 std::string where(lua_State* L) {
   lua_Debug frame;
   for (int level = 0; level < 16 && lua_getstack(L, level, &frame) != 0; ++level) {
     lua_getinfo(L, "Sl", &frame);
-    if (frame.currentline > 0)
+    // What the sandbox put in the place of Lua's own functions is no line of the script.
+    if (frame.currentline > 0 && std::string_view(frame.source) != "=sandbox")
       return std::string(frame.short_src) + ":" + std::to_string(frame.currentline) + ": ";
   }
   return "";
