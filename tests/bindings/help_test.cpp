@@ -177,6 +177,24 @@ TEST_F(Help, TheReferencePageNamesEverything) {
   }
 }
 
+TEST_F(Help, AListingStandsBelowItsFunction) {
+  const std::string page = reference_page(), help = help_text("surface.read");
+  const std::size_t at = page.find("### `lab.surface.read`");
+  std::size_t listings = 0;
+  for (const Function* function : all_functions()) {
+    if (function->listing == nullptr) continue;
+    ++listings;
+    const Listing listing = function->listing();
+    EXPECT_FALSE(listing.rows.empty());
+    for (const std::vector<std::string>& row : listing.rows) {
+      EXPECT_EQ(row.size(), listing.columns.size()) << row.front();
+      EXPECT_NE(page.find("| " + row.front() + " | ", at), std::string::npos) << row.front();
+      EXPECT_NE(help.find("\n  " + row.front() + "\n"), std::string::npos) << row.front();
+    }
+  }
+  EXPECT_EQ(listings, 1u);
+}
+
 TEST_F(Help, TheEditorsTypesAreLuaAndNameEverything) {
   const std::string types = editor_types();
   ASSERT_EQ(luaL_loadbufferx(L, types.data(), types.size(), "types", "t"), LUA_OK) << lua_tostring(L, -1);

@@ -120,6 +120,17 @@ std::vector<std::string> givers_of(const RecordInfo& type) {
   return givers;
 }
 
+// "Formats:" and of each row its name, then the other cells under the words of their columns.
+std::string listing_help(const Listing& listing) {
+  std::string text = "\n" + listing.title + ":\n";
+  for (const std::vector<std::string>& row : listing.rows) {
+    text += "  " + row.front() + "\n";
+    for (std::size_t k = 1; k < row.size(); ++k)
+      if (!row[k].empty()) text += "    " + listing.columns[k] + ": " + row[k] + "\n";
+  }
+  return text;
+}
+
 std::string function_help(const Function& function) {
   std::string text = signature(function);
   if (!function.returns.empty()) text += "  ->  " + function.returns;
@@ -136,6 +147,7 @@ std::string function_help(const Function& function) {
     for (const auto& [name, option] : all_options(*function.options))
       text += "  " + padded(name, width) + "  " + option->sentence + " (" + describe_option(*option) + ")\n";
   text += records_help(function.returns);
+  if (function.listing != nullptr) text += listing_help(function.listing());
   if (!function.example.empty()) text += "\nExample:\n  " + function.example + "\n";
   return text;
 }
@@ -323,6 +335,20 @@ std::string cell(std::string text) {
   return result;
 }
 
+std::string table_row(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& text : cells) line += " " + cell(text) + " |";
+  return line + "\n";
+}
+
+void listing_reference(std::string& page, const Listing& listing) {
+  page += listing.title + ":\n\n" + table_row(listing.columns) + "|";
+  for (std::size_t k = 0; k < listing.columns.size(); ++k) page += "---|";
+  page += "\n";
+  for (const std::vector<std::string>& row : listing.rows) page += table_row(row);
+  page += "\n";
+}
+
 void function_reference(std::string& page, const Function& function) {
   page += "### `" + qualified_name(function) + "`\n\n" + function.sentence + "\n\n";
   page += "```lua\n" + signature(function) + (function.returns.empty() ? "" : "  --> " + function.returns) +
@@ -337,6 +363,7 @@ void function_reference(std::string& page, const Function& function) {
             "| `" + name + "` | " + cell(describe_option(*option)) + " | " + cell(option->sentence) + " |\n";
     page += "\n";
   }
+  if (function.listing != nullptr) listing_reference(page, function.listing());
   if (!function.example.empty()) page += "```lua\n" + function.example + "\n```\n\n";
 }
 

@@ -38,6 +38,13 @@ struct Parameter {
   std::string sentence{};
 };
 
+// A table that stands below a function in help and reference: of each row the first cell is its name.
+struct Listing {
+  std::string title{};
+  std::vector<std::string> columns{};
+  std::vector<std::vector<std::string>> rows{};  // as many cells as columns
+};
+
 struct Function {
   std::string name{};  // "press"
   Body body = nullptr;
@@ -51,6 +58,7 @@ struct Function {
   bool heavy = false;     // not run by `asperity check`
   // Nor is this, for it hangs on rows that a dry run does not know; but it is no call of the journal.
   bool unknown_when_dry = false;
+  Listing (*listing)() = nullptr;
   // What a dry run does with arguments that hold placeholders, beside reading the options; null: nothing.
   void (*look)(const Call& call) = nullptr;
 };

@@ -9,6 +9,7 @@
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 #include "engine/run/run_facts.hpp"
+#include "engine/surface/io/format.hpp"
 
 namespace asperity::lua {
 
@@ -58,6 +59,19 @@ std::optional<double> read_unit(const Argument& value, const OptionInfo& info, P
     problems.push_back(quoted(info.name) + ": " + error.what());
   }
   return {};
+}
+
+std::string format_names() {
+  std::vector<std::string> names;
+  for (const Format* format : formats()) names.push_back("\"" + std::string(format->name) + "\"");
+  return joined(names);
+}
+
+std::string names_of_formats_with_channels() {
+  std::vector<std::string> names;
+  for (const Format* format : formats())
+    if (format->read_channel != nullptr) names.push_back("\"" + std::string(format->name) + "\"");
+  return joined(names);
 }
 
 void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Problems& problems) {

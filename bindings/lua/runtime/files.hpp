@@ -43,6 +43,19 @@ Option<O> unit_xy_key(std::optional<double> O::*member) {
                        "length of one number of a position, in x y z points and in profiles of two columns "
                        "that do not say it, e.g. \"mm\"");
 }
+// The formats that are read, as `format` names them: "npy", "x3p" ...
+std::string format_names();
+std::string names_of_formats_with_channels();
+template <class O>
+Option<O> format_key(std::string O::*member) {
+  return text("format", member, "read as this format whatever the file looks like: " + format_names());
+}
+template <class O>
+Option<O> channel_key(std::string O::*member) {
+  return text(
+      "channel", member,
+      "which of several maps in a file of " + names_of_formats_with_channels() + ", by its name or number");
+}
 void read_fill(const Argument& value, const OptionInfo& info, HoleFill& fill, Problems& problems);
 template <class O>
 Option<O> fill_key(HoleFill O::*member) {

@@ -95,13 +95,11 @@ Values write_profile(Call& call) {
 
 const Block<ReadProfileOptions>& read_profile_block() {
   using O = ReadProfileOptions;
-  static const Block<O> block{
-      "lab.profile.read",
-      {quantity("spacing", &O::spacing, dimension::length, above(0),
-                "distance between samples, where the file has none"),
-       unit_key(&O::unit), unit_xy_key(&O::unit_xy), fill_key(&O::fill),
-       text("format", &O::format, "read as this format whatever the file looks like"),
-       text("channel", &O::channel, "which of several arrays in an HDF5, GWY or OPD file, by its name")}};
+  static const Block<O> block{"lab.profile.read",
+                              {quantity("spacing", &O::spacing, dimension::length, above(0),
+                                        "distance between samples, where the file has none"),
+                               unit_key(&O::unit), unit_xy_key(&O::unit_xy), fill_key(&O::fill),
+                               format_key(&O::format), channel_key(&O::channel)}};
   return block;
 }
 

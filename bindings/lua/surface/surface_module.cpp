@@ -12,6 +12,7 @@
 #include "engine/surface/generators/grain_profile.hpp"
 #include "engine/surface/generators/sphere.hpp"
 #include "engine/surface/generators/weierstrass_mandelbrot.hpp"
+#include "engine/surface/io/format.hpp"
 
 namespace asperity::lua {
 
@@ -253,19 +254,25 @@ Values from_table_body(Call& call) {
 
 // --- from files
 
+Listing formats_listing() {
+  Listing listing{"Formats", {"format", "endings", "read", "refused", "checked against"}, {}};
+  for (const Format* format : formats()) {
+    std::vector<std::string> endings;
+    for (const std::string_view ending : format->extensions) endings.push_back("." + std::string(ending));
+    const FormatAccount& account = format->account;
+    listing.rows.push_back({std::string(format->name), joined(endings, ", "), std::string(account.read),
+                            std::string(account.refused), std::string(account.checked)});
+  }
+  return listing;
+}
+
 const Block<ReadOptions>& read_block() {
   using O = ReadOptions;
-  static const Block<O> block{
-      "lab.surface.read",
-      {pair_option("size", &O::size_x, &O::size_y, dimension::length, above(0),
-                   "size of the map, where the file has none"),
-       unit_key(&O::unit), unit_xy_key(&O::unit_xy), fill_key(&O::fill),
-       text("format", &O::format,
-            "read as this format whatever the file looks like: \"x3p\", \"sdf\", \"sur\", \"opd\", \"bcr\", "
-            "\"gwy\", "
-            "\"hdf5\", \"npy\", \"text\", \"xyz\" or \"stylus-csv\""),
-       text("channel", &O::channel, "which of several maps in an HDF5, GWY or OPD file, by its name"),
-       material_key(&O::material)}};
+  static const Block<O> block{"lab.surface.read",
+                              {pair_option("size", &O::size_x, &O::size_y, dimension::length, above(0),
+                                           "size of the map, where the file has none"),
+                               unit_key(&O::unit), unit_xy_key(&O::unit_xy), fill_key(&O::fill),
+                               format_key(&O::format), channel_key(&O::channel), material_key(&O::material)}};
   return block;
 }
 Values read_body(Call& call) {
@@ -336,16 +343,17 @@ const Module& surface_module() {
         {.name = "read",
          .body = read_body,
          .sentence =
-             "A measured surface from a file: X3P, SDF, SUR, OPD, BCR, GWY, HDF5, NPY, text matrix, "
-             "x y z triples or a profiler's CSV, known by its content, then by its extension. Points that it "
-             "marks as not measured stay missing. Over x y z triples a line such as "
+             "A measured surface from a file: " + format_names() +
+             ", known by its content, then by its extension. Points that it marks as not measured stay "
+             "missing. Over x y z triples a line such as "
              "\"x [mm];y [mm];z [um]\" says their units.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_block(),
          .options_optional = true,
          .returns = "Surface",
          .example = "local s = lab.surface.read(\"specimen.txt\", { size=\"1 mm\", unit=\"um\" })",
-         .heavy = true});
+         .heavy = true,
+         .listing = formats_listing});
     return m;
   }();
   return module;

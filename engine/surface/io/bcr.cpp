@@ -161,7 +161,14 @@ HeightMap read_bcr(const SourceFile& file, Monitor& monitor) {
 
 const Format& bcr_format() {
   static constexpr std::array<std::string_view, 2> endings{"bcr", "bcrf"};
-  static const Format format{"bcr", "`fileformat = bcrstm` or bcrf at the start", endings, recognises_bcr,
+  static const Format format{"bcr",
+                             "`fileformat = bcrstm` or bcrf at the start",
+                             {"BCR and BCRF of SPIP (Image Metrology): integers or single precision, in text "
+                              "of one or two bytes a character.",
+                              "Other kinds of number, heights that are no length.",
+                              "The layout alone; no instrument's file was compared."},
+                             endings,
+                             recognises_bcr,
                              read_bcr};
   return format;
 }

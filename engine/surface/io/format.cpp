@@ -15,9 +15,19 @@
 namespace asperity {
 
 std::span<const Format* const> formats() {
-  static const std::array all{&npy_format(),        &x3p_format(), &hdf5_format(), &gwy_format(),
-                              &sur_format(),        &opd_format(), &sdf_format(),  &bcr_format(),
-                              &stylus_csv_format(), &xyz_format(), &text_format()};
+  static const std::array all{
+      &npy_format(),         //
+      &x3p_format(),         //
+      &hdf5_format(),        //
+      &gwy_format(),         //
+      &sur_format(),         //
+      &opd_format(),         //
+      &sdf_format(),         //
+      &bcr_format(),         //
+      &stylus_csv_format(),  //
+      &xyz_format(),         //
+      &text_format(),
+  };
   return all;
 }
 

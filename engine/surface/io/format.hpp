@@ -29,9 +29,17 @@ struct HeightMap {
   std::optional<double> closed_radius;   // m, of a closed outline
 };
 
+// What the list of formats says of one (help, docs/reference.md): a short sentence each.
+struct FormatAccount {
+  std::string_view read;     // whose format it is, and what of it becomes a surface
+  std::string_view refused;  // what of it is not read
+  std::string_view checked;  // the public files or programs compared; where there were none, it says so
+};
+
 struct Format {
-  std::string_view name;                         // as in `format = "npy"`
-  std::string_view marks;                        // what it is known by, for errors
+  std::string_view name;   // as in `format = "npy"`
+  std::string_view marks;  // what it is known by, for errors
+  FormatAccount account;
   std::span<const std::string_view> extensions;  // lower case, without dots
   bool (*recognises)(const SourceFile& file);    // by content alone; never throws but for a stop
   // Throws Error{bad_file} for whatever is not as the format wants it. Allocates no more than a

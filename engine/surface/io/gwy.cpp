@@ -305,7 +305,16 @@ double mean_of_measured(const Surface& surface) {
 
 const Format& gwy_format() {
   static constexpr std::array<std::string_view, 1> endings{"gwy"};
-  static const Format format{"gwy", "GWYP at the start", endings, recognises_gwy, read_gwy, read_gwy_channel};
+  static const Format format{
+      "gwy",
+      "GWYP at the start",
+      {"Gwyddion's own files: any of their maps; a mask only where it says that points were not measured.",
+       "Maps that are no lengths, unless named with `channel`, volumes and curves.",
+       "The published layout, and files that this program writes; no instrument's file was compared."},
+      endings,
+      recognises_gwy,
+      read_gwy,
+      read_gwy_channel};
   return format;
 }
 

@@ -167,8 +167,17 @@ bool recognises_opd(const SourceFile& file) { return file.bytes().starts_with(op
 
 const Format& opd_format() {
   static constexpr std::array<std::string_view, 1> endings{"opd"};
-  static const Format format{"opd",    "a directory of blocks", endings, recognises_opd,
-                             read_opd, read_opd_channel};
+  static const Format format{
+      "opd",
+      "a directory of blocks",
+      {"OPD of Wyko, Veeco and Bruker interferometers: the raw map, or another block with `channel`.",
+       "Blocks that are no maps, heights of other than 2 or 4 bytes.",
+       "Three files of the public test sets of SurfaceTopography and surfalize, heights, sizes and missing "
+       "points."},
+      endings,
+      recognises_opd,
+      read_opd,
+      read_opd_channel};
   return format;
 }
 

@@ -213,8 +213,15 @@ HeightMap read_sdf(const SourceFile& file, Monitor& monitor) {
 
 const Format& sdf_format() {
   static constexpr std::array<std::string_view, 1> endings{"sdf"};
-  static const Format format{"sdf", "aISO-1.0, bISO-1.0 or BCR at the start", endings, recognises_sdf,
-                             read_sdf};
+  static const Format format{
+      "sdf",
+      "aISO-1.0, bISO-1.0 or BCR at the start",
+      {"SDF of ISO 25178-71 and its forerunner, in text or binary, all eight types of number.",
+       "Compressed files.",
+       "A text file of the public test set of SurfaceTopography; the binary form by the standard alone."},
+      endings,
+      recognises_sdf,
+      read_sdf};
   return format;
 }
 

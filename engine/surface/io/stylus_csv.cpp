@@ -158,8 +158,14 @@ HeightMap read_stylus_csv(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& stylus_csv_format() {
-  static const Format format{
-      "stylus-csv", "a line \"Scan Data\"", {}, recognises_stylus_csv, read_stylus_csv};
+  static const Format format{"stylus-csv",
+                             "a line \"Scan Data\"",
+                             {"Traces of stylus profilers (Dektak) as CSV with a line \"Scan Data\".",
+                              "Uneven spacing, scans cut short of their stated length.",
+                              "A file of the public test set of SurfaceTopography."},
+                             {},
+                             recognises_stylus_csv,
+                             read_stylus_csv};
   return format;
 }
 

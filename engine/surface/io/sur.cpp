@@ -134,7 +134,16 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
 
 const Format& sur_format() {
   static constexpr std::array<std::string_view, 2> endings{"sur", "pro"};
-  static const Format format{"sur", "DIGITAL SURF at the start", endings, recognises_sur, read_sur};
+  static const Format format{
+      "sur",
+      "DIGITAL SURF at the start",
+      {"SUR of Digital Surf (MountainsMap): the first surface or profile, of 16 or 32 bits.",
+       "Compressed files, files of Apple computers, binary images and other studiables.",
+       "Three files of the public test sets of SurfaceTopography and surfalize, heights, sizes and missing "
+       "points."},
+      endings,
+      recognises_sur,
+      read_sur};
   return format;
 }
 

@@ -230,7 +230,14 @@ HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
 
 const Format& text_format() {
   static constexpr std::array<std::string_view, 5> endings{"txt", "csv", "asc", "dat", "tsv"};
-  static const Format format{"text", "a line of numbers first", endings, recognises_text_matrix,
+  static const Format format{"text",
+                             "a line of numbers first",
+                             {"A matrix of numbers, one line a row, bare or under the heads of this program, "
+                              "of Gwyddion and of common exports.",
+                              "Heads of another kind, lines of different lengths, UTF-16.",
+                              "Files of the public test set of SurfaceTopography."},
+                             endings,
+                             recognises_text_matrix,
                              read_text_matrix};
   return format;
 }

@@ -346,7 +346,15 @@ HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
 
 const Format& x3p_format() {
   static constexpr std::array<std::string_view, 1> endings{"x3p"};
-  static const Format format{"x3p", "a zip archive with main.xml", endings, recognises_x3p, read_x3p};
+  static const Format format{"x3p",
+                             "a zip archive with main.xml",
+                             {"X3P of ISO 25178-72: surfaces and profiles on a grid, with their valid "
+                              "points, zipped in a folder or not.",
+                              "Point clouds, several layers, uneven spacing.",
+                              "A file of the public test set of SurfaceTopography, heights and sizes."},
+                             endings,
+                             recognises_x3p,
+                             read_x3p};
   return format;
 }
 

@@ -347,7 +347,14 @@ bool may_be_triples(const SourceFile& file) {
 
 const Format& xyz_format() {
   static constexpr std::array<std::string_view, 1> endings{"xyz"};
-  static const Format format{"xyz", "x y z triples on a lattice", endings, recognises_xyz, read_xyz};
+  static const Format format{"xyz",
+                             "x y z triples on a lattice",
+                             {"Lines of x, y and z on a lattice, in any order, with holes.",
+                              "Points that are not on a lattice, points given twice.",
+                              "Files of the public test set of SurfaceTopography."},
+                             endings,
+                             recognises_xyz,
+                             read_xyz};
   return format;
 }
 
