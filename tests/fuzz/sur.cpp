@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Digital Surf's files: a header of 512 bytes whose sizes, zones and units need not be those of what follows.
+// Digital Surf's files: a header of 512 bytes whose sizes, zones and units need not be those of what follows,
+// and compressed heights, of which deflate makes up to 1032 bytes of one.
 #include "tests/fuzz/height_map.hpp"
 
 static void fuzz_sur(const std::uint8_t* data, std::size_t size) {
   using namespace asperity::fuzz;
-  read_every_way(view(data, size), {.format = "sur"});
+  const std::string_view bytes = view(data, size);
+  if (bytes.starts_with("DSCOMPRESSED")) {
+    read_every_way(bytes, {.format = "sur",
+                           .bytes_per_byte = 1032 * 16,
+                           .beside = std::size_t{1} << 20,
+                           .fill = asperity::HoleFill::with(0)});
+  } else {
+    read_every_way(bytes, {.format = "sur"});
+  }
 }
 
 static const asperity::fuzz::Target sur_target{"sur", fuzz_sur};

@@ -7,6 +7,7 @@
 #include "engine/surface/io/read.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
+#include "tests/surface/warnings.hpp"
 
 namespace asperity::bcr_test {
 namespace {
@@ -56,6 +57,43 @@ TEST(Bcr, FloatsAreNanometres) {
   EXPECT_EQ(s.grid(), (Grid{2, 1, 2e-6, 1000 * 1e-9}));
   EXPECT_EQ(s.height(0, 0), 2.5 * 1e-9);
   EXPECT_EQ(s.height(1, 0), 0);
+}
+
+// As one program writes them: the number of a missing point in voidpixels, heights in the unit zunit.
+TEST(Bcr, FloatsAreInTheirUnitAndVoidpixelsMayBeTheNumber) {
+  const std::string header =
+      "fileformat = bcrf\nxpixels = 2\nypixels = 1\nxlength = 2\nylength = 1\nzunit = um\nbit2nm = 1\n";
+  EXPECT_EQ(read(example<float>(header + "voidpixels = 3.402823E+38\n", {2.5F, 3.402823E+38F})).height(0, 0),
+            2.5 * 1e-6);
+  EXPECT_EQ(read(example<float>(header + "voidpixels = -9999\n", {2.5F, -9999.0F})).measured(), 1U);
+  EXPECT_EQ(read(example<float>(header + "voidpixels = 1\n", {1.0F, 2.0F})).measured(), 2U);
+  EXPECT_NE(refusal(example<float>(header + "voidpixels = many\n", {1, 2}))
+                .find("no number for voidpixels in its header: \"many\""),
+            std::string::npos);
+  EXPECT_NE(refusal(example<float>("fileformat = bcrf\nxpixels = 2\nypixels = 1\nzunit = V\n", {1, 2}))
+                .find("no known unit of length as zunit: \"V\""),
+            std::string::npos);
+}
+
+TEST(Bcr, AScaleOfIntegersIsPassedOverForFloatsWithAWarning) {
+  testing::Warnings warnings;
+  const std::string header =
+      "fileformat = bcrf\nxpixels = 2\nypixels = 1\nxlength = 2\nylength = 1\nbit2nm = 0.5\n";
+  const Surface s = read_surface(SourceFile("a.bcr", example<float>(header, {1, 2})), {}, warnings);
+  EXPECT_EQ(s.height(1, 0), 2 * 1e-9);
+  EXPECT_TRUE(warnings.told("a bit2nm of \"0.5\", which is of integers"));
+}
+
+TEST(Bcr, TheHeaderIsAsLongAsItSays) {
+  const std::string header = integers + "headersize = 3000\nvoidpixels = 0\n";
+  const std::string longer = Bytes().field(header, 3000).put_all(six).bytes();
+  EXPECT_EQ(read(longer).height(0, 1), -4 * (0.5 * 1e-9));
+  EXPECT_NE(refusal(example(integers + "headersize = 99999\n", six)).find("has 99999 characters"),
+            std::string::npos);
+  EXPECT_NE(refusal(example(integers + "headersize = 20\n", six)).find("has 20 characters"),
+            std::string::npos);
+  EXPECT_EQ(read(example(integers + "headersize = 2048\nvoidpixels = 0\n", six)).height(0, 1),
+            -4 * (0.5 * 1e-9));
 }
 
 TEST(Bcr, EachFaultIsSaid) {

@@ -9,6 +9,7 @@
 #include "engine/surface/io/read.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
+#include "tests/surface/optical_files.hpp"
 
 namespace asperity::file_lengths_test {
 namespace {
@@ -72,6 +73,24 @@ std::vector<BinaryKind> binary_kinds() {
          field.heights.assign(twenty.begin(), twenty.end());
          return testing::gwy_example(testing::gwy_inner("/0/data", field.object()));
        }},
+      {"a.dat",
+       [](int nx, int ny) {
+         return testing::MetroProExample{
+             .nx = static_cast<std::uint16_t>(nx),
+             .ny = static_cast<std::uint16_t>(ny)}(std::vector<std::int32_t>(20, 5));
+       }},
+      {"a.nms",
+       [](int nx, int ny) {
+         return testing::NmsExample{.nx = static_cast<std::uint32_t>(nx),
+                                    .ny = static_cast<std::uint32_t>(ny)}(std::vector<std::uint16_t>(20, 5));
+       }},
+      {"a.frt",
+       [](int nx, int ny) {
+         return testing::frt_example(
+             {testing::frt_shape(static_cast<std::uint32_t>(nx), static_cast<std::uint32_t>(ny), 16),
+              testing::frt_size(1, 1), testing::frt_scale(1e-9),
+              testing::frt_heights<std::uint16_t>(std::vector<std::uint16_t>(20, 5))});
+       }},
       {"a.npy",
        [](int nx, int ny) {
          const std::string head = "{'descr': '<i2', 'fortran_order': False, 'shape': (" + std::to_string(ny) +
@@ -102,7 +121,8 @@ TEST(FileLengths, F13HeadAndLengthContradictEachOther) {
          {std::pair{4, 4}, std::pair{6, 4}, std::pair{5, 3}, std::pair{5, 5}, std::pair{1, 1}}) {
       const std::string message = refusal(kind.name, kind.file(nx, ny));
       EXPECT_TRUE(message.find(" bytes of data") != std::string::npos ||
-                  message.find("bytes, but holds") != std::string::npos)
+                  message.find("bytes, but holds") != std::string::npos ||
+                  message.find(" bytes after its header") != std::string::npos)
           << kind.name << ", " << nx << " x " << ny << ": " << message;
     }
   }

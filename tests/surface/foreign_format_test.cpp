@@ -24,11 +24,8 @@ std::string refusal(const std::string& name, const std::string& bytes) {
 TEST(ForeignFormat, F7EachIsNamedByItsContent) {
   const std::string rest = std::string(40, '\0') + "more";
   const std::vector<std::array<std::string, 3>> files{{
-      {"map.x3p.gz", "\x1F\x8B\x08" + rest, "packed with gzip"},
-      {"map.al3d", "AliconaImaging\0\r\n"s + rest, "an Alicona topography (.al3d)"},
       {"scan.000", "\\*File list\r\n\\Version: 0x05120130\r\n" + rest, "a Nanoscope file"},
       {"scan.di", "?*File list\r\n" + rest, "a Nanoscope file"},
-      {"map.frt", "FRTM_GLIDERV1.00" + rest, "a MicroProf topography of FRT"},
       {"scan.mi", "fileType      Image\n" + rest, "an image of Agilent or Molecular Imaging"},
       {"scan.nid", "[DataSet]\r\nVersion=2\r\n" + rest, "a Nanosurf scan"},
       {"scan.stp", "WSxM file copyright Nanotec Electronica\r\n" + rest, "a WSxM image"},
@@ -37,7 +34,6 @@ TEST(ForeignFormat, F7EachIsNamedByItsContent) {
       {"map.opdx", "VCA DATA\x01\0\0U"s + rest, "a Vision64 topography of Bruker"},
       {"map.vk4", "VK4_" + rest, "a Keyence profilometer file (.vk4)"},
       {"map.vk6", "VK6\0"s + rest, "a Keyence profilometer file (.vk6)"},
-      {"map.dat", "\x88\x1B\x03\x6F\0\x01"s + rest, "a Zygo MetroPro topography"},
       {"map.nc", "CDF\x01\0"s + rest, "a NetCDF file"},
       {"old.xls", "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1" + rest, "a compound document"},
       {"map.png", "\x89PNG\r\n\x1A\n" + rest, "a PNG picture"},
@@ -51,7 +47,6 @@ TEST(ForeignFormat, F7EachIsNamedByItsContent) {
        "a Sensofar topography (.plux)"},
       {"map.zip", testing::zip_of({{"map.txt", "1 2"}}), "a zip archive without main.xml"},
       // By their ending: no mark is certain.
-      {"map.plu", "Mon Nov 23 2026\0"s + rest, "a Sensofar topography (.plu)"},
       {"map.mnt", "\x01\x02" + rest, "a document of MountainsMap"},
       {"wave.ibw", "\x05\0\x12\x34"s + rest, "an Igor binary wave"},
   }};
@@ -60,8 +55,7 @@ TEST(ForeignFormat, F7EachIsNamedByItsContent) {
     EXPECT_NE(message.find("\"" + name + "\" is " + what), std::string::npos) << name << ": " << message;
     EXPECT_NE(message.find("which is not read; "), std::string::npos) << message;
     // Under any other name it is the same, where the content tells.
-    if (what.find(".plu)") == std::string::npos && what.find("Mountains") == std::string::npos &&
-        what.find("Igor") == std::string::npos) {
+    if (what.find("Mountains") == std::string::npos && what.find("Igor") == std::string::npos) {
       EXPECT_NE(refusal("other", bytes).find(what), std::string::npos) << name;
     }
   }
@@ -72,7 +66,7 @@ TEST(ForeignFormat, F7TextsAreLookedAtByTheirContent) {
   ReadOptions options;
   options.size_x = options.size_y = options.unit = 1e-6;
   EXPECT_EQ(read_surface(SourceFile("map.top", "1 2\n3 4\n"), options).height(1, 1), 4e-6);
-  EXPECT_FALSE(foreign_format(SourceFile("map.plu", "words\n")));
+  EXPECT_FALSE(foreign_format(SourceFile("map.mnt", "words\n")));
 }
 
 TEST(ForeignFormat, F7ATextWithAHeadOfItsOwnIsToldWhereItsNumbersBegin) {

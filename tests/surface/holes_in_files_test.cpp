@@ -15,6 +15,7 @@
 #include "engine/surface/slabs/slab_surface.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
+#include "tests/surface/optical_files.hpp"
 #include "tests/surface/warnings.hpp"
 
 namespace asperity::holes_in_files_test {
@@ -81,7 +82,7 @@ TEST(HolesInFiles, SurfacesReadBackBitForBit) {
 TEST(HolesInFiles, SameBytesEveryTime) {
   const Scratch scratch;
   const Surface surface = holed(Holes::scattered);
-  for (const std::string name : {"s.x3p", "s.h5", "s.npy", "s.gwy", "s.sur", "s.txt"}) {
+  for (const std::string name : {"s.x3p", "s.h5", "s.npy", "s.gwy", "s.sdf", "s.sur", "s.txt"}) {
     write_surface(surface, scratch.path("1" + name));
     write_surface(surface, scratch.path("2" + name));
     EXPECT_EQ(bytes_of(scratch.path("1" + name)), bytes_of(scratch.path("2" + name))) << name;
@@ -162,6 +163,9 @@ TEST(HolesInFiles, EveryFormatHasItsOwnMark) {
     return testing::opd_example(
         {map, testing::opd_number("Wavelength", 600), testing::opd_number("Pixel_size", 1)});
   };
+  testing::Al3dExample al3d;
+  al3d.tags.front().second = "3";
+  al3d.pad = 4;
   testing::SdfExample words, numbers;
   words.type = 5;
   testing::SurExample sur;
@@ -176,6 +180,13 @@ TEST(HolesInFiles, EveryFormatHasItsOwnMark) {
        bcr("bcrstm", "bit2nm = 1\n") + testing::raw(std::vector<std::int16_t>{1, 32767, 3, 4, 5, 6})},
       {"b.bcr", bcr("bcrf", "") + testing::raw(std::vector<float>{1, 3e38F, 3, 4, 5, 6})},
       {"c.bcr", bcr("bcrf", "") + testing::raw(std::vector<float>{1, nan, 3, 4, 5, 6})},
+      {"a.dat", testing::MetroProExample{}({1, 2147483647, 3, 4, 5, 6})},
+      {"a.plu", testing::PluExample{}({1, 1000001, 3, 4, 5, 6})},
+      {"a.al3d", al3d({{1, 3e15F, 3}, {4, 5, 6}})},
+      {"b.al3d", al3d({{1, nan, 3}, {4, 5, 6}})},
+      {"a.frt",
+       testing::frt_example({testing::frt_shape(3, 2, 16), testing::frt_size(3, 2), testing::frt_scale(1),
+                             testing::frt_heights<std::uint16_t>({7, 1, 3, 4, 5, 6})})},
       // Column by column.
       {"a.opd", opd(testing::opd_map("RAW_DATA", 3, 2, std::vector<float>{1, 4, 1e38F, 5, 3, 6}))},
       {"b.opd", opd(testing::opd_map("RAW_DATA", 3, 2, std::vector<std::int16_t>{1, 4, 32767, 5, 3, 6}))},

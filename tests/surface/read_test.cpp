@@ -49,8 +49,8 @@ TEST(Read, PathsThatHoldNoFile) {
 
 TEST(Read, UnknownFormatSaysWhatWasLookedFor) {
   const Scratch scratch;
-  scratch.write("map.plu", "a topography\nof another make\n");
-  const auto error = error_of([&] { read_surface(scratch.path("map.plu")); });
+  scratch.write("map.sensor", "a topography\nof another make\n");
+  const auto error = error_of([&] { read_surface(scratch.path("map.sensor")); });
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code(), ErrorCode::bad_file);
   for (const Format* format : formats())

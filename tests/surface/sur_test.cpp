@@ -6,7 +6,7 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
 #include "tests/surface/files.hpp"
-#include "tests/surface/little_endian.hpp"
+#include "tests/surface/optical_files.hpp"
 
 namespace asperity::sur_test {
 namespace {
@@ -79,9 +79,67 @@ TEST(Sur, UnknownUnitsAreAskedFor) {
             "one number, such as \"um\"");
 }
 
+// A header of an object of 16-bit integers, and its compressed pieces.
+std::string compressed(const SurExample& header, const std::vector<std::string>& pieces) {
+  return header(std::vector<std::int16_t>{}) + testing::sur_pieces(pieces);
+}
+
+TEST(Sur, CompressedHeightsAreThoseOfThePlainFile) {
+  SurExample header{.special = 1, .least = -4};
+  const std::vector<std::int16_t> holed{1, -6, 3, -4, 5, 6};
+  const Surface plain = read(header(holed), HoleFill{});
+  header.mark = "DSCOMPRESSED";
+  const std::string raw = testing::raw(holed);
+  for (const std::vector<std::string>& pieces :
+       {std::vector{raw}, std::vector{raw.substr(0, 5), raw.substr(5)}, std::vector{raw, std::string()}}) {
+    const Surface unpacked = read(compressed(header, pieces), HoleFill{});
+    EXPECT_EQ(unpacked.grid(), plain.grid());
+    EXPECT_EQ(unpacked.measured(), 5U);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 2; ++j)
+        if (i != 1 || j != 0) {
+          EXPECT_EQ(unpacked.height(i, j), plain.height(i, j));
+        }
+  }
+  header.objects = 2;
+  const std::string two = compressed(header, {raw}) + compressed(header, {raw});
+  EXPECT_EQ(read(two, HoleFill{}).measured(), 5U);
+}
+
+TEST(Sur, CompressedPiecesThatLieAreRefused) {
+  const SurExample header{.mark = "DSCOMPRESSED"};
+  const std::string raw = testing::raw(six), whole = compressed(header, {raw});
+  const auto found = [&](const std::string& bytes, const std::string& part) {
+    const std::string message = refusal(bytes);
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  found(compressed(header, {raw.substr(2)}), "3 x 2 heights of 2 bytes but has 10 bytes");
+  found(compressed(header, {raw + "ab"}), "more compressed heights than its header says");
+  found(compressed(header, {raw, raw}), "more compressed heights than its header says");
+  found(whole + "behind", "has 6 bytes after its compressed heights");
+  found(whole.substr(0, whole.size() - 1), "cut short in its compressed heights");
+  found(whole.substr(0, 514), "cut short in the lengths of its compressed pieces");
+  std::string changed = whole;
+  changed[512] = 0;
+  found(changed, "compressed in 0 pieces");
+  changed[515] = 127;
+  found(changed, "compressed in 2130706432 pieces");
+  changed = whole;
+  changed[516] = 11;  // bytes of the first piece
+  found(changed, "its heights should be 11 bytes out of");
+  changed = whole;
+  changed.back() = static_cast<char>(changed.back() + 1);  // its checksum
+  found(changed, "does not unpack");
+  found(compressed(SurExample{.mark = "DSCOMPRESSED", .nx = 2000000000, .ny = 2000000000}, {raw}),
+        "2000000000 x 2000000000 heights, more than");
+}
+
+TEST(Sur, DamagedCompressionIsAnErrorOrAnotherSurface) {
+  testing::damage(compressed(SurExample{.mark = "DSCOMPRESSED"}, {testing::raw(six)}), 67, 2000,
+                  [](const std::string& bytes) { read(bytes, HoleFill::interpolate()); });
+}
+
 TEST(Sur, EachFaultIsSaid) {
-  EXPECT_EQ(refusal(SurExample{.mark = "DSCOMPRESSED"}(six)),
-            "\"a.sur\" is a compressed SUR file; save it again without compression, or as X3P or SDF");
   EXPECT_EQ(refusal(std::string("DIGITAL SURF\0\0 and no more", 27)),
             "\"a.sur\" is cut short in its header of 512 bytes");
   EXPECT_EQ(refusal("other"),

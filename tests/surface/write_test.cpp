@@ -110,8 +110,8 @@ TEST(Write, PathsThatCannotBeWritten) {
   const Scratch scratch;
   const Surface surface = awkward(2, 2, 1, 1);
   EXPECT_EQ(message_of([&] { write_surface(surface, "map.stl"); }),
-            "cannot write \"map.stl\": no format has the extension .stl; use .h5, .npy, .x3p, .gwy, .sur, "
-            ".txt, .asc or .csv");
+            "cannot write \"map.stl\": no format has the extension .stl; use .h5, .npy, .x3p, .gwy, .sdf, "
+            ".sur, .txt, .asc or .csv");
   EXPECT_NE(message_of([&] { write_surface(surface, "map"); }).find("has no extension"), std::string::npos);
   EXPECT_NE(message_of([&] { write_profile(Profile(1, {0.0}), "p.x3p"); }).find("use .csv, .txt or .npy"),
             std::string::npos);

@@ -196,7 +196,9 @@ const Class& class_of<Surface>() {
          .sentence =
              "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
              "(Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit, "
-             "points that were not measured too. .sur (Digital Surf) rounds heights to 2^-30 of the "
+             "points that were not measured too. .sdf (ISO 25178-71) keeps heights and holes bit for bit, "
+             "and the "
+             "spacing of points. .sur (Digital Surf) rounds heights to 2^-30 of the "
              "greatest and the size to single precision.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",

@@ -342,11 +342,11 @@ const Module& surface_module() {
     m.functions.push_back(
         {.name = "read",
          .body = read_body,
-         .sentence =
-             "A measured surface from a file: " + format_names() +
-             ", known by its content, then by its extension. Points that it marks as not measured stay "
-             "missing. Over x y z triples a line such as "
-             "\"x [mm];y [mm];z [um]\" says their units.",
+         .sentence = "A measured surface from a file: " + format_names() +
+                     ", known by its content, then by its extension, as it is or packed with gzip. Points "
+                     "that it marks as not measured stay "
+                     "missing. Over x y z triples a line such as "
+                     "\"x [mm];y [mm];z [um]\" says their units.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_block(),
          .options_optional = true,

@@ -81,6 +81,11 @@ SourceFile::SourceFile(std::string name, std::string_view bytes)
   refuse_empty();
 }
 
+SourceFile::SourceFile(std::string name, Array<char> bytes, std::string extension)
+    : path_(std::move(name)), extension_(std::move(extension)), bytes_(std::move(bytes)) {
+  refuse_empty();
+}
+
 void SourceFile::refuse_empty() const {
   if (bytes_.empty()) throw Error(ErrorCode::bad_file, file_name(path_) + " is empty", "write it again");
 }

@@ -20,6 +20,9 @@ class SourceFile {
   // The same of bytes that did not come from a disk; they are copied. `name` is what errors call it, and
   // its ending counts. Throws Error{bad_file} if there are none.
   SourceFile(std::string name, std::string_view bytes);
+  // The same of bytes that are taken over, with the ending that counts: what a packed file holds. Throws
+  // Error{bad_file} if there are none.
+  SourceFile(std::string name, Array<char> bytes, std::string extension);
 
   const std::string& path() const { return path_; }
   // The ending of the name in lower case without the dot: "x3p"; empty if there is none.

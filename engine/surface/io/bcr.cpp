@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // BCR and BCRF of Image Metrology (SPIP) and of microscopes that write them: a header in text of 2048
-// characters, lines of `key = value`, then integers of 16 bits (`fileformat = bcrstm`, heights `bit2nm`
-// nanometres each) or floating-point numbers of 32 (`bcrf`, heights in nanometres), line by line. A header in
-// UTF-16 says `bcrstm_unicode` or `bcrf_unicode`. Numbers past 1.7e38 and, unless `voidpixels` is 0, 32767
-// are missing points. Layout as restated by Gwyddion's reader. `zmin` is passed over.
+// characters, or of as many as its `headersize` says, lines of `key = value`, then integers of 16 bits
+// (`fileformat = bcrstm`, heights of `bit2nm`) or floating-point numbers of 32 (`bcrf`), line by line, in the
+// unit `zunit`, nanometres without one. A header in UTF-16 says `bcrstm_unicode` or `bcrf_unicode`. Missing
+// points are numbers past 1.7e38, 32767 of 16 bits unless `voidpixels` is 0, and a `voidpixels` that can be
+// no count of them. Layout as restated by Gwyddion's and SurfaceTopography's readers. `zmin` is passed over.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -71,13 +72,20 @@ bool recognises_bcr(const SourceFile& file) {
   return key == "fileformat" && lower_case(value).starts_with("bcr");
 }
 
-// Gives the numbers as `data`.
-Lines read_lines(const SourceFile& file, std::string_view& data) {
-  if (!recognises_bcr(file))
-    refuse_file(file,
-                "is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = bcrf`",
-                "if it is another format, name it with `format`");
-  const BcrHeader header = header_of(file, header_characters);
+std::uint64_t count_of(const SourceFile& file, const Lines& lines, const std::string& key) {
+  const auto found = lines.find(key);
+  if (found == lines.end()) refuse_file(file, "has no " + key + " in its header");
+  const std::string& text = found->second;
+  std::uint64_t value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size())
+    refuse_file(file, "has no count for " + key + " in its header: " + shown(text));
+  return value;
+}
+
+// The lines of a header of so many characters; gives the numbers as `data`.
+Lines lines_of(const SourceFile& file, std::size_t characters, std::string_view& data) {
+  const BcrHeader header = header_of(file, characters);
   if (file.bytes().size() < header.data_at)
     refuse_file(file, "is cut short in its header of " + std::to_string(header.data_at) + " bytes");
   data = file.bytes().substr(header.data_at);
@@ -91,15 +99,29 @@ Lines read_lines(const SourceFile& file, std::string_view& data) {
   return lines;
 }
 
-std::uint64_t count_of(const SourceFile& file, const Lines& lines, const std::string& key) {
-  const auto found = lines.find(key);
-  if (found == lines.end()) refuse_file(file, "has no " + key + " in its header");
-  const std::string& text = found->second;
-  std::uint64_t value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size())
-    refuse_file(file, "has no count for " + key + " in its header: " + shown(text));
-  return value;
+Lines read_lines(const SourceFile& file, std::string_view& data) {
+  if (!recognises_bcr(file))
+    refuse_file(file,
+                "is not a BCR file: it starts with neither `fileformat = bcrstm` nor `fileformat = bcrf`",
+                "if it is another format, name it with `format`");
+  Lines lines = lines_of(file, header_characters, data);
+  if (lines.count("headersize") == 0) return lines;
+  const std::uint64_t said = count_of(file, lines, "headersize");
+  if (said == header_characters) return lines;
+  if (said < header_characters || said > file.bytes().size())
+    refuse_file(file, "says that its header has " + std::to_string(said) + " characters",
+                "they are 2048 or more, and no more than the file has");
+  return lines_of(file, static_cast<std::size_t>(said), data);
+}
+
+// What stands in the place of a missing point, as `voidpixels` says it; it may be a count of such points too.
+double void_number(const SourceFile& file, const Lines& lines) {
+  const auto found = lines.find("voidpixels");
+  if (found == lines.end()) return 1;
+  const TextCell cell = read_cell(found->second, Separator::blank);
+  if (cell.kind != CellKind::number)
+    refuse_file(file, "has no number for voidpixels in its header: " + shown(found->second));
+  return cell.value;
 }
 
 // A length in the unit of another line, in metres; nanometres where there is no such line.
@@ -138,19 +160,31 @@ HeightMap read_bcr(const SourceFile& file, Monitor& monitor) {
   const std::uint64_t columns = count_of(file, lines, "xpixels"), rows = count_of(file, lines, "ypixels");
   require_exactly(file, columns, rows, integers ? 2 : 4, data.size());
   const bool big_endian = lines.count("intelmode") != 0 && count_of(file, lines, "intelmode") == 0;
-  const bool voids = lines.count("voidpixels") == 0 || count_of(file, lines, "voidpixels") != 0;
+  const double void_value = void_number(file, lines);
+  const bool value = void_value < 0 || void_value != std::floor(void_value);
   const int nx = static_cast<int>(columns), ny = static_cast<int>(rows);
   HeightMap map;
   if (integers) {
     constexpr std::int16_t missing = 32767;
-    map.heights = heights_of<std::int16_t>(data, nx, ny, big_endian, monitor,
-                                           [&](std::int16_t value) { return voids && value == missing; });
+    map.heights = heights_of<std::int16_t>(data, nx, ny, big_endian, monitor, [&](std::int16_t number) {
+      return (void_value != 0 && number == missing) || (value && number == void_value);
+    });
     map.unit = length_of(file, lines, "bit2nm", "zunit");
   } else {
     constexpr float least_missing = 1.7e38F;
-    map.heights = heights_of<float>(data, nx, ny, big_endian, monitor,
-                                    [](float value) { return !(std::abs(value) <= least_missing); });
-    map.unit = nanometre;
+    map.heights = heights_of<float>(data, nx, ny, big_endian, monitor, [&](float number) {
+      return !(std::abs(number) <= least_missing) || (value && number == static_cast<float>(void_value));
+    });
+    const auto zunit = lines.find("zunit");
+    map.unit = zunit == lines.end() ? nanometre : length_unit(zunit->second);
+    if (!map.unit) refuse_file(file, "gives no known unit of length as zunit: " + shown(zunit->second));
+    // The format gives this scale to integers alone; one reader multiplies by it all the same.
+    if (const auto scale = lines.find("bit2nm"); scale != lines.end()) {
+      const TextCell cell = read_cell(scale->second, Separator::blank);
+      if (cell.kind != CellKind::number || cell.value != 1)
+        monitor.warn(file_name(file.path()) + " holds floating-point heights and a bit2nm of " +
+                     shown(scale->second) + ", which is of integers: it is passed over");
+    }
   }
   map.size_x = length_of(file, lines, "xlength", "xunit");
   map.size_y = length_of(file, lines, "ylength", "yunit");
@@ -166,7 +200,8 @@ const Format& bcr_format() {
                              {"BCR and BCRF of SPIP (Image Metrology): integers or single precision, in text "
                               "of one or two bytes a character.",
                               "Other kinds of number, heights that are no length.",
-                              "The layout alone; no instrument's file was compared."},
+                              "A file in UTF-16 of the public test set of SurfaceTopography (bcrf): every "
+                              "height, size; integers by the layout alone."},
                              endings,
                              recognises_bcr,
                              read_bcr};

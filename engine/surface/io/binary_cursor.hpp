@@ -27,6 +27,13 @@ T little_endian(const char* at) {
   return std::bit_cast<T>(raw);
 }
 
+template <class T>
+T big_endian(const char* at) {
+  std::array<char, sizeof(T)> raw;
+  for (std::size_t k = 0; k < sizeof(T); ++k) raw[k] = at[sizeof(T) - 1 - k];
+  return std::bit_cast<T>(raw);
+}
+
 class BinaryCursor {
  public:
   // `what` names the piece in the error at its end: "its header".

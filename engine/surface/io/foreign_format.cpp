@@ -30,7 +30,7 @@ struct ForeignMark {
 };
 
 constexpr std::array foreign_marks{
-    ForeignMark{"\x1F\x8B"sv, "packed with gzip (.gz)", unpack},
+    ForeignMark{"\x1F\x8B"sv, "packed with gzip twice, or with another packing under its mark", unpack},
     ForeignMark{"BZh"sv, "packed with bzip2 (.bz2)", unpack},
     ForeignMark{"\xFD\x37zXZ\0"sv, "packed with xz (.xz)", unpack},
     ForeignMark{"\x28\xB5\x2F\xFD"sv, "packed with zstd (.zst)", unpack},
@@ -38,12 +38,10 @@ constexpr std::array foreign_marks{
     ForeignMark{"Rar!\x1A\x07"sv, "a RAR archive", unpack},
     ForeignMark{"\xFF\xFE"sv, "UTF-16 text", "save it as UTF-8"},
     ForeignMark{"\xFE\xFF"sv, "UTF-16 text", "save it as UTF-8"},
-    ForeignMark{"AliconaImaging"sv, "an Alicona topography (.al3d)", export_map},
     ForeignMark{"\\*File list"sv,
                 "a Nanoscope file of Bruker, Veeco or Digital Instruments (.spm, .di, .000)", export_map},
     ForeignMark{"\\*Force file list"sv, "a Nanoscope force curve", export_map},
     ForeignMark{"?*File list"sv, "a Nanoscope file of Digital Instruments (.di, .000)", export_map},
-    ForeignMark{"FRTM_GLIDERV"sv, "a MicroProf topography of FRT (.frt)", export_map},
     ForeignMark{"fileType      Image"sv, "an image of Agilent or Molecular Imaging (.mi)", export_map},
     ForeignMark{"fileType      Spectroscopy"sv, "a spectrum of Agilent or Molecular Imaging (.mi)",
                 export_map},
@@ -56,9 +54,6 @@ constexpr std::array foreign_marks{
     ForeignMark{"VK4_"sv, "a Keyence profilometer file (.vk4)", export_map},
     ForeignMark{"VK6"sv, "a Keyence profilometer file (.vk6)", export_map},
     ForeignMark{"VK7"sv, "a Keyence profilometer file (.vk7)", export_map},
-    ForeignMark{"\x88\x1B\x03\x6F"sv, "a Zygo MetroPro topography (.dat)", export_map},
-    ForeignMark{"\x88\x1B\x03\x70"sv, "a Zygo MetroPro topography (.dat)", export_map},
-    ForeignMark{"\x88\x1B\x03\x71"sv, "a Zygo MetroPro topography (.dat)", export_map},
     ForeignMark{"CDF\x01"sv, "a NetCDF file (.nc)", "write its heights as NPY or HDF5"},
     ForeignMark{"CDF\x02"sv, "a NetCDF file (.nc)", "write its heights as NPY or HDF5"},
     ForeignMark{"CDF\x05"sv, "a NetCDF file (.nc)", "write its heights as NPY or HDF5"},
@@ -80,7 +75,6 @@ struct ForeignEnding {
 
 // Formats without a mark that is certain.
 constexpr std::array foreign_endings{
-    ForeignEnding{"plu", "a Sensofar topography (.plu)"},
     ForeignEnding{"mnt", "a document of MountainsMap (.mnt)"},
     ForeignEnding{"ibw", "an Igor binary wave (.ibw)"},
     ForeignEnding{"stp", "a scan of WSxM or Molecular Imaging (.stp)"},
@@ -89,7 +83,6 @@ constexpr std::array foreign_endings{
     ForeignEnding{"di", "a Nanoscope file (.di)"},
     ForeignEnding{"mi", "an image of Agilent or Molecular Imaging (.mi)"},
     ForeignEnding{"nid", "a Nanosurf scan (.nid)"},
-    ForeignEnding{"frt", "a MicroProf topography of FRT (.frt)"},
 };
 
 std::optional<ForeignFormat> archive_format(const SourceFile& file) {

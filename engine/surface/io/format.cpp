@@ -24,6 +24,11 @@ std::span<const Format* const> formats() {
       &opd_format(),         //
       &sdf_format(),         //
       &bcr_format(),         //
+      &metropro_format(),    //
+      &al3d_format(),        //
+      &frt_format(),         //
+      &nms_format(),         //
+      &plu_format(),         //
       &stylus_csv_format(),  //
       &xyz_format(),         //
       &text_format(),

@@ -12,6 +12,7 @@
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/io/deflated.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/holes.hpp"
 
@@ -202,8 +203,10 @@ Surface read_surface(const std::string& path, const ReadOptions& options, Monito
   return read_surface(SourceFile(path, monitor), options, monitor);
 }
 
-Surface read_surface(const SourceFile& file, const ReadOptions& options, Monitor& monitor) {
+Surface read_surface(const SourceFile& given, const ReadOptions& options, Monitor& monitor) {
   check_call(options);
+  const std::optional<SourceFile> unpacked = inside_gzip(given, monitor);
+  const SourceFile& file = unpacked ? *unpacked : given;
   const Format* format = nullptr;
   HeightMap map = read_map(file, options.format, options.channel, monitor, &format);
   if (format == &text_format() && options.format.empty() && !map.size_x && map.heights.nx() == 3 &&
@@ -236,8 +239,10 @@ Profile read_profile(const std::string& path, const ReadProfileOptions& options,
   return read_profile(SourceFile(path, monitor), options, monitor);
 }
 
-Profile read_profile(const SourceFile& file, const ReadProfileOptions& options, Monitor& monitor) {
+Profile read_profile(const SourceFile& given, const ReadProfileOptions& options, Monitor& monitor) {
   check_call(options);
+  const std::optional<SourceFile> unpacked = inside_gzip(given, monitor);
+  const SourceFile& file = unpacked ? *unpacked : given;
   const Format* format = nullptr;
   HeightMap map = read_map(file, options.format, options.channel, monitor, &format);
   if (map.pairs || (!map.trace && map.heights.nx() == 2 && map.heights.ny() > 2 && format == &text_format()))

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measured topographies from files: text matrices, x y z triples, NPY, X3P (ISO 25178-72), HDF5 and the
-// CSV of stylus profilers. A file is known by its content, then by its extension, unless `format`
-// names it. A file that does not say its size or unit needs them in the call; the call wins over the
-// file, with a warning, but not over the units of a line that names the columns: these must agree. A
-// file that is damaged, or not what it claims to be, is an Error{bad_file}, and memory stays within a
-// fixed multiple of the file's size.
+// CSV of stylus profilers and the others of formats() (format.hpp), each as it is or packed with gzip. A file
+// is known by its content, then by its extension, unless `format` names it. A file that does not say its size
+// or unit needs them in the call; the call wins over the file, with a warning, but not over the units of a
+// line that names the columns: these must agree. A file that is damaged, or not what it claims to be, is an
+// Error{bad_file}, and memory stays within a fixed multiple of the file's size.
 #pragma once
 
 #include <optional>

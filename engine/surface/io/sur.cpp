@@ -3,13 +3,16 @@
 // a private zone, then integers of 16 or 32 bits, line by line; height = number times spacing plus offset, in
 // the unit of the z axis. A point that was not measured is the least height less 2. Layout: the description
 // in the software's reference, as restated by Gwyddion's and RosettaSciIO's readers. Of a file of several
-// objects the first is read; compressed ones ("DSCOMPRESSED") are refused.
+// objects the first is read. In a compressed object ("DSCOMPRESSED") the numbers are packed with zlib: their
+// count of pieces, the plain and the packed length of each, then the pieces; source: RosettaSciIO's and
+// surfalize's readers.
 #include <array>
 #include <cmath>
 
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/binary_cursor.hpp"
+#include "engine/surface/io/deflated.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/length_unit.hpp"
 
@@ -33,17 +36,18 @@ struct SurHeader {
   std::int64_t nx = 0, ny = 0;
   std::array<SurAxis, 3> axes;
   double offset = 0;
+  bool packed = false;
   std::size_t data_at = 0;
 };
 
 SurHeader read_header(const SourceFile& file) {
-  if (file.bytes().starts_with(compressed_mark))
-    refuse_file(file, "is a compressed SUR file", "save it again without compression, or as X3P or SDF");
-  BinaryCursor cursor(file, file.bytes(), "its header of 512 bytes");
-  if (file.bytes().size() < plain_mark.size() || cursor.take(plain_mark.size()) != plain_mark)
+  SurHeader header;
+  header.packed = file.bytes().starts_with(compressed_mark);
+  if (!header.packed && !file.bytes().starts_with(plain_mark))
     refuse_file(file, "is not a SUR file: it does not start with DIGITAL SURF",
                 "if it is another format, name it with `format`");
-  SurHeader header;
+  BinaryCursor cursor(file, file.bytes(), "its header of 512 bytes");
+  cursor.skip(plain_mark.size());
   const int order = cursor.number<std::int16_t>();
   if (order != 0)
     refuse_file(file, "is a SUR file of an Apple computer (format " + std::to_string(order) + ")",
@@ -77,6 +81,39 @@ SurHeader read_header(const SourceFile& file) {
   return header;
 }
 
+// The pieces of a compressed object, unpacked one behind another, and what follows them in the file.
+struct SurPieces {
+  Array<char> bytes;
+  std::string_view rest;
+};
+
+SurPieces unpack_pieces(const SourceFile& file, std::string_view data, std::uint64_t wanted) {
+  BinaryCursor cursor(file, data, "the lengths of its compressed pieces");
+  const std::size_t count = cursor.number<std::uint32_t>();
+  constexpr std::size_t entry = 8;
+  if (count == 0 || count > cursor.left() / entry)
+    refuse_file(file, "says that its heights are compressed in " + std::to_string(count) + " pieces",
+                "its header is wrong or the file is cut short");
+  BinaryCursor pieces(file, data, "its compressed heights");
+  pieces.skip(cursor.position() + count * entry);
+  SurPieces found;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint64_t plain = cursor.number<std::uint32_t>(), packed = cursor.number<std::uint32_t>();
+    const std::string_view piece = pieces.take(packed);
+    if (plain > wanted - found.bytes.size())
+      refuse_file(file, "holds more compressed heights than its header says",
+                  "its header is wrong or the file is damaged");
+    const Array<char> bytes = inflated(file, piece, plain, "its heights");
+    if (count == 1) {
+      found.bytes = bytes;
+    } else {
+      found.bytes.insert(found.bytes.end(), bytes.begin(), bytes.end());
+    }
+  }
+  found.rest = data.substr(pieces.position());
+  return found;
+}
+
 bool recognises_sur(const SourceFile& file) {
   return file.bytes().starts_with(plain_mark) || file.bytes().starts_with(compressed_mark);
 }
@@ -91,12 +128,25 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
     refuse_file(file, "holds points of " + std::to_string(header.bits) + " bits",
                 "points of 16 and 32 bits are read");
   const auto side = [](std::int64_t count) { return count < 0 ? 0 : static_cast<std::uint64_t>(count); };
-  const std::string_view data = file.bytes().substr(header.data_at);
   const std::uint64_t width = static_cast<std::uint64_t>(header.bits) / 8;
+  std::string_view data = file.bytes().substr(header.data_at);
+  SurPieces pieces;
+  if (header.packed) {
+    if (header.nx <= 0 || header.ny <= 0 ||
+        side(header.nx) > data.size() * most_of_deflate / width / side(header.ny))
+      refuse_file(file,
+                  "says in its header that it holds " + std::to_string(header.nx) + " x " +
+                      std::to_string(header.ny) + " heights, more than " + std::to_string(data.size()) +
+                      " compressed bytes can hold",
+                  "the file is cut short or its header is wrong");
+    pieces = unpack_pieces(file, data, side(header.nx) * side(header.ny) * width);
+    data = {pieces.bytes.data(), pieces.bytes.size()};
+  }
   // Of several objects the next begins, with its own header, where this one ends.
   if (header.objects > 1) {
     require_numbers(file, side(header.nx), side(header.ny), width, data.size());
-    const std::string_view next = data.substr(side(header.nx) * side(header.ny) * width);
+    const std::string_view next =
+        header.packed ? pieces.rest : data.substr(side(header.nx) * side(header.ny) * width);
     if (!next.empty() && !next.starts_with(plain_mark) && !next.starts_with(compressed_mark))
       refuse_file(file,
                   "holds " + std::to_string(header.objects) + " objects, and no second one after the " +
@@ -104,6 +154,9 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
                   "its header is wrong or the file is damaged");
   } else {
     require_exactly(file, side(header.nx), side(header.ny), width, data.size());
+    if (!pieces.rest.empty())
+      refuse_file(file, "has " + std::to_string(pieces.rest.size()) + " bytes after its compressed heights",
+                  "its header is wrong or the file is damaged");
   }
   const int nx = static_cast<int>(header.nx), ny = static_cast<int>(header.ny);
   const std::int64_t missing = std::int64_t{header.least} - 2;
@@ -137,8 +190,9 @@ const Format& sur_format() {
   static const Format format{
       "sur",
       "DIGITAL SURF at the start",
-      {"SUR of Digital Surf (MountainsMap): the first surface or profile, of 16 or 32 bits.",
-       "Compressed files, files of Apple computers, binary images and other studiables.",
+      {"SUR of Digital Surf (MountainsMap): the first surface or profile, of 16 or 32 bits, compressed or "
+       "not.",
+       "Files of Apple computers, binary images and other studiables.",
        "Three files of the public test sets of SurfaceTopography and surfalize, heights, sizes and missing "
        "points."},
       endings,

@@ -13,6 +13,7 @@
 #include "engine/core/text.hpp"
 #include "engine/surface/io/gwy.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
+#include "engine/surface/io/sdf_writer.hpp"
 #include "engine/surface/io/sur_writer.hpp"
 #include "engine/surface/io/x3p_writer.hpp"
 
@@ -118,12 +119,14 @@ void write_surface(const Surface& surface, const std::string& path, Monitor& mon
     write_gwy(surface, path);
   } else if (extension == "sur") {
     write_sur(surface, path, monitor);
+  } else if (extension == "sdf") {
+    write_sdf(surface, path, monitor);
   } else if (extension == "txt" || extension == "asc") {
     write_matrix(surface, path, ' ', monitor);
   } else if (extension == "csv") {
     write_matrix(surface, path, ',', monitor);
   } else {
-    refuse_extension(path, ".h5, .npy, .x3p, .gwy, .sur, .txt, .asc or .csv");
+    refuse_extension(path, ".h5, .npy, .x3p, .gwy, .sdf, .sur, .txt, .asc or .csv");
   }
 }
 

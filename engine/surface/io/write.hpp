@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces and profiles to files, by the extension of the path: .npy (float64, shape (ny, nx)), .x3p
-// (ISO 25178-72, double, with MD5), .h5 .hdf5 (with an .xdmf beside it for ParaView), .gwy (Gwyddion), .sur
-// (Digital Surf, in steps), .txt .asc (blanks) and .csv (commas) with a header of size and unit. All but .sur
-// read back bit for bit, with their holes; NPY carries no size or unit, so reading it needs both. A point
-// that was not measured is NaN, in Gwyddion's files under a mask, in those of Digital Surf a number of its
-// own. Material and periodicity are not written. Files appear whole or not at all.
+// (ISO 25178-72, double, with MD5), .h5 .hdf5 (with an .xdmf beside it for ParaView), .gwy (Gwyddion), .sdf
+// (ISO 25178-71, double), .sur (Digital Surf, in steps), .txt .asc (blanks) and .csv (commas) with a header
+// of size and unit. Heights of all but .sur read back bit for bit, with their holes; NPY carries no size or
+// unit, so reading it needs both. A point that was not measured is NaN, in Gwyddion's files under a mask, in
+// those of Digital Surf a number of its own. Material and periodicity are not written. Files appear whole or
+// not at all.
 #pragma once
 
 #include <string>

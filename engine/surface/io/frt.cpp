@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// FRT of MicroProf profilometers: a mark with a version, then blocks, each a number, a length and its bytes.
+// 0x66 holds the numbers of points and the bits of a height, 0x67 the lengths of the sides in metres, 0x6C
+// the metres of one step, 0x0B the heights, integers of 16 or 32 bits, line by line, 0x70 the least and the
+// greatest valid integer of 16 bits. A point that was not measured is 1, or outside these. Layout as restated
+// by SurfaceTopography's and Gwyddion's readers. All other blocks are passed over, maps of other quantities
+// among them.
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/text.hpp"
+#include "engine/surface/io/binary_cursor.hpp"
+#include "engine/surface/io/format.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::string_view frt_mark = "FRTM_GLIDERV";
+
+bool recognises_frt(const SourceFile& file) { return file.bytes().starts_with(frt_mark); }
+
+struct FrtBlocks {
+  std::optional<std::string_view> shape, size, scale, valid, heights;
+};
+
+FrtBlocks read_frt_blocks(const SourceFile& file) {
+  if (!recognises_frt(file))
+    refuse_file(file, "is not an FRT file: it does not start with FRTM_GLIDERV",
+                "if it is another format, name it with `format`");
+  BinaryCursor cursor(file, file.bytes(), "its blocks");
+  cursor.skip(frt_mark.size());
+  const std::string_view version = cursor.take(4);
+  if (version != "1.00" && version != "1.01")
+    refuse_file(file, "is of version " + shown(version), "versions 1.00 and 1.01 are read");
+  const bool wide = version == "1.01";
+  cursor.skip(2);
+  FrtBlocks blocks;
+  const std::size_t head = wide ? 10 : 6;
+  while (cursor.left() >= head) {
+    const int kind = cursor.number<std::uint16_t>();
+    const std::uint64_t length =
+        wide ? cursor.number<std::uint64_t>() : std::uint64_t{cursor.number<std::uint32_t>()};
+    if (length > cursor.left())
+      refuse_file(file,
+                  "has a block of " + std::to_string(length) + " bytes where " +
+                      std::to_string(cursor.left()) + " are left",
+                  "the file is cut short");
+    const std::string_view content = cursor.take(static_cast<std::size_t>(length));
+    std::optional<std::string_view>* const wanted = kind == 0x66   ? &blocks.shape
+                                                    : kind == 0x67 ? &blocks.size
+                                                    : kind == 0x6C ? &blocks.scale
+                                                    : kind == 0x70 ? &blocks.valid
+                                                    : kind == 0x0B ? &blocks.heights
+                                                                   : nullptr;
+    if (wanted != nullptr && !*wanted) *wanted = content;
+  }
+  return blocks;
+}
+
+// The least and the greatest integer of 16 bits that is a height.
+std::pair<std::uint32_t, std::uint32_t> valid_range(const SourceFile& file, const FrtBlocks& blocks) {
+  if (!blocks.valid) return {0, std::numeric_limits<std::uint16_t>::max()};
+  BinaryCursor cursor(file, *blocks.valid, "its range of valid heights");
+  const std::uint32_t least = cursor.number<std::uint32_t>(), greatest = cursor.number<std::uint32_t>();
+  if (!(least < greatest))
+    refuse_file(file, "says that valid heights run from " + std::to_string(least) + " to " +
+                          std::to_string(greatest));
+  return {least, greatest};
+}
+
+HeightMap read_frt(const SourceFile& file, Monitor& monitor) {
+  const FrtBlocks blocks = read_frt_blocks(file);
+  if (!blocks.heights) refuse_file(file, "holds no map of heights", "the block 0x0B, topography, is read");
+  if (!blocks.shape) refuse_file(file, "does not say how many points it has");
+  BinaryCursor shape(file, *blocks.shape, "its numbers of points");
+  const std::uint64_t nx = shape.number<std::uint32_t>(), ny = shape.number<std::uint32_t>();
+  const std::uint64_t bits = shape.number<std::uint32_t>();
+  if (bits != 16 && bits != 32)
+    refuse_file(file, "holds heights of " + std::to_string(bits) + " bits",
+                "heights of 16 and 32 bits are read");
+  require_exactly(file, nx, ny, bits / 8, blocks.heights->size());
+  HeightMap map;
+  constexpr int missing = 1;
+  const int columns = static_cast<int>(nx), rows = static_cast<int>(ny);
+  if (bits == 16) {
+    const std::pair<std::uint32_t, std::uint32_t> valid = valid_range(file, blocks);
+    map.heights = field_of_numbers<std::uint16_t>(
+        *blocks.heights, columns, rows, monitor,
+        [&](std::uint16_t v) { return v == missing || v < valid.first || v > valid.second; });
+  } else {
+    map.heights = field_of_numbers<std::int32_t>(*blocks.heights, columns, rows, monitor,
+                                                 [](std::int32_t v) { return v == missing; });
+  }
+  if (blocks.scale) {
+    BinaryCursor scale(file, *blocks.scale, "its scale of heights");
+    scale.skip(4);
+    const double step = scale.number<double>();
+    if (!(step > 0) || !std::isfinite(step))
+      refuse_file(file, "gives " + format_short(step) + " m as the height of one step");
+    map.unit = step;
+  }
+  if (blocks.size) {
+    BinaryCursor size(file, *blocks.size, "its size");
+    const double x = size.number<double>(), y = size.number<double>();
+    if (!(x > 0) || !std::isfinite(x) || !(y > 0) || !std::isfinite(y))
+      refuse_file(file, "gives " + format_short(x) + " m x " + format_short(y) + " m as its size");
+    map.size_x = x;
+    map.size_y = y;
+  }
+  return map;
+}
+
+}  // namespace
+
+const Format& frt_format() {
+  static constexpr std::array<std::string_view, 1> endings{"frt"};
+  static const Format format{
+      "frt",
+      "FRTM_GLIDERV at the start",
+      {"FRT of MicroProf profilometers, versions 1.00 and 1.01: the topography, of 16 or 32 bits.",
+       "Files without a topography; other maps in a file are passed over.",
+       "Two files of 16 bits of the public test set of SurfaceTopography, every height, missing points, "
+       "size; 32 bits by the layout alone."},
+      endings,
+      recognises_frt,
+      read_frt};
+  return format;
+}
+
+}  // namespace asperity

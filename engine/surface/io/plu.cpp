@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// PLU of Sensofar's profilers (PLu 2300, PLu neox): a date as text, a comment, the calibration of the axes in
+// micrometres, the settings of the measurement, then of each layer its numbers of lines and columns and its
+// heights in micrometres, single precision, line by line; pictures of the camera may follow. A point that was
+// not measured is 1000001. Layout as restated by Gwyddion's and SurfaceTopography's readers. The file has no
+// mark of its own: it is known by the form of its date and by numbers of points that its header repeats.
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "engine/core/text.hpp"
+#include "engine/surface/io/binary_cursor.hpp"
+#include "engine/surface/io/format.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t plu_header_bytes = 500, plu_date_bytes = 128, plu_comment_bytes = 256;
+
+// "Fri Mar 10 16:35:59 2023" and a zero byte.
+bool starts_with_date(std::string_view bytes) {
+  constexpr std::string_view form("Aaa Aaa 00 00:00:00 0000\0", 25);
+  if (bytes.size() < form.size()) return false;
+  for (std::size_t k = 0; k < form.size(); ++k) {
+    const auto byte = static_cast<unsigned char>(bytes[k]);
+    const bool fits = form[k] == 'A'   ? std::isupper(byte) != 0
+                      : form[k] == 'a' ? std::islower(byte) != 0
+                      : form[k] == '0' ? std::isdigit(byte) != 0 || (k == 8 && byte == ' ')
+                                       : byte == static_cast<unsigned char>(form[k]);
+    if (!fits) return false;
+  }
+  return true;
+}
+
+bool recognises_plu(const SourceFile& file) {
+  return file.bytes().size() > plu_header_bytes && starts_with_date(file.bytes());
+}
+
+HeightMap read_plu(const SourceFile& file, Monitor& monitor) {
+  if (!starts_with_date(file.bytes()))
+    refuse_file(file, "is not a PLU file: it does not start with a date",
+                "if it is another format, name it with `format`");
+  BinaryCursor cursor(file, file.bytes(), "its header of 508 bytes");
+  cursor.skip(plu_date_bytes + 4 + plu_comment_bytes);
+  const std::uint64_t lines = cursor.number<std::uint32_t>(), columns = cursor.number<std::uint32_t>();
+  cursor.skip(4 + 4);
+  const double dx = std::abs(static_cast<double>(cursor.number<float>()));
+  const double dy = std::abs(static_cast<double>(cursor.number<float>()));
+  cursor.skip(4 * 4);
+  const std::uint32_t type = cursor.number<std::uint32_t>();
+  constexpr std::uint32_t topography = 3;
+  if (type != topography)
+    refuse_file(file, "holds a measurement of type " + std::to_string(type) + ", which is no topography",
+                "topographies are read: type 3");
+  cursor.skip(4 * 4 + 40 + 1);
+  const int layers = cursor.number<std::uint8_t>();
+  cursor.skip(plu_header_bytes - cursor.position());
+  const std::uint64_t ny = cursor.number<std::uint32_t>(), nx = cursor.number<std::uint32_t>();
+  if (nx != columns || ny != lines)
+    refuse_file(file,
+                "says in its header that it holds " + std::to_string(columns) + " x " +
+                    std::to_string(lines) + " points, and of its first layer " + std::to_string(nx) + " x " +
+                    std::to_string(ny),
+                "its header is wrong or the file is damaged");
+  const std::string_view data = file.bytes().substr(cursor.position());
+  require_numbers(file, nx, ny, sizeof(float), data.size());
+  for (const double spacing : {dx, dy})
+    if (!(spacing > 0) || !std::isfinite(spacing))
+      refuse_file(file, "gives " + format_short(spacing) + " um as the distance of its points");
+  if (layers > 1)
+    monitor.warn(file_name(file.path()) + " holds " + std::to_string(layers) + " layers; the first is read");
+  constexpr float missing = 1000001.0F;
+  constexpr double micrometre = 1e-6;
+  HeightMap map;
+  map.heights = field_of_numbers<float>(data, static_cast<int>(nx), static_cast<int>(ny), monitor,
+                                        [](float value) { return !(value != missing); });
+  map.unit = micrometre;
+  map.size_x = dx * micrometre * static_cast<double>(nx);
+  map.size_y = dy * micrometre * static_cast<double>(ny);
+  return map;
+}
+
+}  // namespace
+
+const Format& plu_format() {
+  static constexpr std::array<std::string_view, 2> endings{"plu", "apx"};
+  static const Format format{
+      "plu",
+      "a date of 24 letters and a zero byte at the start",
+      {"PLU of Sensofar profilers: the first layer of a topography.",
+       "Profiles, pictures, thicknesses; pictures beside a topography are passed over.",
+       "Two files of the public test sets of SurfaceTopography and surfalize, every height and size; they "
+       "have no missing points."},
+      endings,
+      recognises_plu,
+      read_plu};
+  return format;
+}
+
+}  // namespace asperity
