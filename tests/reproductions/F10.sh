@@ -6,7 +6,7 @@ set -eu
 cat > s.lua <<'LUA'
 local lab = require "asperity"
 local b = lab.notebook "n"
-for k = 1, 100 do
+for k = 1, 500 do
   b:write{ k=k }
   lab.surface.sine{ cells=128, size=1e-3, amplitude=k * 1e-9 }:write("s" .. k % 8 .. ".npy")
 end
