@@ -33,7 +33,9 @@ function accuracy.show(given)
       add(("| %s | none of these | | |"):format(percent(bound)))
     end
   end
-  add("", given.finding, "", ("Script: `examples/accuracy/%s.lua`."):format(arg[0]:match "([^/]+)%.lua$"))
+  local script = ("examples/accuracy/%s.lua"):format(arg[0]:match "([^/]+)%.lua$")
+  add("", given.finding, "", ("Script: `%s`."):format(script), "", ("Again: `asperity run %s%s`."):format(script,
+    #arg > 0 and " -- " .. table.concat(arg, " ") or ""))
   local file <close> = assert(io.open(("section_%02d.md"):format(given.number), "w"))
   file:write(table.concat(lines, "\n"), "\n")
 end

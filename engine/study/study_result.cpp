@@ -37,7 +37,7 @@ std::string StudyResult::name_of(const StudyRow& row) const {
 
 bool StudyResult::is_truth(const StudyRow& row) const {
   const auto* knobs = std::get_if<Knobs>(&request.truth);
-  return knobs != nullptr && *knobs == knobs_of(row);
+  return knobs != nullptr && (*knobs == knobs_of(row) || (truth && row.value == *truth));
 }
 
 double StudyResult::overhead() const {
@@ -95,12 +95,39 @@ const StudyRow* best_held(const StudyResult& result) {
   return best;
 }
 
+namespace {
+
+constexpr double much_faster = 0.5;
+
+// Whether a row that is listed before has the same answer, in not much more time.
+bool stood_for(const StudyResult& result, const StudyRow& row, double error) {
+  for (const StudyRow& other : result.rows) {
+    if (&other == &row) return false;
+    if (has_error(other) && other.held_error <= error && other.value == row.value &&
+        row.seconds >= much_faster * other.seconds)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<const StudyRow*> tied_with(const StudyResult& result, const StudyRow& chosen, double error) {
+  std::vector<const StudyRow*> tied;
+  for (const StudyRow& row : result.rows)
+    if (&row != &chosen && has_error(row) && row.held_error <= error && !stood_for(result, row, error) &&
+        row.seconds_low <= chosen.seconds_high && chosen.seconds_low <= row.seconds_high)
+      tied.push_back(&row);
+  return tied;
+}
+
 const StudyRow& cheapest(const StudyResult& result, double error) {
   require(error > 0 && !std::isinf(error), "error", error, "", "give a number above 0");
   const StudyRow *found = nullptr, *accident = nullptr;
   for (const StudyRow& row : result.rows) {
     if (!has_error(row)) continue;
     if (row.held_error <= error) {
+      if (stood_for(result, row, error)) continue;
       if (found == nullptr || row.seconds < found->seconds) found = &row;
     } else if (row.error <= error && accident == nullptr) {
       accident = &row;

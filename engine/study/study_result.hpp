@@ -69,7 +69,7 @@ struct StudyResult {
   const Knobs& knobs_of(const StudyRow& row) const { return way_of(row).settings[row.setting]; }
   // "finer grid { cells=256 }".
   std::string name_of(const StudyRow& row) const;
-  // Whether it is the setting that the truth comes from: such a row has no error.
+  // Whether it is the setting that the truth comes from, or gave its very bits: such a row has no error.
   bool is_truth(const StudyRow& row) const;
   // Whether errors are relative to the truth; they are not where the truth is 0.
   bool relative() const { return !truth || *truth != 0; }
@@ -84,9 +84,14 @@ void conclude(StudyResult& result);
 // The row that holds the smallest error; null if none has one.
 const StudyRow* best_held(const StudyResult& result);
 
-// The row of the cheapest setting whose held error is at most `error`. Throws Error{infeasible} that
-// names the best that was reached, and an accidental crossing if there was one; Error{bad_value} for a
-// bound that is not above zero.
+// The row of the cheapest setting whose held error is at most `error`. Answers that are the same bits are of
+// one way: of two such rows the one that is listed first stands for both, unless the other takes less than
+// half its time. Throws Error{infeasible} that names the best that was reached, and an accidental crossing if
+// there was one; Error{bad_value} for a bound that is not above zero.
 const StudyRow& cheapest(const StudyResult& result, double error);
+
+// The other rows that hold `error` and may be as fast as the row that `cheapest` gave: their range of seconds
+// overlaps with its. In the order of the rows; none of whose answer an earlier row has.
+std::vector<const StudyRow*> tied_with(const StudyResult& result, const StudyRow& chosen, double error);
 
 }  // namespace asperity

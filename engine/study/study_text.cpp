@@ -59,6 +59,19 @@ std::string short_reason(const std::string& reason, std::size_t most = 72) {
   return text + "…";
 }
 
+// The settings that may be as fast, those that hold the least error first.
+std::string ties_text(const StudyResult& result, const StudyRow& row, double error) {
+  constexpr std::size_t most_named = 3;
+  std::vector<const StudyRow*> tied = tied_with(result, row, error);
+  std::ranges::stable_sort(tied, {}, &StudyRow::held_error);
+  std::string text;
+  for (std::size_t k = 0; k < std::min(tied.size(), most_named); ++k)
+    text += (k == 0 ? "; its time is not told apart from that of " : ", ") + result.name_of(*tied[k]) +
+            " (held to " + error_text(tied[k]->held_error, result.relative()) + ")";
+  if (tied.size() > most_named) text += " and " + std::to_string(tied.size() - most_named) + " more";
+  return text;
+}
+
 std::string recommendation(const StudyResult& result, double error) {
   std::string text = "cheapest for " + error_text(error, result.relative()) + ": ";
   try {
@@ -66,6 +79,7 @@ std::string recommendation(const StudyResult& result, double error) {
     text += result.name_of(row) + ", " + seconds_text(row.seconds) + ", held to " +
             error_text(row.held_error, result.relative());
     if (row.confirmed == 0) text += ", which no finer setting confirms";
+    text += ties_text(result, row, error);
   } catch (const Error& refusal) {
     text += "none of these";
     const StudyRow* best = best_held(result);

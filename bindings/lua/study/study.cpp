@@ -207,13 +207,15 @@ const Class& class_of<Study>() {
          .heavy = true},
         {.name = "cheapest",
          .body = cheapest_setting,
-         .sentence = "The fastest setting whose error, and that of every finer measured setting of its way, "
-                     "is at most the "
-                     "one asked for: a setting that comes near the truth by accident, where the error "
-                     "changes its sign, is "
-                     "not taken. Settings count as finer along the list of their way (turned round where "
-                     "`cells` falls or "
-                     "`tolerance` rises). An error says what the best reached was.",
+         .sentence =
+             "The fastest setting whose error, and that of every finer measured setting of its way, "
+             "is at most the "
+             "one asked for: a setting that comes near the truth by accident, where the error "
+             "changes its sign, is "
+             "not taken. Settings count as finer along the list of their way (turned round where "
+             "`cells` falls or "
+             "`tolerance` rises). Of settings whose answers are the same bits the one listed first is taken, "
+             "unless another takes less than half its time. An error says what the best reached was.",
          .options = &cheapest_block(),
          .returns = "StudyChoice",
          .example = "local best = study:cheapest{ error=1e-3 } print(best, best.seconds, best.error)"},

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+# N7: docs/accuracy.md recommended ways whose answer is that of another way in the same time. "Cheapest" is one alone of
+# answers that are the same, the one listed first; others whose ranges of time overlap with its are named beside it; and
+# the arguments of each study are printed under it.
+import os
+import re
+
+here = os.path.dirname(os.path.abspath(__file__))
+with open(os.path.join(here, "../../docs/accuracy.md"), encoding="utf-8") as page:
+    text = page.read()
+units = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1}
+rows, wrong, right = {}, [], 0
+
+
+def seconds(words):
+    number, unit = words.split()
+    return float(number) * units[unit]
+
+
+def settle(name):
+    """Each recommended setting of a study against all others that meet the error."""
+    global right
+    for target, setting, line in name:
+        if setting not in rows:
+            continue
+        value, low, high = rows[setting]
+        before = list(rows)[:list(rows).index(setting)]
+        same = [s for s in before if rows[s][0] == value and rows[s][1] <= high and low <= rows[s][2]]
+        if same:
+            wrong.append((target, setting, same))
+        else:
+            right += 1
+
+
+chosen = []
+for line in text.splitlines():
+    if line.startswith("#"):
+        settle(chosen)
+        rows, chosen = {}, []
+    row = re.search(r"(\{ .*? \})\s+([0-9.e+-]+)\s+\S+ %\s+\S+ \S+ \(([^()]+) to ([^()]+)\)", line)
+    if row:
+        rows[row[1]] = (row[2], seconds(row[3]), seconds(row[4]))
+    best = re.match(r"cheapest for (\S+ %): .*?(\{ .*? \})", line)
+    if best:
+        chosen.append((best[1], best[2], line))
+settle(chosen)
+assert right + len(wrong) > 5, "the page was not understood"
+assert not wrong, wrong
+assert text.count("Again: `asperity run examples/accuracy/") == text.count("Script: `examples/accuracy/") > 5, "arguments"
