@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/binary_cursor.hpp"
 #include "engine/surface/io/format.hpp"

@@ -172,7 +172,7 @@ const Format& opd_format() {
       "a directory of blocks",
       {"OPD of Wyko, Veeco and Bruker interferometers: the raw map, or another block with `channel`.",
        "Blocks that are no maps, heights of other than 2 or 4 bytes.",
-       "Three files of the public test sets of SurfaceTopography and surfalize, heights, sizes and missing "
+       "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
        "points."},
       endings,
       recognises_opd,

@@ -218,7 +218,9 @@ const Format& sdf_format() {
       "aISO-1.0, bISO-1.0 or BCR at the start",
       {"SDF of ISO 25178-71 and its forerunner, in text or binary, all eight types of number.",
        "Compressed files.",
-       "A text file of the public test set of SurfaceTopography; the binary form by the standard alone."},
+       "A text file of the public test set of SurfaceTopography; binary files of this program are read alike "
+       "by "
+       "surfalize."},
       endings,
       recognises_sdf,
       read_sdf};

@@ -193,8 +193,8 @@ const Format& sur_format() {
       {"SUR of Digital Surf (MountainsMap): the first surface or profile, of 16 or 32 bits, compressed or "
        "not.",
        "Files of Apple computers, binary images and other studiables.",
-       "Three files of the public test sets of SurfaceTopography and surfalize, heights, sizes and missing "
-       "points."},
+       "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
+       "points; compressed: files of surfalize's writer."},
       endings,
       recognises_sur,
       read_sur};
