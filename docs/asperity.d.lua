@@ -1894,8 +1894,8 @@ lab.units = {}
 ---@field unit? number|string length of one height of the file, where it has no unit, e.g. "um" (a length above 0)
 ---@field unit_xy? number|string length of one number of a position, in x y z points and in profiles of two columns that do not say it, e.g. "mm" (a length above 0)
 ---@field fill? "interpolate"|a length what points that were not measured become; without it they stay missing ("interpolate"|a length)
----@field format? string read as this format whatever the file looks like: "x3p", "sdf", "sur", "opd", "bcr", "gwy", "hdf5", "npy", "text", "xyz" or "stylus-csv" (string)
----@field channel? string which of several maps in an HDF5, GWY or OPD file, by its name (string)
+---@field format? string read as this format whatever the file looks like: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text" (string)
+---@field channel? string which of several maps in a file of "hdf5", "gwy", "opd", "nanoscope", "opdx", "nid", "ibw" or "mi", by its name or number (string)
 ---@field material? asperity.Material what the body is made of (Material)
 
 ---Rough surfaces: generated, from functions and tables, or read from files.
@@ -1947,7 +1947,7 @@ function lab.surface.from_function(options) end
 ---@return asperity.Surface
 function lab.surface.from_table(options) end
 
----A measured surface from a file: X3P, SDF, SUR, OPD, BCR, GWY, HDF5, NPY, text matrix, x y z triples or a profiler's CSV, known by its content, then by its extension. Points that it marks as not measured stay missing. Over x y z triples a line such as "x [mm];y [mm];z [um]" says their units.
+---A measured surface from a file: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text", known by its content, then by its extension. Points that it marks as not measured stay missing. Over x y z triples a line such as "x [mm];y [mm];z [um]" says their units.
 ---@param path string the file
 ---@param options? asperity.options.lab.surface.read
 ---@return asperity.Surface
@@ -1958,8 +1958,8 @@ function lab.surface.read(path, options) end
 ---@field unit? number|string length of one height of the file, where it has no unit, e.g. "um" (a length above 0)
 ---@field unit_xy? number|string length of one number of a position, in x y z points and in profiles of two columns that do not say it, e.g. "mm" (a length above 0)
 ---@field fill? "interpolate"|a length what points that were not measured become; without it they stay missing ("interpolate"|a length)
----@field format? string read as this format whatever the file looks like (string)
----@field channel? string which of several arrays in an HDF5, GWY or OPD file, by its name (string)
+---@field format? string read as this format whatever the file looks like: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text" (string)
+---@field channel? string which of several maps in a file of "hdf5", "gwy", "opd", "nanoscope", "opdx", "nid", "ibw" or "mi", by its name or number (string)
 
 ---Profiles: stylus traces from files. Surfaces give others with s:profile and s:profiles.
 ---@class asperity.lab.profile

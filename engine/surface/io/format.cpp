@@ -29,6 +29,13 @@ std::span<const Format* const> formats() {
       &frt_format(),         //
       &nms_format(),         //
       &plu_format(),         //
+      &nanoscope_format(),   //
+      &opdx_format(),        //
+      &nid_format(),         //
+      &ibw_format(),         //
+      &mi_format(),          //
+      &wsxm_format(),        //
+      &park_format(),        //
       &stylus_csv_format(),  //
       &xyz_format(),         //
       &text_format(),

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/surface/io/instrument_header.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "engine/core/files/text_table.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/length_unit.hpp"
+
+namespace asperity {
+
+namespace {
+
+std::string listed_names(const std::vector<NamedMap>& maps, bool only_heights) {
+  constexpr std::size_t most = 24;
+  std::vector<std::string> names;
+  std::size_t count = 0;
+  for (const NamedMap& map : maps) {
+    if (!map.heights && only_heights) continue;
+    if (++count <= most) names.push_back(quoted(map.name));
+  }
+  if (count > most) names.push_back(std::to_string(count - most) + " more");
+  return joined(names, " and ");
+}
+
+// The number at the start of a text, and what follows it. No number: NaN.
+double leading_number(std::string_view text, std::string_view& rest) {
+  double value = 0;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc()) return std::nan("");
+  rest = trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
+  return value;
+}
+
+}  // namespace
+
+std::uint64_t instrument_count(const SourceFile& file, std::string_view key, std::string_view text) {
+  text = trimmed(text);
+  std::uint64_t value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size())
+    refuse_file(file, "has no count for " + quoted(key) + " in its header: " + shown(text));
+  return value;
+}
+
+double instrument_number(const SourceFile& file, std::string_view key, std::string_view text) {
+  std::string_view rest;
+  const double value = leading_number(trimmed(text), rest);
+  if (!std::isfinite(value) || !rest.empty())
+    refuse_file(file, "has no number for " + quoted(key) + " in its header: " + shown(text));
+  return value;
+}
+
+std::optional<double> instrument_length_unit(std::string_view text) {
+  text = trimmed(text);
+  // "A" is the ampere of instruments, "1,5 nm" no length with a unit after it.
+  if (text == "A" || text.find(' ') != std::string_view::npos) return {};
+  if (text == "~m" || text == "\xB5m" || text == "\xC2\xB5m" || text == "\xCE\xBCm") return 1e-6;
+  if (text == "\xC5" || text == "\xC3\x85") return 1e-10;
+  return length_unit(text);
+}
+
+double instrument_length(const SourceFile& file, std::string_view key, std::string_view text) {
+  std::string_view unit;
+  const double value = leading_number(trimmed(text), unit);
+  const std::optional<double> metres = unit.empty() ? std::nullopt : instrument_length_unit(unit);
+  if (!(value > 0) || !std::isfinite(value) || !metres)
+    refuse_file(file, "has no length for " + quoted(key) + " in its header: " + shown(text));
+  return value * *metres;
+}
+
+void tell_apart(std::vector<NamedMap>& maps) {
+  std::set<std::string> taken;
+  std::map<std::string, std::size_t> last_number;
+  for (NamedMap& map : maps) {
+    const std::string plain = map.name;
+    std::size_t& last = last_number.try_emplace(plain, 1).first->second;
+    while (!taken.insert(map.name).second) map.name = plain + " (" + std::to_string(++last) + ")";
+  }
+}
+
+void tell_apart_by(std::vector<NamedMap>& maps, const std::vector<std::string>& more) {
+  std::map<std::string, std::size_t> met;
+  for (const NamedMap& map : maps) ++met[map.name];
+  for (std::size_t k = 0; k < maps.size(); ++k)
+    if (met[maps[k].name] > 1) maps[k].name += more[k];
+  tell_apart(maps);
+}
+
+std::size_t chosen_map(const SourceFile& file, const std::vector<NamedMap>& maps,
+                       const std::string& channel) {
+  if (maps.empty()) refuse_file(file, "holds no map");
+  if (!channel.empty()) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < maps.size(); ++k) {
+      if (maps[k].name == channel) return k;
+      names.push_back(maps[k].name);
+    }
+    refuse_file(file,
+                "holds no map " + quoted(channel) + did_you_mean(channel, names) + " but " +
+                    listed_names(maps, false),
+                "name one of them with `channel`");
+  }
+  std::size_t found = maps.size(), count = 0;
+  for (std::size_t k = maps.size(); k-- > 0;)
+    if (maps[k].heights) {
+      found = k;
+      ++count;
+    }
+  if (count == 0)
+    refuse_file(file, "holds no map of heights but " + listed_names(maps, false),
+                "name one of them with `channel` if it is in a unit of length");
+  if (count > 1)
+    refuse_file(file, "holds several maps of heights: " + listed_names(maps, true),
+                "name one of them with `channel`");
+  return found;
+}
+
+Field lines_reversed(const Field& heights) {
+  Field turned(heights.nx(), heights.ny());
+  for (int j = 0; j < heights.ny(); ++j) {
+    const auto line = heights.row(j);
+    std::reverse_copy(line.begin(), line.end(), turned.row(j).begin());
+  }
+  return turned;
+}
+
+}  // namespace asperity

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// NID of Nanosurf's microscopes: a header in text, sections `[Name]` of lines `key=value`, then `#!` and the
+// numbers of all images one after another, in the order of the keys `GrG-ChC` of the section [DataSet]. Each
+// names the section that says of its image: `Points` and `Lines`, `SaveBits` of the signed integers,
+// `Dim0Range` and `Dim1Range` along x and y, and for the heights `Dim2Range` and `Dim2Min`: a number n of b
+// bits is (n / 2^b + 1/2) · range + min. The first line in the file is the lowest: j = 0 is at the bottom.
+// There are no missing points. Layout as told by the headers themselves and restated by Gwyddion's reader of
+// the same layout (EZD). The file that was compared was scanned upwards: its first line shows the start.
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "engine/core/files/text_table.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/binary_cursor.hpp"
+#include "engine/surface/io/format.hpp"
+#include "engine/surface/io/instrument_header.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::string_view nid_mark = "[DataSet]", nid_data_mark = "#!";
+
+using NidSection = std::map<std::string, std::string_view>;
+
+struct NidHeader {
+  std::map<std::string, NidSection> sections;
+  std::vector<std::string> images;  // sections of images in the order of the data
+  std::string_view data;
+};
+
+NidHeader nid_header(const SourceFile& file) {
+  if (!file.bytes().starts_with(nid_mark))
+    refuse_file(file, "is not a NID file: it does not start with [DataSet]",
+                "if it is another format, name it with `format`");
+  const std::string_view bytes = file.bytes();
+  const std::size_t end = bytes.find("\n#!");
+  if (end == std::string_view::npos)
+    refuse_file(file, "has no data: no line in it starts with #!", "the file is cut short");
+  NidHeader header;
+  header.data = bytes.substr(end + 1 + nid_data_mark.size());
+  LineReader reader(bytes.substr(0, end));
+  std::string_view line;
+  NidSection* section = nullptr;
+  while (reader.next(line)) {
+    line = trimmed(line);
+    if (line.starts_with('[') && line.ends_with(']')) {
+      section = &header.sections[std::string(line.substr(1, line.size() - 2))];
+      continue;
+    }
+    const std::size_t sign = line.find('=');
+    if (sign == std::string_view::npos || section == nullptr) continue;
+    const std::string_view key = trimmed(line.substr(0, sign)), value = trimmed(line.substr(sign + 1));
+    section->emplace(key, value);
+    if (section == &header.sections["DataSet"] && key.starts_with("Gr") &&
+        key.find("-Ch") != std::string_view::npos)
+      header.images.emplace_back(value);
+  }
+  return header;
+}
+
+struct NidImage {
+  const NidSection* section = nullptr;
+  std::uint64_t nx = 0, ny = 0, width = 0;
+  std::string_view data;
+};
+
+std::string_view nid_entry(const SourceFile& file, const NidSection& section, const std::string& key) {
+  const auto found = section.find(key);
+  if (found == section.end()) refuse_file(file, "has an image without " + quoted(key) + " in its header");
+  return found->second;
+}
+
+// Takes the image's numbers off the front of the data.
+NidImage take_nid_image(const SourceFile& file, const NidHeader& header, const std::string& name,
+                        std::string_view& data) {
+  const auto found = header.sections.find(name);
+  if (found == header.sections.end())
+    refuse_file(file, "names an image " + shown(name) + ", of which its header says nothing");
+  NidImage image;
+  image.section = &found->second;
+  const auto count = [&](const char* key) {
+    return instrument_count(file, key, nid_entry(file, found->second, key));
+  };
+  image.nx = count("Points");
+  image.ny = count("Lines");
+  const std::uint64_t bits = count("SaveBits");
+  const auto is = [&](const char* key, std::string_view wanted) {
+    const auto entry = found->second.find(key);
+    return entry == found->second.end() || entry->second == wanted;
+  };
+  if ((bits != 16 && bits != 32) || !is("SaveMode", "Binary") || !is("SaveSign", "Signed") ||
+      !is("SaveOrder", "Intel"))
+    refuse_file(file, "has an image " + shown(name) + " whose numbers are not as usual",
+                "signed binary integers of 16 and 32 bits in Intel's order are read");
+  image.width = bits / 8;
+  require_numbers(file, image.nx, image.ny, image.width, data.size());
+  image.data = data.substr(0, image.nx * image.ny * image.width);
+  data.remove_prefix(image.data.size());
+  return image;
+}
+
+// A range in the unit of its dimension, in metres.
+double nid_length(const SourceFile& file, const NidSection& section, const std::string& dimension) {
+  return instrument_length(file, dimension + "Range",
+                           std::string(nid_entry(file, section, dimension + "Range")) + " " +
+                               std::string(nid_entry(file, section, dimension + "Unit")));
+}
+
+HeightMap read_nid_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
+  const NidHeader header = nid_header(file);
+  std::vector<NidImage> images;
+  std::vector<NamedMap> maps;
+  std::string_view data = header.data;
+  for (const std::string& name : header.images) {
+    images.push_back(take_nid_image(file, header, name, data));
+    const NidSection& section = *images.back().section;
+    const std::string title = plain_text(std::string(nid_entry(file, section, "Dim2Name")));
+    const auto frame = section.find("Frame");
+    const bool length = instrument_length_unit(nid_entry(file, section, "Dim2Unit")).has_value();
+    maps.push_back({frame == section.end() ? title : title + ", " + plain_text(std::string(frame->second)),
+                    length && (title.starts_with("Z-Axis") || title.starts_with("Topography"))});
+  }
+  if (!data.empty())
+    refuse_file(file, "has " + std::to_string(data.size()) + " bytes after its last image",
+                "its header is wrong or the file is damaged");
+  tell_apart(maps);
+  const std::size_t found = chosen_map(file, maps, channel);
+  const NidImage& image = images[found];
+  const NidSection& section = *image.section;
+  const std::string_view unit_text = nid_entry(file, section, "Dim2Unit");
+  const std::optional<double> unit = instrument_length_unit(unit_text);
+  if (!unit)
+    refuse_file(file,
+                "holds the map " + quoted(maps[found].name) + " in " + shown(unit_text) +
+                    ", which is no unit of length",
+                "name a map of heights with `channel`");
+  const double range = instrument_number(file, "Dim2Range", nid_entry(file, section, "Dim2Range"));
+  const double least = instrument_number(file, "Dim2Min", nid_entry(file, section, "Dim2Min"));
+  if (!(range > 0)) refuse_file(file, "gives " + format_short(range) + " as its Dim2Range");
+  const int nx = static_cast<int>(image.nx), ny = static_cast<int>(image.ny);
+  HeightMap map;
+  double steps = 4294967296.0;
+  if (image.width == 2) {
+    steps = 65536;
+    map.heights =
+        field_of_numbers<std::int16_t>(image.data, nx, ny, monitor, [](std::int16_t) { return false; });
+  } else {
+    map.heights =
+        field_of_numbers<std::int32_t>(image.data, nx, ny, monitor, [](std::int32_t) { return false; });
+  }
+  for (double& height : map.heights.values()) height = (height / steps + 0.5) * range + least;
+  map.unit = unit;
+  map.size_x = nid_length(file, section, "Dim0");
+  map.size_y = nid_length(file, section, "Dim1");
+  map.trace = ny == 1;
+  if (const auto line = section.find("CurLine"); line != section.end())
+    if (const std::uint64_t last = instrument_count(file, "CurLine", line->second); last + 1 < image.ny)
+      monitor.warn(file_name(file.path()) + " says that its scan stopped at line " +
+                   std::to_string(last + 1) + " of " + std::to_string(image.ny) +
+                   ": crop it to the lines that were measured");
+  return map;
+}
+
+HeightMap read_nid(const SourceFile& file, Monitor& monitor) { return read_nid_channel(file, {}, monitor); }
+
+bool recognises_nid(const SourceFile& file) {
+  return file.bytes().starts_with(nid_mark) && file.bytes().find("\n#!") != std::string_view::npos;
+}
+
+}  // namespace
+
+const Format& nid_format() {
+  static constexpr std::array<std::string_view, 1> endings{"nid"};
+  static const Format format{
+      "nid",
+      "[DataSet] at the start",
+      {"NID of Nanosurf's microscopes: the image of the z axis, or another in a unit of length with "
+       "`channel`.",
+       "Images of other quantities, numbers of other than 16 and 32 bits.",
+       "A file of the public test set of SurfaceTopography: heights and sizes, by an independent program."},
+      endings,
+      recognises_nid,
+      read_nid,
+      read_nid_channel};
+  return format;
+}
+
+}  // namespace asperity

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// OPDx of Bruker's Vision64 (Dektak stylus profilometers): after the mark, items one after another: the
+// length of a name in 32 bits, the name, a byte for the type, and the value; containers hold items in turn
+// and end with an item of type 127 and two bytes. A profile is the container /1D_Data/NAME of the name that
+// /MetaData/1D_Channels/Height lists, with `Extent` from the first sample to the last, `NumPoints`,
+// `DataScale` (the length of one number) and `Array`, doubles. Numbers that are not finite are missing
+// samples. Layout as restated by SurfaceTopography's reader. Maps (`2D_Data`) are refused: there was no file
+// to check them with.
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "engine/core/files/text_table.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/binary_cursor.hpp"
+#include "engine/surface/io/format.hpp"
+#include "engine/surface/io/instrument_header.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::string_view opdx_mark("VCA DATA\x01\0\0\x55", 12);
+constexpr const char* opdx_piece = "its items";
+
+enum class OpdxType : std::uint8_t {
+  matrix = 0x00,
+  boolean = 0x01,
+  int16 = 0x04,
+  uint16 = 0x05,
+  int32 = 0x06,
+  uint32 = 0x07,
+  int64 = 0x0A,
+  uint64 = 0x0B,
+  single_number = 0x0C,
+  double_number = 0x0D,
+  type_id = 0x0E,
+  text = 0x12,
+  quantity = 0x13,
+  time_stamp = 0x15,
+  unit = 0x18,
+  array = 0x40,
+  names = 0x42,
+  raw_profile = 0x46,
+  raw_map = 0x47,
+  positions = 0x7C,
+  container = 0x7D,
+  end = 0x7F
+};
+
+struct OpdxItem {
+  OpdxType type{};
+  std::string_view value;
+};
+using OpdxItems = std::map<std::string, OpdxItem>;
+
+std::string_view opdx_name(BinaryCursor& cursor) { return cursor.take(cursor.number<std::uint32_t>()); }
+
+// A length in as many bytes as the byte before it says.
+std::size_t opdx_length(const SourceFile& file, BinaryCursor& cursor) {
+  switch (const int width = cursor.number<std::uint8_t>()) {
+    case 1:
+      return cursor.number<std::uint8_t>();
+    case 2:
+      return cursor.number<std::uint16_t>();
+    case 4:
+      return cursor.number<std::uint32_t>();
+    default:
+      refuse_file(file, "has a length of " + std::to_string(width) + " bytes among its items",
+                  "the file is damaged");
+  }
+}
+
+// Goes over the items of a container; those of its containers have its name and a slash before their own.
+void read_opdx_items(const SourceFile& file, std::string_view bytes, const std::string& prefix, int depth,
+                     OpdxItems& items) {
+  constexpr int deepest = 8;
+  if (depth > deepest) refuse_file(file, "has containers within containers without end");
+  BinaryCursor cursor(file, bytes, opdx_piece);
+  while (cursor.left() > 0) {
+    const std::string_view name = opdx_name(cursor);
+    const auto type = static_cast<OpdxType>(cursor.number<std::uint8_t>());
+    if (type == OpdxType::end) return;
+    // Longer ones come from damage, and would be copied for each of many items.
+    constexpr std::size_t longest_path = 256;
+    if (prefix.size() + name.size() >= longest_path)
+      refuse_file(file, "has an item with a name of " + std::to_string(name.size()) + " bytes",
+                  "the file is damaged");
+    const std::string path = prefix + "/" + std::string(name);
+    const auto sized = [&] { return cursor.take(opdx_length(file, cursor)); };
+    std::string_view value;
+    switch (type) {
+      case OpdxType::container:
+      case OpdxType::raw_profile:
+      case OpdxType::raw_map:
+        value = sized();
+        read_opdx_items(file, value, path, depth + 1, items);
+        break;
+      case OpdxType::boolean:
+        value = cursor.take(1);
+        break;
+      case OpdxType::int16:
+      case OpdxType::uint16:
+        value = cursor.take(2);
+        break;
+      case OpdxType::int32:
+      case OpdxType::uint32:
+      case OpdxType::single_number:
+        value = cursor.take(4);
+        break;
+      case OpdxType::int64:
+      case OpdxType::uint64:
+      case OpdxType::double_number:
+        value = cursor.take(8);
+        break;
+      case OpdxType::time_stamp:
+        value = cursor.take(9);
+        break;
+      case OpdxType::text:
+      case OpdxType::quantity:
+      case OpdxType::unit:
+        value = sized();
+        break;
+      case OpdxType::type_id:
+      case OpdxType::array:
+      case OpdxType::names:
+      case OpdxType::positions:
+        opdx_name(cursor);  // the type's name in its maker's program
+        value = sized();
+        break;
+      case OpdxType::matrix:
+        opdx_name(cursor);
+        cursor.skip(4);
+        opdx_name(cursor);
+        value = sized();
+        break;
+      default:
+        refuse_file(file, "has an item " + shown(path) + " of the unknown type " +
+                              std::to_string(static_cast<int>(type)));
+    }
+    items.emplace(path, OpdxItem{type, value});
+  }
+}
+
+OpdxItem opdx_item(const SourceFile& file, const OpdxItems& items, const std::string& path, OpdxType type) {
+  const auto found = items.find(path);
+  if (found == items.end() || found->second.type != type)
+    refuse_file(file, "has no " + quoted(path) + " among its items, or one of another type",
+                "profiles of Dektak profilometers are read");
+  return found->second;
+}
+
+// A quantity in metres: its value, the name of its unit and the sign of that.
+double opdx_metres(const SourceFile& file, const OpdxItems& items, const std::string& path) {
+  BinaryCursor cursor(file, opdx_item(file, items, path, OpdxType::quantity).value, path);
+  const double value = cursor.number<double>();
+  opdx_name(cursor);
+  const std::string_view sign = opdx_name(cursor);
+  const std::optional<double> unit = instrument_length_unit(sign);
+  if (!unit)
+    refuse_file(file, "gives " + quoted(path) + " in " + shown(sign) + ", which is no unit of length");
+  if (!(value > 0) || !std::isfinite(value))
+    refuse_file(file, "gives " + format_short(value) + " as " + quoted(path));
+  return value * *unit;
+}
+
+HeightMap read_opdx_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
+  if (!file.bytes().starts_with(opdx_mark))
+    refuse_file(file, "is not an OPDx file: it does not start with VCA DATA",
+                "if it is another format, name it with `format`");
+  OpdxItems items;
+  read_opdx_items(file, file.bytes().substr(opdx_mark.size()), "", 0, items);
+  const auto kind = items.find("/MetaData/DataKind");
+  if (kind == items.end() || kind->second.value != "Surface Profile")
+    refuse_file(
+        file, "holds data of the kind " + shown(kind == items.end() ? "" : kind->second.value),
+        "profiles (\"Surface Profile\") are read; save a map in Vision64 as Wyko OPD (.opd), X3P or SDF, or "
+        "as .gwy in Gwyddion");
+  const OpdxItem listed = opdx_item(file, items, "/MetaData/1D_Channels/Height", OpdxType::names);
+  BinaryCursor names(file, listed.value, "its list of profiles");
+  std::vector<NamedMap> maps;
+  while (names.left() > 0) maps.push_back({plain_text(std::string(opdx_name(names))), true});
+  tell_apart(maps);
+  const std::string prefix = "/1D_Data/" + maps[chosen_map(file, maps, channel)].name;
+  const OpdxItem points = opdx_item(file, items, prefix + "/NumPoints", OpdxType::uint64);
+  const auto count = little_endian<std::uint64_t>(points.value.data());
+  const std::string_view array = opdx_item(file, items, prefix + "/Array", OpdxType::array).value;
+  // The type of the numbers and the width of one come first.
+  BinaryCursor cursor(file, array, "its heights");
+  const int type = cursor.number<std::uint8_t>();
+  const std::uint32_t width = cursor.number<std::uint32_t>();
+  if (type != static_cast<int>(OpdxType::double_number) || width != sizeof(double))
+    refuse_file(file,
+                "holds heights of type " + std::to_string(type) + " and " + std::to_string(width) + " bytes",
+                "doubles are read");
+  const std::string_view data = array.substr(cursor.position());
+  require_exactly(file, count, 1, sizeof(double), data.size());
+  if (count < 2) refuse_file(file, "holds one sample, which is no profile");
+  HeightMap map;
+  map.heights = field_of_numbers<double>(data, static_cast<int>(count), 1, monitor,
+                                         [](double value) { return !std::isfinite(value); });
+  map.unit = opdx_metres(file, items, prefix + "/DataScale");
+  map.spacing = opdx_metres(file, items, prefix + "/Extent") / static_cast<double>(count - 1);
+  map.size_x = *map.spacing * static_cast<double>(count);
+  map.trace = true;
+  return map;
+}
+
+HeightMap read_opdx(const SourceFile& file, Monitor& monitor) { return read_opdx_channel(file, {}, monitor); }
+
+bool recognises_opdx(const SourceFile& file) { return file.bytes().starts_with(opdx_mark); }
+
+}  // namespace
+
+const Format& opdx_format() {
+  static constexpr std::array<std::string_view, 1> endings{"opdx"};
+  static const Format format{"opdx",
+                             "VCA DATA at the start",
+                             {"OPDx of Bruker's Vision64 and Dektak profilometers: a profile.",
+                              "Maps, of which no file could be compared.",
+                              "A file of the public test set of SurfaceTopography: heights and positions, "
+                              "with its maker's export as text."},
+                             endings,
+                             recognises_opdx,
+                             read_opdx,
+                             read_opdx_channel};
+  return format;
+}
+
+}  // namespace asperity

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// TIFF of Park Systems' microscopes (once PSIA): a picture with the numbers beside it, in tags of the first
+// directory: 50432 holds the mark 0x0E031301, 50433 the version, 50434 the numbers, 50435 a header of 356
+// bytes (version 1.0.1) or 580 (1.0.2). A number n is (n · scale + offset) · gain, in the unit that the
+// header names; sizes are in micrometres. Numbers are integers of 16 or 32 bits or floating-point numbers
+// of 32. The first line in the file is the lowest: j = 0 is at the bottom. Floating-point numbers that are
+// not finite are missing points. Layout as restated by Gwyddion's and SurfaceTopography's readers.
+// Little-endian only, as the microscopes write.
+#include <array>
+#include <cmath>
+
+#include "engine/core/files/text_table.hpp"
+#include "engine/core/text.hpp"
+#include "engine/surface/io/binary_cursor.hpp"
+#include "engine/surface/io/format.hpp"
+#include "engine/surface/io/instrument_header.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::string_view tiff_mark("II*\0", 4);
+constexpr std::uint16_t park_mark_tag = 50432, park_version_tag = 50433, park_data_tag = 50434,
+                        park_header_tag = 50435;
+constexpr std::uint32_t park_mark = 0x0E031301;
+
+struct TiffTag {
+  std::uint32_t value = 0;  // of one number of 32 bits
+  std::uint64_t bytes = 0;  // of all its numbers
+  bool there = false;
+};
+
+std::uint64_t tiff_width(std::uint16_t type) {
+  constexpr std::array<std::uint8_t, 13> widths{0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8};
+  return type < widths.size() ? widths[type] : 0;
+}
+
+// The tag of the first directory; not there where the file is cut short. Never throws.
+TiffTag tiff_tag(std::string_view bytes, std::uint16_t wanted) {
+  if (bytes.size() < 8 || !bytes.starts_with(tiff_mark)) return {};
+  const std::size_t directory = little_endian<std::uint32_t>(bytes.data() + 4);
+  if (directory > bytes.size() || bytes.size() - directory < 2) return {};
+  const std::size_t count = little_endian<std::uint16_t>(bytes.data() + directory);
+  constexpr std::size_t entry_bytes = 12;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t at = directory + 2 + k * entry_bytes;
+    if (at + entry_bytes > bytes.size()) return {};
+    const char* const entry = bytes.data() + at;
+    if (little_endian<std::uint16_t>(entry) != wanted) continue;
+    const std::uint64_t width = tiff_width(little_endian<std::uint16_t>(entry + 2));
+    return {little_endian<std::uint32_t>(entry + 8), width * little_endian<std::uint32_t>(entry + 4), true};
+  }
+  return {};
+}
+
+bool recognises_park(const SourceFile& file) {
+  const TiffTag tag = tiff_tag(file.bytes(), park_mark_tag);
+  return tag.there && tag.bytes == 4 && tag.value == park_mark;
+}
+
+std::string_view park_tag_bytes(const SourceFile& file, std::uint16_t wanted, const std::string& what) {
+  const TiffTag tag = tiff_tag(file.bytes(), wanted);
+  if (!tag.there) refuse_file(file, "is a TIFF of Park without its tag of " + what);
+  if (tag.value > file.bytes().size() || tag.bytes > file.bytes().size() - tag.value)
+    refuse_file(file, "has " + what + " past its end", "the file is cut short");
+  return file.bytes().substr(tag.value, tag.bytes);
+}
+
+// A text of UTF-16 in a field of fixed width; characters beyond ASCII are question marks but for the micro.
+std::string park_text(BinaryCursor& cursor, std::size_t characters) {
+  std::string text;
+  const std::string_view field = cursor.take(2 * characters);
+  for (std::size_t k = 0; k < characters; ++k) {
+    const auto letter = little_endian<std::uint16_t>(field.data() + 2 * k);
+    if (letter == 0) break;
+    constexpr std::uint16_t micro = 0xB5, mu = 0x3BC, angstrom = 0xC5;
+    text += letter == micro || letter == mu ? '\xB5'
+            : letter == angstrom            ? '\xC5'
+            : letter < 0x80                 ? static_cast<char>(letter)
+                                            : '?';
+  }
+  return text;
+}
+
+struct ParkHeader {
+  std::uint32_t image_type = 0, nx = 0, ny = 0, swapped = 0, number_type = 0;
+  double size_x = 0, size_y = 0, gain = 0, scale = 0, offset = 0;
+  std::string source, unit;
+};
+
+ParkHeader park_header(const SourceFile& file) {
+  constexpr std::uint32_t first_version = 0x01000001, second_version = 0x01000002;
+  const TiffTag version = tiff_tag(file.bytes(), park_version_tag);
+  if (!version.there || (version.value != first_version && version.value != second_version))
+    refuse_file(file, "is a TIFF of Park of an unknown version", "versions 1.0.1 and 1.0.2 are read");
+  BinaryCursor cursor(file, park_tag_bytes(file, park_header_tag, "its header"), "its header");
+  ParkHeader header;
+  header.image_type = cursor.number<std::uint32_t>();
+  header.source = park_text(cursor, 32);
+  cursor.skip(2 * 8 + 8 + 4 + 4);  // mode, filter, flattening, tracking
+  header.nx = cursor.number<std::uint32_t>();
+  header.ny = cursor.number<std::uint32_t>();
+  cursor.skip(8 + 4 + 8 + 4 + 4);  // angle, sine scan, overscan, forward, upward
+  header.swapped = cursor.number<std::uint32_t>();
+  header.size_x = cursor.number<double>();
+  header.size_y = cursor.number<double>();
+  cursor.skip(4 * 8 + 2 * 8 + 2 * 8);  // offsets, rate, set point, its unit, biases
+  header.gain = cursor.number<double>();
+  header.scale = cursor.number<double>();
+  header.offset = cursor.number<double>();
+  header.unit = park_text(cursor, 8);
+  if (version.value == second_version) {
+    cursor.skip(3 * 4 + 3 * 4 + 2 * 8 + 3 * 16);  // extremes, ways of showing, servo
+    header.number_type = cursor.number<std::uint32_t>();
+  }
+  return header;
+}
+
+HeightMap read_park(const SourceFile& file, Monitor& monitor) {
+  if (!recognises_park(file))
+    refuse_file(file, "is not a TIFF of Park's microscopes: it has no tag 50432 with their mark",
+                "if it is another format, name it with `format`");
+  const ParkHeader header = park_header(file);
+  if (header.image_type != 0)
+    refuse_file(file, "is a line profile or spectroscopy of Park's microscopes, not a map",
+                "maps are read; export the others as text");
+  if (header.swapped != 0)
+    refuse_file(file, "was scanned with x and y swapped, and which side of its map is up is not known",
+                "save it as .gwy in Gwyddion");
+  const std::optional<double> unit = instrument_length_unit(header.unit);
+  if (!unit)
+    refuse_file(file, "holds a map of " + quoted(plain_text(header.source)) + " in " + shown(header.unit) +
+                          ", which is no unit of length");
+  for (const double size : {header.size_x, header.size_y})
+    if (!(size > 0) || !std::isfinite(size))
+      refuse_file(file, "gives " + format_short(size) + " as its size");
+  const double scale = header.scale == 0 ? 1 : header.scale;
+  for (const double factor : {header.gain, scale})
+    if (!std::isfinite(factor) || factor == 0)
+      refuse_file(file, "gives " + format_short(factor) + " as a factor of its heights");
+  if (!std::isfinite(header.offset))
+    refuse_file(file, "gives " + format_short(header.offset) + " as the offset of its heights");
+  const std::string_view data = park_tag_bytes(file, park_data_tag, "its numbers");
+  if (header.number_type > 2)
+    refuse_file(file, "holds numbers of type " + std::to_string(header.number_type),
+                "types 0 to 2 are read: integers of 16 and 32 bits, floating-point numbers of 32");
+  require_exactly(file, header.nx, header.ny, header.number_type == 0 ? 2 : 4, data.size());
+  const int nx = static_cast<int>(header.nx), ny = static_cast<int>(header.ny);
+  HeightMap map;
+  if (header.number_type == 0)
+    map.heights = field_of_numbers<std::int16_t>(data, nx, ny, monitor, [](std::int16_t) { return false; });
+  else if (header.number_type == 1)
+    map.heights = field_of_numbers<std::int32_t>(data, nx, ny, monitor, [](std::int32_t) { return false; });
+  else
+    map.heights =
+        field_of_numbers<float>(data, nx, ny, monitor, [](float value) { return !std::isfinite(value); });
+  for (double& height : map.heights.values()) height = (height * scale + header.offset) * header.gain;
+  constexpr double micrometre = 1e-6;
+  map.unit = unit;
+  map.size_x = header.size_x * micrometre;
+  map.size_y = header.size_y * micrometre;
+  map.trace = ny == 1;
+  return map;
+}
+
+}  // namespace
+
+const Format& park_format() {
+  static constexpr std::array<std::string_view, 2> endings{"tiff", "tif"};
+  static const Format format{
+      "park",
+      "a TIFF with Park's mark in its tag 50432",
+      {"TIFF of Park Systems' microscopes (PSIA): the map of heights.",
+       "Line profiles, spectroscopy, other quantities, scans with x and y swapped, pictures without heights.",
+       "A file of the public test set of SurfaceTopography: heights, size and the roughness that its tests "
+       "state."},
+      endings,
+      recognises_park,
+      read_park};
+  return format;
+}
+
+}  // namespace asperity

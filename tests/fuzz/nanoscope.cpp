@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Nanoscope files: offsets, lengths and sensitivities of several images in a header of text.
+#include "tests/fuzz/height_map.hpp"
+
+static void fuzz_nanoscope(const std::uint8_t* data, std::size_t size) {
+  using namespace asperity::fuzz;
+  read_every_way(view(data, size), {.format = "nanoscope"});
+}
+
+static const asperity::fuzz::Target nanoscope_target{"nanoscope", fuzz_nanoscope};

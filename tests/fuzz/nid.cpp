@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// NID scans: a header that names its images, each of which says how many numbers it takes.
+#include "tests/fuzz/height_map.hpp"
+
+static void fuzz_nid(const std::uint8_t* data, std::size_t size) {
+  using namespace asperity::fuzz;
+  read_every_way(view(data, size), {.format = "nid"});
+}
+
+static const asperity::fuzz::Target nid_target{"nid", fuzz_nid};
