@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/statistics/calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/statistics/calibration_problem.hpp"
+#include "engine/statistics/calibration_profile.hpp"
+#include "engine/statistics/calibration_verdict.hpp"
+#include "engine/statistics/distributions.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double level_of_specimens = 0.25;  // of the F test after which specimens are the observations
+constexpr double through_every_row = 1e-9;   // residuals, relative to the data
+constexpr double no_part = 0.01;             // of a direction that no row sees, in a parameter
+
+std::string row_name(const CalibrationRows& rows, std::size_t k) {
+  return "row " + std::to_string(rows.numbers.empty() ? k + 1 : rows.numbers[k]);
+}
+
+[[noreturn]] void refuse_calibration(std::string sentence, std::string hint) {
+  throw Error(ErrorCode::bad_value, std::move(sentence), std::move(hint));
+}
+
+void check_rows(const CalibrationRows& rows) {
+  const std::size_t n = rows.y.size();
+  for (const std::size_t length : {rows.u.size(), rows.specimens.size(), rows.numbers.size()})
+    if (length != 0 && length != n)
+      refuse_calibration("the calibration has " + std::to_string(n) + " values of y and " +
+                             std::to_string(length) + " of what goes with them",
+                         "give one for each row");
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!std::isfinite(rows.y[k]))
+      refuse_calibration("y is not finite in " + row_name(rows, k), "leave the row out");
+    if (!rows.u.empty() && !(std::isfinite(rows.u[k]) && rows.u[k] > 0))
+      refuse_calibration("the uncertainty `u` is " + format_short(rows.u[k]) + " in " + row_name(rows, k),
+                         "give a finite value above 0, or leave the row out");
+  }
+}
+
+void check_parameters(std::span<const CalibrationParameter> parameters) {
+  if (parameters.empty())
+    refuse_calibration("the calibration has no parameters",
+                       "name them with the values to begin from, as in { tau0={ start=0.3 } }");
+  for (const CalibrationParameter& of : parameters) {
+    const auto finite = [](const std::optional<double>& value) { return !value || std::isfinite(*value); };
+    if (!std::isfinite(of.start) || !finite(of.lower) || !finite(of.upper))
+      refuse_calibration("parameter " + quoted(of.name) + " has a start or a bound that is not finite",
+                         "give finite values, and leave out a bound that is not there");
+    if (of.lower && of.upper && !(*of.lower < *of.upper))
+      refuse_calibration("parameter " + quoted(of.name) + " has `lower` " + format_short(*of.lower) +
+                             " and `upper` " + format_short(*of.upper),
+                         "`lower` must be below `upper`; to fix a parameter, write its value into the model");
+    if ((of.lower && of.start < *of.lower) || (of.upper && of.start > *of.upper))
+      refuse_calibration(
+          "parameter " + quoted(of.name) + " starts at " + format_short(of.start) + ", outside its bounds",
+          "start between `lower` and `upper`");
+    if (!(of.step > 1e-9 && of.step <= 0.5))
+      refuse_calibration("parameter " + quoted(of.name) + " has a `step` of " + format_short(of.step),
+                         "give a share of the parameter from 1e-9 to 0.5, such as 1e-3");
+  }
+  for (std::size_t a = 0; a < parameters.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (parameters[a].name == parameters[b].name)
+        refuse_calibration("two parameters are called " + quoted(parameters[a].name),
+                           "give each its own name");
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+// Specimens in the order in which they come.
+std::vector<std::pair<std::string, CalibrationGroup>> specimen_groups(const CalibrationRows& rows) {
+  std::vector<std::pair<std::string, CalibrationGroup>> found;
+  std::map<std::string, std::size_t> places;
+  for (std::size_t k = 0; k < rows.specimens.size(); ++k) {
+    const auto [at, fresh] = places.emplace(rows.specimens[k], found.size());
+    if (fresh) found.emplace_back(rows.specimens[k], CalibrationGroup{});
+    found[at->second].second.rows.push_back(k);
+  }
+  return found;
+}
+
+// Variances of the weighted residuals about the mean of their specimen, and of those means.
+struct SpecimenVariances {
+  double within = 0, between = 0;
+  SpecimenScatter test;
+};
+
+// Residuals of rows, each times the root of its weight. More specimens than parameters, more rows than
+// specimens.
+SpecimenVariances variances_of(const std::vector<std::pair<std::string, CalibrationGroup>>& groups,
+                               const std::vector<double>& weighted, std::size_t parameters) {
+  const auto n = static_cast<double>(weighted.size()), m = static_cast<double>(groups.size());
+  double between = 0, within = 0, squares = 0;
+  for (const auto& [name, group] : groups) {
+    const auto count = static_cast<double>(group.rows.size());
+    double mean = 0;
+    for (const std::size_t row : group.rows) mean += weighted[row] / count;
+    between += count * mean * mean;
+    squares += count * count;
+    for (const std::size_t row : group.rows) within += (weighted[row] - mean) * (weighted[row] - mean);
+  }
+  SpecimenVariances found;
+  found.test.between = groups.size() - parameters;
+  found.test.within = weighted.size() - groups.size();
+  const auto between_degrees = static_cast<double>(found.test.between),
+             within_degrees = static_cast<double>(found.test.within);
+  found.within = within / within_degrees;
+  const double mean_square = between / between_degrees, repeats = (n - squares / n) / (m - 1);
+  found.between = std::max(0.0, (mean_square - found.within) / repeats);
+  if (found.within > 0) {
+    found.test.f = mean_square / found.within;
+    found.test.p_value = 1 - f_cdf(found.test.f, between_degrees, within_degrees);
+  } else if (mean_square > 0) {
+    found.test.f = std::numeric_limits<double>::infinity();
+    found.test.p_value = 0;
+  }
+  return found;
+}
+
+// Means of specimens as observations, each with the weight of its own variance; weights of mean 1.
+std::vector<CalibrationGroup> specimen_observations(
+    const std::vector<std::pair<std::string, CalibrationGroup>>& groups, const SpecimenVariances& variances) {
+  std::vector<CalibrationGroup> found;
+  double sum = 0;
+  for (const auto& [name, group] : groups) {
+    const double variance = variances.between + variances.within / static_cast<double>(group.rows.size());
+    found.push_back({group.rows, variance > 0 ? 1 / std::sqrt(variance) : 1});
+    sum += found.back().weight;
+  }
+  for (CalibrationGroup& group : found) group.weight *= static_cast<double>(found.size()) / sum;
+  return found;
+}
+
+std::vector<double> weighted_rows(const CalibrationRows& rows, const CalibrationPlace& at) {
+  std::vector<double> weighted(rows.y.size());
+  for (std::size_t k = 0; k < weighted.size(); ++k) weighted[k] = at.roots[k] * (rows.y[k] - at.fitted[k]);
+  return weighted;
+}
+
+// Covariance for a scatter of 1, of all parameters: 0 beside those that are held; directions that are not
+// determined take no part.
+TableColumns covariance_of(const CalibrationTangent& at, std::size_t parameters) {
+  TableColumns covariance(parameters, std::vector<double>(parameters));
+  for (std::size_t i = 0; i < at.parameters.size(); ++i)
+    for (std::size_t j = 0; j < at.parameters.size(); ++j) {
+      if (!(at.lengths[i] > 0 && at.lengths[j] > 0)) continue;
+      double sum = 0;
+      for (std::size_t k = 0; k < at.rank; ++k)
+        sum += at.svd.v[k][i] * at.svd.v[k][j] / (at.svd.values[k] * at.svd.values[k]);
+      covariance[at.parameters[i]][at.parameters[j]] = sum / (at.lengths[i] * at.lengths[j]);
+    }
+  return covariance;
+}
+
+std::vector<bool> determined_parameters(const CalibrationTangent& at, std::size_t parameters) {
+  std::vector<bool> determined(parameters, true);
+  for (std::size_t i = 0; i < at.parameters.size(); ++i) {
+    double part = 0;
+    for (std::size_t k = at.rank; k < at.svd.values.size(); ++k) part += at.svd.v[k][i] * at.svd.v[k][i];
+    if (!(at.lengths[i] > 0) || part > no_part * no_part) determined[at.parameters[i]] = false;
+  }
+  return determined;
+}
+
+class CalibrationWork {
+ public:
+  CalibrationWork(const CalibrationRows& rows, const CalibrationModel& model,
+                  std::span<const CalibrationParameter> parameters, const CalibrationOptions& options,
+                  Monitor& monitor)
+      : rows_(rows), options_(options), problem_(rows, model, parameters, options.scatter, monitor) {}
+
+  Calibration run() {
+    const std::size_t p = problem_.parameters();
+    problem_.expect(
+        static_cast<std::int64_t>(5 * (p + 1) + 2 * (2 * p + 1) + (options_.profile ? 4 * p : 0)));
+    std::vector<double> start;
+    for (std::size_t k = 0; k < p; ++k) start.push_back(problem_.parameter(k).start);
+    fit(start);
+    for (int again = 0; options_.profile && scatter_known() && again < 3; ++again) {
+      problem_.say("profile likelihood");
+      problem_.expect(static_cast<std::int64_t>(3 * p));
+      profiles_.assign(p, {});
+      const std::optional<std::vector<double>> lower = profile();
+      if (!lower) break;
+      // A lower sum lies beside: the fit begins there once more.
+      problem_.say("fit again");
+      fit(*lower);
+      ++begun_again_;
+    }
+    return described();
+  }
+
+ private:
+  // The least sum by rows, then by specimens where they scatter.
+  void fit(const std::vector<double>& start) {
+    groups_ = specimen_groups(rows_);
+    test_.reset();
+    by_specimens_ = false;
+    std::vector<CalibrationGroup> each;
+    for (std::size_t k = 0; k < rows_.y.size(); ++k) each.push_back({{k}, 1});
+    problem_.observe(std::move(each));
+    settle(start);
+    if (rows_.specimens.empty()) return;
+    const bool wanted = options_.basis == CalibrationBasis::specimens;
+    if (groups_.size() <= tangent_.rank) {
+      if (wanted)
+        throw Error(ErrorCode::infeasible,
+                    "basis=\"specimens\" has " + counted(groups_.size(), "specimen", "specimens") + " for " +
+                        counted(problem_.parameters(), "parameter", "parameters"),
+                    "measure more specimens than there are parameters");
+      return;
+    }
+    SpecimenVariances variances;
+    if (groups_.size() < rows_.y.size()) {
+      variances = variances_of(groups_, weighted_rows(rows_, at_.place), tangent_.rank);
+      test_ = variances.test;
+    }
+    if (options_.basis == CalibrationBasis::rows) return;
+    if (!wanted && !(variance_ > 0 && test_ && test_->p_value < level_of_specimens)) return;
+    problem_.say("fit of the means of specimens");
+    problem_.observe(specimen_observations(groups_, variances));
+    by_specimens_ = true;
+    settle(at_.place.q);
+  }
+
+  void settle(const std::vector<double>& start) {
+    at_ = problem_.minimum(start, at_.scales);
+    iterations_ += at_.iterations;
+    const std::vector<bool> none(problem_.parameters(), false);
+    held_ = problem_.pushed(at_.place, at_.rows_jacobian, none);
+    tangent_ = problem_.tangent(at_.place, at_.rows_jacobian, held_);
+    // The directions that no row sees are those of all parameters but the held ones; a held one that would
+    // be free is measured by its own column.
+    covariance_ = covariance_of(tangent_, problem_.parameters());
+    determined_ = determined_parameters(tangent_, problem_.parameters());
+    const std::size_t held = static_cast<std::size_t>(std::ranges::count(held_, true));
+    const std::size_t observations = problem_.groups().size(), used = tangent_.rank + held;
+    degrees_ = observations > used ? observations - used : 0;
+    variance_ = degrees_ > 0 ? at_.place.sum / static_cast<double>(degrees_) : rows_.u.empty() ? 0 : 1;
+    // What is left where the model passes through every row is rounding, and no scatter.
+    const double rounding = through_every_row * problem_.size_of(at_.place);
+    if (degrees_ > 0 && at_.place.sum <= rounding * rounding) variance_ = 0;
+  }
+
+  bool scatter_known() const { return variance_ > 0; }
+  double factor() const {
+    return degrees_ > 0 ? student_t_factor(options_.confidence, static_cast<double>(degrees_))
+                        : student_t_factor(options_.confidence, std::numeric_limits<double>::infinity());
+  }
+  double cut() const { return factor() * factor(); }
+
+  // Where a lower sum lies, if one was met.
+  std::optional<std::vector<double>> profile() {
+    const double allowed = cut() * variance_;
+    for (std::size_t p = 0; p < problem_.parameters(); ++p) {
+      if (!determined_[p]) continue;
+      problem_.say("profile likelihood of " + problem_.parameter(p).name);
+      std::vector<double> guide(problem_.parameters());
+      double reach = 0;
+      if (held_[p]) {
+        const double length = held_length(p);
+        if (!(length > 0)) continue;
+        reach = std::sqrt(allowed) / length;
+      } else {
+        for (std::size_t i = 0; i < guide.size(); ++i) guide[i] = covariance_[i][p] / covariance_[p][p];
+        reach = factor() * std::sqrt(variance_ * covariance_[p][p]);
+      }
+      guide[p] = 1;
+      if (!(std::isfinite(reach) && reach > 0)) continue;
+      profiles_[p] = profile_of(problem_, at_, p, guide, reach, allowed, variance_);
+      if (profiles_[p].lower_sum) return profiles_[p].lower_sum;
+    }
+    return {};
+  }
+
+  double held_length(std::size_t p) const {
+    std::vector<bool> others(problem_.parameters(), true);
+    others[p] = false;
+    return problem_.tangent(at_.place, at_.rows_jacobian, others).lengths.front();
+  }
+
+  Calibration described() {
+    Calibration found;
+    const std::size_t count = problem_.parameters();
+    found.confidence = options_.confidence;
+    found.observations = problem_.groups().size();
+    found.degrees = degrees_;
+    found.by_specimens = by_specimens_;
+    found.sum_of_squares = at_.place.sum;
+    found.residual_deviation = degrees_ > 0 ? std::sqrt(variance_) : 0;
+    found.cut = cut();
+    found.iterations = iterations_;
+    found.fitted = at_.place.fitted;
+    for (std::size_t k = 0; k < rows_.y.size(); ++k) found.residuals.push_back(rows_.y[k] - found.fitted[k]);
+    const bool spread = degrees_ > 0 || !rows_.u.empty();
+    const double t = factor();
+    for (std::size_t p = 0; p < count; ++p) {
+      CalibratedParameter of;
+      of.name = problem_.parameter(p).name;
+      of.determined = determined_[p];
+      of.at_lower = held_[p] && problem_.at_lower(at_.place.q[p], p);
+      of.at_upper = held_[p] && !of.at_lower;
+      if (of.determined) {
+        of.value = at_.place.q[p];
+        if (!held_[p] && spread) {
+          of.standard_error = std::sqrt(variance_ * covariance_[p][p]);
+          of.low = *of.value - t * *of.standard_error;
+          of.high = *of.value + t * *of.standard_error;
+        }
+        if (p < profiles_.size()) {
+          of.profile_low = profiles_[p].low;
+          of.profile_high = profiles_[p].high;
+          of.profile = profiles_[p].points;
+        }
+      }
+      found.parameters.push_back(std::move(of));
+    }
+    found.correlation.assign(count, std::vector<std::optional<double>>(count));
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < count; ++j)
+        if (determined_[i] && determined_[j] && !held_[i] && !held_[j])
+          found.correlation[i][j] =
+              i == j ? 1
+                     : std::clamp(covariance_[i][j] / std::sqrt(covariance_[i][i] * covariance_[j][j]), -1.0,
+                                  1.0);
+    if (!tangent_.svd.values.empty() && tangent_.rank == tangent_.svd.values.size())
+      found.condition = tangent_.svd.values.front() / tangent_.svd.values.back();
+    add_band(found, spread, t);
+    add_specimens(found);
+    found.calls = problem_.calls();
+    const CalibrationFindings findings{problem_,       at_,       tangent_,     covariance_, held_, variance_,
+                                       spread ? t : 0, profiles_, begun_again_, options_};
+    add_verdict(found, findings);
+    found.calls = problem_.calls();
+    return found;
+  }
+
+  void add_band(Calibration& found, bool spread, double t) const {
+    for (std::size_t k = 0; k < rows_.y.size(); ++k) {
+      double sum = 0;
+      for (std::size_t i = 0; i < covariance_.size(); ++i)
+        for (std::size_t j = 0; j < covariance_.size(); ++j)
+          sum += at_.rows_jacobian[i][k] * covariance_[i][j] * at_.rows_jacobian[j][k];
+      const double reach = t * std::sqrt(variance_ * std::max(sum, 0.0));
+      found.fitted_low.push_back(spread ? std::optional(found.fitted[k] - reach) : std::nullopt);
+      found.fitted_high.push_back(spread ? std::optional(found.fitted[k] + reach) : std::nullopt);
+    }
+  }
+
+  void add_specimens(Calibration& found) const {
+    const std::vector<double> weighted = weighted_rows(rows_, at_.place);
+    for (const auto& [name, group] : groups_) {
+      double sum = 0;
+      for (const std::size_t row : group.rows) sum += weighted[row];
+      found.specimens.push_back({name, group.rows.size(), sum / static_cast<double>(group.rows.size())});
+    }
+    found.specimen_scatter = test_;
+  }
+
+  const CalibrationRows& rows_;
+  const CalibrationOptions& options_;
+  CalibrationProblem problem_;
+  CalibrationMinimum at_;
+  CalibrationTangent tangent_;
+  std::vector<bool> held_, determined_;
+  TableColumns covariance_;
+  std::vector<std::pair<std::string, CalibrationGroup>> groups_;
+  std::optional<SpecimenScatter> test_;
+  std::vector<CalibrationProfile> profiles_;
+  std::size_t degrees_ = 0;
+  double variance_ = 0;
+  bool by_specimens_ = false;
+  int iterations_ = 0, begun_again_ = 0;
+};
+
+}  // namespace
+
+Calibration calibrate(const CalibrationRows& rows, const CalibrationModel& model,
+                      std::span<const CalibrationParameter> parameters, const CalibrationOptions& options,
+                      Monitor& monitor) {
+  check_rows(rows);
+  check_parameters(parameters);
+  if (!(options.confidence > 0 && options.confidence < 1))
+    refuse_calibration("`confidence` is " + format_short(options.confidence), "give a share between 0 and 1");
+  if (rows.y.size() < parameters.size())
+    refuse_calibration("the calibration has " + counted(rows.y.size(), "row", "rows") + " for " +
+                           counted(parameters.size(), "parameter", "parameters"),
+                       "measure more rows, or write values of some parameters into the model");
+  if (options.scatter == CalibrationScatter::relative && !rows.u.empty())
+    refuse_calibration("`u` says how far each row scatters, and so does scatter=\"relative\"",
+                       "give one of them");
+  if (options.basis == CalibrationBasis::specimens && rows.specimens.empty())
+    refuse_calibration("basis=\"specimens\" needs to know the specimen of each row",
+                       "name the column that tells it, as in specimen=\"specimen\"");
+  return CalibrationWork(rows, model, parameters, options, monitor).run();
+}
+
+}  // namespace asperity

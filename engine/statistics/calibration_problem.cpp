@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/statistics/calibration_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr int most_calibration_steps = 200;
+constexpr double calibration_orthogonal = 1e-6;   // residuals to the tangent plane, relative
+constexpr double near_enough_for_central = 1e-4;  // the same, from which differences are central
+constexpr double noise_of_model = 0.03;           // the same, at which a model that goes no lower has arrived
+constexpr double calibration_rounding = 1e-13;    // of the model, relative to the data
+constexpr double unseen = 1e-5;                   // a singular value relative to the largest
+constexpr double smallest_share = 1e-3;           // of the largest fitted value, as relative weights count it
+
+double norm(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum);
+}
+
+double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+CalibrationProblem::CalibrationProblem(const CalibrationRows& rows, const CalibrationModel& model,
+                                       std::span<const CalibrationParameter> parameters,
+                                       CalibrationScatter scatter, Monitor& monitor)
+    : rows_(rows),
+      model_(model),
+      parameters_(parameters),
+      scatter_(scatter),
+      monitor_(monitor),
+      begun_(std::chrono::steady_clock::now()),
+      reported_(begun_) {
+  std::vector<double> weighted;
+  for (std::size_t k = 0; k < rows.y.size(); ++k) {
+    own_.push_back(rows.u.empty() ? 1 : 1 / rows.u[k]);
+    weighted.push_back(own_[k] * rows.y[k]);
+    groups_.push_back({{k}, 1});
+  }
+  size_ = norm(weighted);
+}
+
+void CalibrationProblem::report() {
+  const auto now = std::chrono::steady_clock::now();
+  if (seconds_between(reported_, now) < 0.1) return;
+  reported_ = now;
+  if (calls_ >= expected_) expected_ = calls_ + calls_ / 4 + 1;
+  share_ = std::max(share_, static_cast<double>(calls_) / static_cast<double>(expected_));
+  monitor_.progress_of_parts("calibration", std::min(share_, 0.99),
+                             part_ + ", call " + std::to_string(calls_) + " of the model",
+                             seconds_between(begun_, now));
+}
+
+std::optional<std::vector<double>> CalibrationProblem::fitted(const std::vector<double>& q) {
+  std::vector<double> values;
+  values.reserve(rows_.y.size());
+  for (std::size_t k = 0; k < rows_.y.size(); ++k) {
+    stop_flag().check();
+    ++calls_;
+    values.push_back(model_(q, k));
+    report();
+    if (std::isfinite(values.back())) continue;
+    without_value_ = k;
+    without_value_at_ = q;
+    return {};
+  }
+  return values;
+}
+
+std::vector<double> CalibrationProblem::observed(const std::vector<double>& of_rows) const {
+  std::vector<double> values;
+  values.reserve(groups_.size());
+  for (const CalibrationGroup& group : groups_) {
+    double sum = 0;
+    for (const std::size_t row : group.rows) sum += of_rows[row];
+    values.push_back(group.weight * sum / static_cast<double>(group.rows.size()));
+  }
+  return values;
+}
+
+void CalibrationProblem::weigh(CalibrationPlace& at, const std::vector<double>* roots) const {
+  if (roots != nullptr) {
+    at.roots = *roots;
+  } else {
+    at.roots = own_;
+    if (scatter_ == CalibrationScatter::relative) {
+      double largest = 0;
+      for (const double value : at.fitted) largest = std::max(largest, std::abs(value));
+      if (!(largest > 0)) largest = 1;
+      for (std::size_t k = 0; k < at.roots.size(); ++k)
+        at.roots[k] /= std::max(std::abs(at.fitted[k]), smallest_share * largest);
+    }
+  }
+  std::vector<double> of_rows(rows_.y.size());
+  for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * (rows_.y[k] - at.fitted[k]);
+  at.residual = observed(of_rows);
+  at.sum = 0;
+  for (const double r : at.residual) at.sum += r * r;
+}
+
+std::optional<CalibrationPlace> CalibrationProblem::place(const std::vector<double>& q,
+                                                          const std::vector<double>* roots) {
+  auto values = fitted(q);
+  if (!values) return {};
+  CalibrationPlace at;
+  at.q = q;
+  at.fitted = *std::move(values);
+  weigh(at, roots);
+  if (!std::isfinite(at.sum)) return {};
+  return at;
+}
+
+void CalibrationProblem::refuse_place(const std::string& where) const {
+  const std::size_t number = rows_.numbers.empty() ? without_value_ + 1 : rows_.numbers[without_value_];
+  throw Error(
+      ErrorCode::bad_value,
+      "the model has no finite value for row " + std::to_string(number) + " " + where + ", with " +
+          parameters_text(without_value_at_),
+      "begin from other values, set `lower` and `upper`, or write the model so that it has a value there");
+}
+
+std::string CalibrationProblem::parameters_text(const std::vector<double>& q) const {
+  std::string text;
+  for (std::size_t p = 0; p < q.size(); ++p)
+    text += (p > 0 ? ", " : "") + parameters_[p].name + " = " + format_short(q[p]);
+  return text;
+}
+
+bool CalibrationProblem::at_lower(double value, std::size_t p) const {
+  return parameters_[p].lower && value <= *parameters_[p].lower;
+}
+
+bool CalibrationProblem::at_upper(double value, std::size_t p) const {
+  return parameters_[p].upper && value >= *parameters_[p].upper;
+}
+
+double CalibrationProblem::inside(double value, std::size_t p) const {
+  if (parameters_[p].lower) value = std::max(value, *parameters_[p].lower);
+  if (parameters_[p].upper) value = std::min(value, *parameters_[p].upper);
+  return value;
+}
+
+// df/dq_p of the rows; nothing where the model has no value beside.
+std::optional<std::vector<double>> CalibrationProblem::slopes(const CalibrationPlace& at, std::size_t p,
+                                                              double step, bool central) {
+  const double room_above = parameters_[p].upper ? *parameters_[p].upper - at.q[p] : step * 4,
+               room_below = parameters_[p].lower ? at.q[p] - *parameters_[p].lower : step * 4;
+  std::vector<double> q = at.q;
+  const auto values_at = [&](double distance) {
+    q[p] = inside(at.q[p] + distance, p);
+    return fitted(q);
+  };
+  std::vector<double> found(at.fitted.size());
+  if (central && room_above >= step && room_below >= step) {
+    const auto above = values_at(step);
+    const double reach_above = q[p] - at.q[p];
+    const auto below = above ? values_at(-step) : std::nullopt;
+    const double reach = reach_above - (q[p] - at.q[p]);
+    if (!above || !below || !(reach > 0)) return {};
+    for (std::size_t k = 0; k < found.size(); ++k) found[k] = ((*above)[k] - (*below)[k]) / reach;
+    return found;
+  }
+  const double side = room_above >= room_below ? 1 : -1;
+  step = std::min(step, std::max(room_above, room_below) / (central ? 2 : 1));
+  const auto once = values_at(side * step);
+  const double h = q[p] - at.q[p];
+  if (!once || h == 0) return {};
+  if (!central) {
+    for (std::size_t k = 0; k < found.size(); ++k) found[k] = ((*once)[k] - at.fitted[k]) / h;
+    return found;
+  }
+  const auto twice = values_at(2 * side * step);
+  if (!twice) return {};
+  for (std::size_t k = 0; k < found.size(); ++k)
+    found[k] = (4 * (*once)[k] - 3 * at.fitted[k] - (*twice)[k]) / (2 * h);
+  return found;
+}
+
+TableColumns CalibrationProblem::jacobian(const CalibrationPlace& at, const std::vector<double>& scales,
+                                          const std::vector<bool>& held, bool central) {
+  TableColumns columns(parameters(), std::vector<double>(rows_.y.size()));
+  for (std::size_t p = 0; p < parameters(); ++p) {
+    if (held[p]) continue;
+    std::optional<std::vector<double>> column;
+    // A smaller step where the model ends nearby.
+    for (double share = parameters_[p].step; !column && share > parameters_[p].step * 1e-4; share /= 30)
+      column = slopes(at, p, share * scales[p], central);
+    if (!column) refuse_place("where its derivatives are taken");
+    columns[p] = *std::move(column);
+  }
+  return columns;
+}
+
+CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const TableColumns& rows_jacobian,
+                                               const std::vector<bool>& held) const {
+  CalibrationTangent found;
+  TableColumns columns;
+  for (std::size_t p = 0; p < parameters(); ++p) {
+    if (held[p]) continue;
+    std::vector<double> of_rows(rows_.y.size());
+    for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * rows_jacobian[p][k];
+    std::vector<double> column = observed(of_rows);
+    const double length = norm(column);
+    if (length > 0)
+      for (double& value : column) value /= length;
+    found.parameters.push_back(p);
+    found.lengths.push_back(length);
+    columns.push_back(std::move(column));
+  }
+  if (columns.empty()) return found;
+  found.svd = singular_values(std::move(columns));
+  double sum = 0;
+  for (std::size_t k = 0; k < found.svd.values.size(); ++k) {
+    double product = 0;
+    for (std::size_t i = 0; i < at.residual.size(); ++i) product += found.svd.u[k][i] * at.residual[i];
+    found.along.push_back(product);
+    if (!(found.svd.values[k] > unseen * found.svd.values[0])) continue;
+    found.rank = k + 1;
+    sum += product * product;
+  }
+  found.offset = std::sqrt(sum);
+  return found;
+}
+
+std::vector<bool> CalibrationProblem::pushed(const CalibrationPlace& at, const TableColumns& rows_jacobian,
+                                             const std::vector<bool>& held) const {
+  std::vector<bool> all = held;
+  for (std::size_t p = 0; p < parameters(); ++p) {
+    if (held[p] || (!at_lower(at.q[p], p) && !at_upper(at.q[p], p))) continue;
+    std::vector<double> of_rows(rows_.y.size());
+    for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * rows_jacobian[p][k];
+    const std::vector<double> column = observed(of_rows);
+    double wanted = 0;
+    for (std::size_t i = 0; i < column.size(); ++i) wanted += column[i] * at.residual[i];
+    if ((wanted < 0 && at_lower(at.q[p], p)) || (wanted > 0 && at_upper(at.q[p], p))) all[p] = true;
+  }
+  return all;
+}
+
+// The first place on the way down that lies lower; nothing where none does.
+std::optional<CalibrationPlace> CalibrationProblem::better(const CalibrationPlace& at,
+                                                           const CalibrationTangent& tangent,
+                                                           const std::vector<double>* roots,
+                                                           double& damping) {
+  for (; damping < 1e16; damping *= 10) {
+    std::vector<double> step(tangent.parameters.size());
+    for (std::size_t k = 0; k < tangent.rank; ++k) {
+      const double s = tangent.svd.values[k], share = tangent.along[k] * s / (s * s + damping);
+      for (std::size_t i = 0; i < step.size(); ++i) step[i] += share * tangent.svd.v[k][i];
+    }
+    std::vector<double> q = at.q;
+    for (std::size_t i = 0; i < step.size(); ++i) {
+      const std::size_t p = tangent.parameters[i];
+      if (tangent.lengths[i] > 0) q[p] = inside(q[p] + step[i] / tangent.lengths[i], p);
+    }
+    if (q == at.q) return {};
+    auto there = place(q, roots);
+    if (there && there->sum < at.sum) return there;
+  }
+  return {};
+}
+
+// What each parameter is measured by: its start; one that begins at 0 by its bounds, or by the largest power
+// of ten that moves the model by no more than the data.
+std::vector<double> CalibrationProblem::natural_scales(const CalibrationPlace& at) {
+  std::vector<double> scales;
+  for (std::size_t p = 0; p < parameters(); ++p) {
+    const CalibrationParameter& of = parameters_[p];
+    if (at.q[p] != 0) {
+      scales.push_back(std::abs(at.q[p]));
+      continue;
+    }
+    if (of.lower && of.upper) {
+      scales.push_back((*of.upper - *of.lower) / 4);
+      continue;
+    }
+    double found = 1;
+    const double wanted = std::max(size_, std::numeric_limits<double>::min());
+    for (double scale = 1e6; scale > 1e-18; scale /= 10) {
+      std::vector<double> q = at.q;
+      q[p] = of.upper ? -scale : scale;
+      const auto there = fitted(q);
+      if (!there) continue;
+      std::vector<double> change(there->size());
+      for (std::size_t k = 0; k < change.size(); ++k) change[k] = own_[k] * ((*there)[k] - at.fitted[k]);
+      if (norm(change) > wanted) continue;
+      found = scale;
+      break;
+    }
+    scales.push_back(found);
+  }
+  return scales;
+}
+
+CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
+                                               const std::vector<double>& scales) {
+  auto begin = place(start, nullptr);
+  if (!begin) refuse_place("at the start");
+  CalibrationMinimum found;
+  found.place = *std::move(begin);
+  const std::vector<double> natural = scales.empty() ? natural_scales(found.place) : scales;
+  found.scales = natural;
+  const std::vector<bool> none(parameters(), false);
+  double damping = 1e-4;
+  bool central = false;
+  for (found.iterations = 0;; ++found.iterations) {
+    found.rows_jacobian = jacobian(found.place, found.scales, none, central);
+    const CalibrationTangent at =
+        tangent(found.place, found.rows_jacobian, pushed(found.place, found.rows_jacobian, none));
+    const double length = norm(found.place.residual), floor = calibration_rounding * size_of(found.place);
+    const auto offset_within = [&](double share) {
+      return at.offset <= share * length || at.offset <= floor;
+    };
+    if (!central && offset_within(near_enough_for_central)) {
+      central = true;
+      continue;
+    }
+    if (central && offset_within(calibration_orthogonal)) return found;
+    if (found.iterations >= most_calibration_steps)
+      throw Error(ErrorCode::not_converged,
+                  "the calibration found no least sum of squares in " +
+                      std::to_string(most_calibration_steps) + " steps; it ended at " +
+                      parameters_text(found.place.q),
+                  "begin nearer to the answer, set `lower` and `upper`, or fit fewer parameters");
+    auto next = better(found.place, at, &found.place.roots, damping);
+    if (!next) {
+      if (!central) {
+        central = true;
+        damping = 1e-4;
+        continue;
+      }
+      if (!offset_within(noise_of_model))
+        throw Error(
+            ErrorCode::not_converged,
+            "the calibration goes no lower from " + parameters_text(found.place.q) +
+                ", which is no least sum of squares: the derivatives of the model do not hold there",
+            "let the differences be larger (`step` of a parameter) where the model has noise of its own, "
+            "or begin elsewhere");
+      found.noisy = !offset_within(1e-3);
+      return found;
+    }
+    found.place = *std::move(next);
+    weigh(found.place, nullptr);
+    damping = std::max(damping * 1e-3, 1e-20);
+    // Steps of differences follow a parameter that leaves 0, or comes near it.
+    for (std::size_t i = 0; i < at.parameters.size(); ++i) {
+      const std::size_t p = at.parameters[i];
+      const double acts = at.lengths[i] > 0 ? 0.01 * size_of(found.place) / at.lengths[i] : natural[p];
+      found.scales[p] = std::max(std::abs(found.place.q[p]), std::min(natural[p], acts));
+      if (!(found.scales[p] > 0)) found.scales[p] = natural[p];
+    }
+  }
+}
+
+std::optional<CalibrationPlace> CalibrationProblem::minimum_beside(const CalibrationPlace& start,
+                                                                   std::size_t p,
+                                                                   const std::vector<double>& roots,
+                                                                   const std::vector<double>& scales,
+                                                                   double gain) {
+  std::vector<bool> held(parameters(), false);
+  held[p] = true;
+  CalibrationPlace at = start;
+  double damping = 1e-4;
+  for (int step = 0; step < 30; ++step) {
+    const TableColumns slopes_here = jacobian(at, scales, held, false);
+    const CalibrationTangent here = tangent(at, slopes_here, pushed(at, slopes_here, held));
+    if (here.offset * here.offset <= gain) return at;
+    auto next = better(at, here, &roots, damping);
+    if (!next) return here.offset <= noise_of_model * norm(at.residual) ? std::optional(at) : std::nullopt;
+    const bool little = at.sum - next->sum <= 0.1 * gain && here.offset * here.offset <= 4 * gain;
+    at = *std::move(next);
+    if (little) return at;
+    damping = std::max(damping * 1e-3, 1e-20);
+  }
+  return {};
+}
+
+double CalibrationProblem::size_of(const CalibrationPlace& at) const {
+  std::vector<double> of_rows(rows_.y.size());
+  for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * rows_.y[k];
+  return norm(of_rows);
+}
+
+}  // namespace asperity

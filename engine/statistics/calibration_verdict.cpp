@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/statistics/calibration_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "engine/core/text.hpp"
+#include "engine/statistics/distributions.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double main_part = 0.01;     // of a direction that no row sees
+constexpr double weak_part = 0.3;      // of the direction that the rows see least
+constexpr double weak_condition = 10;  // from which parameters may be hardly apart
+constexpr int digits = 4;
+
+std::string number(double value) { return format_short(value, digits); }
+
+std::string signed_term(double factor, const std::string& name) {
+  const std::string size = number(std::abs(factor));
+  return std::string(factor < 0 ? " - " : " + ") + (size == "1" ? "" : size + " ") + name;
+}
+
+class VerdictWords {
+ public:
+  VerdictWords(Calibration& of, const CalibrationFindings& findings) : of_(of), f_(findings) {}
+
+  void write() {
+    tell_unseen();
+    if (of_.identifiable) tell_hardly_apart();
+    tell_bounds();
+    tell_open_ends();
+    tell_specimens();
+    tell_scatter();
+    if (sentences_.empty() || (of_.identifiable && !doubt_))
+      sentences_.insert(sentences_.begin(), "every parameter is determined by these rows");
+    for (const std::string& sentence : sentences_)
+      of_.verdict += (of_.verdict.empty() ? "" : "; ") + sentence;
+    tell_warnings();
+  }
+
+ private:
+  const std::string& name(std::size_t p) const { return f_.problem.parameter(p).name; }
+
+  std::string names(const std::vector<std::size_t>& which) const {
+    std::vector<std::string> list;
+    for (const std::size_t p : which) list.push_back(name(p));
+    return joined(list, " and ");
+  }
+
+  std::string advice(const std::vector<std::size_t>& which) const {
+    std::string text = "add rows in which " + names(which) + " act differently";
+    std::vector<std::string> alike = f_.problem.rows().alike;
+    if (of_.specimens.size() == 1) alike.push_back("the specimen is " + of_.specimens[0].name);
+    if (!alike.empty()) text += " (" + joined(alike, " and ") + " in all rows)";
+    return text;
+  }
+
+  // "0.52 (0.49 to 0.55)" with the gradient of what has this value.
+  std::string with_interval(double value, const std::vector<std::pair<std::size_t, double>>& gradient) const {
+    double sum = 0;
+    for (const auto& [i, a] : gradient)
+      for (const auto& [j, b] : gradient) sum += a * f_.covariance[i][j] * b;
+    const double reach = f_.factor * std::sqrt(f_.variance * std::max(sum, 0.0));
+    if (!(reach > 0)) return number(value);
+    return number(value) + " (" + number(value - reach) + " to " + number(value + reach) + ")";
+  }
+
+  // Whether no observation changes with these parameters instead of the estimates, beside what each change
+  // alone would do.
+  bool unchanged(const std::vector<double>& q) {
+    for (std::size_t p = 0; p < q.size(); ++p)
+      if (f_.problem.inside(q[p], p) != q[p]) return false;
+    const auto there = f_.problem.place(q, &f_.at.place.roots);
+    if (!there) return false;
+    double change = 0, alone = 0;
+    for (std::size_t k = 0; k < there->residual.size(); ++k) {
+      const double d = there->residual[k] - f_.at.place.residual[k];
+      change += d * d;
+    }
+    for (std::size_t i = 0; i < f_.tangent.parameters.size(); ++i) {
+      const std::size_t p = f_.tangent.parameters[i];
+      alone = std::max(alone, std::abs((q[p] - f_.at.place.q[p]) * f_.tangent.lengths[i]));
+    }
+    return std::sqrt(change) <= 1e-3 * alone;
+  }
+
+  // The combination of two parameters that is the same along a direction in which they change by `da`, `db`.
+  std::string combination(std::size_t a, std::size_t b, double da, double db) {
+    const std::vector<double>& q = f_.at.place.q;
+    const auto scale = [&](std::size_t p) { return f_.at.scales[p]; };
+    const double factor = -da / db;  // of b beside 1 of a
+    std::string text = name(a) + signed_term(factor, name(b));
+    text += " = " + with_interval(q[a] + factor * q[b], {{a, 1.0}, {b, factor}});
+    const double together =
+        q[a] != 0 && q[b] != 0 ? da / q[a] * q[b] / db : 0;  // -1 along a product, 1 a ratio
+    const auto moved = [&](double by_a, double by_b) {
+      std::vector<double> there = q;
+      there[a] *= by_a;
+      there[b] *= by_b;
+      return there;
+    };
+    // Along a ratio the parameters go straight to 0, and their sum says nothing of it.
+    if (std::abs(together - 1) < 1e-2 && (unchanged(moved(1.25, 1.25)) || unchanged(moved(0.8, 0.8))))
+      return "the ratio " + name(a) + "/" + name(b) + " = " +
+             with_interval(q[a] / q[b], {{a, 1 / q[b]}, {b, -q[a] / (q[b] * q[b])}});
+    const double step = 0.1 / std::max(std::abs(da) / scale(a), std::abs(db) / scale(b));
+    for (const double side : {1.0, -1.0}) {
+      std::vector<double> there = q;
+      there[a] += side * step * da;
+      there[b] += side * step * db;
+      if (unchanged(there)) return text;
+    }
+    if (std::abs(together + 1) < 1e-2 && (unchanged(moved(1.25, 0.8)) || unchanged(moved(0.8, 1.25))))
+      return "the product " + name(a) + " " + name(b) + " = " +
+             with_interval(q[a] * q[b], {{a, q[b]}, {b, q[a]}});
+    return text + " near " + name(a) + " = " + number(q[a]) + ", " + name(b) + " = " + number(q[b]);
+  }
+
+  void tell_unseen() {
+    const CalibrationTangent& t = f_.tangent;
+    std::vector<std::size_t> silent;
+    for (std::size_t i = 0; i < t.parameters.size(); ++i)
+      if (!(t.lengths[i] > 0)) silent.push_back(t.parameters[i]);
+    if (!silent.empty()) {
+      of_.identifiable = false;
+      sentences_.push_back("these rows say nothing of " + names(silent) +
+                           ": the model does not change with " + (silent.size() == 1 ? "it" : "them"));
+    }
+    for (std::size_t k = t.rank; k < t.svd.values.size(); ++k) {
+      std::vector<std::size_t> parts, columns;
+      for (std::size_t i = 0; i < t.parameters.size(); ++i)
+        if (t.lengths[i] > 0 && std::abs(t.svd.v[k][i]) > main_part) {
+          parts.push_back(t.parameters[i]);
+          columns.push_back(i);
+        }
+      if (parts.empty()) continue;
+      of_.identifiable = false;
+      const auto change = [&](std::size_t part) {
+        return t.svd.v[k][columns[part]] / t.lengths[columns[part]];
+      };
+      if (parts.size() == 2) {
+        of_.combinations.push_back(combination(parts[0], parts[1], change(0), change(1)));
+        sentences_.push_back(names(parts) + " are not identifiable: only " + of_.combinations.back() +
+                             " is determined by these rows; " + advice(parts));
+      } else {
+        std::vector<std::string> changes;
+        for (std::size_t i = 0; i < parts.size(); ++i)
+          changes.push_back(name(parts[i]) + " by " + number(change(i) / change(0)));
+        of_.combinations.push_back("what stays the same when " + joined(changes, " and ") +
+                                   " change together");
+        sentences_.push_back(names(parts) + " are not identifiable: together they can change (" +
+                             joined(changes, " and ") + ") and no row changes; " + advice(parts));
+      }
+    }
+  }
+
+  void tell_hardly_apart() {
+    const CalibrationTangent& t = f_.tangent;
+    if (!of_.condition || *of_.condition < weak_condition || f_.factor <= 0) return;
+    std::vector<std::size_t> parts;
+    for (std::size_t i = 0; i < t.parameters.size(); ++i) {
+      if (std::abs(t.svd.v.back()[i]) < weak_part) continue;
+      const CalibratedParameter& of = of_.parameters[t.parameters[i]];
+      if (!of.standard_error || f_.factor * *of.standard_error < std::abs(*of.value)) return;
+      parts.push_back(t.parameters[i]);
+    }
+    if (parts.size() < 2) return;
+    doubt_ = true;
+    std::string sentence =
+        "the rows hardly tell " + names(parts) + " apart, and their intervals reach beyond 0";
+    if (parts.size() == 2) {
+      const std::size_t a = parts[0], b = parts[1];
+      const double factor = -f_.covariance[a][b] / f_.covariance[b][b];
+      of_.combinations.push_back(
+          name(a) + signed_term(factor, name(b)) + " = " +
+          with_interval(f_.at.place.q[a] + factor * f_.at.place.q[b], {{a, 1.0}, {b, factor}}));
+      sentence += " (correlation " + number(of_.correlation[a][b].value_or(0)) +
+                  "): what they know best is " + of_.combinations.back();
+    }
+    sentences_.push_back(sentence + "; " + advice(parts));
+  }
+
+  void tell_bounds() {
+    for (std::size_t p = 0; p < of_.parameters.size(); ++p) {
+      if (!f_.held[p]) continue;
+      doubt_ = true;
+      const bool lower = of_.parameters[p].at_lower;
+      const CalibrationParameter& given = f_.problem.parameter(p);
+      sentences_.push_back(name(p) + " stands at its " + (lower ? "lower" : "upper") + " bound " +
+                           number(lower ? *given.lower : *given.upper) + ": the rows ask for " +
+                           (lower ? "less" : "more") + ", and the other intervals hold it there");
+    }
+  }
+
+  void tell_open_ends() {
+    for (std::size_t p = 0; p < f_.profiles.size(); ++p) {
+      const CalibrationProfile& of = f_.profiles[p];
+      if (of.points.empty()) continue;
+      const auto tell = [&](bool open, bool at_bound, const char* which) {
+        if (!open || (f_.held[p] && at_bound)) return;
+        doubt_ = true;
+        sentences_.push_back("the rows give no " + std::string(which) + " limit of " + name(p) +
+                             (at_bound ? " within its bounds" : ""));
+      };
+      tell(!of.low && !of_.parameters[p].at_lower, of.low_at_bound, "lower");
+      tell(!of.high && !of_.parameters[p].at_upper, of.high_at_bound, "upper");
+    }
+  }
+
+  void tell_specimens() {
+    const std::size_t count = of_.specimens.size();
+    if (count == 0) return;
+    const auto of_test = [&](const SpecimenScatter& test) {
+      return "F(" + std::to_string(test.between) + ", " + std::to_string(test.within) +
+             ") = " + number(test.f) + ", p = " + format_short(test.p_value, 2);
+    };
+    if (of_.by_specimens) {
+      std::string sentence;
+      if (of_.specimen_scatter && f_.options.basis == CalibrationBasis::automatic)
+        sentence = "specimens scatter more than their repeats (" + of_test(*of_.specimen_scatter) + "): ";
+      sentences_.push_back(sentence + "intervals rest on the means of " + std::to_string(count) +
+                           " specimens, with " + std::to_string(of_.degrees) +
+                           (of_.degrees == 1 ? " degree" : " degrees") + " of freedom");
+    } else if (of_.specimen_scatter) {
+      const bool seen = of_.specimen_scatter->p_value < 0.05;
+      sentences_.push_back((seen ? "specimens scatter more than their repeats ("
+                                 : "specimens are not seen to scatter more than their repeats (") +
+                           of_test(*of_.specimen_scatter) +
+                           (seen ? "), and intervals by rows are too narrow" : ")"));
+    } else if (count < of_.residuals.size()) {
+      doubt_ = true;
+      sentences_.push_back((count == 1
+                                ? std::string("all rows are of one specimen")
+                                : std::to_string(count) + " specimens are no more than the parameters") +
+                           ": whether specimens scatter cannot be seen, and intervals hold for " +
+                           (count == 1 ? "this one" : "these") + " only");
+    }
+    const std::size_t parameters = of_.parameters.size();
+    if (of_.specimen_scatter && !of_.by_specimens && count < parameters + 4)
+      of_.warnings.push_back(
+          "with " + std::to_string(count) +
+          " specimens a scatter between them of half that of the repeats often goes unseen, "
+          "and intervals are then too narrow; six or more would show it");
+  }
+
+  void tell_scatter() {
+    if (of_.degrees == 0) {
+      doubt_ = true;
+      sentences_.push_back(
+          f_.factor > 0 ? "there are no more rows than parameters: intervals rest on `u` alone"
+                        : "there are no more rows than parameters: no scatter can be seen, and there are "
+                          "no intervals");
+    } else if (!(f_.variance > 0)) {
+      doubt_ = true;
+      sentences_.push_back(
+          "the model passes through every row: no scatter is seen, and intervals have no width");
+    }
+  }
+
+  void tell_warnings() {
+    if (f_.at.noisy)
+      of_.warnings.push_back(
+          "the fit ended where the noise of the model hides the least sum of squares: let the model be "
+          "computed to a "
+          "closer tolerance, or give `step` of the parameters a larger share");
+    if (f_.begun_again > 0)
+      of_.warnings.push_back("the sum of squares has more than one least place; the fit was begun again " +
+                             std::to_string(f_.begun_again) + (f_.begun_again == 1 ? " time" : " times") +
+                             " from a lower one");
+    for (const CalibratedParameter& of : of_.parameters) {
+      if (!of.low || !of.profile_low || !of.profile_high) continue;
+      const double reach = (*of.high - *of.low) / 2;
+      const double apart =
+          std::max(std::abs(*of.low - *of.profile_low), std::abs(*of.high - *of.profile_high));
+      if (apart > 0.2 * reach)
+        of_.warnings.push_back("the model is curved in " + quoted(of.name) +
+                               ": take the interval of its profile, " + number(*of.profile_low) + " to " +
+                               number(*of.profile_high) + ", not the linearised one");
+    }
+    if (f_.problem.rows().u.empty() || of_.degrees == 0 || of_.by_specimens) return;
+    // The sum of squares over its degrees is 1 where `u` is right.
+    const double ratio = f_.variance, share = f_cdf(ratio, static_cast<double>(of_.degrees), 1e9);
+    if (share > 0.99 || share < 0.01)
+      of_.warnings.push_back("the rows scatter " + format_short(std::sqrt(ratio), 3) +
+                             " times as far as `u` says; intervals rest on what they do");
+  }
+
+  Calibration& of_;
+  const CalibrationFindings& f_;
+  std::vector<std::string> sentences_;
+  bool doubt_ = false;
+};
+
+}  // namespace
+
+void add_verdict(Calibration& calibration, const CalibrationFindings& findings) {
+  VerdictWords(calibration, findings).write();
+}
+
+}  // namespace asperity

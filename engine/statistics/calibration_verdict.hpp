@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a calibration says in words: which combination of parameters the rows determine where they do not
+// determine each, what stands at a bound, on what the intervals rest and what to measure besides.
+#pragma once
+
+#include <vector>
+
+#include "engine/statistics/calibration.hpp"
+#include "engine/statistics/calibration_problem.hpp"
+#include "engine/statistics/calibration_profile.hpp"
+
+namespace asperity {
+
+struct CalibrationFindings {
+  CalibrationProblem& problem;
+  const CalibrationMinimum& at;
+  const CalibrationTangent& tangent;
+  const TableColumns& covariance;  // for a variance of 1
+  const std::vector<bool>& held;   // at a bound
+  double variance;                 // of an observation of weight 1
+  double factor;                   // of an interval in standard errors; 0 where no scatter can be seen
+  const std::vector<CalibrationProfile>& profiles;
+  int begun_again;
+  const CalibrationOptions& options;
+};
+
+// Sets combinations, identifiable, verdict and warnings. Calls the model where a combination is to be shown.
+void add_verdict(Calibration& calibration, const CalibrationFindings& findings);
+
+}  // namespace asperity

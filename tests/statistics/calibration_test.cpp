@@ -1,0 +1,610 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Calibrations against what is known of them: estimates of a certified problem, the coverage of intervals
+// over many experiments of the tilt law tan θ = α + τ0 c (kinds of METROLOGY, uncertainty_calibration.csv),
+// what is said where rows do not determine every parameter, and each refusal.
+#include "engine/statistics/calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "engine/core/arithmetic/random.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/statistics/curve_fit.hpp"
+
+namespace asperity::calibration_test {
+namespace {
+
+std::string error_of(auto run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+bool warns(const Calibration& of, const std::string& part) {
+  return std::ranges::any_of(of.warnings, [&](const std::string& text) { return says(text, part); });
+}
+
+// Angles of specimens with real areas c, each measured `repeats` times.
+struct Experiment {
+  CalibrationRows rows;
+  std::vector<double> c;
+  CalibrationModel model() const {
+    return [this](std::span<const double> q, std::size_t row) { return q[0] + q[1] * c[row]; };
+  }
+};
+
+const std::vector<CalibrationParameter> tilt_law = {{"alpha", 0.1, {}, {}}, {"tau0", 0.5, {}, {}}};
+
+Experiment experiment(std::size_t specimens, double ratio, double between, std::uint64_t seed,
+                      std::size_t repeats = 5) {
+  Experiment made;
+  const Stream draws(seed, "calibration experiment");
+  for (std::size_t s = 0; s < specimens; ++s) {
+    const double place =
+        specimens > 1 ? static_cast<double>(s) / static_cast<double>(specimens - 1) - 0.5 : 0;
+    const double c = std::pow(ratio, place), own = 1 + between * draws.normal(1000 + s);
+    for (std::size_t k = 0; k < repeats; ++k) {
+      made.c.push_back(c);
+      made.rows.y.push_back((0.2 + 0.3 * c) * own * (1 + 0.2 * (2 * draws.uniform(s * repeats + k) - 1)));
+      made.rows.specimens.push_back("specimen " + std::to_string(s + 1));
+    }
+  }
+  return made;
+}
+
+const CalibrationOptions relative = {.scatter = CalibrationScatter::relative};
+
+struct Coverage {
+  int sets = 0, tau0 = 0, alpha = 0, tau0_profile = 0, by_specimens = 0;
+  std::vector<double> widths;  // of tau0's interval, relative to tau0
+  double of(int held) const { return static_cast<double>(held) / sets; }
+  double median_width() {
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::ranges::nth_element(widths, middle);
+    return *middle;
+  }
+};
+
+Coverage coverage_of(std::size_t specimens, double ratio, double between, int sets,
+                     CalibrationBasis basis = CalibrationBasis::automatic) {
+  Coverage counted;
+  CalibrationOptions options = relative;
+  options.basis = basis;
+  for (int k = 0; k < sets; ++k) {
+    const Experiment made = experiment(specimens, ratio, between, static_cast<std::uint64_t>(k) + 1);
+    const Calibration found = calibrate(made.rows, made.model(), tilt_law, options);
+    const auto held = [](const std::optional<double>& low, const std::optional<double>& high, double truth) {
+      return low && high && *low <= truth && truth <= *high ? 1 : 0;
+    };
+    const CalibratedParameter &alpha = found.parameters[0], &tau0 = found.parameters[1];
+    counted.sets += 1;
+    counted.alpha += held(alpha.low, alpha.high, 0.2);
+    counted.tau0 += held(tau0.low, tau0.high, 0.3);
+    counted.tau0_profile += held(tau0.profile_low, tau0.profile_high, 0.3);
+    counted.by_specimens += found.by_specimens ? 1 : 0;
+    counted.widths.push_back((*tau0.high - *tau0.low) / 0.3);
+  }
+  return counted;
+}
+
+// Sets of a kind; ASPERITY_COVERAGE_SETS=4000 measures each coverage to 0.35 %.
+int coverage_sets() {
+  const char* given = std::getenv("ASPERITY_COVERAGE_SETS");
+  return given != nullptr ? std::max(1, std::atoi(given)) : 150;
+}
+
+// A kind of experiment of tests/reference/uncertainty_calibration.csv, with what was found there by `method`.
+struct Kind {
+  std::size_t specimens = 0;
+  double ratio = 0, between = 0, correlation = 0, width = 0;
+};
+
+std::vector<Kind> reference_kinds(const std::string& method) {
+  std::ifstream file(std::string(ASPERITY_TEST_DATA) + "/uncertainty_calibration.csv");
+  std::vector<Kind> kinds;
+  for (std::string line; std::getline(file, line);) {
+    std::vector<std::string> cells;
+    std::stringstream parts(line);
+    for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
+    if (cells.size() != 11 || cells[6] != method) continue;
+    kinds.push_back({static_cast<std::size_t>(std::stoul(cells[0])), std::stod(cells[1]), std::stod(cells[2]),
+                     std::stod(cells[3]), std::stod(cells[8])});
+  }
+  return kinds;
+}
+
+TEST(Calibration, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  const std::vector<Kind> kinds = reference_kinds("linearised t(n-2)");
+  ASSERT_EQ(kinds.size(), 7U);
+  int sets = 0, tau0 = 0, alpha = 0, profile = 0;
+  for (const Kind& kind : kinds) {
+    const Coverage found = coverage_of(kind.specimens, kind.ratio, kind.between, coverage_sets());
+    if (std::getenv("ASPERITY_COVERAGE_SETS") != nullptr)
+      std::printf(
+          "%2zu specimens, cmax/cmin %3g, scatter between %3g: tau0 %.3f, profile %.3f, alpha %.3f, "
+          "by specimens %.3f\n",
+          kind.specimens, kind.ratio, kind.between, found.of(found.tau0), found.of(found.tau0_profile),
+          found.of(found.alpha), found.of(found.by_specimens));
+    const double slack = 3 * std::sqrt(0.95 * 0.05 / found.sets);  // three standard errors
+    EXPECT_GE(found.of(found.tau0), 0.93 - slack) << kind.specimens << " " << kind.ratio;
+    EXPECT_GE(found.of(found.alpha), 0.93 - slack) << kind.specimens << " " << kind.ratio;
+    sets += found.sets;
+    tau0 += found.tau0;
+    alpha += found.alpha;
+    profile += found.tau0_profile;
+  }
+  for (const int held : {tau0, alpha, profile}) {
+    EXPECT_GE(static_cast<double>(held) / sets, 0.93);
+    EXPECT_LE(static_cast<double>(held) / sets, 0.97);
+  }
+}
+
+TEST(Calibration, WidthsOfIntervalsAreThoseOfTheReference) {
+  for (const Kind& kind : reference_kinds("linearised t(n-2)")) {
+    Coverage found = coverage_of(kind.specimens, kind.ratio, kind.between, 60, CalibrationBasis::rows);
+    EXPECT_NEAR(found.median_width() / kind.width, 1, 0.08) << kind.specimens << " " << kind.ratio;
+  }
+  for (const Kind& kind : reference_kinds("specimen means t(m-2)")) {
+    if (kind.specimens < 6) continue;  // a median over one degree of freedom scatters widely
+    Coverage found = coverage_of(kind.specimens, kind.ratio, kind.between, 60, CalibrationBasis::specimens);
+    EXPECT_EQ(found.by_specimens, found.sets);
+    EXPECT_NEAR(found.median_width() / kind.width, 1, 0.25) << kind.specimens << " " << kind.ratio;
+  }
+}
+
+TEST(Calibration, CorrelationIsThatOfTheNormalEquations) {
+  for (const Kind& kind : reference_kinds("linearised t(n-2)")) {
+    if (kind.between > 0) continue;
+    Experiment made = experiment(kind.specimens, kind.ratio, 0, 1);
+    for (std::size_t k = 0; k < made.c.size(); ++k) made.rows.y[k] = 0.2 + 0.3 * made.c[k];
+    const Calibration found = calibrate(made.rows, made.model(), tilt_law, relative);
+    // That of the reference is of 500 estimates.
+    const double error = (1 - kind.correlation * kind.correlation) / std::sqrt(500.0);
+    EXPECT_NEAR(*found.correlation[0][1], kind.correlation, 3 * error + 5e-4);
+    EXPECT_NEAR(*found.parameters[0].value, 0.2, 1e-9);
+    EXPECT_NEAR(*found.parameters[1].value, 0.3, 1e-9);
+    EXPECT_TRUE(says(found.verdict, "passes through every row")) << found.verdict;
+  }
+}
+
+TEST(Calibration, PooledIntervalsOfScatteringSpecimensHoldTooSeldom) {
+  const Coverage pooled = coverage_of(6, 4, 0.1, coverage_sets(), CalibrationBasis::rows),
+                 means = coverage_of(6, 4, 0.1, coverage_sets());
+  EXPECT_LT(pooled.of(pooled.tau0), 0.85);
+  EXPECT_EQ(pooled.by_specimens, 0);
+  EXPECT_GT(means.of(means.tau0), 0.88);
+  EXPECT_GT(means.of(means.by_specimens), 0.75);
+}
+
+// --- a nonlinear problem with certified answers
+
+double saturating(double x, std::span<const double> q) { return q[0] * (1 - std::exp(-q[1] * x)); }
+
+const std::vector<double> misra_x = {77.6,  114.9, 141.1, 190.8, 239.9, 289.0, 332.8,
+                                     378.4, 434.8, 477.3, 536.8, 593.1, 689.1, 760.0};
+const std::vector<double> misra_y = {10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02,
+                                     44.82, 50.76, 55.05, 61.01, 66.40, 75.47, 81.78};
+
+const CalibrationModel misra = [](std::span<const double> q, std::size_t row) {
+  return saturating(misra_x[row], q);
+};
+
+TEST(Calibration, CertifiedProblemOfNist) {
+  for (const double b1 : {500.0, 250.0}) {
+    const std::vector<CalibrationParameter> start = {{"b1", b1, {}, {}}, {"b2", 1e-4, {}, {}}};
+    const Calibration found = calibrate({misra_y}, misra, start);
+    EXPECT_NEAR(*found.parameters[0].value / 238.942129178861708, 1, 1e-6);
+    EXPECT_NEAR(*found.parameters[1].value / 0.00055015643180591356, 1, 1e-6);
+    EXPECT_NEAR(*found.parameters[0].standard_error / 2.70700752413944809, 1, 1e-5);
+    EXPECT_NEAR(found.residual_deviation / 0.101878763302436063, 1, 1e-9);
+    EXPECT_NEAR(*found.correlation[0][1], -0.998776191963618034, 1e-6);
+    EXPECT_EQ(found.degrees, 12U);
+    EXPECT_TRUE(found.identifiable);
+  }
+}
+
+TEST(Calibration, ProfileEndsWhereTheSumOfSquaresMeetsTheCut) {
+  const std::vector<CalibrationParameter> start = {{"b1", 250, {}, {}}, {"b2", 5e-4, {}, {}}};
+  const Calibration found = calibrate({misra_y}, misra, start);
+  const CalibratedParameter& b2 = found.parameters[1];
+  for (const double end : {*b2.profile_low, *b2.profile_high}) {
+    // With b2 held the best b1 is known in closed form.
+    double top = 0, bottom = 0, sum = 0;
+    for (std::size_t k = 0; k < misra_x.size(); ++k) {
+      const double g = 1 - std::exp(-end * misra_x[k]);
+      top += misra_y[k] * g;
+      bottom += g * g;
+    }
+    for (std::size_t k = 0; k < misra_x.size(); ++k) {
+      const double r = misra_y[k] - top / bottom * (1 - std::exp(-end * misra_x[k]));
+      sum += r * r;
+    }
+    const double variance = found.sum_of_squares / 12;
+    EXPECT_NEAR((sum - found.sum_of_squares) / variance / found.cut, 1, 0.02);
+  }
+  EXPECT_NEAR(found.cut, 2.1788128296634177 * 2.1788128296634177, 1e-9);  // t of 12 degrees, squared
+  EXPECT_GE(b2.profile.size(), 3U);
+  EXPECT_TRUE(std::ranges::is_sorted(b2.profile, {}, &ProfilePoint::value));
+}
+
+TEST(Calibration, ProfileOfAStraightModelIsItsLinearisedInterval) {
+  const Experiment made = experiment(6, 4, 0, 7);
+  const Calibration found = calibrate(made.rows, made.model(), tilt_law);
+  for (const CalibratedParameter& of : found.parameters) {
+    EXPECT_NEAR(*of.profile_low, *of.low, 0.01 * *of.standard_error);
+    EXPECT_NEAR(*of.profile_high, *of.high, 0.01 * *of.standard_error);
+  }
+  EXPECT_TRUE(found.warnings.empty());
+}
+
+TEST(Calibration, CurvedModelIsToldAndItsProfileIsLopsided) {
+  // A rate that is hardly known: the interval reaches further up than down.
+  const std::vector<double> x = {1, 2, 3, 4, 5, 6}, y = {0.55, 0.95, 0.85, 1.15, 0.9, 1.05};
+  const CalibrationModel model = [&](std::span<const double> q, std::size_t row) {
+    return saturating(x[row], q);
+  };
+  const std::vector<CalibrationParameter> start = {{"end", 1, {}, {}}, {"rate", 1, {}, {}}};
+  const Calibration found = calibrate({y}, model, start);
+  const CalibratedParameter& rate = found.parameters[1];
+  EXPECT_GT(*rate.profile_high - *rate.value, 1.3 * (*rate.value - *rate.profile_low));
+  EXPECT_TRUE(warns(found, "curved in `rate`"));
+}
+
+TEST(Calibration, SameBitsEachTime) {
+  const Experiment made = experiment(6, 4, 0.1, 3);
+  const Calibration a = calibrate(made.rows, made.model(), tilt_law, relative),
+                    b = calibrate(made.rows, made.model(), tilt_law, relative);
+  for (std::size_t p = 0; p < 2; ++p) {
+    EXPECT_EQ(*a.parameters[p].value, *b.parameters[p].value);
+    EXPECT_EQ(*a.parameters[p].profile_high, *b.parameters[p].profile_high);
+  }
+  EXPECT_EQ(a.calls, b.calls);
+  EXPECT_EQ(a.verdict, b.verdict);
+}
+
+TEST(Calibration, CallsOfTheModelAreCountedAndFewForALaw) {
+  const Experiment made = experiment(7, 4, 0, 3, 2);
+  std::int64_t calls = 0;
+  const CalibrationModel counting = [&](std::span<const double> q, std::size_t row) {
+    ++calls;
+    return q[0] + q[1] * made.c[row];
+  };
+  const Calibration found = calibrate(made.rows, counting, tilt_law);
+  EXPECT_EQ(found.calls, calls);
+  EXPECT_LE(calls / 14, 30);  // sets of parameters
+}
+
+// --- what rows do not determine
+
+TEST(Calibration, OneRealAreaDeterminesTheSumAlone) {
+  Experiment made = experiment(1, 1, 0, 5, 14);
+  for (double& c : made.c) c = 0.85;
+  made.rows.alike = {"`load` is 5 N"};
+  const Calibration found = calibrate(made.rows, made.model(), tilt_law, relative);
+  EXPECT_FALSE(found.identifiable);
+  for (const CalibratedParameter& of : found.parameters) {
+    EXPECT_FALSE(of.determined);
+    EXPECT_FALSE(of.value || of.low || of.profile_low || of.standard_error);
+  }
+  EXPECT_FALSE(found.condition);
+  ASSERT_EQ(found.combinations.size(), 1U);
+  EXPECT_TRUE(found.combinations[0].starts_with("alpha + 0.85 tau0 = ")) << found.combinations[0];
+  EXPECT_TRUE(says(found.verdict, "`load` is 5 N and the specimen is specimen 1 in all rows"))
+      << found.verdict;
+  EXPECT_TRUE(says(found.verdict, "whether specimens scatter cannot be seen")) << found.verdict;
+  // What is determined is so to the scatter of fourteen rows.
+  double mean = 0;
+  for (const double y : made.rows.y) mean += y / 14;
+  EXPECT_NEAR(found.fitted[0], mean, 1e-9);
+  EXPECT_TRUE(says(found.combinations[0], format_short(mean, 4))) << found.combinations[0];
+  EXPECT_EQ(found.degrees, 13U);
+}
+
+TEST(Calibration, ProductIsCalledOne) {
+  const std::vector<double> x = {1, 2, 3, 4}, y = {2.1, 3.9, 6.2, 7.8};
+  const std::vector<CalibrationParameter> start = {{"a", 1, {}, {}}, {"b", 3, {}, {}}, {"c", 0, {}, {}}};
+  const CalibrationModel model = [&](std::span<const double> q, std::size_t row) {
+    return q[0] * q[1] * x[row] + q[2];
+  };
+  const Calibration found = calibrate({y}, model, start);
+  EXPECT_FALSE(found.parameters[0].determined || found.parameters[1].determined);
+  ASSERT_TRUE(found.parameters[2].determined);
+  EXPECT_NEAR(*found.parameters[2].value, 0.15, 1e-7);
+  EXPECT_TRUE(found.parameters[2].low && found.parameters[2].profile_low);
+  ASSERT_EQ(found.combinations.size(), 1U);
+  EXPECT_TRUE(says(found.combinations[0], "the product a b = 1.94 (")) << found.combinations[0];
+}
+
+TEST(Calibration, RatioIsCalledOne) {
+  const std::vector<double> x = {1, 2, 3, 4}, y = {2.1, 3.9, 6.2, 7.8};
+  const std::vector<CalibrationParameter> start = {{"load", 5, {}, {}}, {"hardness", 2, 0.1, {}}};
+  const CalibrationModel model = [&](std::span<const double> q, std::size_t row) {
+    return q[0] / q[1] * x[row];
+  };
+  const Calibration found = calibrate({y}, model, start);
+  ASSERT_EQ(found.combinations.size(), 1U);
+  EXPECT_TRUE(says(found.combinations[0], "the ratio load/hardness = ")) << found.combinations[0];
+}
+
+TEST(Calibration, ParameterWithoutEffectIsNamed) {
+  const Experiment made = experiment(3, 4, 0, 5);
+  std::vector<CalibrationParameter> three = tilt_law;
+  three.push_back({"creep", 0, {}, {}});
+  const Calibration found = calibrate(made.rows, made.model(), three, relative);
+  EXPECT_TRUE(says(found.verdict, "these rows say nothing of creep")) << found.verdict;
+  EXPECT_FALSE(found.parameters[2].value);
+  EXPECT_TRUE(found.parameters[0].value && found.parameters[1].low);
+  EXPECT_EQ(found.degrees, 13U);
+}
+
+TEST(Calibration, ThreeParametersThatChangeTogetherAreListed) {
+  const std::vector<double> x = {1, 2, 3, 4, 5}, y = {2.1, 3.9, 6.2, 7.8, 10.1};
+  const std::vector<CalibrationParameter> start = {{"a", 1, {}, {}}, {"b", 1, {}, {}}, {"c", 1, {}, {}}};
+  const CalibrationModel model = [&](std::span<const double> q, std::size_t row) {
+    return q[0] + 2 * q[2] + (q[1] + q[2]) * x[row];
+  };
+  const Calibration found = calibrate({y}, model, start);
+  EXPECT_TRUE(says(found.verdict, "a by 1, b by 0.5 and c by -0.5")) << found.verdict;
+  EXPECT_FALSE(found.identifiable);
+}
+
+TEST(Calibration, ParametersHardlyApartAreTold) {
+  const Experiment made = experiment(3, 1.1, 0, 2);
+  const Calibration found = calibrate(made.rows, made.model(), tilt_law, relative);
+  EXPECT_TRUE(found.identifiable);
+  EXPECT_TRUE(found.parameters[0].value);
+  EXPECT_TRUE(says(found.verdict, "hardly tell alpha and tau0 apart")) << found.verdict;
+  EXPECT_EQ(found.combinations.size(), 1U);
+}
+
+// --- specimens, uncertainties, bounds, few rows
+
+TEST(Calibration, ScatterOfSpecimensIsNoticed) {
+  const Experiment made = experiment(12, 4, 0.15, 4);
+  const Calibration found = calibrate(made.rows, made.model(), tilt_law, relative);
+  EXPECT_TRUE(found.by_specimens);
+  EXPECT_EQ(found.observations, 12U);
+  EXPECT_EQ(found.degrees, 10U);
+  EXPECT_EQ(found.specimens.size(), 12U);
+  EXPECT_EQ(found.specimens[0].rows, 5U);
+  EXPECT_LT(found.specimen_scatter->p_value, 0.01);
+  EXPECT_TRUE(says(found.verdict, "specimens scatter more than their repeats (F(10, 48) = "))
+      << found.verdict;
+  EXPECT_EQ(found.residuals.size(), 60U);
+}
+
+TEST(Calibration, MeansOfEqualRepeatsAreTheFitOfTheMeans) {
+  const Experiment made = experiment(5, 4, 0.2, 11);
+  CalibrationOptions options;
+  options.basis = CalibrationBasis::specimens;
+  const Calibration found = calibrate(made.rows, made.model(), tilt_law, options);
+  FitPoints means;
+  for (std::size_t s = 0; s < 5; ++s) {
+    double mean = 0;
+    for (std::size_t k = 0; k < 5; ++k) mean += made.rows.y[5 * s + k] / 5;
+    means.x.push_back(made.c[5 * s]);
+    means.y.push_back(mean);
+  }
+  const CurveFit line = fit_line(means);
+  for (std::size_t p = 0; p < 2; ++p) {
+    EXPECT_NEAR(*found.parameters[p].value, line.parameters[p].value, 1e-9);
+    EXPECT_NEAR(*found.parameters[p].low, line.parameters[p].low, 1e-7);
+  }
+}
+
+TEST(Calibration, OneRowASpecimenIsNoRepeat) {
+  const Experiment made = experiment(8, 4, 0, 3, 1);
+  const Calibration found = calibrate(made.rows, made.model(), tilt_law, relative);
+  EXPECT_FALSE(found.specimen_scatter || found.by_specimens);
+  EXPECT_EQ(found.degrees, 6U);
+}
+
+TEST(Calibration, UncertaintiesWeighAndAreChecked) {
+  Experiment made = experiment(6, 4, 0, 3);
+  made.rows.specimens.clear();
+  FitPoints points{made.c, made.rows.y, {}};
+  for (const double c : made.c) {
+    made.rows.u.push_back(0.1 + 0.05 * c);
+    points.weights.push_back(1 / (made.rows.u.back() * made.rows.u.back()));
+  }
+  const Calibration found = calibrate(made.rows, made.model(), tilt_law);
+  const CurveFit line = fit_line(points);
+  EXPECT_NEAR(*found.parameters[1].value, line.parameters[1].value, 1e-9);
+  EXPECT_NEAR(*found.parameters[1].standard_error, line.parameters[1].standard_error, 1e-9);
+  for (double& u : made.rows.u) u /= 10;
+  EXPECT_TRUE(warns(calibrate(made.rows, made.model(), tilt_law), "times as far as `u` says"));
+}
+
+TEST(Calibration, AsManyRowsAsParameters) {
+  const std::vector<double> c = {1, 2};
+  const CalibrationModel model = [&](std::span<const double> q, std::size_t row) {
+    return q[0] + q[1] * c[row];
+  };
+  const Calibration found = calibrate({{0.5, 0.8}}, model, tilt_law);
+  EXPECT_NEAR(*found.parameters[0].value, 0.2, 1e-9);
+  EXPECT_EQ(found.degrees, 0U);
+  EXPECT_FALSE(found.parameters[0].low || found.parameters[0].profile_low || found.fitted_low[0]);
+  EXPECT_TRUE(says(found.verdict, "there are no intervals")) << found.verdict;
+  const Calibration known = calibrate({{0.5, 0.8}, {0.01, 0.01}}, model, tilt_law);
+  // u(tau0) = sqrt(2) u / (c2 - c1), and 1.96 of them.
+  EXPECT_NEAR(*known.parameters[1].high - 0.3, 1.959963984540054 * std::sqrt(2) * 0.01, 1e-7);
+  EXPECT_TRUE(says(known.verdict, "rest on `u` alone")) << known.verdict;
+}
+
+TEST(Calibration, BoundThatTheRowsPushAgainst) {
+  Experiment made = experiment(6, 4, 0, 3);
+  const std::vector<CalibrationParameter> bounded = {{"alpha", 0.5, 0.35, 1.0}, {"tau0", 0.5, 0.0, {}}};
+  const Calibration found = calibrate(made.rows, made.model(), bounded, relative);
+  EXPECT_EQ(*found.parameters[0].value, 0.35);
+  EXPECT_TRUE(found.parameters[0].at_lower);
+  EXPECT_FALSE(found.parameters[0].low);
+  EXPECT_TRUE(found.parameters[1].low);
+  EXPECT_TRUE(says(found.verdict, "alpha stands at its lower bound 0.35: the rows ask for less"))
+      << found.verdict;
+  // The other is at its best with the bound held.
+  const std::vector<CalibrationParameter> alone = {{"tau0", 0.5, {}, {}}};
+  made.rows.specimens.clear();
+  const CalibrationModel held = [&](std::span<const double> q, std::size_t row) {
+    return 0.35 + q[0] * made.c[row];
+  };
+  EXPECT_NEAR(*found.parameters[1].value, *calibrate(made.rows, held, alone, relative).parameters[0].value,
+              1e-6);
+}
+
+TEST(Calibration, BoundsThatAreFarAwayChangeNothing) {
+  const Experiment made = experiment(6, 4, 0, 3);
+  const std::vector<CalibrationParameter> bounded = {{"alpha", 0.1, -9.0, 9.0}, {"tau0", 0.5, -9.0, 9.0}};
+  const Calibration wide = calibrate(made.rows, made.model(), bounded, relative),
+                    free = calibrate(made.rows, made.model(), tilt_law, relative);
+  EXPECT_NEAR(*wide.parameters[1].value, *free.parameters[1].value, 1e-7);
+  EXPECT_NEAR(*wide.parameters[1].profile_high, *free.parameters[1].profile_high, 1e-5);
+}
+
+TEST(Calibration, LinearisedIntervalIsNotCutOffAtABound) {
+  Experiment made = experiment(3, 1.2, 0, 6);
+  const std::vector<CalibrationParameter> bounded = {{"alpha", 0.1, -9.0, 9.0}, {"tau0", 0.5, 0.0, {}}};
+  const Calibration found = calibrate(made.rows, made.model(), bounded, relative);
+  ASSERT_TRUE(found.parameters[1].low);
+  EXPECT_LT(*found.parameters[1].low, 0);
+  EXPECT_FALSE(found.parameters[1].profile_low);
+  EXPECT_TRUE(says(found.verdict, "no lower limit of tau0 within its bounds")) << found.verdict;
+}
+
+TEST(Calibration, ConstantDataAreNoKnowledge) {
+  Experiment made = experiment(3, 4, 0, 5);
+  for (double& y : made.rows.y) y = 0.4;
+  const Calibration found = calibrate(made.rows, made.model(), tilt_law);
+  EXPECT_NEAR(*found.parameters[0].value, 0.4, 1e-9);
+  EXPECT_NEAR(*found.parameters[1].value, 0, 1e-9);
+  EXPECT_TRUE(says(found.verdict, "no scatter is seen")) << found.verdict;
+  for (double& y : made.rows.y) y = 0;
+  EXPECT_NEAR(*calibrate(made.rows, made.model(), tilt_law).parameters[1].value, 0, 1e-9);
+}
+
+TEST(Calibration, SpecimenThatComesAgainIsTheSameOne) {
+  Experiment made = experiment(4, 4, 0, 5, 2);
+  Experiment turned = made;
+  for (std::size_t k = 0; k < 8; ++k) {
+    const std::size_t from = k < 4 ? 2 * k : 2 * (k - 4) + 1;
+    turned.c[k] = made.c[from];
+    turned.rows.y[k] = made.rows.y[from];
+    turned.rows.specimens[k] = made.rows.specimens[from];
+  }
+  const Calibration found = calibrate(turned.rows, turned.model(), tilt_law, relative);
+  EXPECT_EQ(found.specimens.size(), 4U);
+  EXPECT_EQ(found.specimens[3].rows, 2U);
+  EXPECT_NEAR(found.specimen_scatter->f,
+              calibrate(made.rows, made.model(), tilt_law, relative).specimen_scatter->f, 1e-6);
+}
+
+// --- refusals
+
+TEST(Calibration, ModelWithoutAValueNamesRowAndParameters) {
+  Experiment made = experiment(3, 4, 0, 5);
+  const CalibrationModel holed = [&](std::span<const double> q, std::size_t row) {
+    return row == 6 ? std::numeric_limits<double>::quiet_NaN() : q[0] + q[1] * made.c[row];
+  };
+  EXPECT_TRUE(says(error_of([&] { calibrate(made.rows, holed, tilt_law); }),
+                   "no finite value for row 7 at the start, with alpha = 0.1, tau0 = 0.5"));
+  made.rows.numbers.resize(15);
+  for (std::size_t k = 0; k < 15; ++k) made.rows.numbers[k] = 100 + k;
+  EXPECT_TRUE(says(error_of([&] { calibrate(made.rows, holed, tilt_law); }), "row 106"));
+}
+
+TEST(Calibration, ModelThatEndsOnTheWayIsGoneRound) {
+  // The logarithm has no value beyond the first step from a poor start.
+  const std::vector<double> x = {1, 2, 3, 4, 5, 6};
+  CalibrationRows rows;
+  for (const double v : x) rows.y.push_back(std::log(0.5 * v) + (v == 3 ? 0.01 : 0));
+  const CalibrationModel model = [&](std::span<const double> q, std::size_t row) {
+    return q[0] > 0 ? std::log(q[0] * x[row]) : std::numeric_limits<double>::quiet_NaN();
+  };
+  const std::vector<CalibrationParameter> start = {{"a", 20, {}, {}}};
+  EXPECT_NEAR(*calibrate(rows, model, start).parameters[0].value, 0.5, 0.01);
+}
+
+TEST(Calibration, NoisyModelNeedsLargerSteps) {
+  // A model with a tolerance of 1e-5: differences of 1e-3 see it, those of 0.1 hardly.
+  const Experiment made = experiment(6, 4, 0, 3);
+  const CalibrationModel noisy = [&](std::span<const double> q, std::size_t row) {
+    const double exact = q[0] + q[1] * made.c[row];
+    return std::round(exact * 1e5) / 1e5;
+  };
+  std::vector<CalibrationParameter> start = {{"alpha", 0.1, {}, {}, 0.1}, {"tau0", 0.5, {}, {}, 0.1}};
+  const Calibration found = calibrate(made.rows, noisy, start, relative),
+                    exact = calibrate(made.rows, made.model(), tilt_law, relative);
+  EXPECT_NEAR(*found.parameters[1].value, *exact.parameters[1].value,
+              0.05 * *exact.parameters[1].standard_error);
+  EXPECT_NEAR(*found.parameters[1].standard_error / *exact.parameters[1].standard_error, 1, 1e-3);
+}
+
+TEST(Calibration, WhatCannotBeFittedIsRefused) {
+  const Experiment made = experiment(3, 4, 0, 5);
+  const auto refused = [&](const CalibrationRows& rows, const std::vector<CalibrationParameter>& parameters,
+                           const CalibrationOptions& options = {}) {
+    return error_of([&] { calibrate(rows, made.model(), parameters, options); });
+  };
+  CalibrationRows rows = made.rows;
+  rows.y.resize(1);
+  rows.specimens.clear();
+  EXPECT_TRUE(says(refused(rows, tilt_law), "has 1 row for 2 parameters"));
+  rows.y.clear();
+  EXPECT_TRUE(says(refused(rows, tilt_law), "has 0 rows for 2 parameters"));
+  rows = made.rows;
+  rows.y[3] = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(says(refused(rows, tilt_law), "y is not finite in row 4"));
+  rows = made.rows;
+  rows.specimens.resize(2);
+  EXPECT_TRUE(says(refused(rows, tilt_law), "15 values of y and 2 of what goes with them"));
+  rows = made.rows;
+  rows.u.assign(15, 0);
+  EXPECT_TRUE(says(refused(rows, tilt_law), "`u` is 0 in row 1"));
+  rows.u.assign(15, 1);
+  EXPECT_TRUE(says(refused(rows, tilt_law, relative), "give one of them"));
+  EXPECT_TRUE(says(refused(made.rows, {}), "has no parameters"));
+  EXPECT_TRUE(says(refused(made.rows, {{"a", 0, 1.0, 2.0}, {"b", 0, {}, {}}}), "outside its bounds"));
+  EXPECT_TRUE(
+      says(refused(made.rows, {{"a", 0, 1.0, -1.0}, {"b", 0, {}, {}}}), "`lower` must be below `upper`"));
+  EXPECT_TRUE(
+      says(refused(made.rows, {{"a", 0, {}, {}}, {"a", 0, {}, {}}}), "two parameters are called `a`"));
+  EXPECT_TRUE(says(refused(made.rows, {{"a", 0, {}, {}, 2}, {"b", 0, {}, {}}}), "has a `step` of 2"));
+  EXPECT_TRUE(says(refused(made.rows, {{"a", NAN, {}, {}}, {"b", 0, {}, {}}}), "not finite"));
+  CalibrationOptions options;
+  options.confidence = 1;
+  EXPECT_TRUE(says(refused(made.rows, tilt_law, options), "`confidence` is 1"));
+  options = {};
+  options.basis = CalibrationBasis::specimens;
+  rows = made.rows;
+  rows.specimens.assign(15, "one");
+  EXPECT_TRUE(says(refused(rows, tilt_law, options), "has 1 specimen for 2 parameters"));
+  rows.specimens.clear();
+  EXPECT_TRUE(says(refused(rows, tilt_law, options), "needs to know the specimen"));
+}
+
+TEST(Calibration, StopEndsItBetweenRows) {
+  const Experiment made = experiment(3, 4, 0, 5);
+  int calls = 0;
+  const CalibrationModel stopped = [&](std::span<const double> q, std::size_t row) {
+    if (++calls == 20) stop_flag().raise(StopReason::interrupt);
+    return q[0] + q[1] * made.c[row];
+  };
+  EXPECT_THROW(calibrate(made.rows, stopped, tilt_law), Error);
+  stop_flag().clear();
+  EXPECT_EQ(calls, 20);
+}
+
+}  // namespace
+}  // namespace asperity::calibration_test
