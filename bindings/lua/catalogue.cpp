@@ -14,6 +14,7 @@
 #include "bindings/lua/specimen/shear.hpp"
 #include "bindings/lua/specimen/tilt_stage.hpp"
 #include "bindings/lua/spread/spread.hpp"
+#include "bindings/lua/study/calibration.hpp"
 #include "bindings/lua/study/study.hpp"
 #include "bindings/lua/surface/areal_parameters.hpp"
 #include "bindings/lua/surface/material.hpp"
@@ -61,6 +62,7 @@ const std::vector<const Class*>& classes() {
       &class_of<asperity::Table>(),
       &class_of<Study>(),
       &class_of<StudyChoice>(),
+      &class_of<CalibrationReport>(),
       &class_of<SlabSurface>(),
       &class_of<SpreadContact>(),
       &class_of<SpreadState>(),

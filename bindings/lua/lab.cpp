@@ -16,6 +16,7 @@
 #include "bindings/lua/runtime/version.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/tilt_stage.hpp"
+#include "bindings/lua/study/calibration.hpp"
 #include "bindings/lua/study/work_precision.hpp"
 #include "bindings/lua/surface/material.hpp"
 #include "engine/core/error.hpp"
@@ -76,6 +77,7 @@ const Module& lab_module() {
                    friction_function(), tilt_stage_function(), notebook_function()};
     m.functions.push_back(ensemble_function());
     m.functions.push_back(work_precision_function());
+    m.functions.push_back(calibrate_function());
     m.functions.push_back(ledger_function());
     m.functions.push_back(files_function());
     m.functions.push_back(quantity_function());

@@ -211,7 +211,7 @@ class CalibrationWork {
     for (std::size_t k = 0; k < rows_.y.size(); ++k) each.push_back({{k}, 1});
     problem_.observe(std::move(each));
     settle(start);
-    if (rows_.specimens.empty()) return;
+    if (rows_.specimens.empty() || tangent_.rank == 0) return;
     const bool wanted = options_.basis == CalibrationBasis::specimens;
     if (groups_.size() <= tangent_.rank) {
       if (wanted)

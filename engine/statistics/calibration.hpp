@@ -30,6 +30,7 @@ struct CalibrationParameter {
   std::optional<double> lower, upper;
   // Of the differences, relative to the parameter: well above the noise of the model.
   double step = 1e-3;
+  std::string unit{};  // for sentences
 };
 
 struct CalibrationRows {

@@ -134,7 +134,8 @@ void CalibrationProblem::refuse_place(const std::string& where) const {
 std::string CalibrationProblem::parameters_text(const std::vector<double>& q) const {
   std::string text;
   for (std::size_t p = 0; p < q.size(); ++p)
-    text += (p > 0 ? ", " : "") + parameters_[p].name + " = " + format_short(q[p]);
+    text += (p > 0 ? ", " : "") + parameters_[p].name + " = " + format_short(q[p]) +
+            (parameters_[p].unit.empty() ? "" : " " + parameters_[p].unit);
   return text;
 }
 

@@ -47,6 +47,20 @@ class VerdictWords {
  private:
   const std::string& name(std::size_t p) const { return f_.problem.parameter(p).name; }
 
+  std::string with_unit(double value, std::size_t p) const {
+    const std::string& unit = f_.problem.parameter(p).unit;
+    return number(value) + (unit.empty() ? "" : " " + unit);
+  }
+
+  // " (tau0 in Pa)": of what a combination is made of.
+  std::string units_of(std::size_t a, std::size_t b) const {
+    std::vector<std::string> list;
+    for (const std::size_t p : {a, b})
+      if (const std::string& unit = f_.problem.parameter(p).unit; !unit.empty())
+        list.push_back(name(p) + " in " + unit);
+    return list.empty() ? "" : " with " + joined(list, " and ");
+  }
+
   std::string names(const std::vector<std::size_t>& which) const {
     std::vector<std::string> list;
     for (const std::size_t p : which) list.push_back(name(p));
@@ -108,18 +122,19 @@ class VerdictWords {
     // Along a ratio the parameters go straight to 0, and their sum says nothing of it.
     if (std::abs(together - 1) < 1e-2 && (unchanged(moved(1.25, 1.25)) || unchanged(moved(0.8, 0.8))))
       return "the ratio " + name(a) + "/" + name(b) + " = " +
-             with_interval(q[a] / q[b], {{a, 1 / q[b]}, {b, -q[a] / (q[b] * q[b])}});
+             with_interval(q[a] / q[b], {{a, 1 / q[b]}, {b, -q[a] / (q[b] * q[b])}}) + units_of(a, b);
     const double step = 0.1 / std::max(std::abs(da) / scale(a), std::abs(db) / scale(b));
     for (const double side : {1.0, -1.0}) {
       std::vector<double> there = q;
       there[a] += side * step * da;
       there[b] += side * step * db;
-      if (unchanged(there)) return text;
+      if (unchanged(there)) return text + units_of(a, b);
     }
     if (std::abs(together + 1) < 1e-2 && (unchanged(moved(1.25, 0.8)) || unchanged(moved(0.8, 1.25))))
       return "the product " + name(a) + " " + name(b) + " = " +
-             with_interval(q[a] * q[b], {{a, q[b]}, {b, q[a]}});
-    return text + " near " + name(a) + " = " + number(q[a]) + ", " + name(b) + " = " + number(q[b]);
+             with_interval(q[a] * q[b], {{a, q[b]}, {b, q[a]}}) + units_of(a, b);
+    return text + " near " + name(a) + " = " + with_unit(q[a], a) + ", " + name(b) + " = " +
+           with_unit(q[b], b);
   }
 
   void tell_unseen() {
@@ -130,7 +145,8 @@ class VerdictWords {
     if (!silent.empty()) {
       of_.identifiable = false;
       sentences_.push_back("these rows say nothing of " + names(silent) +
-                           ": the model does not change with " + (silent.size() == 1 ? "it" : "them"));
+                           ": the model does not change with " + (silent.size() == 1 ? "it" : "them") +
+                           " (one that answers in steps of its own needs a larger `step`)");
     }
     for (std::size_t k = t.rank; k < t.svd.values.size(); ++k) {
       std::vector<std::size_t> parts, columns;
@@ -179,7 +195,8 @@ class VerdictWords {
       const double factor = -f_.covariance[a][b] / f_.covariance[b][b];
       of_.combinations.push_back(
           name(a) + signed_term(factor, name(b)) + " = " +
-          with_interval(f_.at.place.q[a] + factor * f_.at.place.q[b], {{a, 1.0}, {b, factor}}));
+          with_interval(f_.at.place.q[a] + factor * f_.at.place.q[b], {{a, 1.0}, {b, factor}}) +
+          units_of(a, b));
       sentence += " (correlation " + number(of_.correlation[a][b].value_or(0)) +
                   "): what they know best is " + of_.combinations.back();
     }
@@ -193,7 +210,7 @@ class VerdictWords {
       const bool lower = of_.parameters[p].at_lower;
       const CalibrationParameter& given = f_.problem.parameter(p);
       sentences_.push_back(name(p) + " stands at its " + (lower ? "lower" : "upper") + " bound " +
-                           number(lower ? *given.lower : *given.upper) + ": the rows ask for " +
+                           with_unit(lower ? *given.lower : *given.upper, p) + ": the rows ask for " +
                            (lower ? "less" : "more") + ", and the other intervals hold it there");
     }
   }

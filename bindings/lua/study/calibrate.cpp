@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lab.calibrate: what is asked for, the rows as the model gets them, and the model, a function of the script
+// that is called with the table q of the parameters in SI and one row as rows() gives it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/options.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/notebook.hpp"
+#include "bindings/lua/run/table.hpp"
+#include "bindings/lua/run/table_values.hpp"
+#include "bindings/lua/runtime/files.hpp"
+#include "bindings/lua/runtime/state.hpp"
+#include "bindings/lua/study/calibration.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/statistics/number_columns.hpp"
+#include "engine/statistics/table_operations.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+using Rows = asperity::Table;
+
+// --- what is asked for
+
+struct CalibrateKeys {
+  std::shared_ptr<const Rows> data;
+  std::string y;
+  std::vector<CalibrationParameter> parameters;  // in the order of names, for Lua keeps none
+  std::vector<Dimension> dimensions;
+  std::optional<double> u_number;
+  std::optional<std::string> u_text;  // a column, or a quantity
+  std::optional<std::string> specimen;
+  TableFilter where;
+  CalibrationOptions options;
+};
+
+// One number of a parameter: SI, or a quantity of the parameter's dimension, which is then known.
+std::optional<double> parameter_number(const Argument& value, const std::string& key,
+                                       std::optional<Dimension>& dimension, Problems& problems) {
+  if (value.is_number()) return value.number();
+  if (!value.is_text()) {
+    if (!value.is_unknown())
+      problems.push_back(quoted(key) + " is " + value.describe() + "; give a number or a quantity");
+    return {};
+  }
+  try {
+    const Quantity quantity = parse_quantity(value.text());
+    if (dimension && !(*dimension == quantity.dimension)) {
+      problems.push_back(quoted(key) + " is " + describe(quantity.dimension) +
+                         ", and another value of the parameter is " + describe(*dimension));
+      return {};
+    }
+    dimension = quantity.dimension;
+    return quantity.value;
+  } catch (const Error& error) {
+    problems.push_back(quoted(key) + ": " + error.what());
+    return {};
+  }
+}
+
+struct NamedParameter {
+  CalibrationParameter parameter;
+  std::optional<Dimension> dimension;
+};
+
+// nil keys are not there; the order in which Lua gives the others does not matter.
+NamedParameter parameter_of(const std::string& name, const Argument& table, Problems& problems) {
+  static const std::vector<std::string> keys = {"start", "lower", "upper", "step"};
+  NamedParameter found;
+  found.parameter.name = name;
+  const std::string path = "parameters." + name;
+  if (!table.is_table()) {
+    if (auto start = parameter_number(table, path, found.dimension, problems)) found.parameter.start = *start;
+    return found;
+  }
+  bool started = false;
+  table.each([&](const Argument& key, const Argument&) {
+    const std::string given = key.is_text() ? std::string(key.text()) : key.describe();
+    if (std::ranges::find(keys, given) == keys.end())
+      problems.push_back(quoted(path) + " has no key " + quoted(given) + did_you_mean(given, keys) +
+                         "; it takes start, lower, upper and step");
+  });
+  for (const std::string& key : keys)
+    with_key(table, key, [&](const Argument& value) {
+      if (value.is_nil()) return;
+      started = started || key == "start";
+      std::optional<Dimension> none = dimension::number;
+      const auto read =
+          parameter_number(value, path + "." + key, key == "step" ? none : found.dimension, problems);
+      if (!read) return;
+      if (key == "start") found.parameter.start = *read;
+      if (key == "lower" && *read != -std::numeric_limits<double>::infinity()) found.parameter.lower = *read;
+      if (key == "upper" && *read != std::numeric_limits<double>::infinity()) found.parameter.upper = *read;
+      if (key == "step") found.parameter.step = *read;
+    });
+  if (!started) problems.push_back(quoted(path + ".start") + " is missing: give the value to begin from");
+  return found;
+}
+
+void read_parameters(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
+  if (!value.is_table())
+    return detail::wrong_type(value, info,
+                              "a table such as { tau0={ start=\"500 MPa\", lower=0 }, alpha=0.2 }", problems);
+  std::map<std::string, NamedParameter> named;
+  value.each([&](const Argument& key, const Argument& table) {
+    if (!key.is_text())
+      return problems.push_back(quoted(info.name) + " names a parameter by " + key.describe() +
+                                "; give each a name, as in { alpha={ start=0.2 } }");
+    const std::string name(key.text());
+    if (!table.is_unknown()) named.emplace(name, parameter_of(name, table, problems));
+  });
+  if (named.empty() && problems.empty())
+    problems.push_back(quoted(info.name) + " names no parameter; give one as in { alpha={ start=0.2 } }");
+  for (auto& [name, one] : named) {
+    keys.parameters.push_back(std::move(one.parameter));
+    keys.dimensions.push_back(one.dimension.value_or(dimension::number));
+    keys.parameters.back().unit = si_unit(keys.dimensions.back());
+  }
+}
+
+void read_data(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
+  if (const auto* book = value.as<Notebook>()) {
+    keys.data = std::make_shared<const Rows>(book->table());
+  } else if (Object* object = value.as_object(class_of<Rows>())) {
+    if (object->pointer != nullptr) keys.data = std::static_pointer_cast<const Rows>(object->pointer);
+  } else if (value.as_object(class_of<Notebook>()) == nullptr) {
+    detail::wrong_type(value, info, "a table (lab.table) or a notebook", problems);
+  }
+}
+
+void read_u(const Argument& value, const OptionInfo& info, CalibrateKeys& keys, Problems& problems) {
+  if (value.is_number())
+    keys.u_number = value.number();
+  else if (value.is_text())
+    keys.u_text = std::string(value.text());
+  else
+    detail::wrong_type(value, info, "a column, a number or a quantity", problems);
+}
+
+Option<CalibrateKeys> in_options(Option<CalibrationOptions> inner) {
+  Option<CalibrateKeys> option;
+  option.info = std::move(inner.info);
+  option.read = [read = std::move(inner.read)](const Argument& value, const OptionInfo& info,
+                                               CalibrateKeys& keys, Problems& problems) {
+    read(value, info, keys.options, problems);
+  };
+  option.show = [show = std::move(inner.show)](const CalibrateKeys& keys) { return show(keys.options); };
+  return option;
+}
+
+const Block<CalibrateKeys>& calibrate_block() {
+  using K = CalibrateKeys;
+  using O = CalibrationOptions;
+  static const Block<K> block{
+      "lab.calibrate",
+      {custom<K>("model", "function",
+                 "function(q, row) returning y, one number: q holds the parameters by name in SI, row the "
+                 "cells of a row "
+                 "by column as rows() gives them; nil where it has no value",
+                 [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
+                   if (!value.is_function()) detail::wrong_type(value, info, "a function(q, row)", problems);
+                 })
+           .required(),
+       custom<K>("data", "Table|Notebook", "the measured rows", read_data).required(),
+       text("y", &K::y, "the column that the model is to give").required(),
+       custom<K>(
+           "parameters", "table",
+           "each parameter by its name: { start=, lower=, upper=, step= }, numbers in SI or quantities, "
+           "or its start alone. lower and upper may be left out; step is that of differences, relative "
+           "(0.001), and wants to be larger for a model with a tolerance of its own",
+           read_parameters)
+           .required(),
+       custom<K>(
+           "u", "string|number",
+           "standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by "
+           "1/u². All alike without it",
+           read_u),
+       in_options(
+           choice("scatter", &O::scatter,
+                  {{"absolute", CalibrationScatter::absolute}, {"relative", CalibrationScatter::relative}},
+                  "what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²)")),
+       text(
+           "specimen", &K::specimen,
+           "the column that tells specimens apart; rows of one are repeats, and where specimens scatter more "
+           "than repeats their means are what is fitted"),
+       in_options(
+           choice("basis", &O::basis,
+                  {{"automatic", CalibrationBasis::automatic},
+                   {"rows", CalibrationBasis::rows},
+                   {"specimens", CalibrationBasis::specimens}},
+                  "what counts as an observation; automatic: rows, and specimens where they scatter (F test "
+                  "at 25 %)")),
+       in_options(Option<O>(number("confidence", &O::confidence, inside(0, 1), "of the intervals"))),
+       in_options(
+           flag("profile", &O::profile,
+                "intervals by profile likelihood as well: two sets of parameters each where the model is "
+                "straight, ten or more where it is curved")),
+       where_key(&K::where)}};
+  return block;
+}
+
+// --- the rows
+
+struct CalibrationInput {
+  CalibrationRows rows;
+  Rows used;
+  std::vector<std::size_t> numbers;
+  std::size_t left_out = 0;
+};
+
+std::string unit_text(const TableColumn& column) { return column.unit.empty() ? "" : " " + column.unit; }
+
+// "`load` is 5 N" for each column with the same number or word in all rows, beside the y.
+std::vector<std::string> alike_columns(const Rows& table, const std::set<std::size_t>& but) {
+  std::vector<std::string> found;
+  constexpr std::size_t most = 4;
+  for (std::size_t k = 0; k < table.columns().size() && found.size() < most; ++k) {
+    if (but.contains(k) || table.rows() < 2 || is_empty(table.cell(0, k))) continue;
+    bool same = true;
+    for (std::size_t row = 1; row < table.rows() && same; ++row)
+      same = same_cell(table.cell(row, k), table.cell(0, k));
+    if (same)
+      found.push_back(quoted(table.columns()[k].name) + " is " + short_text(table.cell(0, k)) +
+                      unit_text(table.columns()[k]));
+  }
+  return found;
+}
+
+CalibrationInput input_of(const CalibrateKeys& keys) {
+  const Rows chosen = rows_of(*keys.data, keys.where.rows(*keys.data));
+  std::vector<std::pair<std::string, std::string>> named = {{"y", keys.y}};
+  const std::size_t y = chosen.column(keys.y, "y");
+  std::set<std::size_t> told = {y};
+  const bool u_column = keys.u_text && chosen.find_column(*keys.u_text);
+  std::optional<double> u = keys.u_number;
+  if (u_column) {
+    named.emplace_back("u", *keys.u_text);
+    told.insert(chosen.column(*keys.u_text, "u"));
+  } else if (keys.u_text) {
+    try {
+      u = parse_quantity_in(*keys.u_text, chosen.columns()[y].unit);
+    } catch (const Error& error) {
+      throw Error(error.code(),
+                  "`u` is neither a column of " + chosen.name() + " nor a value of " + quoted(keys.y) + ": " +
+                      error.sentence(),
+                  "give a column, or a quantity such as \"0.5 deg\"");
+    }
+  }
+  std::optional<std::size_t> specimen;
+  if (keys.specimen) specimen = chosen.column(*keys.specimen, "specimen");
+  if (specimen) told.insert(*specimen);
+  const NumberColumns numbers = number_columns(chosen, named);
+  CalibrationInput found;
+  std::vector<std::size_t> used;
+  for (std::size_t k = 0; k < numbers.rows.size(); ++k) {
+    const std::size_t row = numbers.rows[k];
+    if (specimen && is_empty(chosen.cell(row, *specimen))) continue;
+    used.push_back(row);
+    found.numbers.push_back(row + 1);
+    found.rows.y.push_back(numbers.values[0][k]);
+    if (u_column) found.rows.u.push_back(numbers.values[1][k]);
+    if (specimen) found.rows.specimens.push_back(short_text(chosen.cell(row, *specimen)));
+  }
+  if (u) found.rows.u.assign(found.rows.y.size(), *u);
+  found.left_out = chosen.rows() - used.size();
+  found.used = rows_of(chosen, used);
+  found.rows.numbers = found.numbers;
+  found.rows.alike = alike_columns(found.used, told);
+  return found;
+}
+
+// --- the model
+
+// Warnings of the model's own calls are shown; their progress is not, for the calibration has its own.
+class CalibratedMonitor final : public Monitor {
+ public:
+  explicit CalibratedMonitor(Monitor& outer) : outer_(outer) {}
+  void progress(std::string_view, double) override {}
+  void warn(std::string_view sentence) override { outer_.warn(sentence); }
+  ResultStore* results() override { return outer_.results(); }
+
+ private:
+  Monitor& outer_;
+};
+
+// The function of the script with its tables on the stack: the list of rows, q, the names of the parameters.
+class CalibratedFunction {
+ public:
+  CalibratedFunction(Session& session, const Argument& function, const Rows& rows,
+                     const std::vector<CalibrationParameter>& parameters,
+                     const std::vector<std::size_t>& numbers)
+      : session_(session),
+        monitor_(session.monitor()),
+        L(function.state()),
+        function_(function.index()),
+        parameters_(parameters),
+        numbers_(numbers) {
+    const auto count = static_cast<int>(parameters.size());
+    if (lua_checkstack(L, count + 20) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
+    const Value list = rows_of_table(rows);
+    auto fill = [&](lua_State* s) {
+      luaL_checkstack(s, count + 20, nullptr);
+      push(s, list);
+      lua_createtable(s, 0, count);
+      for (const CalibrationParameter& parameter : parameters) {
+        lua_pushlstring(s, parameter.name.data(), parameter.name.size());
+        lua_pushvalue(s, -1);
+        lua_pushnumber(s, parameter.start);
+        lua_rawset(s, 2);
+      }
+      return 2 + count;
+    };
+    if (protect(L, 0, 2 + count, fill) != LUA_OK)
+      throw Error(ErrorCode::out_of_memory, "no memory for the rows of the calibration");
+    rows_ = lua_gettop(L) - count - 1;
+  }
+
+  double operator()(std::span<const double> q, std::size_t row) {
+    const Argument::StackGuard guard(L);
+    lua_pushvalue(L, function_);
+    lua_pushvalue(L, rows_ + 1);
+    for (std::size_t k = 0; k < q.size(); ++k) lua_pushvalue(L, rows_ + 2 + static_cast<int>(k));
+    auto set = [q](lua_State* s) {
+      for (std::size_t k = 0; k < q.size(); ++k) {
+        lua_pushvalue(s, 2 + static_cast<int>(k));
+        lua_pushnumber(s, q[k]);
+        lua_rawset(s, 1);
+      }
+      return 0;
+    };
+    if (protect(L, 1 + static_cast<int>(q.size()), 0, set) != LUA_OK)
+      throw Error(ErrorCode::out_of_memory, "no memory for the parameters of the model");
+    lua_pushvalue(L, rows_ + 1);
+    lua_rawgeti(L, rows_, static_cast<lua_Integer>(row) + 1);
+    int status = LUA_OK;
+    {
+      const Session::Reporting reporting(session_, monitor_);
+      status = lua_pcall(L, 2, 1, 0);
+    }
+    if (status != LUA_OK) {
+      stop_flag().check();
+      throw Error(ErrorCode::bad_value,
+                  "the function `model` failed in " + place(q, row) + ": " + error_text(L, -1));
+    }
+    const Argument result(L, -1);
+    if (result.is_nil()) return std::numeric_limits<double>::quiet_NaN();
+    if (!result.is_number())
+      throw Error(ErrorCode::bad_value,
+                  "the function `model` returned " + result.describe() + " for " + place(q, row),
+                  "return one number in the unit of y, or nil where there is none");
+    return result.number();
+  }
+
+ private:
+  std::string place(std::span<const double> q, std::size_t row) const {
+    std::string text = "row " + std::to_string(numbers_[row]) + " with ";
+    for (std::size_t k = 0; k < q.size(); ++k)
+      text += (k > 0 ? ", " : "") + parameters_[k].name + " = " + format_short(q[k]) +
+              (parameters_[k].unit.empty() ? "" : " " + parameters_[k].unit);
+    return text;
+  }
+
+  Session& session_;
+  CalibratedMonitor monitor_;
+  lua_State* L;
+  int function_, rows_ = 0;
+  const std::vector<CalibrationParameter>& parameters_;
+  const std::vector<std::size_t>& numbers_;
+};
+
+// --- the function
+
+std::string specimen_column_hint(const CalibrateKeys& keys, const CalibrationInput& input) {
+  if (keys.specimen) return "";
+  for (const char* name : {"specimen", "specimens", "sample"}) {
+    const auto column = input.used.find_column(name);
+    if (!column) continue;
+    std::set<std::string> different;
+    for (std::size_t row = 0; row < input.used.rows(); ++row)
+      different.insert(short_text(input.used.cell(row, *column)));
+    if (different.size() > 1 && different.size() < input.used.rows())
+      return "the rows have a column " + quoted(name) +
+             ", which the calibration was not told of: repeats on one specimen are not independent; give "
+             "specimen=\"" +
+             name + "\"";
+  }
+  return "";
+}
+
+Values run_calibration(Call& call) {
+  const CalibrateKeys keys = call.options(calibrate_block());
+  if (keys.data == nullptr)
+    throw Error(ErrorCode::bad_state, "`data` has no rows", "give a table of measured rows");
+  CalibrationInput input = input_of(keys);
+  Session& session = call.session();
+  return with_key(call.argument(1), "model", [&](const Argument& function) -> Values {
+    const Argument::StackGuard guard(call.L);
+    CalibrationReport report;
+    {
+      CalibratedFunction model(session, function, input.used, keys.parameters, input.numbers);
+      report.found = calibrate(
+          input.rows, [&model](std::span<const double> q, std::size_t row) { return model(q, row); },
+          keys.parameters, keys.options, session.monitor());
+    }
+    report.rows = std::move(input.used);
+    report.numbers = std::move(input.numbers);
+    report.left_out = input.left_out;
+    report.y = split_column_unit(keys.y).name;
+    report.dimensions = keys.dimensions;
+    report.scatter = keys.options.scatter;
+    report.known_uncertainty = !input.rows.u.empty();
+    warn_of(call, report.found.warnings);
+    // `input.used` went into the report; the hint reads that.
+    const std::string hint = specimen_column_hint(keys, {{}, report.rows, {}, 0});
+    if (!hint.empty()) {
+      report.found.warnings.push_back(hint);
+      warn_of(call, {hint});
+    }
+    return {object(std::move(report))};
+  });
+}
+
+}  // namespace
+
+Function calibrate_function() {
+  return {
+      .name = "calibrate",
+      .body = run_calibration,
+      .sentence =
+          "Fits parameters of a law or a model to measured rows by least squares, and says what the rows "
+          "tell of "
+          "each: estimate, linearised interval (Student's t), interval by profile likelihood (F), "
+          "correlation, and "
+          "a verdict. What the rows do not determine is given no number, and the combination that they do "
+          "determine is named. Derivatives are taken by the program.",
+      .options = &calibrate_block(),
+      .returns = "Calibration",
+      .example =
+          "print(lab.calibrate{ model=function(q, row) return q.mu0 + q.rise * row.N end, data=t, y=\"mu\", "
+          "parameters={ mu0={ start=0.3, lower=0 }, rise=0 } })",
+      .heavy = true};
+}
+
+}  // namespace asperity::lua

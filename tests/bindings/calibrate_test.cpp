@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// lab.calibrate from a script: what the model is given and how often, what comes back and prints, what the
+// rows do not determine, and each refusal with the place it names.
+#include <string>
+#include <vector>
+
+#include "tests/bindings/lua_test.hpp"
+
+namespace asperity::lua::calibrate_test {
+namespace {
+
+class CalibrateTest : public LuaTest {
+ protected:
+  void SetUp() override {
+    LuaTest::SetUp();
+    // Four specimens with real areas c, four angles each; tau0 in Pa, c in m².
+    ASSERT_EQ(run(R"(
+      local rows = {}
+      for s, c in ipairs{ 0.5, 0.8, 1.2, 2.0 } do
+        for k = 1, 4 do
+          local scatter = 1 + 0.1 * ((s * 4 + k) * 0.618 % 1 - 0.5)
+          rows[#rows + 1] = { specimen="S" .. s, ["load [N]"]=5, c=c * 1e-9, ["angle [deg]"]=math.deg(math.atan((0.2 + 0.3 * c) * scatter)) }
+        end
+      end
+      t = lab.table.from(rows)
+      function law(q, row) calls = (calls or 0) + 1 return math.atan(q.alpha + q.tau0 * row.c) end
+      function fit(more)
+        local keys = { model=law, data=t, y="angle", parameters={ tau0={ start="500 MPa", lower=0 }, alpha=0.1 } }
+        for key, value in pairs(more or {}) do keys[key] = value end
+        return lab.calibrate(keys)
+      end)"),
+              "");
+  }
+  testing::AssertionResult refuses(const std::string& code, const std::string& part) {
+    const std::string text = run(code);
+    if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "\"" << text << "\" does not hold \"" << part << "\"";
+  }
+};
+
+TEST_F(CalibrateTest, ParametersComeInSIWithIntervals) {
+  ASSERT_EQ(run("f = fit() tau0 = f.parameters.tau0 alpha = f.parameters.alpha"), "");
+  EXPECT_TRUE(holds("math.abs(tau0.value / 3e8 - 1) < 0.1 and math.abs(alpha.value - 0.2) < 0.03"));
+  EXPECT_TRUE(holds("f.values.tau0 == tau0.value and f.names[1] == 'alpha' and f.names[2] == 'tau0'"));
+  EXPECT_TRUE(
+      holds("tau0.low < 3e8 and 3e8 < tau0.high and tau0.profile_low < 3e8 and 3e8 < tau0.profile_high"));
+  EXPECT_TRUE(holds("tau0.determined and not tau0.at_lower and f.identifiable"));
+  EXPECT_TRUE(holds("f.correlation[1][2] < -0.8 and f.correlation[2][2] == 1 and f.condition > 1"));
+  EXPECT_TRUE(holds("f.n == 16 and f.degrees == 14 and f.observations == 16 and f.left_out == 0"));
+  EXPECT_TRUE(
+      holds("#f.residuals == 16 and f.fitted_low[3] < f.fitted[3] and f.fitted[3] < f.fitted_high[3]"));
+  EXPECT_TRUE(holds("math.abs(f.fitted[3] + f.residuals[3] - t:rows()[3].angle) < 1e-15"));
+  EXPECT_TRUE(holds("f.calls == calls and #f.specimens == 0 and f.specimen_p == nil"));
+}
+
+TEST_F(CalibrateTest, PrintsALineAParameterAndTheVerdict) {
+  ASSERT_EQ(run("text = tostring(fit())"), "");
+  for (const char* part :
+       {"calibration of angle over 16 rows, 14 degrees of freedom", "\\n  tau0 ", " MPa to ",
+        "correlation: alpha with tau0 -0.9", "verdict: every parameter is determined"})
+    EXPECT_TRUE(holds("text:find('" + std::string(part) + "', 1, true) ~= nil")) << part << "\n"
+                                                                                 << value("text");
+}
+
+TEST_F(CalibrateTest, SameBitsEachTime) {
+  ASSERT_EQ(run("a, b = fit(), fit()"), "");
+  EXPECT_TRUE(holds("a.values.tau0 == b.values.tau0 and a.calls == b.calls and tostring(a) == tostring(b)"));
+}
+
+TEST_F(CalibrateTest, OneRealAreaIsGivenNoNumber) {
+  ASSERT_EQ(run("f = fit{ where={ specimen='S2' }, specimen='specimen' }"), "");
+  EXPECT_TRUE(holds("not f.identifiable and f.parameters.tau0.value == nil and f.values.tau0 == nil"));
+  EXPECT_TRUE(holds("f.condition == nil and f.correlation[1][2] ~= f.correlation[1][2]"));
+  EXPECT_TRUE(holds("f.combinations[1]:find('alpha + 8e-10 tau0 = 0.4', 1, true) == 1"))
+      << value("f.combinations[1]");
+  EXPECT_TRUE(holds("f.combinations[1]:find('with tau0 in Pa', 1, true) ~= nil"));
+  EXPECT_TRUE(holds("f.verdict:find('`load` is 5 N', 1, true) ~= nil")) << value("f.verdict");
+  EXPECT_TRUE(holds("tostring(f):find('tau0       not identifiable', 1, true) ~= nil")) << value("f");
+}
+
+TEST_F(CalibrateTest, SpecimensAreTold) {
+  ASSERT_EQ(run("f = fit{ specimen='specimen', scatter='relative' } means = fit{ specimen='specimen', "
+                "basis='specimens' }"),
+            "");
+  EXPECT_TRUE(holds("#f.specimens == 4 and f.specimens[2].name == 'S2' and f.specimens[2].rows == 4"));
+  EXPECT_TRUE(holds("f.specimen_f > 0 and f.specimen_p <= 1"));
+  EXPECT_TRUE(holds("means.by_specimens and means.degrees == 2 and means.observations == 4"));
+  ASSERT_EQ(run("f = fit()"), "");
+  EXPECT_TRUE(holds("f.warnings[#f.warnings]:find('give specimen=\"specimen\"', 1, true) ~= nil"));
+}
+
+TEST_F(CalibrateTest, UncertaintyIsAColumnANumberOrAQuantity) {
+  ASSERT_EQ(run("plain, number, quantity = fit(), fit{ u=0.01 }, fit{ u='1 deg' }"), "");
+  EXPECT_TRUE(holds("math.abs(plain.parameters.tau0.u / number.parameters.tau0.u - 1) < 1e-6"));
+  EXPECT_TRUE(holds("math.abs(number.residual_sd * 0.01 / (quantity.residual_sd * math.rad(1)) - 1) < 1e-6"));
+  ASSERT_EQ(
+      run("rows = t:rows() for _, r in ipairs(rows) do r.u = 0.02 * r.angle end rows = lab.table.from(rows) "
+          "f = fit{ data=rows, u='u' }"),
+      "");
+  EXPECT_TRUE(holds("f.values.tau0 ~= plain.values.tau0"));
+  EXPECT_TRUE(refuses("fit{ u='1 mm' }", "`u` is neither a column"));
+  EXPECT_TRUE(refuses("fit{ u=0 }", "`u` is 0 in row 1"));
+}
+
+TEST_F(CalibrateTest, RowsWithoutNumbersAreLeftOut) {
+  ASSERT_EQ(
+      run("rows = t:rows() rows[2].angle = nil rows[5].angle = 0/0 f = fit{ data=lab.table.from(rows) }"),
+      "");
+  EXPECT_TRUE(holds("f.n == 14 and f.left_out == 2 and f.rows[2] == 3"));
+}
+
+TEST_F(CalibrateTest, NotebooksAreTakenToo) {
+  ASSERT_EQ(run("book = lab.notebook 'angles' for _, r in ipairs(t:rows()) do book:write(r) end f = fit{ "
+                "data=book }"),
+            "");
+  EXPECT_TRUE(holds("f.values.tau0 == fit().values.tau0"));
+}
+
+TEST_F(CalibrateTest, ModelErrorsCarryTheLineTheRowAndTheParameters) {
+  EXPECT_TRUE(refuses("fit{ model=function(q, row) return q.alpha +\n row.nothing end }",
+                      "failed in row 1 with alpha = 0.1, tau0 = 5e+08 Pa: script.lua:"));
+  EXPECT_TRUE(
+      refuses("fit{ model=function(q, row) return lab.surface.sine{ cells=0 } end }", "failed in row 1"));
+  EXPECT_TRUE(refuses("fit{ model=function(q, row) return 'steep' end }",
+                      "returned the string \"steep\" for row 1 with alpha = 0.1"));
+  EXPECT_TRUE(refuses(
+      "fit{ where={ specimen='S3' }, model=function(q, row) if row.c > 1e-9 then return nil end end }",
+      "no finite value for row 1 at the start, with alpha = 0.1, tau0 = 5e+08 Pa"));
+  EXPECT_TRUE(refuses("fit{ model=function(q, row) return 0/0 end }", "no finite value for row 1"));
+}
+
+TEST_F(CalibrateTest, WhatIsAskedWronglyIsRefused) {
+  EXPECT_TRUE(refuses("fit{ y='angel' }", "angle"));
+  EXPECT_TRUE(refuses("fit{ specimen='specimens' }", "specimen"));
+  EXPECT_TRUE(refuses("fit{ y='specimen' }", "specimen"));
+  EXPECT_TRUE(refuses("fit{ data={ 1, 2 } }", "a table (lab.table) or a notebook"));
+  EXPECT_TRUE(refuses("fit{ model=3 }", "a function(q, row)"));
+  EXPECT_TRUE(refuses("fit{ parameters={} }", "names no parameter"));
+  EXPECT_TRUE(refuses("fit{ parameters={ 1, 2 } }", "names a parameter by the number"));
+  EXPECT_TRUE(refuses("fit{ parameters={ a={ stat=1 } } }", "did you mean `start`"));
+  EXPECT_TRUE(refuses("fit{ parameters={ a={ lower=1 } } }", "`parameters.a.start` is missing"));
+  EXPECT_TRUE(
+      refuses("fit{ parameters={ a={ start='5 MPa', lower='1 um' } } }", "another value of the parameter"));
+  EXPECT_TRUE(refuses("fit{ parameters={ a='5 MPq' } }", "`parameters.a`"));
+  EXPECT_TRUE(refuses("fit{ parameters={ a={ start=3, upper=1 } } }", "outside its bounds"));
+  EXPECT_TRUE(refuses("fit{ parameters={ a=true } }", "give a number or a quantity"));
+  EXPECT_TRUE(refuses("fit{ confidence=1 }", "confidence"));
+  EXPECT_TRUE(refuses("fit{ scatter='some' }", "absolute"));
+  EXPECT_TRUE(refuses("fit{ basis='specimens' }", "specimen"));
+  EXPECT_TRUE(refuses("fit{ where={ specimen='S9' } }", "rows"));
+  EXPECT_TRUE(refuses("fit{ parameters={ a=1, b=1, c=1 }, where={ c=0 } }", "0 rows for 3 parameters"));
+  EXPECT_TRUE(refuses("lab.calibrate()", "model"));
+}
+
+TEST_F(CalibrateTest, StopKeepsNothing) {
+  const std::string text =
+      run("fit{ model=function(q, row) stopped = (stopped or 0) + 1 return q.alpha end, data=t }");
+  EXPECT_EQ(text, "");
+  stop_flag().raise(StopReason::interrupt);
+  EXPECT_NE(run("kept = fit()"), "");
+  stop_flag().clear();
+  EXPECT_TRUE(holds("kept == nil"));
+}
+
+TEST_F(CalibrateTest, ChartsAreDrawnWithoutTheModel) {
+  ASSERT_EQ(run("f = fit() before = calls a, b, c = f:chart{ x='c' }, f:chart{ likelihood=true }, f:chart{ "
+                "file='m.svg' }"),
+            "");
+  EXPECT_TRUE(holds("calls == before"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run" / "calibration-angle.svg"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run" / "calibration-angle-likelihood.svg"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run" / "m.svg"));
+  EXPECT_TRUE(refuses("f:chart{ x='nothing' }", "nothing"));
+  EXPECT_TRUE(refuses("f:chart{ x='specimen' }", "is no axis of a chart"));
+  EXPECT_TRUE(refuses("f:chart{ x='c', likelihood=true }", "leave out `x` or `likelihood`"));
+  EXPECT_TRUE(refuses("fit{ profile=false }:chart{ likelihood=true }", "no profile likelihood to draw"));
+}
+
+TEST_F(CalibrateTest, PressesMayStandInTheModel) {
+  // The hardness of a law is found from the load that it bears.
+  ASSERT_EQ(run(R"(
+    local face = lab.surface.sine{ cells=16, size="1 mm", amplitude="1 um", material=lab.material "steel" }
+    local pair = lab.contact{ lower=face, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
+    local measured = {}
+    for k, p in ipairs{ 1e6, 2e6, 4e6, 8e6 } do
+      measured[k] = { p=p, gap=pair:press{ pressure=p }.mean_gap * (1 + 0.001 * (k % 2)) }
+    end
+    f = lab.calibrate{ data=lab.table.from(measured), y="gap", parameters={ factor={ start=0.8, lower=0.1 } },
+                       model=function(q, row) return q.factor * pair:press{ pressure=row.p }.mean_gap end })"),
+            "");
+  EXPECT_TRUE(holds("math.abs(f.values.factor - 1) < 0.01")) << value("f");
+}
+
+TEST_F(CalibrateTest, DryRunChecksTheKeysAndCallsNothing) {
+  open_dry();
+  EXPECT_EQ(
+      run("f = lab.calibrate{ model=function() error 'called' end, data=lab.table.from{ { a=1 } }, y='a', "
+          "parameters={ q=1 } } x = f.parameters.q.value f:chart{ x='a' }"),
+      "");
+  EXPECT_TRUE(
+      refuses("lab.calibrate{ model=print, data=lab.table.from{ { a=1 } }, y='a', paramters={ q=1 } }",
+              "parameters"));
+}
+
+}  // namespace
+}  // namespace asperity::lua::calibrate_test
