@@ -260,10 +260,9 @@ class VerdictWords {
     }
     const std::size_t parameters = of_.parameters.size();
     if (of_.specimen_scatter && !of_.by_specimens && count < parameters + 4)
-      of_.warnings.push_back(
-          "with " + std::to_string(count) +
-          " specimens a scatter between them of half that of the repeats often goes unseen, "
-          "and intervals are then too narrow; six or more would show it");
+      of_.warnings.push_back("with " + std::to_string(count) +
+                             " specimens a scatter between them as large as that of repeats can go unseen, "
+                             "and intervals are then too narrow; six or more would show it");
   }
 
   void tell_scatter() {

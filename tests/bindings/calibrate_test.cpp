@@ -23,7 +23,8 @@ class CalibrateTest : public LuaTest {
         end
       end
       t = lab.table.from(rows)
-      function law(q, row) calls = (calls or 0) + 1 return math.atan(q.alpha + q.tau0 * row.c) end
+      calls = 0
+      function law(q, row) calls = calls + 1 return math.atan(q.alpha + q.tau0 * row.c) end
       function fit(more)
         local keys = { model=law, data=t, y="angle", parameters={ tau0={ start="500 MPa", lower=0 }, alpha=0.1 } }
         for key, value in pairs(more or {}) do keys[key] = value end
@@ -39,7 +40,7 @@ class CalibrateTest : public LuaTest {
 };
 
 TEST_F(CalibrateTest, ParametersComeInSIWithIntervals) {
-  ASSERT_EQ(run("f = fit() tau0 = f.parameters.tau0 alpha = f.parameters.alpha"), "");
+  ASSERT_EQ(run("f = fit() asked = calls tau0 = f.parameters.tau0 alpha = f.parameters.alpha"), "");
   EXPECT_TRUE(holds("math.abs(tau0.value / 3e8 - 1) < 0.1 and math.abs(alpha.value - 0.2) < 0.03"));
   EXPECT_TRUE(holds("f.values.tau0 == tau0.value and f.names[1] == 'alpha' and f.names[2] == 'tau0'"));
   EXPECT_TRUE(
@@ -50,14 +51,14 @@ TEST_F(CalibrateTest, ParametersComeInSIWithIntervals) {
   EXPECT_TRUE(
       holds("#f.residuals == 16 and f.fitted_low[3] < f.fitted[3] and f.fitted[3] < f.fitted_high[3]"));
   EXPECT_TRUE(holds("math.abs(f.fitted[3] + f.residuals[3] - t:rows()[3].angle) < 1e-15"));
-  EXPECT_TRUE(holds("f.calls == calls and #f.specimens == 0 and f.specimen_p == nil"));
+  EXPECT_TRUE(holds("f.calls == asked and #f.specimens == 0 and f.specimen_p == nil"));
 }
 
 TEST_F(CalibrateTest, PrintsALineAParameterAndTheVerdict) {
   ASSERT_EQ(run("text = tostring(fit())"), "");
   for (const char* part :
        {"calibration of angle over 16 rows, 14 degrees of freedom", "\\n  tau0 ", " MPa to ",
-        "correlation: alpha with tau0 -0.9", "verdict: every parameter is determined"})
+        "correlation: alpha with tau0 -0.8", "verdict: every parameter is determined"})
     EXPECT_TRUE(holds("text:find('" + std::string(part) + "', 1, true) ~= nil")) << part << "\n"
                                                                                  << value("text");
 }
@@ -153,13 +154,11 @@ TEST_F(CalibrateTest, WhatIsAskedWronglyIsRefused) {
 }
 
 TEST_F(CalibrateTest, StopKeepsNothing) {
-  const std::string text =
-      run("fit{ model=function(q, row) stopped = (stopped or 0) + 1 return q.alpha end, data=t }");
-  EXPECT_EQ(text, "");
+  ASSERT_EQ(run("kept = false"), "");
   stop_flag().raise(StopReason::interrupt);
   EXPECT_NE(run("kept = fit()"), "");
   stop_flag().clear();
-  EXPECT_TRUE(holds("kept == nil"));
+  EXPECT_TRUE(holds("kept == false"));
 }
 
 TEST_F(CalibrateTest, ChartsAreDrawnWithoutTheModel) {

@@ -180,9 +180,26 @@ TEST(Calibration, CorrelationIsThatOfTheNormalEquations) {
   }
 }
 
+TEST(Calibration, FewSpecimensHideTheirScatter) {
+  // Four times the specimens of which the same scatter is seen more often.
+  const Coverage few = coverage_of(3, 4, 0.1, coverage_sets()),
+                 many = coverage_of(12, 4, 0.1, coverage_sets());
+  EXPECT_LT(few.by_specimens, many.by_specimens);
+  EXPECT_LT(few.of(few.tau0), many.of(many.tau0));
+  if (std::getenv("ASPERITY_COVERAGE_SETS") == nullptr) return;
+  for (const Kind& kind : {Kind{3, 4, 0.1}, Kind{4, 4, 0.1}, Kind{6, 4, 0.05}, Kind{12, 4, 0.05},
+                           Kind{6, 4, 0.1}, Kind{12, 4, 0.1}, Kind{3, 4, 0}, Kind{6, 4, 0}})
+    for (const CalibrationBasis basis : {CalibrationBasis::automatic, CalibrationBasis::rows}) {
+      const Coverage found = coverage_of(kind.specimens, kind.ratio, kind.between, coverage_sets(), basis);
+      std::printf("%2zu specimens, cmax/cmin %3g, scatter between %3g%s: tau0 %.3f\n", kind.specimens,
+                  kind.ratio, kind.between, basis == CalibrationBasis::rows ? ", rows alone" : "",
+                  found.of(found.tau0));
+    }
+}
+
 TEST(Calibration, PooledIntervalsOfScatteringSpecimensHoldTooSeldom) {
-  const Coverage pooled = coverage_of(6, 4, 0.1, coverage_sets(), CalibrationBasis::rows),
-                 means = coverage_of(6, 4, 0.1, coverage_sets());
+  const Coverage pooled = coverage_of(6, 4, 0.1, 150, CalibrationBasis::rows),
+                 means = coverage_of(6, 4, 0.1, 150);
   EXPECT_LT(pooled.of(pooled.tau0), 0.85);
   EXPECT_EQ(pooled.by_specimens, 0);
   EXPECT_GT(means.of(means.tau0), 0.88);
