@@ -413,6 +413,26 @@
 ---@field left_out integer cells that are empty or no finite number
 ---@field rule string by which the bins were chosen
 
+---A parameter of a calibration, in SI.
+---@class asperity.CalibratedParameter
+---@field value number|nil its estimate; nil where the rows do not determine it
+---@field u number|nil its standard uncertainty; nil at a bound, and where no scatter is seen
+---@field low number|nil lower end of its linearised interval, not cut off at a bound
+---@field high number|nil upper end of its linearised interval
+---@field profile_low number|nil lower end of its interval by profile likelihood; nil where the rows give none
+---@field profile_high number|nil upper end of its interval by profile likelihood; nil where the rows give none
+---@field determined boolean whether the rows determine it
+---@field at_lower boolean whether it stands at its lower bound
+---@field at_upper boolean whether it stands at its upper bound
+---@field profile_values number[] places at which its profile was computed
+---@field profile_excess number[] (S - S_min)/s² there; the interval ends where it meets `cut`
+
+---A specimen of a calibration.
+---@class asperity.CalibratedSpecimen
+---@field name string as its column tells it
+---@field rows integer how many rows are of it
+---@field residual number mean of its residuals: relative to the fit with scatter="relative", in units of `u` where that is known, else in the unit of y
+
 ---How far the contact conditions are from being met, each relative.
 ---@class asperity.SpreadCertificate
 ---@field penetration number greatest overlap of the bodies where the pressure is below its cap, over the rms height of both
@@ -1606,6 +1626,47 @@ function Study:cheapest(options) end
 ---@field confirmed integer how many finer settings of its way were measured
 local StudyChoice = {}
 
+---@class asperity.options.calibration.chart
+---@field x? string the column along; without it measured y stands against that of the fit (string)
+---@field likelihood? boolean draw the profile likelihood of each parameter instead, with the limit at which its interval ends (boolean, default false)
+---@field title? string above the chart (string)
+---@field file? string an .svg, .png or .pdf under the run directory; default calibration-<y>.svg, with likelihood calibration-<y>-likelihood.svg (string)
+
+---What lab.calibrate found. print() shows a line a parameter, their correlation and the verdict.
+---@class asperity.Calibration
+---@field parameters table<string, asperity.CalibratedParameter> each parameter under its name
+---@field values table<string, number> the estimates by name in SI, without those that are not determined
+---@field names string[] of the parameters, in the order of `correlation`
+---@field identifiable boolean whether the rows determine every parameter
+---@field verdict string what the rows determine and what not, and on what the intervals rest
+---@field combinations string[] what the rows determine in the place of parameters that they do not tell apart
+---@field correlation number[][] of the estimates; nan beside parameters that are not determined or stand at a bound
+---@field condition number|nil largest over smallest singular value of the Jacobian with columns of length 1; nil where a direction is not seen
+---@field n integer rows that were used
+---@field left_out integer rows with an empty cell or no finite number
+---@field rows integer[] the rows that were used, counted from 1 after `where`
+---@field fitted number[] the model in each row
+---@field fitted_low number[] lower end of the interval of the model there; nan where there is none
+---@field fitted_high number[] upper end of it
+---@field residuals number[] y less the model in each row
+---@field residual_sd number standard deviation of an observation about the model: relative with scatter="relative", in units of `u` where that is known; 0 without degrees of freedom
+---@field observations integer rows, or specimens where their means count
+---@field degrees integer degrees of freedom: observations less parameters that they determine
+---@field by_specimens boolean whether the means of specimens were fitted
+---@field specimens asperity.CalibratedSpecimen[] in the order of their first rows; empty without `specimen`
+---@field specimen_f number|nil variance between specimens over that within them, as F has it; nil where it cannot be seen
+---@field specimen_p number|nil how often F is larger where specimens do not scatter
+---@field confidence number of the intervals
+---@field cut number of the profile likelihood: t² of the degrees of freedom
+---@field warnings string[] what to look at
+---@field calls integer how often the model was called
+local Calibration = {}
+
+---Draws the measured rows with the fit and its band, or the profile likelihood of each parameter; returns the file. Takes no call of the model.
+---@param options? asperity.options.calibration.chart
+---@return string
+function Calibration:chart(options) end
+
 ---A rough surface of which each rank holds some rows.
 ---@class asperity.SpreadSurface
 ---@field cells integer[] cells along x and y
@@ -1722,6 +1783,19 @@ function SpreadState:write(name, path) end
 ---@field at_most? number|string longest time for the whole study, the truth included; it is quoted first, and settings that would not fit are left out (a time above 0)
 ---@field name? string of the study and of <name>.csv, where its rows are kept (string)
 
+---@class asperity.options.lab.calibrate
+---@field model function function(q, row) returning y, one number: q holds the parameters by name in SI, row the cells of a row by column as rows() gives them; nil where it has no value (function, required)
+---@field data asperity.Table|asperity.Notebook the measured rows (Table|Notebook, required)
+---@field y string the column that the model is to give (string, required)
+---@field parameters table each parameter by its name: { start=, lower=, upper=, step= }, numbers in SI or quantities, or its start alone. lower and upper may be left out; step is that of differences, relative (0.001), and wants to be larger for a model with a tolerance of its own (table, required)
+---@field u? string|number standard uncertainty of y: a column, one number in the unit of y, or a quantity; rows weigh by 1/u². All alike without it (string|number)
+---@field scatter? "absolute"|"relative" what scatters alike in all rows: y, or y relative to the fit (weights 1/fit²) ("absolute"|"relative", default "absolute")
+---@field specimen? string the column that tells specimens apart; rows of one are repeats, and where specimens scatter more than repeats their means are what is fitted (string)
+---@field basis? "automatic"|"rows"|"specimens" what counts as an observation; automatic: rows, and specimens where they scatter (F test at 25 %) ("automatic"|"rows"|"specimens", default "automatic")
+---@field confidence? number of the intervals (number above 0 and below 1, default 0.95)
+---@field profile? boolean intervals by profile likelihood as well: two sets of parameters each where the model is straight, ten or more where it is curved (boolean, default true)
+---@field where? table only rows in which these columns hold these values (table)
+
 ---The laboratory: surfaces, contacts, friction, and the notebook that keeps what was found.
 ---@class asperity.lab
 ---@field rigid asperity.Material a body that does not deform
@@ -1770,6 +1844,11 @@ function lab.ensemble(options) end
 ---@param options asperity.options.lab.work_precision
 ---@return asperity.Study
 function lab.work_precision(options) end
+
+---Fits parameters of a law or a model to measured rows by least squares, and says what the rows tell of each: estimate, linearised interval (Student's t), interval by profile likelihood (F), correlation, and a verdict. What the rows do not determine is given no number, and the combination that they do determine is named. Derivatives are taken by the program.
+---@param options asperity.options.lab.calibrate
+---@return asperity.Calibration
+function lab.calibrate(options) end
 
 ---What this run has done so far and what it cost, call by call and effect by effect, with what is in no line at the end.
 ---@return asperity.Ledger
