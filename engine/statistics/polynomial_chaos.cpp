@@ -63,14 +63,14 @@ class GrowingFit {
     std::vector<double> r(q_.size() + 1);
     for (int pass = 0; pass < 2; ++pass)
       for (std::size_t k = 0; k < q_.size(); ++k) {
-        const double part = dot(q_[k], column);
+        const double part = product_of(q_[k], column);
         r[k] += part;
         for (std::size_t i = 0; i < column.size(); ++i) column[i] -= part * q_[k][i];
       }
     r.back() = norm(column);
     if (!(r.back() > 1e-8 * length)) return false;
     for (double& value : column) value /= r.back();
-    const double part = dot(column, residuals_);
+    const double part = product_of(column, residuals_);
     for (std::size_t i = 0; i < column.size(); ++i) {
       residuals_[i] -= part * column[i];
       leverage_[i] += column[i] * column[i];
@@ -103,12 +103,12 @@ class GrowingFit {
   }
 
  private:
-  static double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  static double product_of(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
     return sum;
   }
-  static double norm(const std::vector<double>& a) { return std::sqrt(dot(a, a)); }
+  static double norm(const std::vector<double>& a) { return std::sqrt(product_of(a, a)); }
 
   std::vector<std::vector<double>> q_, r_;  // columns; r_[k] has k + 1 entries
   std::vector<double> parts_, residuals_, leverage_;

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The budget of a number on models whose truth is known: whether its interval holds the truth as often as it
+// says and is no wider than it must be, whether shares are those that were put in, and what it refuses.
+#include "engine/statistics/budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/arithmetic/random.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/sanitizers.hpp"
+
+namespace asperity {
+namespace {
+namespace budget_test {
+
+// An experiment that somebody might make: scatter over seeds, an error of the cells of some order between one
+// and two that itself scatters, and inputs measured with an error, of which the model is a little curved.
+struct Experiment {
+  double scatter, of_cells, order, cells_scatter;
+  std::vector<double> slopes, curvatures, truth;
+  Stream stream;
+
+  double smooth(const std::vector<double>& x) const {
+    double y = 10;
+    for (std::size_t j = 0; j < x.size(); ++j) y += slopes[j] * x[j] + curvatures[j] * x[j] * x[j];
+    return y;
+  }
+  double answer(const std::vector<double>& x, std::size_t seed, double cells) const {
+    const double error = of_cells * elementary::pow(32 / cells, order);
+    return smooth(x) + scatter * stream.normal(1000 + 2 * seed) +
+           error * (1 + cells_scatter * stream.normal(1001 + 2 * seed));
+  }
+};
+
+struct Trial {
+  Experiment experiment;
+  BudgetRequest request;
+};
+
+Trial make_trial(std::uint64_t number) {
+  const Stream s(number, "blind experiment");
+  Trial trial{{s.uniform(0, .1, 1), s.uniform(1, -1.5, 1.5), s.uniform(2, 1, 2), .1, {}, {}, {}, s}, {}};
+  Experiment& e = trial.experiment;
+  BudgetRequest& r = trial.request;
+  r.replicates = 5 + static_cast<std::size_t>(s.below(3, 16));
+  if (s.uniform(4) < .7) r.cells = {32, 64};
+  const auto inputs = static_cast<std::size_t>(s.below(5, 4));
+  for (std::size_t j = 0; j < inputs; ++j) {
+    e.slopes.push_back(s.uniform(10 + 10 * j, -3, 3));
+    e.curvatures.push_back(s.uniform(11 + 10 * j, -.2, .2));
+    e.truth.push_back(s.uniform(12 + 10 * j, -1, 1));
+    UncertainInput input{"input " + std::to_string(j), 0, s.uniform(13 + 10 * j, .02, .3),
+                         InputShape::normal};
+    double off = s.normal(500 + j);
+    if (s.uniform(14 + 10 * j) < .3) {
+      input.shape = InputShape::uniform;
+      off = std::sqrt(3.0) * s.uniform(15 + 10 * j, -1, 1);
+    }
+    input.value = e.truth[j] + input.uncertainty * off;
+    r.inputs.push_back(input);
+  }
+  if (r.cells.empty()) e.of_cells = 0;
+  r.draws = 1000;
+  return trial;
+}
+
+BudgetAsk ask_of(const Trial& trial) {
+  return [&trial](const BudgetSetting& run) {
+    const auto& cells = trial.request.cells;
+    return BudgetAnswer{
+        trial.experiment.answer(run.inputs, run.replicate, cells.empty() ? 32 : cells[run.cells]), .01};
+  };
+}
+
+// Half the width of the interval for somebody who knows how every part errs.
+double known_half_width(const Trial& trial) {
+  const Experiment& e = trial.experiment;
+  const double n = static_cast<double>(trial.request.replicates);
+  double variance = e.scatter * e.scatter / n;
+  if (!trial.request.cells.empty()) {
+    // Mean and square of the factor 1/(2^p - 1) over p from 1 to 2.
+    double mean = 0, square = 0;
+    for (int k = 0; k < 1000; ++k) {
+      const double f = 1 / (elementary::exp2(1 + (k + .5) / 1000) - 1);
+      mean += f / 1000;
+      square += f * f / 1000;
+    }
+    const double fine = e.of_cells * elementary::pow(.5, e.order);
+    const double change = fine - e.of_cells;
+    variance += change * change * (square - mean * mean);
+    const double of_seed = (fine + mean * change) * e.cells_scatter;
+    variance += of_seed * of_seed / n;
+  }
+  for (std::size_t j = 0; j < trial.request.inputs.size(); ++j) {
+    const double u = trial.request.inputs[j].uncertainty;
+    const double slope = e.slopes[j] + 2 * e.curvatures[j] * trial.request.inputs[j].value;
+    variance += slope * slope * u * u + 2 * e.curvatures[j] * e.curvatures[j] * u * u * u * u;
+  }
+  return 1.96 * std::sqrt(variance);
+}
+
+TEST(Budget, IntervalHoldsTheTruthOfBlindExperimentsAsOftenAsItSays) {
+  const int count = sanitized ? 60 : 1000;
+  int held = 0;
+  double wider = 0;
+  for (int k = 0; k < count; ++k) {
+    const Trial trial = make_trial(static_cast<std::uint64_t>(k));
+    const Budget budget = budget_of(trial.request, ask_of(trial));
+    const double truth = trial.experiment.smooth(trial.experiment.truth);
+    held += budget.low <= truth && truth <= budget.high ? 1 : 0;
+    wider += budget.half_width() / known_half_width(trial) / count;
+  }
+  RecordProperty("held", held);
+  RecordProperty("wider", std::to_string(wider));
+  EXPECT_GE(held, sanitized ? 50 : 930);
+  EXPECT_LE(held, sanitized ? 60 : 970);
+  EXPECT_LE(wider, 1.3);
+  EXPECT_GE(wider, 0.9);
+}
+
+// --- shares
+
+BudgetRequest three_parts() {
+  BudgetRequest r;
+  r.replicates = 6;
+  r.cells = {64, 128};
+  r.tolerances = {1e-3, 1e-4};
+  r.inputs = {{"hardness", 1.1e9, 1e8}, {"mass", .2, .01, InputShape::uniform}};
+  return r;
+}
+
+// Scatter ±.3 in turn; .9 on the coarse grid and .3 on the fine one; .09 and .009 by tolerance.
+double known_answer(const BudgetRequest& r, const BudgetSetting& run) {
+  const double of_cells = run.cells == 0 ? .9 : .3;
+  const double of_solver = 90 * r.tolerances[run.tolerance];
+  return 5 + (run.replicate % 2 == 0 ? .3 : -.3) + of_cells + of_solver + 2e-9 * (run.inputs[0] - 1.1e9) +
+         20 * (run.inputs[1] - .2);
+}
+
+Budget known_budget(const BudgetRequest& r) {
+  return budget_of(r, [&r](const BudgetSetting& run) {
+    return BudgetAnswer{known_answer(r, run), run.cells == 0 ? .25 : 1.0};
+  });
+}
+
+double u_of(const Budget& budget, const std::string& name) {
+  for (const BudgetPart& part : budget.parts)
+    if (part.name == name) return part.uncertainty;
+  ADD_FAILURE() << "no part " << name;
+  return 0;
+}
+
+TEST(Budget, SharesAreThosePutIn) {
+  const Budget b = known_budget(three_parts());
+  // The change of -.6 times 1/(2^p - 1), whose deviation over p from 1 to 2 is .18616.
+  EXPECT_NEAR(u_of(b, "sampling"), .3 * std::sqrt(6.0 / 5) / std::sqrt(6), 1e-12);
+  EXPECT_NEAR(u_of(b, "cells"), .6 * .18616, 1e-5);
+  EXPECT_NEAR(u_of(b, "solver"), .081 / 9 / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(u_of(b, "hardness"), .2, 1e-9);
+  EXPECT_NEAR(u_of(b, "mass"), .2, 1e-9);
+  EXPECT_NEAR(u_of(b, "inputs together"), 0, 1e-6);
+  EXPECT_NEAR(b.value, 5 - .6 * .5850 + .3 + .009, .01);
+  double sum = 0;
+  for (const BudgetPart& part : b.parts) sum += part.share;
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_GE(b.parts.front().share, b.parts.back().share);
+  EXPECT_EQ(b.runs, budget_runs(three_parts()));
+  EXPECT_EQ(b.runs, 6u * 2 + 1 + 32);
+  EXPECT_NEAR(b.seconds, 6 * 1.25 + 33 * .25, 1e-12);
+  EXPECT_NE(b.text().find("hardness"), std::string::npos);
+}
+
+TEST(Budget, HalvingAPartCostsWhatItsRunsTake) {
+  const Budget b = known_budget(three_parts());
+  for (const BudgetPart& part : b.parts) {
+    EXPECT_LE(part.half_width_after, b.half_width());
+    if (part.name == "sampling") {
+      EXPECT_EQ(part.halving, "18 more replicates");
+      EXPECT_NEAR(*part.halving_seconds, 18 * 1.25, 1e-12);
+    } else if (part.name == "cells") {
+      // Of order 1.5: 2^(2/3) as many cells a side, and time with their square.
+      EXPECT_EQ(part.halving, "cells = 204");
+      EXPECT_NEAR(*part.halving_seconds, 6 * (204.0 / 128) * (204.0 / 128), 1e-9);
+    } else if (part.name == "hardness") {
+      EXPECT_FALSE(part.halving_seconds);
+    }
+  }
+}
+
+TEST(Budget, CheapestWayReachesTheAskedIntervalAndNoCheaperOneDoes) {
+  BudgetRequest r = three_parts();
+  r.inputs.clear();
+  r.tolerances.clear();
+  const auto ask = [](const BudgetSetting& run) {
+    return BudgetAnswer{5 + .5 * (run.replicate % 2 == 0 ? 1 : -1) + (run.cells == 0 ? .02 : .01),
+                        run.cells == 0 ? .25 : 1.0};
+  };
+  r.half_width = .2;
+  const Budget b = budget_of(r, ask);
+  ASSERT_TRUE(b.plan);
+  EXPECT_LE(b.plan->half_width, .2);
+  // Scatter is what matters: more seeds on coarser cells.
+  EXPECT_LT(b.plan->cells, 128);
+  EXPECT_GT(b.plan->replicates, 20u);
+  EXPECT_LT(b.plan->replicates, 40u);
+  EXPECT_NE(b.text().find("instead of 6 replicates on 128²"), std::string::npos) << b.text();
+  r = three_parts();
+  r.half_width = .1;
+  const Budget none = known_budget(r);
+  EXPECT_FALSE(none.plan);
+  EXPECT_NE(none.text().find("cannot be reached"), std::string::npos);
+}
+
+TEST(Budget, OfReplicatesAloneIsStudentsInterval) {
+  BudgetRequest r;
+  r.replicates = 4;
+  const std::vector<double> values = {1, 2, 4, 9};
+  const auto ask = [&](const BudgetSetting& run) { return BudgetAnswer{values[run.replicate], 0}; };
+  const Budget b = budget_of(r, ask);
+  const SampleMean mean = sample_mean(values);
+  EXPECT_DOUBLE_EQ(b.value, 4);
+  EXPECT_DOUBLE_EQ(b.low, *mean.low);
+  EXPECT_DOUBLE_EQ(b.high, *mean.high);
+  EXPECT_FALSE(b.warnings.empty());  // four are few
+  r.interval = MeanInterval::log_normal;
+  const Budget log = budget_of(r, ask);
+  EXPECT_GT(log.low, 0);
+  EXPECT_NE(log.text().find("Cox"), std::string::npos);
+}
+
+TEST(Budget, LogIntervalHoldsMoreSkewedMeansThanStudents) {
+  const int count = sanitized ? 40 : 400;
+  int student = 0, logs = 0, warned = 0;
+  for (int k = 0; k < count; ++k) {
+    const Stream s(static_cast<std::uint64_t>(k), "skewed");
+    BudgetRequest r;
+    r.replicates = 8;
+    r.draws = 1000;
+    r.cells = {32, 64};
+    const auto ask = [&](const BudgetSetting& run) {
+      return BudgetAnswer{elementary::exp(s.normal(run.replicate) - .5) * (run.cells == 0 ? 1.002 : 1.001),
+                          0};
+    };
+    const Budget one = budget_of(r, ask);
+    r.interval = MeanInterval::log_normal;
+    const Budget other = budget_of(r, ask);
+    student += one.low <= 1 && 1 <= one.high ? 1 : 0;
+    logs += other.low <= 1 && 1 <= other.high ? 1 : 0;
+    warned += one.warnings.empty() ? 0 : 1;
+  }
+  EXPECT_GT(logs, student);
+  EXPECT_GE(logs, count * 91 / 100);
+  EXPECT_GT(warned, count / 2);
+}
+
+TEST(Budget, ObservesTheOrderOfThreeGridsAndWarnsOfAnother) {
+  BudgetRequest r;
+  r.cells = {32, 64, 128};
+  double order = 1.5;
+  const auto ask = [&](const BudgetSetting& run) {
+    return BudgetAnswer{7 + elementary::pow(.5, order * static_cast<double>(run.cells)), 1};
+  };
+  const Budget b = budget_of(r, ask);
+  ASSERT_TRUE(b.order_observed);
+  EXPECT_NEAR(*b.order_observed, 1.5, 1e-9);
+  EXPECT_TRUE(b.warnings.empty());
+  EXPECT_LT(b.low, 7);
+  EXPECT_GT(b.high, 7);
+  order = 4;
+  EXPECT_FALSE(budget_of(r, ask).warnings.empty());
+  r.order_low = r.order_high = 4;
+  const Budget exact = budget_of(r, ask);
+  EXPECT_NEAR(exact.value, 7, 1e-12);
+  EXPECT_NEAR(exact.half_width(), 0, 1e-12);
+}
+
+TEST(Budget, WithoutAPolynomialTheInputsAreOneRow) {
+  BudgetRequest r;
+  r.inputs = {{"a", 0, 1, InputShape::uniform}, {"b", 0, 1, InputShape::uniform}};
+  const auto jumps = [](const BudgetSetting& run) {
+    return BudgetAnswer{elementary::sin(40 * run.inputs[0]) > 0 ? 1.0 : -1.0, 0};
+  };
+  const Budget b = budget_of(r, jumps);
+  ASSERT_EQ(b.parts.size(), 1u);
+  EXPECT_EQ(b.parts[0].name, "inputs");
+  EXPECT_NEAR(b.uncertainty, 1, .1);
+  EXPECT_FALSE(b.warnings.empty());
+}
+
+TEST(Budget, RefusesWhatContradictsItself) {
+  const auto one = [](const BudgetSetting&) { return BudgetAnswer{1, 10}; };
+  const auto refused = [&](auto change) {
+    BudgetRequest r = three_parts();
+    change(r);
+    EXPECT_THROW(budget_of(r, one), Error);
+  };
+  refused([](BudgetRequest& r) { r = {}; });
+  refused([](BudgetRequest& r) { r.replicates = 1; });
+  refused([](BudgetRequest& r) { r.cells = {128, 64}; });
+  refused([](BudgetRequest& r) { r.cells = {-64, 64}; });
+  refused([](BudgetRequest& r) { r.tolerances = {1e-4, 1e-3}; });
+  refused([](BudgetRequest& r) { r.order_low = 3; });
+  refused([](BudgetRequest& r) { r.confidence = 1; });
+  refused([](BudgetRequest& r) { r.half_width = 0; });
+  refused([](BudgetRequest& r) { r.at_most = 60; });
+  refused([](BudgetRequest& r) { r.runs = 3; });
+  refused([](BudgetRequest& r) { r.inputs[0].uncertainty = 0; });
+  EXPECT_THROW(budget_of(three_parts(), [](const BudgetSetting&) { return BudgetAnswer{NAN, 0}; }), Error);
+  const Budget same = budget_of(three_parts(), one);
+  EXPECT_EQ(same.half_width(), 0);
+  EXPECT_FALSE(same.text().empty());
+}
+
+}  // namespace budget_test
+}  // namespace
+}  // namespace asperity
