@@ -12,7 +12,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/budget_plan.hpp"
-#include "engine/statistics/distributions.hpp"
+#include "engine/statistics/sensitivity.hpp"
 
 namespace asperity {
 
@@ -90,6 +90,11 @@ class BudgetRuns {
       if (r == 0) forecast();
     }
     return answers;
+  }
+  // More runs over the inputs than were counted at first.
+  void expect(std::size_t more) {
+    total_ += more;
+    weight_ += weight_of(0) * static_cast<double>(more);
   }
   double loose() { return run(nominal_, 0, 0, tightest_ - 1, "solver"); }
   double at(const std::vector<double>& inputs) { return run(inputs, 0, 0, tightest_, "inputs"); }
@@ -334,14 +339,18 @@ void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
     budget.notes.emplace_back("inputs: taken as exact");
     return;
   }
-  const auto points = input_points(request.inputs, runs_of_inputs(request), request.seed);
-  std::vector<double> answers;
-  for (const std::vector<double>& point : points) {
-    std::vector<double> values;
-    for (std::size_t j = 0; j < point.size(); ++j) values.push_back(request.inputs[j].at(point[j]));
-    answers.push_back(runs.at(values));
-  }
-  budget.chaos = polynomial_chaos(request.inputs, points, answers);
+  // Doubled only where nobody has said how many runs or how long.
+  ChaosRequest of_inputs{request.inputs, request.runs, request.seed};
+  if (request.at_most) of_inputs.runs = runs_of_inputs(request);
+  std::size_t asked = 0;
+  ChaosOfRuns chaos = chaos_of_runs(
+      of_inputs, [&](const std::vector<double>& values) { return runs.at(values); },
+      [&](std::size_t more) {
+        if (asked > 0) runs.expect(more);
+        asked += more;
+      });
+  budget.chaos = std::move(chaos.chaos);
+  const std::vector<double>& answers = chaos.answers;
   budget.notes.push_back("inputs: taken as independent, shares do not hold for correlated ones; " +
                          budget.chaos->text());
   if (budget.chaos->trust() == ChaosTrust::good) return;

@@ -33,7 +33,7 @@ struct BudgetRequest {
   std::vector<double> cells;           // a side, ascending; the share of cells takes two or more
   double order_low = 1, order_high = 2;
   std::vector<double> tolerances;  // descending; the share of the solver takes two or more
-  std::size_t runs = 0;            // of the inputs; 0: chaos_runs
+  std::size_t runs = 0;  // of the inputs; 0: chaos_runs, doubled up to three times while they are too few
   double confidence = 0.95;
   MeanInterval interval = MeanInterval::student;
   std::optional<double> half_width;  // the interval that is asked for
@@ -94,7 +94,7 @@ struct Budget {
   std::string text() const;
 };
 
-// How many runs a request takes.
+// How many runs a request takes, at first.
 std::size_t budget_runs(const BudgetRequest& request);
 // Asks for every run once, the first replicate on each grid first. Throws Error{bad_value} for requests that
 // contradict themselves and answers that are not finite, Error{infeasible} where `at_most` is too short, and
