@@ -595,7 +595,7 @@ function Surface:fractal_dimension(options) end
 ---@return asperity.Surface
 function Surface:filtered(options) end
 
----Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy (Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit, points that were not measured too. .sur (Digital Surf) rounds heights to 2^-30 of the greatest and the size to single precision.
+---Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy (Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit, points that were not measured too. .sdf (ISO 25178-71) keeps heights and holes bit for bit, and the spacing of points. .sur (Digital Surf) rounds heights to 2^-30 of the greatest and the size to single precision.
 ---@param path string under the run directory
 ---@return string
 function Surface:write(path) end
@@ -1609,7 +1609,7 @@ function Study:rows() end
 ---@return string
 function Study:chart(path) end
 
----The fastest setting whose error, and that of every finer measured setting of its way, is at most the one asked for: a setting that comes near the truth by accident, where the error changes its sign, is not taken. Settings count as finer along the list of their way (turned round where `cells` falls or `tolerance` rises). An error says what the best reached was.
+---The fastest setting whose error, and that of every finer measured setting of its way, is at most the one asked for: a setting that comes near the truth by accident, where the error changes its sign, is not taken. Settings count as finer along the list of their way (turned round where `cells` falls or `tolerance` rises). Of settings whose answers are the same bits the one listed first is taken, unless another takes less than half its time. An error says what the best reached was.
 ---@param options asperity.options.study.cheapest
 ---@return asperity.StudyChoice
 function Study:cheapest(options) end
@@ -1973,7 +1973,7 @@ lab.units = {}
 ---@field unit? number|string length of one height of the file, where it has no unit, e.g. "um" (a length above 0)
 ---@field unit_xy? number|string length of one number of a position, in x y z points and in profiles of two columns that do not say it, e.g. "mm" (a length above 0)
 ---@field fill? "interpolate"|a length what points that were not measured become; without it they stay missing ("interpolate"|a length)
----@field format? string read as this format whatever the file looks like: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text" (string)
+---@field format? string read as this format whatever the file looks like: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "metropro", "al3d", "frt", "nms", "plu", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text" (string)
 ---@field channel? string which of several maps in a file of "hdf5", "gwy", "opd", "nanoscope", "opdx", "nid", "ibw" or "mi", by its name or number (string)
 ---@field material? asperity.Material what the body is made of (Material)
 
@@ -2026,7 +2026,7 @@ function lab.surface.from_function(options) end
 ---@return asperity.Surface
 function lab.surface.from_table(options) end
 
----A measured surface from a file: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text", known by its content, then by its extension. Points that it marks as not measured stay missing. Over x y z triples a line such as "x [mm];y [mm];z [um]" says their units.
+---A measured surface from a file: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "metropro", "al3d", "frt", "nms", "plu", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text", known by its content, then by its extension, as it is or packed with gzip. Points that it marks as not measured stay missing. Over x y z triples a line such as "x [mm];y [mm];z [um]" says their units.
 ---@param path string the file
 ---@param options? asperity.options.lab.surface.read
 ---@return asperity.Surface
@@ -2037,7 +2037,7 @@ function lab.surface.read(path, options) end
 ---@field unit? number|string length of one height of the file, where it has no unit, e.g. "um" (a length above 0)
 ---@field unit_xy? number|string length of one number of a position, in x y z points and in profiles of two columns that do not say it, e.g. "mm" (a length above 0)
 ---@field fill? "interpolate"|a length what points that were not measured become; without it they stay missing ("interpolate"|a length)
----@field format? string read as this format whatever the file looks like: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text" (string)
+---@field format? string read as this format whatever the file looks like: "npy", "x3p", "hdf5", "gwy", "sur", "opd", "sdf", "bcr", "metropro", "al3d", "frt", "nms", "plu", "nanoscope", "opdx", "nid", "ibw", "mi", "wsxm", "park", "stylus-csv", "xyz" or "text" (string)
 ---@field channel? string which of several maps in a file of "hdf5", "gwy", "opd", "nanoscope", "opdx", "nid", "ibw" or "mi", by its name or number (string)
 
 ---Profiles: stylus traces from files. Surfaces give others with s:profile and s:profiles.

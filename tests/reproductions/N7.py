@@ -19,14 +19,15 @@ def seconds(words):
 
 
 def settle(name):
-    """Each recommended setting of a study against all others that meet the error."""
+    """Each recommended setting of a study against those listed before it that give its digits in its time, unnamed."""
     global right
     for target, setting, line in name:
         if setting not in rows:
             continue
         value, low, high = rows[setting]
         before = list(rows)[:list(rows).index(setting)]
-        same = [s for s in before if rows[s][0] == value and rows[s][1] <= high and low <= rows[s][2]]
+        same = [s for s in before if rows[s][0] == value and rows[s][1] <= high and low <= rows[s][2]
+                and s not in line]
         if same:
             wrong.append((target, setting, same))
         else:
