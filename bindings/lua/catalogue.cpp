@@ -14,7 +14,9 @@
 #include "bindings/lua/specimen/shear.hpp"
 #include "bindings/lua/specimen/tilt_stage.hpp"
 #include "bindings/lua/spread/spread.hpp"
+#include "bindings/lua/study/budget.hpp"
 #include "bindings/lua/study/calibration.hpp"
+#include "bindings/lua/study/sensitivity.hpp"
 #include "bindings/lua/study/study.hpp"
 #include "bindings/lua/surface/areal_parameters.hpp"
 #include "bindings/lua/surface/material.hpp"
@@ -60,6 +62,8 @@ const std::vector<const Class*>& classes() {
       &class_of<TiltStage>(),
       &class_of<Notebook>(),
       &class_of<asperity::Table>(),
+      &class_of<Budget>(),
+      &class_of<Sensitivity>(),
       &class_of<Study>(),
       &class_of<StudyChoice>(),
       &class_of<CalibrationReport>(),

@@ -16,7 +16,9 @@
 #include "bindings/lua/runtime/version.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/tilt_stage.hpp"
+#include "bindings/lua/study/budget.hpp"
 #include "bindings/lua/study/calibration.hpp"
+#include "bindings/lua/study/sensitivity.hpp"
 #include "bindings/lua/study/work_precision.hpp"
 #include "bindings/lua/surface/material.hpp"
 #include "engine/core/error.hpp"
@@ -78,6 +80,8 @@ const Module& lab_module() {
     m.functions.push_back(ensemble_function());
     m.functions.push_back(work_precision_function());
     m.functions.push_back(calibrate_function());
+    m.functions.push_back(budget_function());
+    m.functions.push_back(sensitivity_function());
     m.functions.push_back(ledger_function());
     m.functions.push_back(files_function());
     m.functions.push_back(quantity_function());

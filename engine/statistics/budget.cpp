@@ -33,27 +33,6 @@ void check_ascent(const std::vector<double>& list, const char* key, bool ascendi
   }
 }
 
-void check_request(const BudgetRequest& request) {
-  if (!request.inputs.empty()) check_inputs(request.inputs);
-  if (request.replicates == 1)
-    refuse_request("`replicate` has one value", "scatter takes two or more, better five");
-  check_ascent(request.cells, "cells", true);
-  check_ascent(request.tolerances, "tolerance", false);
-  if (!(request.order_low > 0) || !(request.order_high >= request.order_low) || !(request.order_high <= 10))
-    refuse_request(
-        "`order` goes from " + format_short(request.order_low) + " to " + format_short(request.order_high),
-        "give the least and the greatest order of the error of the cells, above 0 and at most 10");
-  if (!(request.confidence > 0 && request.confidence < 1))
-    refuse_request("`confidence` is " + format_short(request.confidence), "give a number between 0 and 1");
-  if (request.half_width && !(*request.half_width > 0 && std::isfinite(*request.half_width)))
-    refuse_request("`half_width` is " + format_short(*request.half_width), "give a finite number above 0");
-  if (request.draws < 100) refuse_request("there are fewer than 100 draws", "give more");
-  if (request.inputs.empty() && request.replicates == 0 && request.cells.size() < 2 &&
-      request.tolerances.size() < 2)
-    refuse_request("there is nothing to vary",
-                   "give `inputs`, `replicate`, or two or more `cells` or `tolerance`");
-}
-
 std::size_t runs_of_inputs(const BudgetRequest& request) {
   if (request.inputs.empty()) return 0;
   return request.runs > 0 ? request.runs : chaos_runs(request.inputs.size());
@@ -412,6 +391,27 @@ void add_interval(const BudgetRequest& request, const BudgetFindings& found, Bud
 }
 
 }  // namespace
+
+void check_request(const BudgetRequest& request) {
+  if (!request.inputs.empty()) check_inputs(request.inputs);
+  if (request.replicates == 1)
+    refuse_request("`replicate` has one value", "scatter takes two or more, better five");
+  check_ascent(request.cells, "cells", true);
+  check_ascent(request.tolerances, "tolerance", false);
+  if (!(request.order_low > 0) || !(request.order_high >= request.order_low) || !(request.order_high <= 10))
+    refuse_request(
+        "`order` goes from " + format_short(request.order_low) + " to " + format_short(request.order_high),
+        "give the least and the greatest order of the error of the cells, above 0 and at most 10");
+  if (!(request.confidence > 0 && request.confidence < 1))
+    refuse_request("`confidence` is " + format_short(request.confidence), "give a number between 0 and 1");
+  if (request.half_width && !(*request.half_width > 0 && std::isfinite(*request.half_width)))
+    refuse_request("`half_width` is " + format_short(*request.half_width), "give a finite number above 0");
+  if (request.draws < 100) refuse_request("there are fewer than 100 draws", "give more");
+  if (request.inputs.empty() && request.replicates == 0 && request.cells.size() < 2 &&
+      request.tolerances.size() < 2)
+    refuse_request("there is nothing to vary",
+                   "give `inputs`, `replicate`, or two or more `cells` or `tolerance`");
+}
 
 std::size_t budget_runs(const BudgetRequest& request) {
   return std::max<std::size_t>(1, request.cells.size()) * std::max<std::size_t>(1, request.replicates) +

@@ -94,6 +94,8 @@ struct Budget {
   std::string text() const;
 };
 
+// Throws Error{bad_value} for a request that contradicts itself.
+void check_request(const BudgetRequest& request);
 // How many runs a request takes, at first.
 std::size_t budget_runs(const BudgetRequest& request);
 // Asks for every run once, the first replicate on each grid first. Throws Error{bad_value} for requests that

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The function `ask` of a budget or a sensitivity: called with a table of the quantities and knobs of a run,
+// it gives one number. And the uncertain inputs that such calls take.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bindings/lua/registry/options.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "engine/core/part_monitor.hpp"
+#include "engine/statistics/uncertain_input.hpp"
+#include "engine/study/study_setting.hpp"
+
+namespace asperity::lua {
+
+// Valid while the function stays where it is on the stack.
+class AskedFunction {
+ public:
+  AskedFunction(const Call& call, const Argument& ask) : L_(call.L), ask_(ask), session_(call.session()) {}
+
+  struct Answer {
+    double value = 0;
+    double seconds = 0;
+  };
+  // Throws Error with the function's own message and the knobs, and for an answer that is not one number.
+  Answer operator()(const Knobs& knobs, Monitor& monitor) const;
+  // What a dry run asks: an answer that cannot be known is no mistake.
+  void try_once(const Knobs& knobs) const;
+
+ private:
+  void call(const Knobs& knobs) const;
+
+  lua_State* L_;
+  Argument ask_;
+  Session& session_;
+};
+
+// Runs of unknown length that follow on each other, as one progress.
+class RunProgress {
+ public:
+  RunProgress(Monitor& monitor, std::string title) : monitor_(monitor), title_(std::move(title)) {}
+  // Of the run that takes the whole from `before` to `after`. `part` says which it is.
+  PartMonitor of(const std::string& part, double before, double after);
+
+ private:
+  Monitor& monitor_;
+  std::string title_;
+  PartMonitor::Clock::time_point begun_ = PartMonitor::Clock::now();
+};
+
+// What lists inputs; a dry run may meet some that it cannot know.
+struct InputKeys {
+  std::vector<UncertainInput> inputs;  // by name
+  bool unknown = false;
+};
+// `inputs={ hardness={ value="1.1 GPa", u="0.1 GPa", shape="normal" } }`.
+void read_inputs(const Argument& value, const OptionInfo& info, InputKeys& keys, Problems& problems);
+
+template <class O>
+Option<O> inputs_option() {
+  return custom<O>(
+      "inputs", "table",
+      "the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the "
+      "same unit, or a share such as \"5 %\"; shape=\"uniform\" for one that lies anywhere within "
+      "√3 u, else it is normal. `ask` gets each as a plain SI number",
+      [](const Argument& value, const OptionInfo& info, O& keys, Problems& problems) {
+        read_inputs(value, info, keys, problems);
+      });
+}
+
+template <class O>
+Option<O> ask_option(std::string sentence) {
+  return custom<O>("ask", "function", std::move(sentence),
+                   [](const Argument& value, const OptionInfo& info, O&, Problems& problems) {
+                     if (!value.is_function()) detail::wrong_type(value, info, "a function(x)", problems);
+                   })
+      .required();
+}
+
+// Knobs in the order that Knobs has.
+void sort_knobs(Knobs& knobs);
+
+}  // namespace asperity::lua

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/study/budget.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "bindings/lua/registry/record_type.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/study/asked_function.hpp"
+#include "engine/run/run_directory.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+// One key of `replicate` with its values.
+struct ReplicateKnob {
+  std::string name;
+  std::vector<KnobValue> values;
+};
+
+struct BudgetKeys : InputKeys {
+  std::vector<ReplicateKnob> replicate;  // lists of equal length, which go along together
+  std::vector<double> cells, tolerances;
+  double order_low = 1, order_high = 2;
+  std::optional<std::int64_t> runs;
+  double confidence = 0.95;
+  MeanInterval interval = MeanInterval::student;
+  std::optional<double> half_width, at_most;
+  std::uint64_t seed = 1;
+};
+
+std::optional<KnobValue> replicate_value(const Argument& value) {
+  if (value.is_boolean()) return KnobValue(value.boolean());
+  if (value.is_text()) return KnobValue(std::string(value.text()));
+  if (!value.is_number()) return {};
+  if (lua_isinteger(value.state(), value.index()) != 0) return KnobValue(*value.integer());
+  return KnobValue(value.number());
+}
+
+void read_replicate_list(const std::string& name, const std::string& path, const Argument& list,
+                         BudgetKeys& keys, Problems& problems) {
+  if (!list.is_table() || list.length() == 0) {
+    problems.push_back(quoted(path) + " is " + list.describe() + "; give a list, such as { 1, 2, 3, 4, 5 }");
+    return;
+  }
+  ReplicateKnob knob{name, {}};
+  for (std::int64_t k = 1; k <= list.length(); ++k)
+    list.element(k, [&](const Argument& item) {
+      if (item.is_unknown()) {
+        keys.unknown = true;
+        return;
+      }
+      const std::string place = path + "[" + std::to_string(k) + "]";
+      auto value = replicate_value(item);
+      if (!value) {
+        problems.push_back(quoted(place) + " is " + item.describe() +
+                           "; give a number, a string or a boolean");
+        return;
+      }
+      if (std::ranges::find(knob.values, *value) != knob.values.end())
+        problems.push_back(quoted(place) + " is " + lua_source(*value) +
+                           " for the second time; a run made twice says nothing of the scatter");
+      knob.values.push_back(*std::move(value));
+    });
+  keys.replicate.push_back(std::move(knob));
+}
+
+void read_replicate(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
+  if (!value.is_table())
+    return detail::wrong_type(value, info, "a table such as { seed={ 1, 2, 3, 4, 5 } }", problems);
+  value.each([&](const Argument& key, const Argument& list) {
+    if (!key.is_text())
+      problems.push_back(quoted(info.name) + " has a list without a name; write `seed = { 1, 2, 3 }`");
+    else if (list.is_unknown())
+      keys.unknown = true;
+    else
+      read_replicate_list(std::string(key.text()), info.name + "." + std::string(key.text()), list, keys,
+                          problems);
+  });
+  std::ranges::sort(keys.replicate, {}, &ReplicateKnob::name);
+}
+
+// Numbers in a list, or one.
+template <std::vector<double> BudgetKeys::*member>
+void read_numbers(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
+  const auto take = [&](const Argument& item) {
+    if (item.is_unknown())
+      keys.unknown = true;
+    else if (const auto number = detail::read_quantity(item, info, above(0), problems))
+      (keys.*member).push_back(*number);
+  };
+  if (!value.is_table()) return take(value);
+  if (value.length() == 0) return detail::wrong_type(value, info, "numbers in a list", problems);
+  for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, take);
+}
+
+void read_cells(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
+  read_numbers<&BudgetKeys::cells>(value, info, keys, problems);
+  for (const double cells : keys.cells)
+    if (cells != std::floor(cells) || cells > 1e6) {
+      problems.push_back(quoted(info.name) + " holds " + format_short(cells) +
+                         "; give whole numbers of cells");
+      return;
+    }
+}
+
+void check_budget(BudgetKeys& keys, Problems& problems) {
+  if (keys.unknown) return;
+  for (const ReplicateKnob& knob : keys.replicate)
+    if (knob.values.size() != keys.replicate.front().values.size())
+      problems.push_back(
+          "the lists of `replicate` go along together, and " + quoted(keys.replicate.front().name) + " has " +
+          std::to_string(keys.replicate.front().values.size()) + " values, " + quoted(knob.name) + " " +
+          std::to_string(knob.values.size()) + "; give as many of each");
+  std::vector<std::string> names;
+  for (const UncertainInput& input : keys.inputs) names.push_back(input.name);
+  for (const ReplicateKnob& knob : keys.replicate) names.push_back(knob.name);
+  if (!keys.cells.empty()) names.emplace_back("cells");
+  if (!keys.tolerances.empty()) names.emplace_back("tolerance");
+  std::ranges::sort(names);
+  if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
+    problems.push_back(quoted(*twice) +
+                       " is asked for in two ways; `ask` can get only one value by that name");
+  for (const char* taken : {"sampling", "cells", "solver", "inputs", "inputs together"})
+    for (const UncertainInput& input : keys.inputs)
+      if (input.name == taken)
+        problems.push_back("the input " + quoted(input.name) +
+                           " has the name of a part of the budget; rename it");
+}
+
+const Block<BudgetKeys>& budget_block() {
+  using K = BudgetKeys;
+  static const Block<K> block{
+      "lab.budget",
+      {ask_option<K>("function(x) returning the number, for a table x of the inputs, and of `cells`, "
+                     "`tolerance` and the names in `replicate` where they are given"),
+       inputs_option<K>(),
+       custom<K>(
+           "replicate", "table",
+           "what makes another specimen of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter "
+           "is the share of sampling; several lists go along together",
+           read_replicate),
+       custom<K>(
+           "cells", "integer|integer[]",
+           "cells a side, coarse to fine: two grids show the error of the cells, three its order too. The "
+           "inputs are varied on the coarsest",
+           read_cells),
+       pair_option<K>("order", &K::order_low, &K::order_high, dimension::number, between(0.1, 10),
+                      "of the error of the cells, the least and the greatest that are possible")
+           .defaults_to("{1, 2}"),
+       custom<K>("tolerance", "number|number[]",
+                 "of the solver, loose to tight: the change between the two tightest bounds its error",
+                 read_numbers<&K::tolerances>),
+       integer("runs", &K::runs, between(3, 100000),
+               "how often the inputs are varied; without it three for each term of degree 2 (64 for five "
+               "inputs), doubled up to three times while the leave-one-out error is above 5 %"),
+       number("confidence", &K::confidence, inside(0, 1), "of the interval"),
+       choice("interval", &K::interval,
+              {{"student", MeanInterval::student}, {"log", MeanInterval::log_normal}},
+              "of the mean over replicates: Student's t, or for positive skewed answers the log interval of "
+              "Cox, which assumes that their logarithms are normal"),
+       quantity(
+           "half_width", &K::half_width, dimension::number, above(0),
+           "the interval that is wanted, plus or minus this, in the unit of the answer: the cheapest way "
+           "to it is said"),
+       quantity("at_most", &K::at_most, dimension::time, above(0),
+                "longest time for all runs; refused after the first ones where they will take longer"),
+       integer("seed", &K::seed, at_least(0), "of the values of the inputs and of the draws")},
+      check_budget};
+  return block;
+}
+
+BudgetRequest request_of(const BudgetKeys& keys) {
+  BudgetRequest request;
+  request.inputs = keys.inputs;
+  request.replicates = keys.replicate.empty() ? 0 : keys.replicate.front().values.size();
+  request.cells = keys.cells;
+  request.order_low = keys.order_low;
+  request.order_high = keys.order_high;
+  request.tolerances = keys.tolerances;
+  request.runs = static_cast<std::size_t>(keys.runs.value_or(0));
+  request.confidence = keys.confidence;
+  request.interval = keys.interval;
+  request.half_width = keys.half_width;
+  request.at_most = keys.at_most;
+  request.seed = keys.seed;
+  return request;
+}
+
+Knobs knobs_of_run(const BudgetKeys& keys, const BudgetSetting& run) {
+  Knobs knobs;
+  for (std::size_t j = 0; j < keys.inputs.size(); ++j) knobs.push_back({keys.inputs[j].name, run.inputs[j]});
+  for (const ReplicateKnob& knob : keys.replicate) knobs.push_back({knob.name, knob.values[run.replicate]});
+  if (!keys.cells.empty()) knobs.push_back({"cells", static_cast<std::int64_t>(keys.cells[run.cells])});
+  if (!keys.tolerances.empty()) knobs.push_back({"tolerance", keys.tolerances[run.tolerance]});
+  sort_knobs(knobs);
+  return knobs;
+}
+
+Values dry_budget(Call& call, const BudgetKeys& keys, const AskedFunction& ask) {
+  if (!keys.unknown) {
+    BudgetSetting first;
+    for (const UncertainInput& input : keys.inputs) first.inputs.push_back(input.value);
+    check_request(request_of(keys));
+    ask.try_once(knobs_of_run(keys, first));
+  }
+  call.session().gave_placeholders = true;
+  return {Object{&class_of<Budget>(), nullptr, false}};
+}
+
+void record_budget(Session& session, const Budget& budget) {
+  if (!session.run) return;
+  Json shares = Json::object(), seconds = Json::object();
+  for (const BudgetPart& part : budget.parts) {
+    shares.set(part.name, part.share);
+    if (part.halving_seconds) seconds.set(part.name, *part.halving_seconds);
+  }
+  session.run->journal().write(
+      "budget",
+      Json::object(
+          {{"runs", static_cast<std::int64_t>(budget.runs)},
+           {"value", budget.value},
+           {"low", budget.low},
+           {"high", budget.high},
+           {"shares", std::move(shares)},
+           {"unhashed", Json::object({{"seconds", budget.seconds}, {"halving", std::move(seconds)}})}}));
+}
+
+Values make_budget(Call& call) {
+  BudgetKeys keys = call.options(budget_block());
+  Session& session = call.session();
+  if (session.is_case)
+    throw Error(ErrorCode::not_permitted, "a case of an ensemble times nothing: other cases run beside it",
+                "make the budget outside the ensemble");
+  return with_key(call.argument(1), "ask", [&](const Argument& function) -> Values {
+    const AskedFunction ask(call, function);
+    if (session.dry_run) return dry_budget(call, keys, ask);
+    RunProgress progress(session.monitor(), "budget");
+    Budget found = budget_of(request_of(keys), [&](const BudgetSetting& run) {
+      PartMonitor monitor =
+          progress.of("run " + std::to_string(run.number) + " of " + std::to_string(run.of) + ", " + run.part,
+                      run.done_before, run.done_after);
+      const AskedFunction::Answer answer = ask(knobs_of_run(keys, run), monitor);
+      return BudgetAnswer{answer.value, answer.seconds};
+    });
+    for (const std::string& warning : found.warnings) session.monitor().warn(warning);
+    record_budget(session, found);
+    return {object(std::move(found))};
+  });
+}
+
+const RecordType<BudgetPart>& part_type() {
+  using P = BudgetPart;
+  static const RecordType<P> type{
+      "BudgetPart",
+      "part",
+      "A part of the error of a number.",
+      {{"name", &P::name,
+        "sampling, cells, solver, an input, or `inputs together`: what inputs do only together, and what "
+        "their polynomial leaves open"},
+       {"u", &P::uncertainty, "standard uncertainty from this part, in the unit of the answer"},
+       {"share", &P::share, "of the variance; all sum to 1"},
+       {"share_error", &P::share_error, "standard error of the share of an input; 0 of other parts"},
+       {"halving", &P::halving, "what halves it"},
+       {"seconds", [](const P& p) { return p.halving_seconds; },
+        "computing time that halving takes; nil where it takes a measurement"},
+       {"half_width_after", &P::half_width_after,
+        "half the width of the whole interval with this part halved, nearly"}}};
+  return type;
+}
+
+const RecordType<BudgetPlan>& plan_type() {
+  using P = BudgetPlan;
+  static const RecordType<P> type{
+      "BudgetPlan",
+      "plan",
+      "The cheapest way to the interval that was asked for.",
+      {{"replicates", [](const P& p) { return static_cast<std::int64_t>(p.replicates); },
+        "how many; 0 where there is nothing to sample"},
+       {"cells", [](const P& p) { return p.cells > 0 ? std::optional(p.cells) : std::nullopt; },
+        "a side, of the finest grid; nil where there is no list of cells"},
+       {"seconds", &P::seconds, dimension::time, "that it takes, from nothing"},
+       {"half_width", &P::half_width, "half the width of the interval that is expected"}}};
+  return type;
+}
+
+template <auto read>
+Values of_budget(Call& call) {
+  return {Value(read(call.self<Budget>()))};
+}
+
+std::string describe_budget(const void* self) {
+  std::string text = static_cast<const Budget*>(self)->text();
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+Function budget_function() {
+  Function f;
+  f.name = "budget";
+  f.body = make_budget;
+  f.sentence =
+      "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser "
+      "tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of each "
+      "part, what halving each costs, and the cheapest way to an interval. Inputs are taken as independent "
+      "of "
+      "each other. What `ask` presses is taken up from the run where it was computed before, and then costs "
+      "no time.";
+  f.options = &budget_block();
+  f.returns = "Budget";
+  f.example =
+      "print(lab.budget{ ask=function(x) return lab.surface.self_affine{ cells=x.cells, size=\"640 um\", "
+      "hurst=0.8, rq=\"1 um\", short_wave=\"80 um\", seed=x.seed }:roughness().Ra * x.gain end, cells={ 32, "
+      "64 "
+      "}, replicate={ seed={ 1, 2, 3, 4, 5 } }, inputs={ gain={ value=1, u=\"2 %\" } } })";
+  return f;
+}
+
+template <>
+const Class& class_of<Budget>() {
+  static const Class type = [] {
+    Class c;
+    c.name = "Budget";
+    c.article_name = "a budget";
+    c.sentence = "A number with its whole error. print() shows the table of its parts.";
+    c.describe = describe_budget;
+    c.fields = {
+        {"value",
+         "number",
+         "the number, corrected for the error of the cells",
+         {},
+         of_budget<[](const Budget& b) { return b.value; }>},
+        {"low", "number", "lower end of its interval", {}, of_budget<[](const Budget& b) { return b.low; }>},
+        {"high",
+         "number",
+         "upper end of its interval",
+         {},
+         of_budget<[](const Budget& b) { return b.high; }>},
+        {"confidence",
+         "number",
+         "of the interval",
+         {},
+         of_budget<[](const Budget& b) { return b.confidence; }>},
+        {"u",
+         "number",
+         "its standard uncertainty",
+         {},
+         of_budget<[](const Budget& b) { return b.uncertainty; }>},
+        {"n",
+         "integer",
+         "replicates; 0 where there is nothing to sample",
+         {},
+         of_budget<[](const Budget& b) { return static_cast<std::int64_t>(b.replicates); }>},
+        {"skewness",
+         "number?",
+         "of the answers over the replicates",
+         {},
+         of_budget<[](const Budget& b) { return b.sample ? b.sample->skewness : std::nullopt; }>},
+        {"leave_one_out",
+         "number?",
+         "error of the polynomial of the inputs over their variance: shares are rough from 5 %, and refused "
+         "from 20 % on",
+         {},
+         of_budget<[](const Budget& b) {
+           return b.chaos ? std::optional(b.chaos->leave_one_out) : std::nullopt;
+         }>},
+        {"order_observed",
+         "number?",
+         "order of the error of the cells over the three finest grids",
+         {},
+         of_budget<[](const Budget& b) { return b.order_observed; }>},
+        {"runs",
+         "integer",
+         "how often `ask` was called",
+         {},
+         of_budget<[](const Budget& b) { return static_cast<std::int64_t>(b.runs); }>},
+        {"seconds", "number", "time inside `ask`", dimension::time,
+         of_budget<[](const Budget& b) { return b.seconds; }>},
+        {"parts",
+         "BudgetPart[]",
+         "the parts of its error, greatest share first",
+         {},
+         [](Call& call) -> Values { return {part_type().list(call.self<Budget>().parts)}; }},
+        {"plan",
+         "BudgetPlan?",
+         "the cheapest way to `half_width`; nil where none was asked for or computing cannot reach it",
+         {},
+         [](Call& call) -> Values {
+           const auto& plan = call.self<Budget>().plan;
+           return {plan ? Value(plan_type()(*plan)) : Value()};
+         }},
+        {"warnings",
+         "string[]",
+         "what to be wary of: few replicates, skewed ones, a rough fit",
+         {},
+         [](Call& call) -> Values { return {text_list(call.self<Budget>().warnings)}; }},
+    };
+    c.results = {&part_type(), &plan_type()};
+    return c;
+  }();
+  return type;
+}
+
+}  // namespace asperity::lua

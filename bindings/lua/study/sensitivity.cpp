@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/study/sensitivity.hpp"
+
+#include <utility>
+
+#include "bindings/lua/registry/record_type.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/study/asked_function.hpp"
+#include "engine/run/run_directory.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+struct SensitivityKeys : InputKeys {
+  std::optional<std::int64_t> runs;
+  std::uint64_t seed = 1;
+};
+
+const Block<SensitivityKeys>& sensitivity_block() {
+  using K = SensitivityKeys;
+  static const Block<K> block{
+      "lab.sensitivity",
+      {ask_option<K>("function(x) returning the answer, one number, for a table of the inputs; it must give "
+                     "the same for the same x, so keep seeds fixed inside"),
+       inputs_option<K>().required(),
+       integer("runs", &K::runs, between(3, 100000),
+               "how often `ask` is called; without it three for each term of degree 2 (64 for five inputs), "
+               "doubled up to three times while the leave-one-out error is above 5 %"),
+       integer("seed", &K::seed, at_least(0), "of the values at which `ask` is called")}};
+  return block;
+}
+
+Knobs knobs_of_inputs(const std::vector<UncertainInput>& inputs, const std::vector<double>& values) {
+  Knobs knobs;
+  for (std::size_t j = 0; j < inputs.size(); ++j) knobs.push_back({inputs[j].name, values[j]});
+  sort_knobs(knobs);
+  return knobs;
+}
+
+Values dry_sensitivity(Call& call, const SensitivityKeys& keys, const AskedFunction& ask) {
+  if (!keys.unknown) {
+    check_inputs(keys.inputs);
+    std::vector<double> values;
+    for (const UncertainInput& input : keys.inputs) values.push_back(input.value);
+    ask.try_once(knobs_of_inputs(keys.inputs, values));
+  }
+  call.session().gave_placeholders = true;
+  return {Object{&class_of<Sensitivity>(), nullptr, false}};
+}
+
+Values make_sensitivity(Call& call) {
+  SensitivityKeys keys = call.options(sensitivity_block());
+  return with_key(call.argument(1), "ask", [&](const Argument& function) -> Values {
+    const AskedFunction ask(call, function);
+    if (call.session().dry_run) return dry_sensitivity(call, keys, ask);
+    ChaosRequest request{keys.inputs, static_cast<std::size_t>(keys.runs.value_or(0)), keys.seed};
+    RunProgress progress(call.session().monitor(), "sensitivity");
+    std::size_t done = 0, total = 0;
+    Sensitivity found = sensitivity_of(
+        request,
+        [&](const std::vector<double>& values) {
+          PartMonitor monitor =
+              progress.of("run " + std::to_string(done + 1) + " of " + std::to_string(total),
+                          static_cast<double>(done) / static_cast<double>(total),
+                          static_cast<double>(done + 1) / static_cast<double>(total));
+          ++done;
+          return ask(knobs_of_inputs(keys.inputs, values), monitor).value;
+        },
+        [&](std::size_t more) { total += more; });
+    if (const auto& run = call.session().run; run && !call.session().is_case) {
+      Json shares = Json::object();
+      for (const VarianceShare& share : found.chaos.shares) shares.set(share.name, share.total);
+      run->journal().write("sensitivity", Json::object({{"runs", static_cast<std::int64_t>(found.chaos.runs)},
+                                                        {"mean", found.chaos.mean},
+                                                        {"deviation", found.deviation},
+                                                        {"total", std::move(shares)}}));
+    }
+    return {object(std::move(found))};
+  });
+}
+
+// One input of the result.
+struct SharedInput {
+  VarianceShare share;
+  UncertainInput input;
+  double halved = 0;
+};
+
+const RecordType<SharedInput>& share_type() {
+  using S = SharedInput;
+  static const RecordType<S> type{
+      "InputShare",
+      "share",
+      "What an uncertain input contributes to the variance of an answer.",
+      {{"name", [](const S& s) { return s.share.name; }, "of the input"},
+       {"value", [](const S& s) { return s.input.value; }, "that was given, SI"},
+       {"u", [](const S& s) { return s.input.uncertainty; }, "standard uncertainty that was given, SI"},
+       {"first", [](const S& s) { return s.share.first; },
+        "first-order share: of the variance, what the input does by itself"},
+       {"first_error", [](const S& s) { return s.share.first_error; }, "standard error of `first`"},
+       {"total", [](const S& s) { return s.share.total; },
+        "total share: all that the input does, together with others too"},
+       {"total_error", [](const S& s) { return s.share.total_error; }, "standard error of `total`"},
+       {"deviation_when_halved", &S::halved,
+        "standard deviation of the answer, in its unit, with the input's uncertainty halved, nearly"}}};
+  return type;
+}
+
+std::vector<SharedInput> shared_inputs(const Sensitivity& of) {
+  std::vector<SharedInput> list;
+  for (const std::size_t j : of.order)
+    list.push_back({of.chaos.shares[j], of.chaos.inputs[j], of.deviation_when[j]});
+  return list;
+}
+
+template <auto read>
+Values of_sensitivity(Call& call) {
+  return {Value(read(call.self<Sensitivity>()))};
+}
+
+std::string describe_sensitivity(const void* self) {
+  std::string text = static_cast<const Sensitivity*>(self)->text();
+  text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+Function sensitivity_function() {
+  Function f;
+  f.name = "sensitivity";
+  f.body = make_sensitivity;
+  f.sentence =
+      "Which uncertain input an answer hangs on: first-order and total shares of its variance with their own "
+      "errors, by polynomial chaos, and which input to measure better next. The leave-one-out error of the "
+      "fit is printed: below 5 % of the variance shares are good, to 20 % rough, above they are refused. "
+      "Inputs are taken as independent.";
+  f.options = &sensitivity_block();
+  f.returns = "Sensitivity";
+  f.example =
+      "print(lab.sensitivity{ ask=function(x) return x.alpha + x.tau0 / x.pressure end, inputs={ alpha={ "
+      "value=0.2, u=0.02 }, tau0={ value=\"500 MPa\", u=\"50 MPa\" }, pressure={ value=\"2 GPa\", u=\"5 %\" "
+      "} "
+      "} })";
+  return f;
+}
+
+template <>
+const Class& class_of<Sensitivity>() {
+  static const Class type = [] {
+    Class c;
+    c.name = "Sensitivity";
+    c.article_name = "a sensitivity";
+    c.sentence = "Which uncertain input an answer hangs on. print() shows the table of shares.";
+    c.describe = describe_sensitivity;
+    c.fields = {
+        {"mean",
+         "number",
+         "of the answer over the inputs",
+         {},
+         of_sensitivity<[](const Sensitivity& s) { return s.chaos.mean; }>},
+        {"deviation",
+         "number",
+         "standard deviation of the answer over the inputs",
+         {},
+         of_sensitivity<[](const Sensitivity& s) { return s.deviation; }>},
+        {"runs",
+         "integer",
+         "how often `ask` was called",
+         {},
+         of_sensitivity<[](const Sensitivity& s) { return static_cast<std::int64_t>(s.chaos.runs); }>},
+        {"degree",
+         "integer",
+         "of the polynomial; 0 of an answer that is always the same",
+         {},
+         of_sensitivity<[](const Sensitivity& s) { return s.chaos.degree; }>},
+        {"leave_one_out",
+         "number",
+         "what the fit of the other runs misses each by: mean square over the variance",
+         {},
+         of_sensitivity<[](const Sensitivity& s) { return s.chaos.leave_one_out; }>},
+        {"rough",
+         "boolean",
+         "whether that is above 5 %",
+         {},
+         of_sensitivity<[](const Sensitivity& s) { return s.chaos.trust() != ChaosTrust::good; }>},
+        {"measure_next",
+         "string?",
+         "the input whose better measurement narrows the answer most; nil where the answer hangs on none",
+         {},
+         of_sensitivity<[](const Sensitivity& s) {
+           return (s.chaos.variance != 0) ? std::optional(s.chaos.shares[s.order.front()].name)
+                                          : std::nullopt;
+         }>},
+        {"inputs",
+         "InputShare[]",
+         "the shares, greatest first order first",
+         {},
+         [](Call& call) -> Values { return {share_type().list(shared_inputs(call.self<Sensitivity>()))}; }},
+    };
+    c.results = {&share_type()};
+    return c;
+  }();
+  return type;
+}
+
+}  // namespace asperity::lua
