@@ -413,6 +413,34 @@
 ---@field left_out integer cells that are empty or no finite number
 ---@field rule string by which the bins were chosen
 
+---A part of the error of a number.
+---@class asperity.BudgetPart
+---@field name string sampling, cells, solver, an input, or `inputs together`: what inputs do only together, and what their polynomial leaves open
+---@field u number standard uncertainty from this part, in the unit of the answer
+---@field share number of the variance; all sum to 1
+---@field share_error number standard error of the share of an input; 0 of other parts
+---@field halving string what halves it
+---@field seconds number|nil computing time that halving takes; nil where it takes a measurement
+---@field half_width_after number half the width of the whole interval with this part halved, nearly
+
+---The cheapest way to the interval that was asked for.
+---@class asperity.BudgetPlan
+---@field replicates integer how many; 0 where there is nothing to sample
+---@field cells number|nil a side, of the finest grid; nil where there is no list of cells
+---@field seconds number that it takes, from nothing (s)
+---@field half_width number half the width of the interval that is expected
+
+---What an uncertain input contributes to the variance of an answer.
+---@class asperity.InputShare
+---@field name string of the input
+---@field value number that was given, SI
+---@field u number standard uncertainty that was given, SI
+---@field first number first-order share: of the variance, what the input does by itself
+---@field first_error number standard error of `first`
+---@field total number total share: all that the input does, together with others too
+---@field total_error number standard error of `total`
+---@field deviation_when_halved number standard deviation of the answer, in its unit, with the input's uncertainty halved, nearly
+
 ---A parameter of a calibration, in SI.
 ---@class asperity.CalibratedParameter
 ---@field value number|nil its estimate; nil where the rows do not determine it
@@ -1587,6 +1615,36 @@ function Table:histogram(options) end
 ---@return string
 function Table:chart(options) end
 
+---A number with its whole error. print() shows the table of its parts.
+---@class asperity.Budget
+---@field value number the number, corrected for the error of the cells
+---@field low number lower end of its interval
+---@field high number upper end of its interval
+---@field confidence number of the interval
+---@field u number its standard uncertainty
+---@field n integer replicates; 0 where there is nothing to sample
+---@field skewness number|nil of the answers over the replicates
+---@field leave_one_out number|nil error of the polynomial of the inputs over their variance: shares are rough from 5 %, and refused from 20 % on
+---@field order_observed number|nil order of the error of the cells over the three finest grids
+---@field runs integer how often `ask` was called
+---@field seconds number time inside `ask` (s)
+---@field parts asperity.BudgetPart[] the parts of its error, greatest share first
+---@field plan asperity.BudgetPlan|nil the cheapest way to `half_width`; nil where none was asked for or computing cannot reach it
+---@field warnings string[] what to be wary of: few replicates, skewed ones, a rough fit
+local Budget = {}
+
+---Which uncertain input an answer hangs on. print() shows the table of shares.
+---@class asperity.Sensitivity
+---@field mean number of the answer over the inputs
+---@field deviation number standard deviation of the answer over the inputs
+---@field runs integer how often `ask` was called
+---@field degree integer of the polynomial; 0 of an answer that is always the same
+---@field leave_one_out number what the fit of the other runs misses each by: mean square over the variance
+---@field approximate boolean whether that is above 5 %, so that the shares are known nearly and no better
+---@field measure_next string|nil the input whose better measurement narrows the answer most; nil where the answer hangs on none
+---@field inputs asperity.InputShare[] the shares, greatest first order first
+local Sensitivity = {}
+
 ---@class asperity.options.study.cheapest
 ---@field error number greatest error, relative to the truth (absolute where the truth is 0) (number above 0, required)
 
@@ -1796,6 +1854,26 @@ function SpreadState:write(name, path) end
 ---@field profile? boolean intervals by profile likelihood as well: two sets of parameters each where the model is straight, ten or more where it is curved (boolean, default true)
 ---@field where? table only rows in which these columns hold these values (table)
 
+---@class asperity.options.lab.budget
+---@field ask function function(x) returning the number, for a table x of the inputs, and of `cells`, `tolerance` and the names in `replicate` where they are given (function, required)
+---@field inputs? table the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the same unit, or a share such as "5 %"; shape="uniform" for one that lies anywhere within √3 u, else it is normal. `ask` gets each as a plain SI number (table)
+---@field replicate? table what makes another specimen of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter is the share of sampling; several lists go along together (table)
+---@field cells? integer|integer[] cells a side, coarse to fine: two grids show the error of the cells, three its order too. The inputs are varied on the coarsest (integer|integer[])
+---@field order? number|string|table of the error of the cells, the least and the greatest that are possible (a plain number|{a plain number, a plain number} from 0.1 to 10, default {1, 2})
+---@field tolerance? number|number[] of the solver, loose to tight: the change between the two tightest bounds its error (number|number[])
+---@field runs? integer how often the inputs are varied; without it three for each term of degree 2 (64 for five inputs), doubled up to three times while the leave-one-out error is above 5 % (integer from 3 to 100000)
+---@field confidence? number of the interval (number above 0 and below 1, default 0.95)
+---@field interval? "student"|"log" of the mean over replicates: Student's t, or for positive skewed answers the log interval of Cox, which assumes that their logarithms are normal ("student"|"log", default "student")
+---@field half_width? number the interval that is wanted, plus or minus this, in the unit of the answer: the cheapest way to it is said (number above 0)
+---@field at_most? number|string longest time for all runs; refused after the first ones where they will take longer (a time above 0)
+---@field seed? integer of the values of the inputs and of the draws (integer at least 0, default 1)
+
+---@class asperity.options.lab.sensitivity
+---@field ask function function(x) returning the answer, one number, for a table of the inputs; it must give the same for the same x, so keep seeds fixed inside (function, required)
+---@field inputs table the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the same unit, or a share such as "5 %"; shape="uniform" for one that lies anywhere within √3 u, else it is normal. `ask` gets each as a plain SI number (table, required)
+---@field runs? integer how often `ask` is called; without it three for each term of degree 2 (64 for five inputs), doubled up to three times while the leave-one-out error is above 5 % (integer from 3 to 100000)
+---@field seed? integer of the values at which `ask` is called (integer at least 0, default 1)
+
 ---The laboratory: surfaces, contacts, friction, and the notebook that keeps what was found.
 ---@class asperity.lab
 ---@field rigid asperity.Material a body that does not deform
@@ -1849,6 +1927,16 @@ function lab.work_precision(options) end
 ---@param options asperity.options.lab.calibrate
 ---@return asperity.Calibration
 function lab.calibrate(options) end
+
+---The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of each part, what halving each costs, and the cheapest way to an interval. Inputs are taken as independent of each other. What `ask` presses is taken up from the run where it was computed before, and then costs no time.
+---@param options asperity.options.lab.budget
+---@return asperity.Budget
+function lab.budget(options) end
+
+---Which uncertain input an answer hangs on: first-order and total shares of its variance with their own errors, by polynomial chaos, and which input to measure better next. The leave-one-out error of the fit is printed: below 5 % of the variance shares are good, to 20 % rough, above they are refused. Inputs are taken as independent.
+---@param options asperity.options.lab.sensitivity
+---@return asperity.Sensitivity
+function lab.sensitivity(options) end
 
 ---What this run has done so far and what it cost, call by call and effect by effect, with what is in no line at the end.
 ---@return asperity.Ledger

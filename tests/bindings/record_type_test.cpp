@@ -128,10 +128,16 @@ TEST_F(RecordTypes, CompletionFollowsCallsAndFields) {
 }
 
 TEST_F(RecordTypes, ReadEachFieldOfARecordAsDescribed) {
-  ASSERT_EQ(run(example_preamble() +
-                "values = { State=st, AlgebraicError=st.error.algebraic, Shear=q, "
-                "Plan=c:explain(), contact=c, Ledger=lab.ledger(), Protocol=protocol, SpreadState=under }"),
-            "");
+  ASSERT_EQ(
+      run(example_preamble() +
+          "values = { State=st, AlgebraicError=st.error.algebraic, Shear=q, "
+          "Plan=c:explain(), contact=c, Ledger=lab.ledger(), Protocol=protocol, SpreadState=under, "
+          "Calibration=lab.calibrate{ model=function(q) return q.mu end, data=t, y='mu', "
+          "parameters={ mu=0.3 } }, "
+          "Budget=lab.budget{ ask=function(x) return x.k end, replicate={ k={ 1, 2, 3, 4, 5 } }, "
+          "half_width=1 }, "
+          "Sensitivity=lab.sensitivity{ ask=function(x) return x.k end, inputs={ k={ value=1, u=0.1 } } } }"),
+      "");
   std::size_t read = 0;
   for (const Class* type : classes())
     for (const Getter& field : type->fields)

@@ -315,7 +315,8 @@ Function budget_function() {
   f.returns = "Budget";
   f.example =
       "print(lab.budget{ ask=function(x) return lab.surface.self_affine{ cells=x.cells, size=\"640 um\", "
-      "hurst=0.8, rq=\"1 um\", short_wave=\"80 um\", seed=x.seed }:roughness().Ra * x.gain end, cells={ 32, "
+      "hurst=0.8, rms_height=\"1 um\", short_wave=\"80 um\", seed=x.seed }:roughness().Ra * x.gain end, "
+      "cells={ 32, "
       "64 "
       "}, replicate={ seed={ 1, 2, 3, 4, 5 } }, inputs={ gain={ value=1, u=\"2 %\" } } })";
   return f;
