@@ -27,6 +27,7 @@ worn_pair:lost.svg
 angles:angles.svg
 measured_specimen:pressure.png
 replay_press_log:press_log.svg
+calibrate_tilt:calibration.svg
 01_roughness:lines.svg
 02_fractal_dimension:stretched.svg
 03_boxes_and_half_space:hills.svg

@@ -7,12 +7,14 @@ import cmath
 import math
 import os
 import random
+import shutil
 import struct
 import subprocess
 import sys
 
 program = os.path.abspath(sys.argv[1])
-os.makedirs(sys.argv[2], exist_ok=True)
+shutil.rmtree(sys.argv[2], ignore_errors=True)
+os.makedirs(sys.argv[2])
 os.chdir(sys.argv[2])
 points, count = 4096, 8
 

@@ -3,7 +3,6 @@
 # F7: kinds of height maps that were refused or not known: SPIP with a head in UTF-16, an X3P of Alicona with infinite
 # heights for missing points, one zipped with its folder, tables of two columns under a head with units; what is not read
 # is named, with a way to something that is.
-import gzip
 import math
 import struct
 
@@ -31,7 +30,6 @@ assert printed('print(lab.profile.read("trace.csv"):heights()[3] / 1e-6)').start
 
 rest = bytes(64)
 for name, data, what in [
-    ("map.x3p.gz", gzip.compress(b"x3p"), "packed with gzip"),
     ("map.txt", "1 2\n3 4\n".encode("utf-16"), "UTF-16 text"),
     ("trace.prf", "Stylus profiler\nOperator Li\n\n0.0 1.2\n0.1 1.3\n0.2 1.1\n", "has a head of its own"),
     ("map.al3d", b"AliconaImaging\0\r\n" + rest, "Alicona"),

@@ -30,7 +30,7 @@ struct ForeignMark {
 };
 
 constexpr std::array foreign_marks{
-    ForeignMark{"\x1F\x8B"sv, "packed with gzip twice, or with another packing under its mark", unpack},
+    ForeignMark{"\x1F\x8B"sv, "packed with gzip (.gz)", unpack},
     ForeignMark{"BZh"sv, "packed with bzip2 (.bz2)", unpack},
     ForeignMark{"\xFD\x37zXZ\0"sv, "packed with xz (.xz)", unpack},
     ForeignMark{"\x28\xB5\x2F\xFD"sv, "packed with zstd (.zst)", unpack},
