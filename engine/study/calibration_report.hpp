@@ -11,8 +11,8 @@
 
 #include "engine/core/quantity.hpp"
 #include "engine/plot/chart.hpp"
-#include "engine/statistics/calibration.hpp"
 #include "engine/statistics/table.hpp"
+#include "engine/study/calibration.hpp"
 
 namespace asperity {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bindings/lua/registry/registry.hpp"
-#include "engine/statistics/budget.hpp"
+#include "engine/study/budget.hpp"
 
 namespace asperity::lua {
 

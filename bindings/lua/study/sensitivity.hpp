@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bindings/lua/registry/registry.hpp"
-#include "engine/statistics/sensitivity.hpp"
+#include "engine/study/sensitivity.hpp"
 
 namespace asperity::lua {
 

@@ -13,8 +13,8 @@
 #include "engine/core/text.hpp"
 #include "engine/surface/io/gwy.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
-#include "engine/surface/io/sdf_writer.hpp"
-#include "engine/surface/io/sur_writer.hpp"
+#include "engine/surface/io/instruments/sdf_writer.hpp"
+#include "engine/surface/io/instruments/sur_writer.hpp"
 #include "engine/surface/io/x3p_writer.hpp"
 
 namespace asperity {

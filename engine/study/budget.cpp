@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/statistics/budget.hpp"
+#include "engine/study/budget.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/statistics/budget_plan.hpp"
-#include "engine/statistics/sensitivity.hpp"
+#include "engine/study/budget_plan.hpp"
+#include "engine/study/sensitivity.hpp"
 
 namespace asperity {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/statistics/calibration_problem.hpp"
+#include "engine/study/calibration_problem.hpp"
 
 namespace asperity {
 

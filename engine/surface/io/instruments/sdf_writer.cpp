@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layout: ISO 25178-71, as the reader (sdf.cpp) has it.
-#include "engine/surface/io/sdf_writer.hpp"
+#include "engine/surface/io/instruments/sdf_writer.hpp"
 
 #include <bit>
 #include <cstdint>

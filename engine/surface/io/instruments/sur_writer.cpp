@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The header goes by the description in the software's reference, as the reader (sur.cpp) does. All lengths
 // are in millimetres, the unit that its files have most often.
-#include "engine/surface/io/sur_writer.hpp"
+#include "engine/surface/io/instruments/sur_writer.hpp"
 
 #include <algorithm>
 #include <bit>

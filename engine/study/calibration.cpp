@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/statistics/calibration.hpp"
+#include "engine/study/calibration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/statistics/calibration_problem.hpp"
-#include "engine/statistics/calibration_profile.hpp"
-#include "engine/statistics/calibration_verdict.hpp"
 #include "engine/statistics/distributions.hpp"
+#include "engine/study/calibration_problem.hpp"
+#include "engine/study/calibration_profile.hpp"
+#include "engine/study/calibration_verdict.hpp"
 
 namespace asperity {
 

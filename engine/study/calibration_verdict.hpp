@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "engine/statistics/calibration.hpp"
-#include "engine/statistics/calibration_problem.hpp"
-#include "engine/statistics/calibration_profile.hpp"
+#include "engine/study/calibration.hpp"
+#include "engine/study/calibration_problem.hpp"
+#include "engine/study/calibration_profile.hpp"
 
 namespace asperity {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/statistics/budget_plan.hpp"
+#include "engine/study/budget_plan.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/statistics/calibration_problem.hpp"
+#include "engine/study/calibration_problem.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/statistics/calibration_profile.hpp"
+#include "engine/study/calibration_profile.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/core/text.hpp"
-#include "engine/statistics/budget.hpp"
+#include "engine/study/budget.hpp"
 
 namespace asperity {
 

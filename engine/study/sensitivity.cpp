@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/statistics/sensitivity.hpp"
+#include "engine/study/sensitivity.hpp"
 
 #include <algorithm>
 #include <cmath>

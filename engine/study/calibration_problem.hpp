@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "engine/core/monitor.hpp"
-#include "engine/statistics/calibration.hpp"
 #include "engine/statistics/singular_values.hpp"
+#include "engine/study/calibration.hpp"
 
 namespace asperity {
 

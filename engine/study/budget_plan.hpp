@@ -4,7 +4,7 @@
 // mean with the root of the replicates.
 #pragma once
 
-#include "engine/statistics/budget.hpp"
+#include "engine/study/budget.hpp"
 
 namespace asperity {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/surface/io/instrument_header.hpp"
+#include "engine/surface/io/instruments/instrument_header.hpp"
 
 #include <algorithm>
 #include <charconv>

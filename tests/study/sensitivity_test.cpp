@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sensitivity: runs are doubled until the fit is good, none is made twice, and the input to measure next is
 // the one that narrows the answer most.
-#include "engine/statistics/sensitivity.hpp"
+#include "engine/study/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The budget of a number on models whose truth is known: whether its interval holds the truth as often as it
 // says and is no wider than it must be, whether shares are those that were put in, and what it refuses.
-#include "engine/statistics/budget.hpp"
+#include "engine/study/budget.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Calibrations against what is known of them: estimates of a certified problem, the coverage of intervals
 // over many experiments of the tilt law tan θ = α + τ0 c (kinds of METROLOGY, uncertainty_calibration.csv),
 // what is said where rows do not determine every parameter, and each refusal.
-#include "engine/statistics/calibration.hpp"
+#include "engine/study/calibration.hpp"
 
 #include <gtest/gtest.h>
 
