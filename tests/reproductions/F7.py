@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # F7: kinds of height maps that were refused or not known: SPIP with a head in UTF-16, an X3P of Alicona with infinite
-# heights for missing points, one zipped with its folder, tables of two columns under a head with units; what is not read
-# is named, with a way to something that is.
+# heights for missing points, one zipped with its folder, tables of two columns under a head with units; a kind that is not
+# read is named, with a way to one that is, and a damaged file says of which kind it is.
 import math
 import struct
 

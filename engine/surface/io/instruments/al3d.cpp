@@ -29,7 +29,7 @@ std::pair<std::string, std::string> take_tag(BinaryCursor& cursor, const SourceF
   constexpr std::size_t name_bytes = 20, value_bytes = 30;
   const std::string name(cursor.text(name_bytes)), value(cursor.text(value_bytes));
   if (cursor.take(2) != "\r\n")
-    refuse_file(file, "has a tag " + shown(name) + " that does not end as a line",
+    refuse_file(file, "is an AL3D file of Alicona with a tag " + shown(name) + " that does not end as a line",
                 "its header is wrong or the file is damaged");
   return {name, value};
 }

@@ -66,8 +66,10 @@ std::size_t opdx_length(const SourceFile& file, BinaryCursor& cursor) {
     case 4:
       return cursor.number<std::uint32_t>();
     default:
-      refuse_file(file, "has a length of " + std::to_string(width) + " bytes among its items",
-                  "the file is damaged");
+      refuse_file(
+          file,
+          "is an OPDx file of Bruker with a length of " + std::to_string(width) + " bytes among its items",
+          "the file is damaged");
   }
 }
 
