@@ -16,7 +16,7 @@ std::string padded_cell(std::string text, std::size_t width, bool right) {
   return right ? space + text : text + space;
 }
 
-std::string share_text(double share) { return format_short(std::round(1000 * share) / 10, 4) + " %"; }
+std::string budget_share_text(double share) { return format_short(std::round(1000 * share) / 10, 4) + " %"; }
 
 std::string grid_text(std::size_t replicates, double cells) {
   std::string text = replicates > 0 ? std::to_string(replicates) + " replicates" : "one run";
@@ -60,7 +60,7 @@ std::string Budget::text() const {
     const bool of_input = !part.halving_seconds;
     text += "  " + padded_cell(part.name, width, false) +
             padded_cell(format_short(part.uncertainty, 3), 11, true) +
-            padded_cell((rough && of_input ? "~" : "") + share_text(part.share), 9, true) + "   " +
+            padded_cell((rough && of_input ? "~" : "") + budget_share_text(part.share), 9, true) + "   " +
             part.halving;
     if (part.halving_seconds) text += ", " + format_short(*part.halving_seconds, 2) + " s";
     text += "; then ± " + format_short(part.half_width_after, 3) + "\n";
