@@ -276,9 +276,9 @@ TEST(ScanningProbe, DamageIsAnErrorOrAnotherSurface) {
       {"a.tiff", testing::ParkExample{}(six)},
       {"a.opdx", testing::OpdxExample{}({1, 2, 3, 4, 5})},
   };
-  for (const auto& [name, bytes] : files) {
-    EXPECT_EQ(refusal(name, bytes), "no error");
-    testing::damage(bytes, 61, 1000, [&](const std::string& damaged) { read(name, damaged); });
+  for (const auto& file : files) {
+    EXPECT_EQ(refusal(file.first, file.second), "no error");
+    testing::damage(file.second, 61, 1000, [&](const std::string& damaged) { read(file.first, damaged); });
   }
 }
 
