@@ -75,7 +75,8 @@ struct SurExample {
     Bytes b;
     b.text(mark).put(order).put(objects).put(std::int16_t{1}).put(type).field("object", 30, ' ');
     b.field("operator", 30, ' ').put(std::int16_t{0}).put(std::int16_t{0}).put(std::int16_t{0}).put(special);
-    b.put(std::int16_t{0}).zeros(8).put(bits).put(least).put(most).put(nx).put(ny).put(nx * ny);
+    b.put(std::int16_t{0}).zeros(8).put(bits).put(least).put(most).put(nx).put(ny);
+    b.put(static_cast<std::int32_t>(std::int64_t{nx} * ny));  // as a head that lies has it: the low bits
     b.put(dx).put(dy).put(dz).field("X", 16, ' ').field("Y", 16, ' ').field("Z", 16, ' ');
     for (int k = 0; k < 2; ++k) b.field(unit_xy, 16).field(unit_xy, 16).field(unit_z, 16);
     b.put(1.0F).put(1.0F).put(1.0F).zeros(3 * 2 + 12 + 7 * 2 + 4 + 10);
