@@ -42,6 +42,8 @@ endif()
 if(ASPERITY_SANITIZE)
   target_compile_options(asperity_options INTERFACE -fsanitize=${ASPERITY_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(asperity_options INTERFACE -fsanitize=${ASPERITY_SANITIZE})
+  # What GCC adds for the sanitizer hides from it where a value was set; the release build looks for values that were not.
+  target_compile_options(asperity_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   if(ASPERITY_SANITIZE MATCHES undefined)
     target_compile_options(asperity_options INTERFACE -fno-sanitize-recover=undefined)
   endif()
