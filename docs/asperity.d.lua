@@ -1092,7 +1092,7 @@ function Contact:close() end
 ---@field preload number[] the branch of bodies that attract each other: values of the prescribed quantity gone to in turn before this one; empty where they were brought together from apart
 ---@field iterations integer of the solver; 0 for a closed form
 ---@field residual number greatest entry of the certificate
----@field certificate asperity.Certificate how far the contact conditions are from being met, each relative; with `adhesion` these bound tractions and not lengths: gaps and approaches may be off by more
+---@field certificate asperity.Certificate how far the contact conditions are from being met, each relative; where the bodies attract each other these bound tractions and not lengths: gaps and approaches may be off by more
 ---@field converged boolean whether every entry of the certificate is within the tolerance
 ---@field solver string what found the solution
 ---@field effects_run string[] effects that were computed

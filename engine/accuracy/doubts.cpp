@@ -81,7 +81,8 @@ std::vector<std::string> doubts(const State& state) {
     if (const double times = state.peak_pressure() / softer.hardness; times > 1 + rounding)
       sentences.push_back("the peak pressure is " + format_short(times, 3) + " times the hardness of the " +
                           softer.name + " body, " + format_quantity(softer.hardness, dimension::pressure) +
-                          ": it would yield, and this scene does not name `plasticity`");
+                          ": it would yield, and this scene does not name " +
+                          effects_that(Effect::Acts::bounds_pressure));
   }
   return sentences;
 }

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+
 namespace asperity {
 
 void Effects::set(const Effect& effect, std::any options) {
@@ -31,6 +34,18 @@ Effects Effects::of_solve() const {
   std::erase_if(result.named_,
                 [](const Named& named) { return named.effect->acts == Effect::Acts::reads_state; });
   return result;
+}
+
+std::string effects_that(Effect::Acts acts) {
+  std::vector<std::string> names = effect_names(acts);
+  for (std::string& name : names) name = quoted(name);
+  return joined(names);
+}
+
+void refuse_without(const std::string& what, const std::string& quoted_effect, std::string hint) {
+  throw Error(ErrorCode::bad_state,
+              what + " needs the effect " + quoted_effect + ", which this scene does not name",
+              std::move(hint));
 }
 
 }  // namespace asperity

@@ -30,7 +30,8 @@ inline constexpr std::string_view elasticity_effect = "elasticity";
 struct Effect {
   enum class Acts {
     adds_term,        // to the energy that a solve minimises: of the gap
-    bounds_pressure,  // or scales what bounds it; what passes the bound is left on the bodies
+    bounds_pressure,  // what passes the bound is left on the bodies
+    scales_bound,     // by the time for which a load rests
     reads_state,      // of a contact that is solved without it; no solve knows of it
   };
 
@@ -47,6 +48,9 @@ struct Effect {
   void (*plan)(const std::any& options, const ContactGeometry& geometry, Plan& plan);
   // Adds to what a press of this state leaves on the bodies (bodies/after_event.hpp). Null: nothing stays.
   void (*leave)(const State& state, const Plan& plan, AfterEvent& after) = nullptr;
+  // The BodyMemory that `leave` writes; empty: none. That of an effect which only reads states is part of
+  // their digest; what a solve reads is in its pressures.
+  std::string_view keeps = {};
   // Null: it gives none.
   std::vector<StateQuantity> (*quantities)() = nullptr;
   bool over_ranks = false;  // whether lab.spread computes it
@@ -104,9 +108,20 @@ class Effects {
   bool any_that(Effect::Acts acts) const;
   // Those that a solve knows of.
   Effects of_solve() const;
+  auto begin() const { return named_.begin(); }
+  auto end() const { return named_.end(); }
 
  private:
   std::vector<Named> named_;
 };
+
+// Of all that a scene can name (effects/list.hpp) those that act so: their names, and in a sentence,
+// "`capillarity` or `adhesion`".
+std::vector<std::string> effect_names(Effect::Acts acts);
+std::string effects_that(Effect::Acts acts);
+
+// Throws Error{bad_state}: `what` needs an effect, or one of several, and the scene does not name it.
+[[noreturn]] void refuse_without(const std::string& what, const std::string& quoted_effect,
+                                 std::string hint = {});
 
 }  // namespace asperity

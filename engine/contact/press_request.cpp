@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/contact/effect.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -53,7 +54,7 @@ void check_numbers(const PressRequest& request) {
 void check(const PressRequest& request, bool attracts) {
   if (!attracts && !(request.value >= 0 && std::isfinite(request.value)))
     throw Error(ErrorCode::bad_value, value_text(request),
-                "a contact without adhesion takes a finite value from zero up");
+                "a contact in which nothing attracts the bodies takes a finite value from zero up");
   if (attracts && request.by == PressBy::flatten)
     throw Error(ErrorCode::bad_value, "`flatten` of bodies that attract each other is not computed",
                 "press by `pressure`, `load`, `approach` or `indentation`");
@@ -61,7 +62,8 @@ void check(const PressRequest& request, bool attracts) {
   const std::vector<double>& turns = request.preload;
   if (!turns.empty() && !attracts)
     throw Error(ErrorCode::bad_value, "`preload` is given, and nothing attracts the bodies",
-                "name `adhesion` or `capillarity`, or leave it out: without them a state has no history");
+                "name " + effects_that(Effect::Acts::adds_term) +
+                    ", or leave it out: without them a state has no history");
   if (turns.size() == 1 && turns.front() < request.value)
     throw Error(ErrorCode::bad_value,
                 "`preload` is " + format_short(turns.front()) + ", below the " + quoted(name(request.by)) +

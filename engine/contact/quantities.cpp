@@ -168,9 +168,7 @@ std::string error_sentence(const StateQuantity& quantity, std::string_view remar
 }  // namespace
 
 double StateQuantity::of(const State& state) const {
-  if (!effect.empty() && !state.effects().names(effect))
-    throw Error(ErrorCode::bad_state,
-                quoted(name) + " needs the effect " + quoted(effect) + ", which this scene does not name");
+  if (!effect.empty() && !state.effects().names(effect)) refuse_without(quoted(name), quoted(effect));
   return value(state);
 }
 

@@ -80,11 +80,6 @@ struct State::Shared {
   const Grid& grid() const { return tile; }
   bool wraps() const { return periodic; }
 
-  void need_plasticity(const char* what) const {
-    if (!yields)
-      throw Error(ErrorCode::bad_state,
-                  quoted(what) + " needs the effect `plasticity`, which this scene does not name");
-  }
   std::shared_ptr<const Solution> now() const {
     const std::lock_guard lock(mutex);
     return solution;
@@ -101,6 +96,12 @@ struct State::Shared {
       Digester digester;
       digester.add("state").add(known->load()).add(known->pressure()).add(known->approach());
       digester.add(known->pressure_field().values());
+      for (const auto& [effect, options] : effects) {
+        if (effect->acts != Effect::Acts::reads_state || effect->keeps.empty()) continue;
+        const MetMemory memory = met(known->geometry(), known->geometry().kept(effect->keeps), 0);
+        for (const auto& body : {memory.lower, memory.upper})
+          if (body) digester.add(effect->keeps).add(body->values());
+      }
       return digester.hex();
     });
   }
@@ -278,9 +279,8 @@ std::shared_ptr<const Field> State::field(std::string_view name) const {
                 "a state has no field " + quoted(name) + did_you_mean(name, names_of_fields),
                 "fields are " + joined(names_of_fields, " and "));
   if (name == "plastic" && !shared_->yields)
-    throw Error(ErrorCode::bad_state,
-                "the field `plastic` needs the effect `plasticity`, which this scene does not name",
-                "there is no plastic change without it");
+    refuse_without("the field `plastic`", effects_that(Effect::Acts::bounds_pressure),
+                   "there is no plastic change without it");
   const auto which = static_cast<std::size_t>(found - names_of_fields.begin());
   return shared_->fields[which].get([&] {
     const std::shared_ptr<const Solution> now = shared_->now();
@@ -349,12 +349,10 @@ Histogram State::distribution(std::string_view name, const HistogramOptions& opt
 }
 
 double State::plastic_volume() const {
-  shared_->need_plasticity("plastic_volume");
   return shared_->plastic_volume.get([&] { return shared_->now()->plastic_volume(); });
 }
 
 double State::plastic_fraction() const {
-  shared_->need_plasticity("plastic_fraction");
   return static_cast<double>(shared_->now()->yielded()) / static_cast<double>(shared_->grid().nodes());
 }
 

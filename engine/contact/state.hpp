@@ -92,20 +92,21 @@ class State {
   const std::shared_ptr<const ChosenAccuracy>& chosen() const { return chosen_; }
   State beside(std::shared_ptr<const CompanionGrids> companion_grids) const;
   State chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const;
-  const std::string& digest() const;  // of pressures, load and approach
+  // Of pressures, load and approach, and of what earlier events left that effects read and no solve does.
+  const std::string& digest() const;
 
   // "pressure" (Pa), "gap" (m), "contact" (1 or 0), "displacement" (m, elastic), "plastic" (m, the plastic
   // part of the approach); in the lower body's frame. Where nothing faces the lower body the pressure is 0
-  // and the gap is missing (NaN). Throws Error{unknown_name}, or Error{bad_state} for "plastic" without
-  // plasticity.
+  // and the gap is missing (NaN). Throws Error{unknown_name}, or Error{bad_state} for "plastic" where
+  // nothing limits the pressure.
   std::shared_ptr<const Field> field(std::string_view name) const;
   // The body under load, in its own frame: "lower" or "upper". A rigid one comes back as it was.
   Surface deformed(std::string_view body) const;
   // "pressure" over the nodes in contact, "gap" over the others where the bodies face each other, "spot_area"
   // over the spots. Throws Error{bad_state} when there are none.
   Histogram distribution(std::string_view name, const HistogramOptions& options = {}) const;
-  // m³ that this press took from both bodies, and the share of the nodes at the limit of the pressure. Both
-  // throw Error{bad_state} without the effect `plasticity`.
+  // m³ that this press took from both bodies, and the share of the nodes at the limit of the pressure; 0
+  // where nothing limits it.
   double plastic_volume() const;
   double plastic_fraction() const;
   // What this press leaves in the bodies; none where nothing yielded.

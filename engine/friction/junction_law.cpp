@@ -29,8 +29,8 @@ void check_rest(std::optional<double> rest, const Effects& effects) {
   if (!rest) return;
   require(*rest >= 0 && std::isfinite(*rest), "rest", *rest, "s", "give a time from zero up");
   if (!effects.has<AgeingOptions>())
-    throw Error(ErrorCode::bad_state, "`rest` needs the effect `ageing`, which this scene does not name",
-                "name ageing={ rate=, onset= } in the effects of the contact, or leave `rest` out");
+    refuse_without("`rest`", "`ageing`",
+                   "name ageing={ rate=, onset= } in the effects of the contact, or leave `rest` out");
 }
 
 double strengthening(const Effects& effects, std::optional<double> rest) {

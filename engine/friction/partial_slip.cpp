@@ -48,9 +48,7 @@ bool has_tangential(const Effects& effects) { return effects.has<TangentialOptio
 
 void require_tangential(const Effects& effects) {
   if (!has_tangential(effects))
-    throw Error(ErrorCode::bad_state,
-                "partial slip needs the effect `tangential`, which this scene does not name",
-                "name tangential={} in the effects of the contact");
+    refuse_without("partial slip", "`tangential`", "name tangential={} in the effects of the contact");
 }
 
 PartialSlip shear(const Solver& contact, const State& normal, const ShearRequest& request, Monitor& monitor) {

@@ -125,10 +125,9 @@ void SpecimenPair::warn(const PressRequest& request, Monitor& monitor) {
   warn_of_an_overhang(monitor);
   warn_of_a_step_at_the_rim(monitor);
   if (request.dwell && !(plan_.yield && plan_.yield->softening) && !std::exchange(warned_of_dwell_, true))
-    monitor.warn(
-        "`dwell` does nothing without creep: this scene does not name the effect `creep`, so no press "
-        "depends "
-        "on how long it lasts");
+    monitor.warn("`dwell` does nothing without " + joined(effect_names(Effect::Acts::scales_bound)) +
+                 ": this scene does not name the effect " + effects_that(Effect::Acts::scales_bound) +
+                 ", so no press depends on how long it lasts");
 }
 
 State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {

@@ -192,7 +192,8 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
     if (std::any_of(result.probes.begin(), result.probes.end(), [](const TiltProbe& p) { return p.yields; }))
       add_sentence(note,
                    "spots yield under the probe pressure, which bounds area per load by one over the "
-                   "hardness; without `plasticity` the probe is elastic");
+                   "hardness; without " +
+                       effects_that(Effect::Acts::bounds_pressure) + " the probe is elastic");
     if (const double pull = mean_of(result.probes, &TiltProbe::attraction); pull > 0)
       add_sentence(note,
                    "the bodies attract each other by " + format_short(pull, 3) +

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An effect is known by its record alone: outside engine/contact/effects and the rooms of friction, no source names one in
-quotes, and no solver includes anything of effects/.
+quotes, no sentence of the engine or of an error names one in backquotes, and no solver includes anything of effects/.
 
 usage: effect_names.py [FOLDER]
 """
@@ -20,7 +20,8 @@ def main(arguments):
     if not names:
         print("engine/contact/effects/list.cpp: no effect is listed")
         return 1
-    quoted = re.compile("\"(" + "|".join(names) + ")\"")
+    # In quotes; in backquotes within a sentence.
+    quoted = re.compile("\"(?:{0})\"|\"[^\"]*`(?:{0})`".format("|".join(names)))
     wrong = []
     for top in ("engine", "bindings"):
         for path in sorted((folder / top).rglob("*.[ch]pp")):

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
+#include "engine/contact/quantities.hpp"
 #include "tests/contact/contacts.hpp"
 
 namespace asperity::state_test {
@@ -135,7 +136,8 @@ TEST(State, UnknownFieldsAndBodiesAreRefused) {
   EXPECT_NE(error_of([&] { st.deformed("middle"); }).find("a contact has no body `middle`"),
             std::string::npos);
   for (const auto& ask : std::vector<std::function<void()>>{
-           [&] { st.field("plastic"); }, [&] { st.plastic_volume(); }, [&] { st.plastic_fraction(); }})
+           [&] { st.field("plastic"); }, [&] { find_quantity("plastic_volume")->of(st); },
+           [&] { find_quantity("plastic_fraction")->of(st); }})
     EXPECT_NE(error_of(ask).find("needs the effect `plasticity`, which this scene does not name"),
               std::string::npos);
 }

@@ -8,6 +8,7 @@
 #include "engine/contact/effects/creep.hpp"
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
+#include "engine/contact/quantities.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "engine/surface/operations/heights.hpp"
@@ -91,8 +92,9 @@ TEST(PlasticEvents, WithoutPlasticityNothingStays) {
   const std::string lower = pair.lower().digest();
   const State state = pair.press(pressure(100));
   EXPECT_EQ(pair.lower().digest(), lower);
-  EXPECT_NE(error_of([&] { state.plastic_volume(); }).find("needs the effect `plasticity`"),
-            std::string::npos);
+  EXPECT_NE(
+      error_of([&] { find_quantity("plastic_volume")->of(state); }).find("needs the effect `plasticity`"),
+      std::string::npos);
 }
 
 // Hard case 11.

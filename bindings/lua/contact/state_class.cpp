@@ -199,9 +199,8 @@ const Class& class_of<asperity::State>() {
         {"residual", "number", "greatest entry of the certificate", {}, read_state_number<&S::residual>},
         {"certificate",
          "Certificate",
-         "how far the contact conditions are from being met, each relative; with `adhesion` these bound "
-         "tractions "
-         "and not lengths: gaps and approaches may be off by more",
+         "how far the contact conditions are from being met, each relative; where the bodies attract each "
+         "other these bound tractions and not lengths: gaps and approaches may be off by more",
          {},
          [](Call& call) -> Values { return {certificate_type()(call.self<S>().certificate())}; }},
         {"converged",

@@ -23,11 +23,6 @@ namespace {
 
 const AlgebraicError& bounds(Call& call) { return call.self<StateBounds>().state.algebraic_error(); }
 
-[[noreturn]] void needs_effect(const std::string& field, std::string_view effect) {
-  throw Error(ErrorCode::bad_state,
-              quoted(field) + " needs the effect " + quoted(effect) + ", which this scene does not name");
-}
-
 // A field is asked for by its own name.
 Values bound(Call& call) {
   const StateQuantity& quantity = *find_quantity(call.function_name());
@@ -36,7 +31,7 @@ Values bound(Call& call) {
   if (found) return {*found};
   const auto& run = state.effects_run();
   if (!quantity.effect.empty() && std::find(run.begin(), run.end(), quantity.effect) == run.end())
-    needs_effect(call.function_name(), quantity.effect);
+    refuse_without(quoted(call.function_name()), quoted(quantity.effect));
   throw Error(ErrorCode::bad_state,
               quoted(call.function_name()) + " has no algebraic bound in a state pressed by `flatten`",
               "the others are bounds at the load that was found; press by `pressure` or `approach`");
@@ -44,7 +39,7 @@ Values bound(Call& call) {
 
 const NodeBracket& yielded(Call& call) {
   const auto& found = bounds(call).yielded_bracket;
-  if (!found) needs_effect(call.function_name(), find_quantity("plastic_fraction")->effect);
+  if (!found) refuse_without(quoted(call.function_name()), quoted(find_quantity("plastic_fraction")->effect));
   return *found;
 }
 

@@ -8,6 +8,7 @@
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "engine/contact/effect.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -47,10 +48,7 @@ int missing_field(lua_State* L) {
     const Argument key(L, 2);
     for (const auto& [field, effect] : record.missing_effects)
       if (key.is_text() && key.text() == field)
-        throw Error(
-            ErrorCode::bad_state,
-            quoted(field) + " needs the effect " + quoted(effect) + ", which this scene does not name",
-            "name it in the effects of the contact");
+        refuse_without(quoted(field), quoted(effect), "name it in the effects of the contact");
     throw Error(ErrorCode::unknown_name,
                 "a " + record.name + " result has no field " +
                     (key.is_text() ? quoted(key.text().substr(0, 40)) + did_you_mean(key.text(), names)

@@ -24,9 +24,8 @@ double nodes(const Call& call) { return call.self<SpreadState>().surface.slab.al
 
 void require_plasticity(const Call& call, const char* name) {
   if (!call.self<SpreadState>().plastic)
-    throw Error(ErrorCode::bad_state,
-                quoted(name) + " needs the effect `plasticity`, which this scene does not name",
-                "name it in `effects` of lab.spread.contact");
+    refuse_without(quoted(name), effects_that(Effect::Acts::bounds_pressure),
+                   "name it in `effects` of lab.spread.contact");
 }
 
 const RecordType<Certificate>& spread_certificate_type() {

@@ -38,7 +38,7 @@ const Effect& creep_effect() {
   static const Effect record{
       .name = "creep",
       .sentence = "hardness falls with the dwell of the load; needs plasticity; {} for its defaults",
-      .acts = Effect::Acts::bounds_pressure,
+      .acts = Effect::Acts::scales_bound,
       .defaults = O{},
       .options =
           {number_row(

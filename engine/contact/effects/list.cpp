@@ -67,6 +67,13 @@ const Effect* require_effect(std::string_view name) {
               "known are " + joined(ready, " and "));
 }
 
+std::vector<std::string> effect_names(Effect::Acts acts) {
+  std::vector<std::string> names;
+  for (const Effect* effect : known_effects())
+    if (effect->acts == acts) names.emplace_back(effect->name);
+  return names;
+}
+
 std::vector<std::string> effects_not_in(std::span<const std::string> run) {
   std::vector<std::string> off = computed_names();
   std::erase_if(off, [&](const std::string& name) { return std::ranges::find(run, name) != run.end(); });

@@ -158,6 +158,7 @@ const Effect& plasticity_effect() {
                         "out: the pressure stays at the hardness")},
       .plan = plan_plasticity,
       .leave = leave_yielded,
+      .keeps = hardness_memory,
       .quantities = plastic_quantities,
       .over_ranks = true};
   return record;

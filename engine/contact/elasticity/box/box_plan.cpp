@@ -94,10 +94,11 @@ void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan) {
 }
 
 void check_rigid(const std::any&, const Scene& scene) {
-  if (!scene.effects.any_that(Effect::Acts::bounds_pressure))
-    throw Error(ErrorCode::bad_value,
-                "rigid bodies carry a load only where they yield, and this scene does not name `plasticity`",
-                "name `plasticity` beside elasticity=\"rigid\", or name another elasticity");
+  if (scene.effects.any_that(Effect::Acts::bounds_pressure)) return;
+  const std::string wanted = effects_that(Effect::Acts::bounds_pressure);
+  throw Error(ErrorCode::bad_value,
+              "rigid bodies carry a load only where they yield, and this scene does not name " + wanted,
+              "name " + wanted + " beside elasticity=\"rigid\", or name another elasticity");
 }
 
 std::any stiffness_as_planned(const std::any&, const Plan& before) {

@@ -207,7 +207,9 @@ SlabTerms slab_terms(const std::optional<Material>& lower, const Material& upper
   terms.cap = std::numeric_limits<double>::infinity();
   if (const Plan plan = make_plan(scene, geometry); plan.yield) {
     if (plan.yield->hardens())
-      throw Error(ErrorCode::bad_value, "`effects.plasticity.hardening` is not computed over ranks",
+      throw Error(ErrorCode::bad_value,
+                  "`effects." + effect_names(Effect::Acts::bounds_pressure).front() +
+                      ".hardening` is not computed over ranks",
                   "leave it out, so that the pressure stays at the hardness, or use lab.contact");
     terms.cap = plan.yield->hardness();
   }
