@@ -324,6 +324,34 @@ std::string LogTable::others() const {
   return others;
 }
 
+void LogTable::warn_of_others(Monitor& monitor) const {
+  if (const std::string names = others(); !names.empty())
+    monitor.warn(file_name(file_.path()) + " has columns that a protocol does not use: " + names);
+}
+
+void LogTable::require_one_of(int pressure, int load) {
+  if (has(pressure) && has(load)) {
+    problem(here(),
+            "both `pressure` and `load` are given; choose one, and begin the title of the other with "
+            "\"result \" or leave it out");
+  } else if (!has(pressure) && !has(load)) {
+    const std::string names = others();
+    problem(here(), "no column `pressure` or `load`" + (names.empty() ? names : " among others: " + names) +
+                        "; write \"pressure [MPa]\" or \"load [N]\"");
+  }
+}
+
+void LogTable::read_rows(Monitor& monitor, const std::function<void(const std::vector<LogCell>&)>& read) {
+  Task task(monitor, "reading", static_cast<std::int64_t>(file_.bytes().size()));
+  std::size_t before = 0;
+  for (std::vector<LogCell> cells; next_row(cells);) {
+    task.advance(static_cast<std::int64_t>(position() - before));
+    before = position();
+    read(cells);
+  }
+  fail_if_any();
+}
+
 bool LogTable::next_row(std::vector<LogCell>& cells) {
   while (lines_.next_row(cells)) {
     if (cells.size() == columns_.size()) return true;

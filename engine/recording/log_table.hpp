@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@
 
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/files/text_table.hpp"
+#include "engine/core/monitor.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/statistics/file_problems.hpp"
 #include "engine/statistics/stamp_column.hpp"
@@ -46,6 +48,8 @@ class LogTable {
   // The next row as it stands, its cells as many as the columns; blank lines and comments are left out, and
   // a row of another length is a problem. False at the end.
   bool next_row(std::vector<LogCell>& cells);
+  // All rows, and then fail_if_any().
+  void read_rows(Monitor& monitor, const std::function<void(const std::vector<LogCell>&)>& read);
 
   std::size_t columns() const { return columns_.size(); }
   // What column k means; null for one that is left out.
@@ -57,6 +61,9 @@ class LogTable {
   // none. Those whose title begins with "result " do not count: they are what was measured, beside what was
   // done.
   std::string others() const;
+  void warn_of_others(Monitor& monitor) const;
+  // A problem unless one of both is given, and one alone; the meanings are those of `pressure` and `load`.
+  void require_one_of(int pressure, int load);
 
   // A number with its column's unit, in SI and exact; nothing for an empty cell, or after a problem.
   std::optional<double> quantity(std::size_t k, const LogCell& cell);

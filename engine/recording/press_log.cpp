@@ -40,14 +40,7 @@ class LogReader {
     table_.read_titles();
     check_columns();
     table_.fail_if_any();
-    Task task(monitor_, "reading", static_cast<std::int64_t>(file_.bytes().size()));
-    std::size_t before = 0;
-    for (std::vector<LogCell> cells; table_.next_row(cells);) {
-      task.advance(static_cast<std::int64_t>(table_.position() - before));
-      before = table_.position();
-      read_row(cells);
-    }
-    table_.fail_if_any();
+    table_.read_rows(monitor_, [this](const std::vector<LogCell>& cells) { read_row(cells); });
     if (events_.empty()) refuse_file(file_, "names columns but holds no row", "a row is an event");
     warn_if_sampled();
     warn_of_cells();
@@ -56,18 +49,8 @@ class LogReader {
 
  private:
   void check_columns() {
-    const std::string others = table_.others();
-    if (table_.has(pressure) && table_.has(load))
-      table_.problem(
-          table_.here(),
-          "both `pressure` and `load` are given; choose one, and begin the title of the other with "
-          "\"result \" or leave it out");
-    else if (!table_.has(pressure) && !table_.has(load))
-      table_.problem(table_.here(), "no column `pressure` or `load`" +
-                                        (others.empty() ? std::string() : " among others: " + others) +
-                                        "; write \"pressure [MPa]\" or \"load [N]\"");
-    else if (!others.empty() && table_.problems() == 0)
-      monitor_.warn(file_name(file_.path()) + " has columns that a protocol does not use: " + others);
+    table_.require_one_of(pressure, load);
+    if (table_.problems() == 0) table_.warn_of_others(monitor_);
   }
 
   void read_row(const std::vector<LogCell>& cells) {

@@ -50,14 +50,7 @@ class RecordingReader {
     recording_.load.reserve(rows);
     recording_.line.reserve(rows);
     if (angle_) recording_.angle.reserve(rows);
-    Task task(monitor_, "reading", static_cast<std::int64_t>(file_.bytes().size()));
-    std::size_t before = 0;
-    for (std::vector<LogCell> cells; table_.next_row(cells);) {
-      task.advance(static_cast<std::int64_t>(table_.position() - before));
-      before = table_.position();
-      read_row(cells);
-    }
-    table_.fail_if_any();
+    table_.read_rows(monitor_, [this](const std::vector<LogCell>& cells) { read_row(cells); });
     if (recording_.time.empty()) refuse_file(file_, "names columns but holds no row", "a row is a sample");
     for (const std::string& warning : table_.warnings()) monitor_.warn(warning);
     spread_equal_times();
@@ -71,23 +64,14 @@ class RecordingReader {
       table_.problem(table_.here(), "no column `time`, without which no event is found" +
                                         (others.empty() ? std::string() : ", among others: " + others) +
                                         "; write \"time [s]\"");
-    if (table_.has(of_load) && table_.has(of_pressure))
-      table_.problem(
-          table_.here(),
-          "both `pressure` and `load` are given; choose one, and begin the title of the other with "
-          "\"result \" or leave it out");
-    else if (!table_.has(of_load) && !table_.has(of_pressure))
-      table_.problem(table_.here(), "no column `pressure` or `load`" +
-                                        (others.empty() ? std::string() : " among others: " + others) +
-                                        "; write \"pressure [MPa]\" or \"load [N]\"");
+    table_.require_one_of(of_pressure, of_load);
     for (const RecordedMeaning meaning : {of_dwell, of_place, of_turn})
       if (const auto k = table_.find(meaning))
         table_.problem(table_.here(*k),
                        "a recording has none: dwells and turns are found in it; read the table "
                        "with events=\"rows\", or leave the column out");
     if (table_.problems() > 0) return;
-    if (!others.empty())
-      monitor_.warn(file_name(file_.path()) + " has columns that a protocol does not use: " + others);
+    table_.warn_of_others(monitor_);
     time_ = *table_.find(at_time);
     recording_.by = table_.has(of_load) ? PressBy::load : PressBy::pressure;
     load_ = *table_.find(table_.has(of_load) ? of_load : of_pressure);

@@ -23,6 +23,13 @@ struct FitPoints {
   std::vector<double> weights{};  // one each, not negative; none: all alike
 };
 
+// Those that count: with a weight above 0.
+struct UsedPoints {
+  std::vector<double> x, y, weights;
+};
+// Throws Error{bad_value} as the fits below do.
+UsedPoints used_points(const FitPoints& points, std::size_t parameters, double confidence);
+
 struct FitStart {
   std::string name;
   double value = 0;

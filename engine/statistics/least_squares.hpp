@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "engine/statistics/curve_fit.hpp"
-#include "engine/statistics/fit_points.hpp"
 
 namespace asperity {
 
