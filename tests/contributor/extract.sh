@@ -23,8 +23,10 @@ awk -v folder="$folder" '
 find "$folder" -name '*.row' | while read -r row; do
   path=${row#"$folder"/}
   path=${path%.row}
-  awk -v row="$row" '
-    /^};$|end of the list/ && !done { while ((getline line < row) > 0) print line; done = 1 }
+  end='^};$'
+  grep -q 'end of the list' "$path" && end='end of the list'
+  awk -v row="$row" -v end="$end" '
+    $0 ~ end && !done { while ((getline line < row) > 0) print line; done = 1 }
     { print }' "$path" > "$folder/$path"
   rm "$row"
 done

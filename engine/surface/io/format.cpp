@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list of formats and the choice among them. A new format is one source file, one declaration
-// and one line here.
+// and one line here (docs/contributor.md).
 #include "engine/surface/io/format.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::span<const Format* const> formats() {
       &park_format(),        //
       &stylus_csv_format(),  //
       &xyz_format(),         //
-      &text_format(),
+      &text_format(),        // end of the list
   };
   return all;
 }

@@ -71,7 +71,7 @@ const Format& wsxm_format();
 const Format& park_format();
 const Format& stylus_csv_format();
 const Format& xyz_format();
-const Format& text_format();
+const Format& text_format();  // end of the list
 
 // Whether a text of three columns without any mark looks like x y z triples of a lattice with some
 // points missing or given more than once, which a matrix of three columns could be as well.
