@@ -18,6 +18,8 @@
 
 namespace asperity {
 
+class Json;
+
 // A term of the convex problem, or its operator, and the effect that brought it.
 struct PlannedTerm {
   std::string effect;    // catalogue name
@@ -85,5 +87,8 @@ Plan make_plan(const Scene& scene, const ContactGeometry& geometry);
 // The plan of the scene of `before` for bodies that have yielded since, or on other cells: what a default
 // took from the bodies as placed (boxes as stiff as E*/peak-to-valley) stays as it was.
 Plan make_plan_like(const Plan& before, const Scene& scene, const ContactGeometry& geometry);
+
+// What text() says, as JSON.
+Json to_json(const Plan& plan);
 
 }  // namespace asperity

@@ -83,4 +83,8 @@ double known_sum(std::span<const double> values);
 double known_mean(std::span<const double> values);
 Range known_range(std::span<const double> values);
 
+// The value at node (i, j), by numbers that came from a script and may be anything. Throws Error{bad_value}
+// unless both are whole numbers inside the field.
+double node_value(const Field& field, double i, double j);
+
 }  // namespace asperity

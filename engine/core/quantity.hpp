@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -77,5 +78,9 @@ struct DisplayUnit {
   double factor = 1;  // SI value of one unit
 };
 DisplayUnit display_unit(double largest_magnitude, Dimension dimension);
+
+// The dimension of that name ("length", "energy per area"), as describe() gives it without its article.
+std::optional<Dimension> dimension_named(std::string_view name);
+std::vector<std::string> dimension_names();
 
 }  // namespace asperity

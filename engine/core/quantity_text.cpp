@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
-#include "engine/core/dimension_names.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 

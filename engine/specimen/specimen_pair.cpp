@@ -11,11 +11,11 @@
 #include "engine/accuracy/expected_transforms.hpp"
 #include "engine/contact/bodies/after_event.hpp"
 #include "engine/contact/effects/list.hpp"
+#include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/part_monitor.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/specimen/placement.hpp"
 
 namespace asperity {
 
@@ -103,6 +103,16 @@ int whole_cells(double length, double cell, std::string_view key) {
 }
 
 }  // namespace
+
+LatticeIsometry draw_placement(const Grid& grid, Boundary boundary, std::uint64_t seed) {
+  const Stream stream(seed, "placement");
+  const bool square = grid.nx == grid.ny && grid.size_x == grid.size_y;
+  const auto quarters = static_cast<int>(square ? stream.below(0, 4) : 2 * stream.below(0, 2));
+  const LatticeIsometry turned = LatticeIsometry(grid.nx, grid.ny).turned(quarters);
+  if (boundary == Boundary::free) return turned;
+  return turned.shifted(static_cast<int>(stream.below(1, static_cast<std::uint64_t>(grid.nx))),
+                        static_cast<int>(stream.below(2, static_cast<std::uint64_t>(grid.ny))));
+}
 
 SpecimenPair::SpecimenPair(const Scene& scene)
     : scene_(checked(scene)),

@@ -24,6 +24,13 @@
 
 namespace asperity {
 
+// Where the stream "placement" of `seed` puts the upper body down afresh, exact on the lattice, so that
+// nothing is resampled: turned by 0, 90, 180 or 270 deg (0 or 180 when cells or sizes differ in x and y),
+// then shifted by whole cells along x and y; on a free boundary not shifted at all, for a body moved past the
+// rim would meet nothing there. Off the axis of a disc a turn brings statistically fresh ground, which on one
+// tile a shift stands for.
+LatticeIsometry draw_placement(const Grid& grid, Boundary boundary, std::uint64_t seed);
+
 class SpecimenPair {
  public:
   // What was done to the pair, and what a press of it measured.

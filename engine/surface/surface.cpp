@@ -10,7 +10,7 @@
 
 #include "engine/core/digest.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/node_value.hpp"
+#include "engine/core/grid.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {

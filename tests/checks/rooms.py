@@ -33,7 +33,7 @@ SEES = {
     "engine/friction": NUMERICS + " engine/contact",
     "engine/specimen": NUMERICS + " engine/contact engine/friction engine/accuracy",
     "engine/recording": MECHANICS + " engine/plot",
-    "engine/run": NUMERICS + " engine/plot engine/contact/plan.hpp engine/contact/effects/list.hpp",
+    "engine/run": NUMERICS + " engine/plot engine/contact/effects/list.hpp",
     "engine/study": ENGINE.removesuffix(" engine/study"),
 } | {f"bindings/lua/{room}": " ".join([ENGINE, *(f"bindings/lua/{below}" for below in LUA_ROOMS[:k])])
      for k, room in enumerate(LUA_ROOMS)} | {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Placements drawn by seed: which turns and shifts they may take.
-#include "engine/specimen/placement.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::placement_test {
 namespace {

@@ -2,7 +2,8 @@
 #include "bindings/lua/contact/plan.hpp"
 
 #include "bindings/lua/registry/record_type.hpp"
-#include "engine/run/plan_json.hpp"
+#include "engine/contact/plan.hpp"
+#include "engine/core/files/json.hpp"
 
 namespace asperity::lua {
 

@@ -9,10 +9,11 @@
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
 #include "bindings/lua/specimen/tilt_stage.hpp"
+#include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/json.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/run/plan_json.hpp"
 
 namespace asperity::lua {
 

@@ -4,7 +4,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/picture.hpp"
-#include "engine/core/node_value.hpp"
+#include "engine/core/grid.hpp"
 #include "engine/plot/picture.hpp"
 
 namespace asperity::lua {
