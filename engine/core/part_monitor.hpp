@@ -26,7 +26,7 @@ class PartMonitor final : public Monitor {
   void warn(std::string_view sentence) override { outer_.warn(sentence); }
   void inform(std::string_view sentence) override { outer_.inform(sentence); }
   ResultStore* results() override { return results_; }
-  // For parts that are timed: nothing is taken up that was computed before.
+  // For parts that are timed: no stored result is used.
   void compute_afresh() { results_ = nullptr; }
 
  private:

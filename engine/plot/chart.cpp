@@ -429,8 +429,8 @@ std::string chart_script(std::span<const LineChart> given, PictureFormat format,
   for (std::size_t k = 0; k < panels.size(); ++k)
     for (std::size_t other = 0; other < panels.size(); ++other)
       if (other != k && share_x(panels[k], panels[other])) {
-        const std::vector<double> reach = contents[other].ends.x;
-        contents[k].ends.x.insert(contents[k].ends.x.end(), reach.begin(), reach.end());
+        const std::vector<double> ends = contents[other].ends.x;
+        contents[k].ends.x.insert(contents[k].ends.x.end(), ends.begin(), ends.end());
       }
   const int width = panels.front().width;
   std::vector<Axes> axes;

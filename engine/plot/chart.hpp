@@ -75,7 +75,7 @@ std::string chart_script(const LineChart& chart, PictureFormat format, std::vect
 std::string chart_script(std::span<const LineChart> panels, PictureFormat format,
                          std::vector<std::string>& warnings);
 
-// Draws the chart into `file` (.svg, .png or .pdf), written aside. Returns the warnings. Throws as
+// Draws the chart into `file` (.svg, .png or .pdf), replaced atomically. Returns the warnings. Throws as
 // chart_script, picture_format, run_gnuplot and write_atomically do.
 std::vector<std::string> draw(const LineChart& chart, const std::filesystem::path& file);
 std::vector<std::string> draw(std::span<const LineChart> panels, const std::filesystem::path& file);

@@ -36,7 +36,7 @@ struct PictureScript {
 // Cost: one pass over the field; memory of a value a pixel.
 PictureScript picture_script(const Grid& grid, const Field& field, const PictureOptions& options);
 
-// Draws into `file` (.png), written aside. Returns warnings: what gnuplot complained of. Throws as
+// Draws into `file` (.png), replaced atomically. Returns warnings: what gnuplot complained of. Throws as
 // picture_script, run_gnuplot and write_atomically do.
 std::vector<std::string> draw(const Grid& grid, const Field& field, const PictureOptions& options,
                               const std::filesystem::path& file);

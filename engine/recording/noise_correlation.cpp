@@ -31,16 +31,16 @@ Bends bends_of(std::span<const double> time, std::span<const double> value,
   Array<double> magnitudes;
   // A sensor at its limit has no noise.
   const double top = *std::max_element(value.begin(), value.end());
-  const auto reach = static_cast<std::size_t>(stride);
+  const auto lag = static_cast<std::size_t>(stride);
   constexpr std::size_t rim = 1;
   for (const StraightPiece& piece : pieces) {
     const double slope = piece.line.slope();
     const auto left = [&](std::size_t k) {
       return value[k] - piece.line.y - slope * (time[k] - piece.line.t);
     };
-    for (std::size_t k = piece.first + rim + reach; k + reach + rim <= piece.last; ++k)
-      if (value[k] != top || value[k - reach] != top || value[k + reach] != top)
-        magnitudes.push_back(std::abs(left(k) - 0.5 * (left(k - reach) + left(k + reach))));
+    for (std::size_t k = piece.first + rim + lag; k + lag + rim <= piece.last; ++k)
+      if (value[k] != top || value[k - lag] != top || value[k + lag] != top)
+        magnitudes.push_back(std::abs(left(k) - 0.5 * (left(k - lag) + left(k + lag))));
   }
   if (magnitudes.empty()) return {};
   const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);

@@ -68,11 +68,11 @@ void RecordingMarks::take_samples() {
   // Squares of times and loads are summed.
   constexpr double least = 1e-100, most = 1e100;
   const auto [low, high] = std::minmax_element(y_.begin(), y_.end());
-  const double span = t_.back() - t_.front(), reach = std::max(std::abs(*low), std::abs(*high));
+  const double span = t_.back() - t_.front(), greatest = std::max(std::abs(*low), std::abs(*high));
   if (!(span >= least && span <= most && std::abs(t_.back()) <= most && std::abs(t_.front()) <= most) ||
-      !(reach <= most && (reach == 0 || reach >= least)))
+      !(greatest <= most && (greatest == 0 || greatest >= least)))
     refuse("holds times or loads out of all measure: " + format_short(span) + " s in all, up to " +
-               quantity(reach),
+               quantity(greatest),
            "check the units of its columns");
   Array<double> steps;
   for (std::size_t k = 0; k + 1 < t_.size(); ++k) steps.push_back(t_[k + 1] - t_[k]);

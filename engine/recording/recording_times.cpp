@@ -53,10 +53,12 @@ std::pair<std::size_t, std::size_t> RecordingMarks::window(const Mark& a, const 
   const double change = std::abs(a.line.y - b.line.y) / piece_noise();
   const double hidden = change > 0 ? 12 * evidence_ / (change * change) : 1e9;
   const double between = static_cast<double>(b.first - a.last);
-  const auto reach = static_cast<std::size_t>(std::clamp(std::max(1.5 * hidden, 1.5 * between), 8.0, 400.0));
+  const auto half_window =
+      static_cast<std::size_t>(std::clamp(std::max(1.5 * hidden, 1.5 * between), 8.0, 400.0));
   const std::size_t middle = (a.last + b.first) / 2;
-  const std::size_t first = std::max(a.first + (a.last - a.first) / 4, middle > reach ? middle - reach : 0);
-  const std::size_t last = std::min(b.last - (b.last - b.first) / 4, middle + reach);
+  const std::size_t first =
+      std::max(a.first + (a.last - a.first) / 4, middle > half_window ? middle - half_window : 0);
+  const std::size_t last = std::min(b.last - (b.last - b.first) / 4, middle + half_window);
   return {first, last};
 }
 

@@ -2,9 +2,8 @@
 // The journal of a run: one line of JSON an event, each handed to the system in one piece as it
 // happens, so that a run that is killed loses nothing it had recorded. A line is
 // {"n":<number from 1>,"event":<name>, <fields>}. It carries no dates: equal runs write equal lines;
-// what differs from run to run (seconds) belongs in a field named "unhashed". A journal that is taken up
-// again is repeated up to where it ended, each line compared with the one that stands there, and then goes
-// on.
+// what differs from run to run (seconds) belongs in a field named "unhashed". A journal that is resumed is
+// repeated up to where it ended, each line compared with the one that stands there, and then goes on.
 #pragma once
 
 #include <chrono>
@@ -82,7 +81,7 @@ class Journal {
   int descriptor_ = -1;
   std::int64_t count_ = 0;
   bool closed_ = false;
-  std::vector<Json> recorded_;      // of a journal taken up again, without what is unhashed
+  std::vector<Json> recorded_;      // of a resumed journal, without what is unhashed
   std::vector<std::int64_t> ends_;  // byte after each
   std::string departure_;
   Digester digester_;

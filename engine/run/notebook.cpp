@@ -65,7 +65,7 @@ void Notebook::write(std::span<const Entry> given) {
   journal_.write("row", fields);
   const bool new_header = table_.append(row);
   if (csv_.empty()) return;
-  // The file of a run that is taken up again has these rows, and more.
+  // The file of a run that is resumed has these rows, and more.
   if (journal_.repeating()) {
     stale_ = true;
     return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A notebook: rows of free columns that a script writes as it goes. Each row is in the journal before
 // `write` returns, and in the notebook's CSV file, to which it is appended; a new column or unit
-// rewrites the file aside. Rows keep the order in which they were written.
+// rewrites the file atomically. Rows keep the order in which they were written.
 #pragma once
 
 #include <chrono>

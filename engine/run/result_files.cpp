@@ -128,8 +128,8 @@ void ResultFiles::bring_over(const fs::path& from, const std::string& name) {
   fs::create_hard_link(from, to, problem);  // one file of both folders, where they are on one disk
   if (!problem) return;
   try {
-    AtomicFile aside(to);  // other runs may bring it over at the same time
-    if (fs::copy_file(from, aside.temporary(), problem)) aside.commit();
+    AtomicFile copy(to);  // other runs may bring it over at the same time
+    if (fs::copy_file(from, copy.temporary(), problem)) copy.commit();
   } catch (const Error&) {
     // it stays where it is
   }

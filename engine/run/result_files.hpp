@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The results of heavy calls in a folder, one HDF5 file a result, named by its key: what a run that was cut
-// off has finished, and what an edited script shares with the last one. A file is written aside and renamed
-// and carries a digest of what it holds; a torn or altered one is noticed, computed anew and replaced. Keys
-// hold the identity of this build, for another build may round otherwise. Folders may be shared by runs and
-// machines at the same time. Parts that killed writers left there are removed when it is opened.
+// off has finished, and what an edited script shares with the last one. A file is written under a temporary
+// name and renamed and carries a digest of what it holds; a torn or altered one is noticed, computed anew and
+// replaced. Keys hold the identity of this build, for another build may round otherwise. Folders may be
+// shared by runs and machines at the same time. Parts that killed writers left there are removed when it is
+// opened.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 // what, and how it ended), journal.jsonl, one CSV a notebook, and whatever the script writes itself.
 // The manifest is the same bytes for equal runs apart from its member "unhashed" (dates, machine,
 // threads, place). Files are kept inside: a name that leads out is refused unless the run is trusted.
-// The folder `store` keeps the results of its heavy calls (result_files.hpp): a run that is taken up again
+// The folder `store` keeps the results of its heavy calls (result_files.hpp): a run that is resumed
 // repeats its script, finds them there, and checks itself against the journal as far as that goes.
 // The directory is locked (run_lock.hpp) from its making to the end of the run, and a run whose manifest says
 // `done` is on the disk: journal and outputs first, then their folders, the manifest last. The run's own
@@ -45,7 +45,7 @@ struct RunSetup {
   // goes on there; or, with `anew`, of another script, whose files are moved into before-<n>.
   std::optional<std::filesystem::path> resume;
   bool anew = false;
-  bool journal_lost = false;  // of a run that is taken up: its journal is damaged or gone, and begun again
+  bool journal_lost = false;      // of a run that is resumed: its journal is damaged or gone, and begun again
   std::shared_ptr<RunLock> lock;  // of the directory, where it was taken already
   // Of which nothing will remain (repeated runs that are timed, ranks that do not lead): nothing is locked,
   // and the disk is not waited for.
@@ -77,7 +77,7 @@ class RunDirectory {
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
-  // Of a run that is taken up again: whether it is still where it had been before.
+  // Of a run that is resumed: whether it is still where it had been before.
   bool repeating() const { return journal_->repeating(); }
   // The directory of a run that another process will be, made and locked as the constructor would: that one
   // is given it as `out` or `resume`, and inherits the lock. `resume` may name a folder that is not there
@@ -96,9 +96,9 @@ class RunDirectory {
   std::filesystem::path store() const { return root_ / run_names::store; }
   // A sentence where the file system of the directory gives no locks; "" otherwise.
   std::string lock_notice() const { return lock_ ? lock_->notice() : std::string(); }
-  // Whether it is a finished run that was taken up because something of it was damaged, and is done again.
+  // Whether it is a finished run that was resumed because something of it was damaged, and is done again.
   bool mended() const { return mended_; }
-  // The files, and the folder they are in, without which the run cannot be taken up again.
+  // The files, and the folder they are in, without which the run cannot be resumed.
   std::vector<std::filesystem::path> needed_to_resume() const;
 
   // Empty for loose and dry runs, and for one that is made later until it is.
@@ -130,7 +130,7 @@ class RunDirectory {
   void note_unhashed(std::string_view key, Json value);
   // A file that was read, under the name the script gave, with the digest of its content. The
   // manifest tells of it while the run goes on (of many files in eighths of what there are), so that a run
-  // that is taken up again knows it. Returns whether that one had read other content.
+  // that is resumed knows it. Returns whether that one had read other content.
   bool note_input(std::string_view file, std::int64_t bytes, std::string_view digest);
 
   // Ends the run: brings notebooks up to date, closes the journal with an event "end", and writes the
@@ -139,7 +139,7 @@ class RunDirectory {
   // for each file, then leaves that one as it is on disk, which is whole. `reason` says why a run
   // did not end as done. What is done or failed is on the disk before the manifest says so, and the lock is
   // given back. Throws Error{bad_file} after having tried everything, in which case nothing is done: the
-  // manifest says failed; the same where the journal was removed meanwhile, and where a run that was taken up
+  // manifest says failed; the same where the journal was removed meanwhile, and where a run that was resumed
   // to mend it did not make its outputs as they were.
   bool finish(RunStatus status, std::string_view reason = {},
               std::chrono::milliseconds patience = std::chrono::seconds(2));
@@ -167,7 +167,7 @@ class RunDirectory {
   std::shared_ptr<RunLock> lock_;
   bool scratch_ = false;
   std::vector<std::filesystem::path> holding_;  // folders in which one was made on the way to the directory
-  std::vector<std::pair<std::string, std::string>> recorded_inputs_;  // of a run taken up: files, digests
+  std::vector<std::pair<std::string, std::string>> recorded_inputs_;  // of a resumed run: files, digests
   Json recorded_outputs_;  // of a finished run that is mended; else null
   bool mended_ = false;
   std::unique_ptr<Journal> journal_;

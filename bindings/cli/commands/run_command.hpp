@@ -40,8 +40,8 @@ struct RunCommand {
   std::optional<std::string> text;          // of the script, where it is not read from its file
   std::optional<std::string> resume;        // directory of a run that was cut off
   bool anew = false;                        // of another script: its files are moved aside, its results stay
-  bool journal_lost = false;                // of the run that is taken up: its journal is begun again
-  std::vector<std::string> damages;         // of the run that is taken up, a sentence each
+  bool journal_lost = false;                // of the run that is resumed: its journal is begun again
+  std::vector<std::string> damages;         // of the run that is resumed, a sentence each
   std::shared_ptr<RunLock> lock;            // of the directory, where it was taken already
   std::vector<std::string> reuse;           // runs, or folders of results, to take results from
   std::optional<std::string> store;         // folder of results that several runs share, instead of its own

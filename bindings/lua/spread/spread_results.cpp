@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Presses over ranks in the store of the run, so that one taken up again does not repeat them. Numbers alone:
+// Presses over ranks in the store of the run, so that a resumed one does not repeat them. Numbers alone:
 // the fields may be more than one machine has room for.
 #include <utility>
 

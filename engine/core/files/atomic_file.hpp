@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file replaced atomically: written aside, under another name in the same folder, and renamed when it is
+// A file replaced atomically: written under a temporary name in the same folder, and renamed when it is
 // whole. A reader sees the old file or the whole new one, never a torn one, and a failed write leaves what
 // was there. Does not wait for the disk unless asked to: a power cut may lose the last moments, a kill does
 // not.
 //
-// The names aside are ".NAME.WRITER.part.EXTENSION", where WRITER is host and process as 8 and up to 10
+// The temporary names are ".NAME.WRITER.part.EXTENSION", where WRITER is host and process as 8 and up to 10
 // digits and 64 random bits, so that processes of several hosts and containers never write one file. A writer
 // that is killed leaves its part behind; the name says whether it may still be written.
 #pragma once
@@ -28,7 +28,7 @@ class AtomicFile {
  public:
   // Throws Error{bad_file} for a device or a pipe, in whose place the rename would put a file.
   explicit AtomicFile(std::filesystem::path target, FileWords words = FileWords::run);
-  // Removes what was written aside unless commit() was called.
+  // Removes the temporary file unless commit() was called.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

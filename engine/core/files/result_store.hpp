@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results of heavy calls that depend on nothing but what they are given, kept under a key made of all of it,
-// so that a run that goes over the same ground again takes them up instead of computing them. A call finds
-// the store of its run through its monitor; where there is none it computes, and pays nothing. What is taken
-// up carries the cost it had when it was computed: every number of a result is the same either way.
+// The store of results of heavy calls. A result depends on nothing but the arguments of its call, and is
+// stored under a key made of all of them, so that a run that makes the same call again reads the result
+// instead of computing it. A call finds the store of its run through its monitor; where there is none it
+// computes, and pays nothing. A stored result carries the cost it had when it was computed: every number is
+// the same either way.
 #pragma once
 
 #include <optional>

@@ -109,11 +109,11 @@ class Ground {
   Field take() && { return std::move(heights_); }
 
  private:
-  // Two sums of what act(height, r²) returns over the nodes within reach · radius of the centre. Sums
+  // Two sums of what act(height, r²) returns over the nodes within radii · radius of the centre. Sums
   // are taken row by row and then over the rows.
   template <class Act>
-  std::array<double, 2> visit(const Dent& dent, double reach, const Act& act) {
-    const double hx = grid_.hx(), hy = grid_.hy(), far = reach * dent.radius;
+  std::array<double, 2> visit(const Dent& dent, double radii, const Act& act) {
+    const double hx = grid_.hx(), hy = grid_.hy(), far = radii * dent.radius;
     const auto first = static_cast<std::int64_t>(std::ceil((dent.y - far) / hy));
     const auto last = static_cast<std::int64_t>(std::floor((dent.y + far) / hy));
     const std::int64_t rows = last - first + 1;

@@ -61,15 +61,15 @@ void check_outlier_rule(const OutlierRule& rule) {
 // Heights less the median of the measured ones around them; NaN where nothing was measured.
 Field median_residuals(const Field& z, int window, bool wraps_x, bool wraps_y, Monitor& monitor) {
   Field residuals(z.nx(), z.ny(), no_height);
-  const int reach = window / 2;
+  const int half = window / 2;
   constexpr int rows_a_block = 4, rows_a_turn = 256;
   Task task(monitor, "residuals of a median filter", z.ny());
   const auto one_row = [&](int j, Array<double>& around) {
     for (int i = 0; i < z.nx(); ++i) {
       if (std::isnan(z(i, j))) continue;
       around.clear();
-      for (int dj = -reach; dj <= reach; ++dj)
-        for (int di = -reach; di <= reach; ++di) {
+      for (int dj = -half; dj <= half; ++dj)
+        for (int di = -half; di <= half; ++di) {
           int p = i + di, q = j + dj;
           if (wraps_x) p = ((p % z.nx()) + z.nx()) % z.nx();
           if (wraps_y) q = ((q % z.ny()) + z.ny()) % z.ny();
