@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a scene may name beside its elasticity: an effect is a record of one file of effects/, with its
-// options, what it needs beside it, what it adds to a plan, what an event leaves of it on the bodies and the
-// quantities that only it gives. Whoever reads a scene, checks, plans, presses or documents walks these
-// records (effects/list.hpp) and knows no effect by name.
+// An effect that a scene may name beside its elasticity. Each effect is one record in one file of effects/:
+// its options, which other effects it needs, what it adds to a plan, what an event leaves of it on the
+// bodies, and the quantities that only this effect gives. The sources that read, check, plan, press and
+// document a scene walk these records (effects/list.hpp) and know no effect by name.
 #pragma once
 
 #include <any>
@@ -24,7 +24,7 @@ struct Plan;
 struct Scene;
 struct StateQuantity;
 
-// What the elasticity is called in a scene, in costs and in reports; no record among the effects.
+// The name of the elasticity in a scene, in costs and in reports. It has no record among the effects.
 inline constexpr std::string_view elasticity_effect = "elasticity";
 
 struct Effect {
@@ -40,8 +40,9 @@ struct Effect {
   Acts acts;
   std::any defaults;  // the struct of its options
   std::vector<OptionRow> options;
-  // Throws Error for options that do not go together, and where the scene lacks what the effect needs or
-  // names what it cannot be computed beside. The ranges of the options were checked before. May be null.
+  // Throws Error for options that exclude each other, for a scene without what the effect needs, and for a
+  // scene with something beside which the effect is not computed. The ranges of the options were checked
+  // before. May be null.
   void (*check)(const std::any& options, const Scene& scene) = nullptr;
   // Fills the plan: its terms, the bound on its pressures, buffers, warnings, and the options with their
   // defaults filled in. Throws Error that names effect and body where a material lacks a property.
@@ -106,7 +107,7 @@ class Effects {
   }
   bool names(std::string_view effect) const;
   bool any_that(Effect::Acts acts) const;
-  // Those that a solve knows of.
+  // Without the effects that only read states: what a solve depends on.
   Effects of_solve() const;
   auto begin() const { return named_.begin(); }
   auto end() const { return named_.end(); }
@@ -115,7 +116,7 @@ class Effects {
   std::vector<Named> named_;
 };
 
-// Of all that a scene can name (effects/list.hpp) those that act so: their names, and in a sentence,
+// The names of the listed effects (effects/list.hpp) that act so; and the same names for a sentence,
 // "`capillarity` or `adhesion`".
 std::vector<std::string> effect_names(Effect::Acts acts);
 std::string effects_that(Effect::Acts acts);

@@ -33,17 +33,17 @@ struct ElasticModel {
   std::string boundary{};  // what is said where a scene gives none; empty: it may
   bool periodic_only = false;
   bool over_ranks = false;  // whether lab.spread computes it
-  // Throws Error for what it cannot be computed with; the ranges of the options were checked before. May be
-  // null.
+  // Throws Error for a scene that this model does not compute; the ranges of the options were checked before.
+  // May be null.
   void (*check)(const std::any& options, const Scene& scene) = nullptr;
   // Fills operator, term, buffers, solver name, expected transforms and time.
   void (*plan)(const std::any& options, const ContactGeometry& geometry, Plan& plan);
-  // Once the effects are planned. May be null.
+  // Completes the plan after the effects have added theirs. May be null.
   void (*finish)(const ContactGeometry& geometry, Plan& plan) = nullptr;
-  // The options with what their defaults came to in `before`, for bodies that have yielded since or lie on
-  // other cells. Null: as given.
+  // The options with their defaults replaced by the values of the plan `before`, for bodies that have yielded
+  // since or lie on other cells. Null: the options stay as they were given.
   std::any (*as_planned)(const std::any& options, const Plan& before) = nullptr;
-  // Made ready to be pressed: what is done once for all loads.
+  // The contact made ready to be pressed: the work that does not depend on the load is done here.
   std::shared_ptr<const Solver> (*solver)(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry);
 };
 

@@ -53,7 +53,7 @@ struct PlannedYield {
   double modulus_ratio = 1;
   // H(dwell, s)/H; none: the hardness does not depend on how long a press lasts.
   std::function<double(std::optional<double> dwell)> softening{};
-  // By the bodies as they lie now: of none of it does anything yield again.
+  // The loads that the bodies have carried as they lie now; under none of them does a node yield again.
   std::vector<CarriedLoad> carried{};
 
   double hardness() const { return std::min(lower_hardness, upper_hardness); }
@@ -70,7 +70,7 @@ struct PlannedYield {
 // it is exact: the strains go as 1/E. All or nothing where the other body's hardness is infinite.
 double lower_plastic_share(double lower_hardness, double upper_hardness, double modulus_ratio = 1);
 
-// Under which the hardness that nodes have reached, Pa at the reference dwell, is kept on the bodies.
+// The name of the BodyMemory that holds the hardness of each node after hardening, Pa at the reference dwell.
 inline constexpr std::string_view hardness_memory = "hardness";
 
 // The hardness of each node with the other body on it, each as the lower body's nodes meet it; none where it

@@ -21,8 +21,8 @@ struct PressRequest {
   PressBy by = PressBy::pressure;
   double value = 0;               // zero leaves the bodies just touching, with no contact
   std::optional<double> dwell{};  // s; read by creep alone, so without that effect it changes nothing
-  // Of bodies that attract each other: values of the same quantity, gone to one after another before this
-  // one. Empty for bodies that are brought together from apart.
+  // Bodies that attract each other have a history: the values of the same quantity at which the direction of
+  // the press was reversed before this one, in their order. Empty for bodies that come together from apart.
   std::vector<double> preload{};
 };
 
@@ -32,13 +32,13 @@ std::string_view name(PressBy by);
 // Throws Error{bad_value} naming the key for numbers that no contact could take: a value that is not finite,
 // `flatten` outside 0 … 1, a negative `dwell`.
 void check_numbers(const PressRequest& request);
-// Those, and what a contact does not take whose bodies attract each other or do not: a negative value and
-// `preload` where nothing attracts, `flatten` where something does, and one `preload` below the value.
+// Throws as check_numbers; also for a negative value and for `preload` where nothing attracts the bodies, for
+// `flatten` where something does, and for a single `preload` below the value.
 void check(const PressRequest& request, bool attracts = false);
 
-// The preload of `value` when `visited` was gone through before it, in this order: the turns that still
-// tell, a greatest value, the least after it, the greatest after that, … Going past an earlier turn wipes it
-// out, since the branches of a contact are monotone (return-point memory; Sethna et al. 1993). O(n²) at most.
+// The preload of a press to `value` after presses to `visited`, in their order: the greatest value, the least
+// after it, the greatest after that, … A press past an earlier reversal wipes it out, because the branches of
+// a contact are monotone (return-point memory; Sethna et al. 1993). O(n²) at most.
 std::vector<double> turns_before(std::span<const double> visited, double value);
 
 }  // namespace asperity

@@ -42,8 +42,7 @@ class State {
   double pressure() const;  // Pa, load over nominal area
   // N on the tile, of an attraction across the gap: the contacts carry load() and this together.
   double attraction() const;
-  // Of such bodies: values of the prescribed quantity gone to in turn before this one. Empty where they were
-  // brought together from apart.
+  // PressRequest::preload of the press; empty where the bodies came together from apart.
   std::vector<double> preload() const;
   double approach() const;    // m from first touch
   double separation() const;  // m, of the mean planes of the undeformed bodies, where they face each other
@@ -80,11 +79,11 @@ class State {
   std::string solver() const;
   const std::vector<std::string>& effects_run() const;
   const std::vector<std::string>& effects_off() const;
-  // Those of the scene, with what their defaults come to here.
+  // The effects of the scene, their options with the defaults filled in.
   const Effects& effects() const;
   bool yields() const;            // whether an effect limits the pressure, so that there is something plastic
   const StateCost& cost() const;  // of the press, not of what was asked afterwards
-  // The same state, its cost increased by what was done for it beforehand or afterwards.
+  // The same state with `more` added to its cost: work that was done for it before or after the press.
   State costing_also(const StateCost& more) const;
   // The same press on companion grids, from which discretisation_error.hpp estimates the error of the grid,
   // and the accuracy that was chosen for an error asked for. Null where the scene did not ask for them.
@@ -124,7 +123,7 @@ class State {
   static std::span<const std::string> field_names();
 
   struct Shared;
-  // For whoever closes a contact: the states made of it, as long as they live.
+  // A reference that does not keep the state alive, by which a contact closes the states pressed in it.
   using Watch = std::weak_ptr<Shared>;
   Watch watch() const;
   // Frees the memory of a solution. What was read of the state stays, and its load, approach, contacts, peak

@@ -100,10 +100,6 @@ std::size_t known_count(std::span<const double> values) {
   return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), is_known));
 }
 
-double known_sum(std::span<const double> values) {
-  return all_known(values) ? block_sum(values) : block_sum(known_values(values));
-}
-
 double known_mean(std::span<const double> values) {
   return all_known(values) ? mean(values) : mean(known_values(values));
 }

@@ -77,9 +77,8 @@ struct Range {
 Range range(std::span<const double> values);
 
 // The same of a field that is missing (NaN) where there is nothing to measure: over the values that are
-// there, and to the bit block_sum, mean and range where all are.
+// there, and to the bit mean and range where all are.
 std::size_t known_count(std::span<const double> values);
-double known_sum(std::span<const double> values);
 double known_mean(std::span<const double> values);
 Range known_range(std::span<const double> values);
 

@@ -218,7 +218,7 @@ TEST(Arithmetic, IsMadeAgainOnOtherCells) {
 TEST(Mask, MarksMorePoints) {
   const Surface s = with_holes_at(6, 5, {{0, 0}});
   Field mask = mask_of(s);
-  EXPECT_EQ(known_sum(mask.values()), 29);
+  EXPECT_EQ(block_sum(mask.values()), 29);
   EXPECT_EQ(masked(s, mask).digest(), s.digest());
   mask(4, 4) = 0;
   mask(5, 4) = hole;
@@ -250,13 +250,13 @@ TEST(Outliers, AreSpikesAndNoOthers) {
   EXPECT_EQ(found.mask(0, 0), 0);
   EXPECT_EQ(found.mask(59, 49), 0);
   EXPECT_EQ(found.mask(10, 10), 0);  // not measured, and not counted
-  EXPECT_EQ(known_sum(found.mask.values()), 60 * 50 - 4);
+  EXPECT_EQ(block_sum(found.mask.values()), 60 * 50 - 4);
   EXPECT_DOUBLE_EQ(found.limit, 6 * found.deviation);
   EXPECT_NEAR(found.deviation, 0.3, 0.1);
   // Units do not matter.
   for (double& h : z.values()) h *= 1e-9;
   const Outliers small = find_outliers(Surface::with_holes(grid, z), rule(6));
-  EXPECT_EQ(known_sum(small.mask.values()), 60 * 50 - 4);
+  EXPECT_EQ(block_sum(small.mask.values()), 60 * 50 - 4);
 }
 
 // Of Gaussian residuals the scaled deviation is the standard deviation, and a factor marks as many as it

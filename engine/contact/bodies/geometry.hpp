@@ -20,20 +20,18 @@ namespace asperity {
 
 class ContactGeometry {
  public:
-  // The bodies of `scene` (which must have passed check) lying as `pose` says. O(n), and one field of
-  // memory for two rough bodies. The upper body, turned off the lattice, does not lie over all nodes of the
-  // lower one, nor over those marked in `uncovered` (1; empty for none, or one mark a node under a rough
-  // body). The bodies are taken as put down afresh: what is kept on
-  // them counts in each body's own frame. Throws
-  // Error{bad_value} when the sums of heights or of their squares leave the range of a double, or no node of
-  // one body lies over the other.
+  // The bodies of `scene` (which must have passed check) lying as `pose` says, put down afresh: `memory`
+  // holds in each body's own frame. A rough upper body that is turned off the lattice leaves some nodes of
+  // the lower body uncovered; `uncovered` marks further ones (1 at each such node; empty: none). O(n), and
+  // one field of memory for two rough bodies. Throws Error{bad_value} when the sums of heights or of their
+  // squares leave the range of a double, or no node of one body lies over the other.
   ContactGeometry(const Scene& scene, const Pose& pose, BodyMemory memory = {},
                   std::span<const std::uint8_t> uncovered = {});
 
-  // The bodies after an event that took `yielded` from both together (none: their shapes are as they were),
-  // still lying as in `before`. Off the
-  // lattice each body keeps its share only as well as its nodes map onto the other's; what they lost
-  // together here is kept exactly until they are moved.
+  // The bodies after an event, still lying as in `before`. The event took `yielded` (m, at the nodes of the
+  // lower body) from both together; none: the shapes are as they were. Off the lattice the shape of each body
+  // is known only as well as its nodes map onto those of the other, but the combined heights have lost
+  // exactly `yielded` until the bodies are moved.
   ContactGeometry(const Scene& scene, const ContactGeometry& before, BodyMemory memory,
                   const std::optional<Field>& yielded);
 
@@ -42,16 +40,17 @@ class ContactGeometry {
   const UpperBody& upper() const { return upper_; }
   Boundary boundary() const { return boundary_; }
   const Pose& pose() const { return pose_; }
-  // What events have left beside the shapes, all of it and by name; empty where nothing is kept so.
+  // What events have left on the bodies beside their shapes: all of it, and the memory of one name (empty
+  // where there is none).
   const BodyMemory& memory() const { return memory_; }
   const NodeMemory& kept(std::string_view name) const;
   bool upper_is_flat() const { return std::holds_alternative<Material>(upper_); }
 
-  // m; NaN at nodes where nothing faces the lower body, over which neither of the next two goes.
+  // m; NaN at nodes where nothing faces the lower body. The two functions below leave such nodes out.
   const Field& combined() const { return combined_ ? *combined_ : lower_.heights(); }
   Range combined_range() const { return range_; }          // m
   double peak_to_valley() const { return range_.span(); }  // m
-  // The heights of those nodes that are there, in their order.
+  // The combined heights at the nodes where the bodies face each other, in the order of the nodes.
   Array<double> facing_heights() const;
   // The nodes at which the bodies face each other; all, unless a free boundary lets one body overhang.
   std::int64_t facing() const { return facing_; }
