@@ -48,14 +48,16 @@ class Protocol {
   std::size_t count() const { return events_->size(); }
   std::size_t presses() const;
 
-  // One protocol after another, and one several times over. Recorded times are dropped: they would run
-  // backwards. Throws Error{bad_value} for less than one time or more than ten million events.
+  // The events of this protocol and then those of another, and this protocol several times over. Recorded
+  // times are dropped, because they would run backwards. Throws Error{bad_value} for less than one time or
+  // more than ten million events.
   Protocol plus(const Protocol& next) const;
   Protocol repeated(std::int64_t times) const;
 
-  // The same events, with what was found in the recording that they come from; no part of the value.
+  // The same events, and beside them what was found in the recording that they come from; it is no part of
+  // the value and of its digest.
   Protocol detected_in(std::shared_ptr<const Detection> recording) const;
-  // Null for a protocol that does not come from a recording as it is.
+  // Null where the events are not exactly those found in a recording.
   const std::shared_ptr<const Detection>& recording() const { return recording_; }
 
   // A line with the count and one an event, with the time and the lines that it was read from; the middle

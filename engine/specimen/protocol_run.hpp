@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A protocol under way on a specimen pair, one event a call. An event that fails leaves the pair as it was
-// before it, the earlier ones done, and itself the next one still. Whoever stops calling leaves nothing
-// behind: events that were not asked for are not done.
+// before that event, and the next call tries the same event again. Events that no call asks for are not done.
 #pragma once
 
 #include <chrono>

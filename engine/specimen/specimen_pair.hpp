@@ -58,9 +58,9 @@ class SpecimenPair {
   // Frees the memory of every state pressed here that is still held; what was read of one stays
   // (State::close).
   void close();
-  // Whether it was closed; a copy is not.
+  // Whether close() was called; a copy of a closed pair is open.
   bool closed() const { return closed_; }
-  // The same bodies, lying and loaded alike, that are pressed and closed by themselves.
+  // A pair of the same bodies, lying and loaded alike, that is pressed and closed by itself.
   SpecimenPair copy() const;
 
   // Takes the load off.
@@ -85,7 +85,7 @@ class SpecimenPair {
 
   // All that was done since the pair was made, in order; a copy goes on from that of its original.
   const std::vector<Done>& history() const { return history_; }
-  // Gives a time to all that was done from number `first` on.
+  // Gives a time to every entry of that list from number `first` on.
   void date(std::size_t first, std::optional<double> time);
 
   // Each body as it is now, in its own frame. A flat counter-body is a surface of zeros.
