@@ -278,13 +278,16 @@ State BoxSolver::press(const PressRequest& request, Monitor&) const {
   const double bound =
       4 * std::numeric_limits<double>::epsilon() *
       std::max(load.approach * solution->stiffness() / load.pressure, load.approach / length);
-  if (load.approach > 0 && bound > plan_.accuracy.tolerance &&
-      plan_.accuracy.on_failure == Accuracy::OnFailure::error && !state.converged())
+  if (load.approach > 0 && bound > plan_.accuracy.tolerance) check_rounding(state, plan_.accuracy);
+  return state;
+}
+
+void check_rounding(const State& state, const Accuracy& accuracy) {
+  if (accuracy.on_failure == Accuracy::OnFailure::error && !state.converged())
     throw Error(ErrorCode::not_converged,
                 "the residual of the closed form is " + format_short(state.residual(), 3) +
-                    ", above the `tolerance` of " + format_short(plan_.accuracy.tolerance),
+                    ", above the `tolerance` of " + format_short(accuracy.tolerance),
                 "it is rounding that remains; raise `tolerance` or set `on_failure` to \"best\"");
-  return state;
 }
 
 }  // namespace asperity

@@ -39,4 +39,8 @@ class BoxSolver final : public Solver {
   std::shared_ptr<const Ready> ready_;
 };
 
+// The check that ends a press in closed form. Works the certificate out; throws Error{not_converged} where
+// rounding leaves it above the tolerance and the scene did not ask for the best there is.
+void check_rounding(const State& state, const Accuracy& accuracy);
+
 }  // namespace asperity

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/contact/bodies/elastic_bodies.hpp"
+#include "engine/contact/elasticity/box/box_solver.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
 #include "engine/contact/planned_yield.hpp"
@@ -343,11 +344,7 @@ State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
                 asked + ", so large that the numbers of the solution leave the range of a double",
                 "check its unit");
   const State state(std::move(solution), plan_, elasticity_alone(scope.so_far()));
-  if (plan_.accuracy.on_failure == Accuracy::OnFailure::error && !state.converged())
-    throw Error(ErrorCode::not_converged,
-                "the residual of the closed form is " + format_short(state.residual(), 3) +
-                    ", above the `tolerance` of " + format_short(plan_.accuracy.tolerance),
-                "it is rounding that remains; raise `tolerance` or set `on_failure` to \"best\"");
+  check_rounding(state, plan_.accuracy);
   return state;
 }
 
