@@ -66,6 +66,8 @@ std::size_t utf8_length(std::string_view text) {
 
 }  // namespace
 
+bool is_utf16(std::string_view bytes) { return utf16_order(bytes).has_value(); }
+
 std::optional<std::string> utf8_of_utf16(std::string_view bytes) {
   const std::optional<ByteOrder> order = utf16_order(bytes);
   if (!order) return {};

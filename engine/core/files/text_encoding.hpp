@@ -9,8 +9,10 @@
 
 namespace asperity {
 
-// UTF-16 with a byte-order mark, or without one where every other byte of its beginning is zero, as UTF-8;
-// nothing for any other bytes. Halves of a pair that stand alone become U+FFFD.
+// Whether bytes begin as UTF-16: with a byte-order mark, or without one where every other byte is zero, as in
+// a text of a European language.
+bool is_utf16(std::string_view bytes);
+// Such bytes as UTF-8; nothing for any other bytes. Halves of a pair that stand alone become U+FFFD.
 std::optional<std::string> utf8_of_utf16(std::string_view bytes);
 
 // A short text as UTF-8: as it is where it is that, else each byte taken for a character of Latin-1.

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_encoding.hpp"
 #include "engine/surface/io/archive.hpp"
 
 namespace asperity {
@@ -36,8 +37,6 @@ constexpr std::array foreign_marks{
     ForeignMark{"\x28\xB5\x2F\xFD"sv, "packed with zstd (.zst)", unpack},
     ForeignMark{"7z\xBC\xAF\x27\x1C"sv, "a 7z archive", unpack},
     ForeignMark{"Rar!\x1A\x07"sv, "a RAR archive", unpack},
-    ForeignMark{"\xFF\xFE"sv, "UTF-16 text", "save it as UTF-8"},
-    ForeignMark{"\xFE\xFF"sv, "UTF-16 text", "save it as UTF-8"},
     ForeignMark{"\\*Force file list"sv, "a Nanoscope force curve", export_map},
     ForeignMark{"?*File list"sv, "a Nanoscope file of Digital Instruments (.di, .000)", export_map},
     ForeignMark{"fileType      Spectroscopy"sv, "a spectrum of Agilent or Molecular Imaging (.mi)",
@@ -96,22 +95,6 @@ std::optional<ForeignFormat> archive_format(const SourceFile& file) {
   }
 }
 
-// UTF-16 without a mark: every other byte of a short text in a European language is zero.
-bool is_bare_utf16(std::string_view bytes) {
-  constexpr std::size_t looked_at = 16;
-  if (bytes.size() < looked_at) return false;
-  for (const std::size_t zero : {std::size_t{1}, std::size_t{0}}) {
-    bool found = true;
-    for (std::size_t k = 0; k < looked_at; ++k) {
-      const auto byte = static_cast<unsigned char>(bytes[k]);
-      const bool letter = (byte >= 0x20 && byte < 0x7F) || byte == '\t' || byte == '\r' || byte == '\n';
-      found = found && (k % 2 == zero ? byte == 0 : letter);
-    }
-    if (found) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::optional<ForeignFormat> foreign_format(const SourceFile& file) {
@@ -122,7 +105,7 @@ std::optional<ForeignFormat> foreign_format(const SourceFile& file) {
   for (const ForeignMark& mark : foreign_marks)
     if (bytes.starts_with(mark.bytes)) return ForeignFormat{mark.what, mark.cure};
   if (bytes.starts_with("PK\x03\x04"sv)) return archive_format(file);
-  if (is_bare_utf16(bytes)) return ForeignFormat{"UTF-16 text", "save it as UTF-8"};
+  if (is_utf16(bytes)) return ForeignFormat{"UTF-16 text", "save it as UTF-8"};
   if (file.looks_like_text()) return {};
   for (const ForeignEnding& ending : foreign_endings)
     if (file.extension() == ending.extension) return ForeignFormat{ending.what, export_map};
