@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case of an ensemble depends on beside what it is given: the files it looked at, and whether it drew
-// random numbers. A case that is kept counts again only where all of that is as it was.
+// What a case of an ensemble depends on beside its arguments: the files it looked at, and whether it drew
+// random numbers. The stored result of a case is used again only where all of these are as they were.
 #pragma once
 
 #include <cstdint>

@@ -104,20 +104,21 @@ class RecordField {
   RecordField(std::string name, std::string type, Read read, std::string sentence)
       : info{std::move(name), std::move(type), std::move(sentence), {}}, read_(read) {}
 
-  // It is there only with this effect; asked for without it, an error names the effect.
+  // The record has the field only where the scene names this effect; otherwise asking for the field is an
+  // error that names the effect.
   RecordField& needs(std::string effect) {
     where_known();
     info.sentence += "; needs " + effect;
     effect_ = std::move(effect);
     return *this;
   }
-  // Where it has no value it is not there, rather than nil.
+  // A record without a value for this field lacks the field, instead of holding nil in it.
   RecordField& where_known() {
     where_known_ = true;
     if (info.type.ends_with('?')) info.type.pop_back();
     return *this;
   }
-  // Its unit differs from record to record, which the sentence has to say.
+  // The unit of the field differs from record to record; its sentence has to say so.
   RecordField& in(Dimension (*unit)(const T&)) {
     unit_ = unit;
     return *this;
@@ -155,7 +156,7 @@ class RecordType : public RecordInfo {
         entries_(std::move(entries)) {
     for (const Field& entry : entries_) fields.push_back(entry.info);
   }
-  // Each is called by its own value.
+  // print() shows each record under a title made from its value.
   RecordType& titled(std::string (*title_of)(const T&)) {
     title_of_ = title_of;
     return *this;
@@ -182,11 +183,12 @@ class RecordType : public RecordInfo {
 // Every type of record that modules and classes list among their results, each once.
 const std::vector<const RecordInfo*>& record_types();
 const RecordInfo* find_record_type(std::string_view name);
-// Those that a type names: "iterator<ProtocolEvent and State?>", "table<string, Cost>".
+// The types of records that the name of a type holds: "iterator<ProtocolEvent and State?>", "table<string,
+// Cost>".
 std::vector<const RecordInfo*> record_types_in(std::string_view type);
 
-// That a record, or the first one of a list, is of the type that `giver` declares for it; throws
-// Error{internal} where it is not, or has no type at all.
+// Checks that a record, or the first record of a list, is of the type that `giver` declares. Throws
+// Error{internal} where it is of another type or of none.
 void check_declared(std::string_view giver, std::string_view declared, const Value& given);
 
 }  // namespace asperity::lua

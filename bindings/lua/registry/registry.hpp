@@ -56,17 +56,17 @@ struct Function {
   std::string returns{};
   std::string example{};  // required; a line that runs after example_preamble()
   bool heavy = false;     // not run by `asperity check`
-  // Nor is this, for it hangs on rows that a dry run does not know; but it is no call of the journal.
+  // `asperity check` leaves the call out too, because its result follows from rows that a dry run does not
+  // know; the journal has no line of it.
   bool unknown_when_dry = false;
   Listing (*listing)() = nullptr;
-  // What a dry run does with arguments that hold placeholders, beside reading the options; null: nothing.
+  // What a dry run does with arguments that hold placeholders, after it has read the options; null: nothing.
   void (*look)(const Call& call) = nullptr;
 };
 
-// The types of its results one by one.
+// The types that `returns` names, one for each result.
 std::vector<std::string> result_types(const Function& function);
-// The fields that a list has besides, of "Profile[] with tip_effect: TipEffect and lines: Traverse[]": names
-// and types.
+// The named fields of a list, "Profile[] with tip_effect: TipEffect and lines: Traverse[]": names and types.
 std::vector<std::pair<std::string_view, std::string_view>> named_fields(std::string_view type);
 
 // A field of a native value, computed when read.
@@ -103,11 +103,11 @@ struct Class {
   std::size_t (*native_bytes)(const void* self) = nullptr;  // memory Lua cannot see
   bool (*equal)(const void* a, const void* b) = nullptr;
   std::string (*digest)(const void* self) = nullptr;  // of its content, for the journal
-  // What one among the results of a heavy call or of a turn has cost, effect by effect, to be added to the
-  // ledger; null: nothing.
+  // Adds to the ledger, effect by effect, what computing this value has cost; called for each value that a
+  // heavy call, or a turn of an iterator, returns. Null: nothing to add.
   void (*enter)(const void* self, Ledger& ledger) = nullptr;
   void (*closing)(void* self) = nullptr;  // before it is closed by hand or by <close>
-  // What a dry run knows of one that a call would give; null where it needs to know nothing of them.
+  // What a dry run knows of the value that a call would return; null for classes of which it knows nothing.
   std::shared_ptr<const KnownBody> (*known)(const Call& call, const Function& function) = nullptr;
   std::vector<std::string> names() const;  // fields and methods
 };
@@ -185,24 +185,25 @@ class Call {
   mutable Resolved inputs_;
 };
 
-// The journal's line of a heavy call: what it was called on (may be null) and with, and the digest of what
-// came out. The registry writes that of every heavy function; an iterator writes those of its turns.
+// Writes the journal's line of a heavy call: the value that it was called on (may be null), its inputs, and
+// the digest of its results. The registry calls this for every heavy function, an iterator for each of its
+// turns.
 void record_call(const Session& session, const std::string& function, const Object* self,
                  const Resolved& inputs, const Values& results);
 
-// Lets the native values among the results of a heavy call, or of an iterator's turn, enter what they cost.
+// Calls Class::enter for the native values among the results of a heavy call or of an iterator's turn.
 void enter_into_ledger(const Session& session, const Values& results);
 
 // Pushes a function or method of the registry; raises on lack of memory (call inside protect).
 void push_function(lua_State* L, const Function& function);
 // The full name of a function of the registry: "lab.surface.sine", "surface:scaled".
 const std::string& qualified_name(const Function& function);
-// That of the function whose closures hold this pointer as their upvalue; null if none does.
+// The full name of the function whose closures hold this pointer as their upvalue; null if none does.
 const std::string* name_of_entry(const void* pointer);
 // Makes the metatable of a class, if it is not there yet, and pushes it.
 void push_metatable(lua_State* L, const Class& type);
-// What a look-up that failed, with its error on the stack, ends with: the error raised, or in a dry run that
-// goes on past mistakes a placeholder for the field.
+// Ends a look-up of a field that failed, its error on the stack: raises the error, or, in a dry run that goes
+// on past mistakes, returns a placeholder for the field.
 int mistaken_field(lua_State* L);
 // The native value at an index if it is one of ours, whatever its class; null otherwise.
 Object* native_at(lua_State* L, int index);

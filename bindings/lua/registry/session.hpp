@@ -63,13 +63,14 @@ class Session {
   int depth = 0;                      // ensembles this state stands inside
   bool is_case = false;               // a case of an ensemble: cannot record
   std::shared_ptr<RunDirectory> run;  // null when nothing is recorded
-  // Of a dry run that makes surfaces and plans contacts, to say what the script will compute; else null.
+  // `asperity explain`, a dry run that makes surfaces and plans contacts, collects here what the script will
+  // compute; null in every other run.
   std::shared_ptr<Explanation> explanation;
-  // Told each heavy call that a dry run leaves out; empty where nobody asks.
+  // Called for each heavy call that a dry run leaves out; may be empty.
   std::function<void(const Call& call, const Function& function)> on_call_left_out;
-  // Of a dry run that goes on past mistakes and tells all of them; else null.
+  // The mistakes of a dry run that goes on past them; null in every other run.
   std::shared_ptr<Mistakes> mistakes;
-  // What this state's calls cost; the states of cases write into that of their ensemble.
+  // What the calls of this state cost; the states of an ensemble's cases share the ledger of the ensemble.
   std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
   std::function<void(int)> exit_hook;      // what os.exit(code) does before the process ends
   bool with_other_ranks = false;           // in a function that other ranks wait for: os.exit is an error
@@ -83,16 +84,16 @@ class Session {
   std::optional<Shard> shard;            // of a run that computes some of the cases only
   // What a shard does where the script can go no further without the cases of others: ends the process.
   std::function<void(const std::string& sentence)> shard_end;
-  // Shown what each heavy call found; empty where nobody looks.
+  // Called with the results of each heavy call; may be empty.
   std::function<void(const std::string& call, const Values& results)> onlooker;
   Ranks* ranks = nullptr;  // the processes that share the cases; may be null
-  // Of a case: what it depends on beside what it is given.
+  // What a case of an ensemble depends on beside its arguments; null outside a case.
   CaseNotes* notes = nullptr;
-  // Of a case: the script's globals that could not come along, and why.
+  // The script's globals that could not be copied into the state of a case, and why; null outside a case.
   const std::map<std::string, std::string>* left_behind = nullptr;
 
-  // A call that begins here. One that is not `lasting` gets a line in the ledger only if it takes long enough
-  // to matter.
+  // The ledger's scope of a call that begins here. A call that is not `lasting` gets a line in the ledger
+  // only if it takes long enough to matter.
   LedgerScope ledger_scope(std::string_view call, bool lasting, std::string_view owner = {}) const {
     return LedgerScope(*ledger, owner, call, is_case, lasting);
   }

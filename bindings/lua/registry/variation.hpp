@@ -28,8 +28,8 @@ class Variation {
   // Calls made while this says no are left as they are; asked from any thread.
   std::function<bool()> in_force = [] { return true; };
 
-  // Called where the options of a call are read: whether `key` is to be set anew, given by the script or not.
-  // Raises no Lua error: the value is left on the stack of `L`, which has room for it.
+  // Called where the options of a call are read: whether `key` is to be set anew, given by the script or not;
+  // the new value is then on the stack of `L`, which must have room for it. Raises no Lua error.
   bool replaces(lua_State* L, std::string_view caller, std::string_view key, bool given);
   // Called where a value that was set anew is none that the key takes: what happened then is no difference
   // between two runs.
