@@ -209,7 +209,7 @@ TEST(Adhesion, RequestsThatMakeNoSenseAreRefused) {
             std::string::npos);
   EXPECT_NE(refused(*plain, {PressBy::load, 1, {}, {2}}).find("nothing attracts the bodies"),
             std::string::npos);
-  EXPECT_NE(refused(*plain, {PressBy::load, -1, {}}).find("without adhesion"), std::string::npos);
+  EXPECT_NE(refused(*plain, {PressBy::load, -1, {}}).find("nothing attracts the bodies"), std::string::npos);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ for event, st in p:on(c) do if st then table.insert(loads, st.load) end end
 assert(loads[1] == 0.01 and loads[2] == -0.02)
 refused(function() p:write "pull.csv" end, "a log holds neither pulls")
 local plain = bench{}
-refused(function() for _ in p:on(plain) do end end, "event 2", "a contact without adhesion")
+refused(function() for _ in p:on(plain) do end end, "event 2", "nothing attracts the bodies")
 refused(function() plain:press{ load=0, preload=0.01 } end, "`preload` is given, and nothing attracts")
 
 -- Each effect has a line of its own in the ledger.
