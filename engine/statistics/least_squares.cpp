@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/statistics/least_squares.hpp"
 
+// A namespace of its own: the linker must not take for these functions what another source compiled of
+// Eigen's, with other alignments.
+#define Eigen asperity_least_squares_eigen
+#define EIGEN_DONT_VECTORIZE
+#define EIGEN_MAX_ALIGN_BYTES 0
+#include <Eigen/SVD>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +17,6 @@
 #include "engine/core/error.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
-#include "engine/statistics/singular_values.hpp"
 
 namespace asperity {
 
@@ -125,7 +131,7 @@ Tangent tangent_at(TableColumns jacobian, const std::vector<double>& residuals) 
     if (length > 0)
       for (double& value : column) value /= length;
   }
-  found.svd = singular_values(std::move(jacobian));
+  found.svd = singular_values(jacobian);
   double sum = 0;
   for (std::size_t k = 0; k < found.svd.values.size(); ++k) {
     double product = 0;
@@ -202,6 +208,27 @@ std::vector<std::vector<double>> covariance_of(const Tangent& at) {
 }
 
 }  // namespace
+
+SingularValues singular_values(const TableColumns& columns) {
+  if (columns.empty()) return {};
+  const auto n = static_cast<Eigen::Index>(columns.size()),
+             points = static_cast<Eigen::Index>(columns.front().size());
+  // Rows of zeros where there are fewer than columns: as many directions as columns, all the same.
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(std::max(points, n), n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    matrix.col(k).head(points) =
+        Eigen::Map<const Eigen::VectorXd>(columns[static_cast<std::size_t>(k)].data(), points);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  SingularValues found;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto u = svd.matrixU().col(k).head(points);
+    const auto v = svd.matrixV().col(k);
+    found.values.push_back(svd.singularValues()[k]);
+    found.u.emplace_back(u.begin(), u.end());
+    found.v.emplace_back(v.begin(), v.end());
+  }
+  return found;
+}
 
 std::vector<double> slopes_of(const CurveModel& model, double x, const std::vector<double>& parameters,
                               const std::vector<double>& scales) {

@@ -4,6 +4,9 @@
 // residuals are orthogonal to what the parameters can do, relative to their length (Bates & Watts 1981), to
 // 1e-10 or to the rounding of the model. A direction in which the scaled Jacobian is below 1e-8 of its
 // largest is not determined by the points, and refused with the parameters that make it.
+//
+// Linear algebra is Eigen's, compiled for one processor alone, with sums in one order: the same bits
+// everywhere. No header shows its types.
 #pragma once
 
 #include <span>
@@ -12,6 +15,20 @@
 #include "engine/statistics/curve_fit.hpp"
 
 namespace asperity {
+
+// Columns of equal length.
+using TableColumns = std::vector<std::vector<double>>;
+
+// The decomposition A = U Σ Vᵀ of a table, by Jacobi's rotations after a factorisation with pivots: small
+// singular values keep their digits.
+struct SingularValues {
+  TableColumns u;              // orthonormal columns, as many as A has
+  std::vector<double> values;  // descending, not negative
+  TableColumns v;              // v[k][j]: component j of the direction of value k
+};
+
+// Every entry must be finite.
+SingularValues singular_values(const TableColumns& columns);
 
 struct LeastSquares {
   std::vector<double> values;

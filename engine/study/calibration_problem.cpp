@@ -221,7 +221,7 @@ CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const
     columns.push_back(std::move(column));
   }
   if (columns.empty()) return found;
-  found.svd = singular_values(std::move(columns));
+  found.svd = singular_values(columns);
   double sum = 0;
   for (std::size_t k = 0; k < found.svd.values.size(); ++k) {
     double product = 0;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/core/monitor.hpp"
-#include "engine/statistics/singular_values.hpp"
+#include "engine/statistics/least_squares.hpp"
 #include "engine/study/calibration.hpp"
 
 namespace asperity {
