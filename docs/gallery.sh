@@ -28,13 +28,14 @@ angles:angles.svg
 measured_specimen:pressure.png
 replay_press_log:press_log.svg
 calibrate_tilt:calibration.svg
+budget_of_fig7:rises.svg
 01_roughness:lines.svg
 02_fractal_dimension:stretched.svg
 03_boxes_and_half_space:hills.svg
 04_real_area:area.svg
 05_turning:on_quartz.svg
 06_tilt:angles.svg
-07_accuracy:tolerance.svg
+07_accuracy:ways.svg
 08_press_log:volume.svg
 09_same_numbers:touching.svg'
 

@@ -17,9 +17,9 @@ laboratory.probe = "3 MPa" -- on quartz: enough nodes touch, and area still grow
 
 -- A tile of one millimetre with Ra = 3 um. A grid of 256 cells leaves the shortest wave four cells, too few
 -- to resolve it: ratios hold, absolute areas need finer cells.
-local function specimen(kind, cells, seed)
+local function specimen(kind, cells, seed, material)
   local options = {
-    cells = cells or 256, size = "1 mm", ra = "3 um", seed = seed, material = lab.material "Al-2011",
+    cells = cells or 256, size = "1 mm", ra = "3 um", seed = seed, material = material or lab.material "Al-2011",
   }
   if kind == "self-affine" then
     options.hurst, options.roll_off, options.short_wave = 0.8, "250 um", "16 um"
@@ -31,10 +31,10 @@ local function specimen(kind, cells, seed)
   error(("`kind` is `%s`; give self-affine or bead-blasted"):format(kind), 0)
 end
 
--- Two specimens, lower and upper, of a kind; pair k has seeds of its own.
+-- Two specimens, lower and upper, of a kind and of a material (Al-2011); pair k has seeds of its own.
 function laboratory.specimens(given)
-  local kind, cells, seed = given.kind, given.cells, 2 * given.pair
-  return specimen(kind, cells, seed - 1), specimen(kind, cells, seed)
+  local kind, cells, seed, material = given.kind, given.cells, 2 * given.pair, given.material
+  return specimen(kind, cells, seed - 1, material), specimen(kind, cells, seed, material)
 end
 
 -- Both on the bench: elastic half-spaces whose pressure is capped by hardness. Off its axis a disc that is

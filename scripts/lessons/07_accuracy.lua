@@ -1,120 +1,169 @@
--- What accuracy costs
--- Question: A computed number is wrong. By how much, and what does it cost to make it better?
--- Predict: Half the cell width, so four times the cells: how many times longer does the press take, and how many
---   times smaller is the error? And what does it help to solve a hundred times more tightly on the same cells?
+-- Cells or seeds?
+-- Question: You have one second to compute how far a rough face gives
+--   way. Is it better spent on finer cells or on more faces?
+-- Predict: Ten faces of one recipe, on cells fine enough: by how many
+--   per cent do their answers scatter? And how many per cent is one
+--   face wrong on 64 cells a side?
 -- Minutes: 20
 --
--- Two errors hide in every computed contact. The **grid** knows the face at its nodes alone: that error goes when
--- cells get smaller. The **solver** stops when the contact conditions hold to a tolerance: that error goes when it is
--- made tighter. Do they help each other?
+-- Three errors hide in the number that you compute for a rough face.
+-- The **solver** stops when the contact conditions hold to a tolerance.
+-- The **cells** know the face at their nodes alone. And the **seed**
+-- picked one face of all that the recipe allows: another would have
+-- answered something else.
 --
--- A ball on a flat has an exact answer: Hertz found in 1882 how far it comes down under a load, on how large a disc it
--- touches and with what pressure. So here the error is known. Two ways are tried: ever finer
--- grids, and on one grid ever tighter solves. Then the program is asked what it *thinks* its errors are.
+-- The first two can be made small by computing longer. Do that to one
+-- face, and you know very well what *that* face does. But the question
+-- was about faces of that kind. So the third error is made small by
+-- more faces, with one over the root of their number.
 --
--- *Your prediction:* put its numbers into `my_guess` in the script; the last lines compare them with what was
--- found.
+-- *Your prediction:* put its numbers into `my_guess` in the script; the
+-- last lines compare them with what was found.
 --
--- *Then try:* `quantity = "area"`, which is a count of nodes. How much dearer is one per cent of it?
+-- *Then try:* `quantity = "corrected_area_fraction"`, the share that
+-- touches. Its faces scatter far less. Is the answer still the same?
 
 -- SPDX-License-Identifier: GPL-3.0-or-later
 local lab = require "asperity"
 local guess = require "asperity.guess"
-local my_guess = { longer=nil, closer=nil }
-local quantity = "approach" -- how far the ball comes down; or "area", or "peak_pressure"
+local my_guess = { scatter=nil, cells=nil } -- both in per cent
+local quantity = "approach" -- or "corrected_area_fraction", "energy"
 local steel = lab.material "steel"
-local exact = lab.exact.hertz{ radius="100 um", modulus=steel.young / (1 - steel.poisson ^ 2), load="50 mN" }[quantity]
 
--- 1. A steel ball on a rigid flat.
-local function press(knobs)
-  local ball = lab.surface.sphere{ cells=knobs.cells, size="20 um", radius="100 um", shape="paraboloid",
-                                   material=steel }
-  local c = lab.contact{ lower=ball, upper=lab.rigid, boundary="free", effects={ elasticity="half_space" },
-                         accuracy={ tolerance=knobs.tolerance, estimate=knobs.estimate or false } }
-  return c:press{ load="50 mN" }
+-- 1. One run: a face of steel under a rigid flat.
+local function answer(x)
+  local face = lab.surface.self_affine{
+    cells=x.cells, size="1 mm", hurst=0.8, rms_slope=0.1,
+    roll_off="500 um", short_wave="62.5 um", seed=x.seed,
+    material=steel }
+  local c <close> = lab.contact{
+    lower=face, upper=lab.rigid, boundary="periodic",
+    effects={ elasticity="half_space" },
+    accuracy={ tolerance=x.tolerance or 1e-6 } }
+  return c:press{ pressure="500 MPa" }[quantity]
 end
-local study = lab.work_precision{
-  ask = function(knobs) return press(knobs)[quantity] end,
-  truth = exact,
-  try = { { name="finer grid", cells={ 16, 32, 64, 128, 256 }, tolerance=1e-6 },
-          { name="tighter, 64 cells", cells=64, tolerance={ 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8 } },
-          { name="tighter, 256 cells", cells=256, tolerance={ 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8 } } },
-  repeats = 3,
-}
-study:chart "cost.svg"
-local errors, seconds = lab.notebook "errors", {}
-print "way                  cells  tolerance   error"
-for _, row in ipairs(study:rows()) do
-  errors:write{ way=row.way, cells=row.cells, tolerance=row.tolerance, error=row.error }
-  if row.way == "finer grid" then seconds[row.cells] = row.seconds end
-  print(("%-20s %4d   %-8g    %.2g"):format(row.way, row.cells, row.tolerance, row.error))
+local function numbers_to(n)
+  local list = {}
+  for k = 1, n do list[k] = k end
+  return list
 end
-errors:chart{ x="tolerance", y="error", one_line_per="way", where={ way={ "tighter, 64 cells", "tighter, 256 cells" } },
-              log_x=true, log_y=true, file="tolerance.svg", title="Tighter helps until the grid decides",
-              x_label="tolerance of the solver", y_label="error of the " .. quantity }
 
--- 2. What the program thinks, without knowing Hertz.
-local thought = lab.notebook "estimates"
-print "\ncells   true error   estimated: the grid   bound: the solver"
-for _, cells in ipairs{ 32, 64, 128, 256 } do
-  local st = press{ cells=cells, tolerance=1e-6, estimate=true }
-  local row = { cells=cells, ["true error"]=math.abs(st[quantity] - exact) / exact,
-    grid=st.error.discretisation[quantity] / exact, solver=st.error.algebraic[quantity] / exact }
-  row["true over estimated"] = row["true error"] / (row.grid + row.solver)
-  thought:write(row)
-  print(("%4d    %.2g      %.2g               %.1g"):format(cells, row["true error"], row.grid, row.solver))
-end
-local drawn = quantity == "area" and { "true error", "grid" } or { "true error", "grid", "solver" }
-thought:chart{ x="cells", y=drawn, log_x=true, log_y=true, file="estimates.svg",
-               y_label="relative error of the " .. quantity, title="What the program says of itself" }
+-- 2. The same 64 faces on every grid. A face is compared with itself
+--    on 256 cells, and with the mean of all.
+local grids = { 32, 64, 128 }
+local rows = lab.ensemble{ over={ seed=numbers_to(64) },
+  run=function(case)
+    local row = { fine=answer{ cells=256, seed=case.seed } }
+    for _, cells in ipairs(grids) do
+      row["on " .. cells] = answer{ cells=cells, seed=case.seed }
+    end
+    return row
+  end }
+local faces = lab.table.from(rows)
+local all = faces:mean "fine"
+local mean, scatter = all:column "mean"[1], all:column "sd"[1]
+scatter = scatter / mean
+print(("%s of 64 faces on 256 cells: %.3g, and they scatter by %.1f %%")
+  :format(quantity, mean, 100 * scatter))
 
--- 3. What must hold, and why. Times are shown, never asked for: they belong to the machine.
-local function error_of(way, cells, tolerance)
-  for _, row in ipairs(errors:rows()) do
-    if row.way == way and row.cells == cells and row.tolerance == tolerance then return row.error end
+local loose = answer{ cells=128, seed=1, tolerance=1e-3 }
+local tight = answer{ cells=128, seed=1, tolerance=1e-9 }
+local solver = math.abs(loose / tight - 1)
+print(("the solver's error at a tolerance of 1e-3: %.2g %%")
+  :format(100 * solver))
+
+local errors, of_cells, of_means = lab.notebook "errors", {}, {}
+print "cells   error on one face   of the mean   scatter of faces"
+for _, cells in ipairs(grids) do
+  local squares, sum = 0, 0
+  for _, row in ipairs(rows) do
+    squares = squares + (row["on " .. cells] / row.fine - 1) ^ 2
+    sum = sum + row["on " .. cells]
   end
+  of_cells[cells] = math.sqrt(squares / #rows)
+  of_means[cells] = math.abs(sum / #rows / mean - 1)
+  errors:write{ cells=cells, ["cells, on one face"]=of_cells[cells],
+    ["cells, in the mean"]=of_means[cells], ["one face"]=scatter,
+    ["64 faces"]=scatter / 64 ^ 0.5 }
+  print(("%5d   %10.2g %%     %10.2g %%   %8.2g %%"):format(cells,
+    100 * of_cells[cells], 100 * of_means[cells], 100 * scatter))
 end
-local closer = error_of("finer grid", 128, 1e-6) / error_of("finer grid", 256, 1e-6)
-local wasted = error_of("tighter, 64 cells", 64, 1e-6) / error_of("tighter, 64 cells", 64, 1e-8)
+errors:chart{ x="cells", y={ "one face", "64 faces",
+                "cells, on one face", "cells, in the mean" },
+              log_x=true, log_y=true, file="errors.svg",
+              title="One face cannot know what faces do",
+              y_label="relative error of the " .. quantity }
+
+-- 3. The same number of nodes, spent in three ways. What is expected is
+--    the root of two squares, cells in the mean and scatter over the
+--    faces; what came out in 32 trials with new faces is beside it,
+--    for a single trial may be lucky.
+local nodes = 128 ^ 2
+local ways, expected = lab.notebook "ways", {}
+print "\nthe same 16384 nodes    expected error    in 32 trials"
+for _, cells in ipairs(grids) do
+  local n = nodes // cells ^ 2 | 0
+  local found = lab.ensemble{
+    over={ trial=numbers_to(32), seed=numbers_to(n) },
+    run=function(case)
+      local seed = 1000 * case.trial + case.seed
+      return { y=answer{ cells=cells, seed=seed } }
+    end }
+  local sums, squares = {}, 0
+  for _, row in ipairs(found) do
+    sums[row.trial] = (sums[row.trial] or 0) + row.y / n
+  end
+  for _, y in ipairs(sums) do squares = squares + (y / mean - 1) ^ 2 end
+  expected[cells] = math.sqrt(of_means[cells] ^ 2 + scatter ^ 2 / n)
+  local row = { faces=n, cells=cells, expected=expected[cells],
+                found=math.sqrt(squares / 32) }
+  ways:write(row)
+  print(("  %3d faces on %3d^2      %6.2g %%         %6.2g %%")
+    :format(n, cells, 100 * row.expected, 100 * row.found))
+end
+ways:chart{ x="faces", y={ "expected", "found" }, log_x=true,
+            log_y=true, file="ways.svg",
+            title="The same nodes, for one face or for many",
+            y_label="relative error of the " .. quantity }
+
+-- 4. Let the program draw up the account.
+local budget = lab.budget{ ask=answer, replicate={ seed=numbers_to(8) },
+                           cells={ 64, 128 }, tolerance={ 1e-3, 1e-6 },
+                           half_width=0.05 * mean }
+print("\n" .. tostring(budget))
+
+-- 5. What must hold. Times are shown, never asked for: they belong to
+--    the machine.
 local checks = lab.notebook "checks"
-checks:write{ closer=closer, wasted=wasted }
-checks:expect("closer", { at_least=2, label="half the cell width: at most half the error" })
-checks:expect("wasted", { near=1, within=0.05, label="a hundred times tighter on 64 cells: nothing gained" })
-errors:expect("error", { where={ way="tighter, 256 cells", tolerance={ 1e-1, 1e-2, 1e-3, 1e-4 } },
-                         increasing_in="tolerance", label="where the solver's error is the larger, tighter helps" })
-thought:expect("true over estimated", { at_most=3, label="the true error is within three times what it said" })
+checks:write{ solver=solver / scatter, cells=of_cells[128] / scatter,
+              finer=of_cells[128] / of_cells[32],
+              one=expected[128] / expected[32] }
+checks:expect("solver", { at_most=0.1,
+  label="the solver's error is small beside the scatter of faces" })
+checks:expect("cells", { at_most=0.5,
+  label="so is that of 128 cells" })
+checks:expect("finer", { at_most=0.5,
+  label="finer cells help a face: half the error or less" })
+checks:expect("one", { at_least=1.5,
+  label="the same nodes: 16 faces beat one finer face" })
+ways:expect("found", { where={ faces=16 }, at_most=0.12,
+  label="16 faces find the mean to 12 per cent" })
 
--- By how much each step of the finer grids divided the error, and where a coarser grid was nearer than a finer one.
-local function signed(cells) return press{ cells=cells, tolerance=1e-6 }[quantity] - exact end
-local falls, luck = {}, "Every one of them helped."
-for _, cells in ipairs{ 16, 32, 64, 128 } do
-  local fall = error_of("finer grid", cells, 1e-6) / error_of("finer grid", 2 * cells, 1e-6)
-  table.insert(falls, fall < 1 and ("multiplied by %.2g"):format(1 / fall) or ("divided by %.2g"):format(fall))
-  if fall < 1 then
-    local crosses = signed(cells) * signed(2 * cells) < 0 or cells > 16 and signed(cells // 2) * signed(cells) < 0
-    luck = ("That %d cells did better than %d is luck: %s"):format(cells, 2 * cells, crosses
-      and "the error changes its sign near there." or "one error may be small by chance, and nobody may count on it.")
-  end
-end
-local longer, steps = seconds[256] / seconds[128], {}
-for _, cells in ipairs{ 128, 256 } do steps[cells] = press{ cells=cells, tolerance=1e-6 }.iterations end
-local work = 4 * steps[256] / steps[128]
-local price = longer < work and "Not all that a press does grows with its nodes, so it was less."
-  or "It was not less here: a step on more nodes is a little dearer for each of them."
-print(("\nFrom 128 to 256 cells it took %.1f times longer here, and came %.1f times closer."):format(longer, closer))
-guess{ said=my_guess.longer, found=longer, of="times longer" }
-guess{ said=my_guess.closer, found=closer, of="times closer" }
+print ""
+guess{ said=my_guess.scatter, found=100 * scatter, unit="%",
+       of="scatter of the faces" }
+guess{ said=my_guess.cells, found=100 * of_cells[64], unit="%",
+       of="error of 64 cells" }
 print(([[
-Why: four times the nodes, and %d steps of the solver instead of %d: %.1f times the work.
-%s
-A grid knows nothing of what lies between its nodes, above all of the rim of the contact. In the four steps from 16 to
-256 cells the error was %s.
-%s
-Solving to 1e-8 instead of 1e-6 on 64 cells changed the error by a factor of %.2f: that error was the grid's, and no
-solver can mend it. The two errors do not help each other: the larger one decides, and work on the smaller is wasted.
-The chart cost.svg is how to choose: for the error you can live with, take the point furthest to the left. Ask
-print(study:cheapest{ error=0.01 }) to have it done.
-Without Hertz you would not know the true error. The program gives its own two, and keeps them apart: a bound for
-the solver, and for the grid an estimate that the true error mostly stays within three times of.]]):format(
-  steps[256], steps[128], work, price,
-  table.concat(falls, ", "), luck, wasted))
+Why: errors that know nothing of each other add as squares, and the
+largest decides. One face is off by some %.1f %% on any cells; beside
+that, 128 a side are %.2g %% wrong and 64 a side %.2g %%. So cells are
+fine enough when their error is well below that of the mean, and from
+there on each second belongs to another face. There is an end to it:
+what is wrong in the mean on 32 cells, %.2g %%, stays however many
+faces there are, and more of them only make a wrong number look sure.
+The budget says which part is the largest, what it costs to halve it,
+and what is cheapest for 5 %%.
+An answer from one seed is an answer about that seed.]])
+  :format(100 * scatter, 100 * of_cells[128], 100 * of_cells[64],
+    100 * of_means[32]))
