@@ -76,8 +76,10 @@ void check(const Grid& grid, const Field& field, const PictureOptions& options) 
 
 std::string palette_command(const Palette& colours) {
   std::string text = "set palette maxcolors 0 defined (";
+  if (colours.none) text += "0 " + gnuplot_colour(*colours.none).substr(4) + ", ";
   for (std::size_t k = 0; k < colours.colours.size(); ++k)
-    text += (k > 0 ? ", " : "") + std::to_string(k) + " " + gnuplot_colour(colours.colours[k]).substr(4);
+    text += (k > 0 ? ", " : "") + (k == 0 && colours.none ? "0.0001" : std::to_string(k)) + " " +
+            gnuplot_colour(colours.colours[k]).substr(4);
   return text + ")\n";
 }
 
@@ -309,6 +311,8 @@ PictureScript picture_script(const Grid& grid, const Field& field, const Picture
     const double most_apart = std::max(std::abs(values.min), std::abs(values.max));
     values = {-most_apart, most_apart};
   }
+  // A scale that begins with nothing begins there.
+  if (colours.none && values.min > 0) values.min = 0;
   const Frame frame = frame_of(grid, cells, values, resolved, canvas);
 
   PictureScript picture;

@@ -52,9 +52,9 @@ std::string caption(const Grid& grid, const Field& marks, Range range, const Pic
     return format_short(each, 3);
   };
   std::string text = options.label + " from " + format_quantity(range.min, dimension, 3) + " (" +
-                     (!coloured                      ? "blank"
-                      : options.palette == "contact" ? "light"
-                                                     : "dark") +
+                     (!coloured                                                       ? "blank"
+                      : palette(options.palette).none || options.palette == "contact" ? "light"
+                                                                                      : "dark") +
                      ") to " + format_quantity(range.max, dimension, 3) + "; " +
                      format_quantity(grid.size_x, dimension::length, 3) + " x " +
                      format_quantity(grid.size_y, dimension::length, 3);
@@ -117,6 +117,7 @@ std::string text_map(const Grid& grid, const Field& field, const PictureOptions&
   if (!any)
     throw Error(ErrorCode::bad_value, "there is no finite value to show", "look at the values themselves");
   if (options.range) range = *options.range;
+  if (!options.range && colours.none && range.min > 0) range.min = 0;
   const auto share = [&](int column, int row) {  // row 0 is the lowest
     const int i = std::min(static_cast<int>((column + 0.5) * marks.nx() / columns), marks.nx() - 1);
     const int j = std::min(static_cast<int>((row + 0.5) * marks.ny() / rows), marks.ny() - 1);

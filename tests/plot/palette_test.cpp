@@ -2,6 +2,7 @@
 // Palettes: their ends, order of lightness, and line colours that differ.
 #include "engine/plot/palette.hpp"
 
+#include <cmath>
 #include <set>
 
 #include "tests/support/run_fixture.hpp"
@@ -29,6 +30,30 @@ TEST(Palette, OrderedOnesAreOrderedInGreyPrint) {
           << name << k;
   for (int k = 0; k < 20; ++k)
     EXPECT_GT(lightness(palette("heat").colour(k / 20.0)), lightness(palette("heat").colour((k + 1) / 20.0)));
+}
+
+// Of sRGB colours, as WCAG 2 has it.
+double luminance(unsigned rgb) {
+  const auto linear = [rgb](unsigned shift) {
+    const double share = (rgb >> shift & 255U) / 255.0;
+    return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(16) + 0.7152 * linear(8) + 0.0722 * linear(0);
+}
+
+// T8
+TEST(Palette, NothingStandsOutFromEachPressureByThreeToOne) {
+  const Palette& heat = palette(palette_of_field("pressure"));
+  const double nothing = luminance(heat.colour(0));
+  EXPECT_EQ(heat.colour(0), *heat.none);
+  for (int k = 1; k <= 1000; ++k)
+    EXPECT_GE((nothing + 0.05) / (luminance(heat.colour(k / 1000.0)) + 0.05), 3) << k;
+}
+
+TEST(Palette, OfAFieldIsOneThatIsKnown) {
+  for (const char* field : {"height", "gap", "pressure", "plastic", "contact", "displacement"})
+    EXPECT_NO_THROW(palette(palette_of_field(field))) << field;
+  EXPECT_EQ(palette_of_field("gap"), "cividis");
 }
 
 TEST(Palette, NamesTheNearest) {

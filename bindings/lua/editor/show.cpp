@@ -11,6 +11,7 @@
 #include "bindings/lua/surface/missing_points.hpp"
 #include "bindings/lua/surface/picture.hpp"
 #include "bindings/lua/surface/surface.hpp"
+#include "engine/plot/palette.hpp"
 #include "engine/plot/picture_profile.hpp"
 #include "engine/plot/text_picture.hpp"
 #include "engine/run/run_directory.hpp"
@@ -32,12 +33,12 @@ std::optional<std::string> file_given(const Call& call) {
 }
 
 void show_map(const Call& call, const Grid& grid, const Field& values, const std::string& label,
-              Dimension dimension, const std::string& palette) {
+              Dimension dimension) {
   const std::optional<std::string> file = file_given(call);
   PictureOptions options = file ? PictureOptions{} : call.options(picture_block(), 2);
   options.label = options.label == PictureOptions{}.label ? label : options.label;
   options.unit = si_unit(dimension);
-  if (options.palette == PictureOptions{}.palette) options.palette = palette;
+  if (options.palette == PictureOptions{}.palette) options.palette = palette_of_field(label);
   if (!file) return say(call, text_map(grid, values, options, dimension, text_canvas()));
   const std::string path = writable_path(call, *file);
   warn_of(call, draw(grid, values, options, path));
@@ -107,15 +108,14 @@ Values show_value(const Call& call) {
   if (call.count() > 2) throw Error(ErrorCode::bad_value, "show takes at most 2 arguments");
   const Argument value = call.argument(1);
   if (const Surface* surface = call.given(1) ? value.as<Surface>() : nullptr) {
-    show_map(call, surface->grid(), surface->measured_heights(), "height", dimension::length, "viridis");
+    show_map(call, surface->grid(), surface->measured_heights(), "height", dimension::length);
     if (const std::string missing = missing_text(surface->measured(), surface->grid().nodes());
         !missing.empty())
       say(call, missing.substr(2) + "\n");
   } else if (const NamedField* field = call.given(1) ? value.as<NamedField>() : nullptr) {
-    show_map(call, field->grid, *field->values, field->name, field->dimension,
-             field->name == "contact" ? "contact" : "viridis");
+    show_map(call, field->grid, *field->values, field->name, field->dimension);
   } else if (const asperity::State* state = call.given(1) ? value.as<asperity::State>() : nullptr) {
-    show_map(call, state->grid(), *state->field("pressure"), "pressure", dimension::pressure, "viridis");
+    show_map(call, state->grid(), *state->field("pressure"), "pressure", dimension::pressure);
   } else if (const Profile* profile = call.given(1) ? value.as<Profile>() : nullptr) {
     show_profile(call, *profile);
   } else if (const Notebook* notebook = call.given(1) ? value.as<Notebook>() : nullptr) {

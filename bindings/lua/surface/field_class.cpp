@@ -5,6 +5,7 @@
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/picture.hpp"
 #include "engine/core/grid.hpp"
+#include "engine/plot/palette.hpp"
 #include "engine/plot/picture.hpp"
 
 namespace asperity::lua {
@@ -22,8 +23,7 @@ Values field_picture(Call& call) {
   PictureOptions options = call.options(picture_block(), 2);
   if (options.label == PictureOptions{}.label) options.label = f.name;
   options.unit = si_unit(f.dimension);
-  if (options.palette == PictureOptions{}.palette && f.name == "contact") options.palette = "contact";
-  if (options.palette == PictureOptions{}.palette && f.name == "pressure") options.palette = "heat";
+  if (options.palette == PictureOptions{}.palette) options.palette = palette_of_field(f.name);
   const std::string path = writable_path(call, call.text(1, "path"));
   warn_of(call, draw(f.grid, *f.values, options, path));
   return {path};

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours of values: perceptually uniform maps (viridis and its kin, by van der Walt and Smith), read
-// from a table of 256, so that equal steps of a number look equally far apart, in grey too. Where a cell
-// has no number it is grey. Contact, a yes or no, has two colours and a mixture for shares.
+// Colours of values, read from a table of 256 of the field's palette. Where bodies do not touch there is no
+// pressure and no yield: grey, not the foot of the scale. Where a cell has no number it is a darker grey.
 
-import { interpolateCividis, interpolateInferno, interpolateMagma, interpolateViridis } from 'd3-scale-chromatic';
-import { svg } from './dom';
-import { numberText, scaleFor } from './units';
 import { scaleLinear } from 'd3-scale';
-
-const maps: Record<string, (t: number) => string> = {
-  height: interpolateViridis,
-  gap: interpolateCividis,
-  pressure: interpolateInferno,
-  plastic: interpolateMagma,
-  contact: (t) => `rgb(${[216, 222, 228].map((from, i) => Math.round(from + t * ([176, 64, 0][i] - from))).join(',')})`,
-};
+import { svg } from './dom';
+import { bytesOf, paletteOf } from './palettes';
+import { numberText, scaleFor } from './units';
 
 const tables = new Map<string, Uint8Array>();
 
@@ -22,16 +13,16 @@ const tables = new Map<string, Uint8Array>();
 export function tableOf(field: string): Uint8Array {
   const known = tables.get(field);
   if (known) return known;
-  const map = maps[field] ?? interpolateViridis;
+  const { colours } = paletteOf(field);
   const table = new Uint8Array(768);
-  for (let k = 0; k < 256; ++k) table.set(bytesOf(map(k / 255)), 3 * k);
+  for (let k = 0; k < 256; ++k) {
+    const place = (k / 255) * (colours.length - 1);
+    const below = Math.min(Math.floor(place), colours.length - 2);
+    const [from, to] = [bytesOf(colours[below]), bytesOf(colours[below + 1])];
+    for (let c = 0; c < 3; ++c) table[3 * k + c] = Math.round(from[c] + (place - below) * (to[c] - from[c]));
+  }
   tables.set(field, table);
   return table;
-}
-
-function bytesOf(colour: string): number[] {
-  if (colour.startsWith('#')) return [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
-  return colour.match(/\d+/g)!.slice(0, 3).map(Number);
 }
 
 export interface Range {
@@ -54,16 +45,10 @@ export function rangeOf(field: string, values: Float32Array): Range {
   return low === high ? { low: low - (Math.abs(low) || 1) / 2, high: high + (Math.abs(high) || 1) / 2 } : { low, high };
 }
 
-/** Where bodies do not touch there is no pressure and no yield: grey, not the foot of the scale. */
-const none = [176, 184, 191];
-
-function hasNone(field: string): boolean {
-  return field === 'pressure' || field === 'plastic';
-}
-
 /** Three bytes a value. */
 export function coloursOf(field: string, values: Float32Array, range: Range): Uint8Array {
   const table = tableOf(field);
+  const none = noneOf(field);
   const out = new Uint8Array(values.length * 3);
   const factor = 255 / (range.high - range.low);
   for (let k = 0; k < values.length; ++k) {
@@ -72,7 +57,7 @@ export function coloursOf(field: string, values: Float32Array, range: Range): Ui
       out.fill(128, 3 * k, 3 * k + 3);
       continue;
     }
-    if (v <= 0 && hasNone(field)) {
+    if (none && v <= 0) {
       out.set(none, 3 * k);
       continue;
     }
@@ -82,6 +67,11 @@ export function coloursOf(field: string, values: Float32Array, range: Range): Ui
     out[3 * k + 2] = table[at + 2];
   }
   return out;
+}
+
+function noneOf(field: string): [number, number, number] | undefined {
+  const { none } = paletteOf(field);
+  return none === undefined ? undefined : bytesOf(none);
 }
 
 /** A bar of the colours with its numbers and unit, `height` tall. */
@@ -104,8 +94,9 @@ export function legend(field: string, unit: string, range: Range, height: number
     svg('text', { x: 4, y: 34, 'font-size': 14 }, scale.unit ? `[${scale.unit}]` : field === 'contact' ? 'share' : ''),
   );
   const top = 46;
-  const bottom = height - (hasNone(field) ? 40 : 10);
-  if (hasNone(field)) {
+  const none = noneOf(field);
+  const bottom = height - (none ? 40 : 10);
+  if (none) {
     root.append(
       svg('rect', {
         x: 4,
