@@ -176,8 +176,9 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
                       name.c_str());
       return 1;
     }
-    if (luaL_loadbufferx(state, text.data() + skip, text.size() - skip, lua_tostring(state, -1), "t") !=
-        LUA_OK)
+    // Without the line ends at its end: what Lua finds missing there is told of the last line that has words.
+    const std::size_t end = std::max(skip, text.find_last_not_of(" \t\r\n") + 1);
+    if (luaL_loadbufferx(state, text.data() + skip, end - skip, lua_tostring(state, -1), "t") != LUA_OK)
       return 1;
     lua_remove(state, -2);
     lua_createtable(state, static_cast<int>(arguments.size()), 1);
