@@ -116,6 +116,9 @@ HttpResponse Api::route(const HttpRequest& request) {
   if (path.starts_with("lessons/") && get) return lesson(path.substr(8));
   if (path == "runs" && get) return runs_of(*person);
   if (path == "room" && get && is_teacher(*person)) return room();
+  if (path == "people" && get && is_teacher(*person)) return people();
+  if (path == "predictions" && post && setup_.classroom) return predict(*person, request);
+  if (path == "help" && post && setup_.classroom) return help(*person, request);
   if (path == "runs" && post) return begin_run(*person, request);
   if (path.starts_with("runs/")) {
     const auto [id, rest] = split(path.substr(5));
@@ -133,6 +136,7 @@ HttpResponse Api::about(std::size_t person) const {
                                                             {"output_bytes", limits.output_bytes},
                                                             {"runs", setup_.at_once}})},
                                    {"classroom", setup_.classroom},
+                                   {"help", board_.needs_help(person)},
                                    {"teacher", is_teacher(person)}}));
 }
 
@@ -182,6 +186,37 @@ HttpResponse Api::room() const {
                                  {"state", name(run->state())},
                                  {"owner", access_.people()[run->owner].name}}));
   return json_answer(list);
+}
+
+HttpResponse Api::people() const {
+  Json::List list;
+  for (std::size_t person = 1; person < access_.people().size(); ++person)
+    list.push_back(Json::object({{"name", access_.people()[person].name},
+                                 {"help", board_.needs_help(person)},
+                                 {"predictions", board_.predictions_of(person)}}));
+  return json_answer(list);
+}
+
+HttpResponse Api::predict(std::size_t person, const HttpRequest& request) {
+  const Json body = body_of(request);
+  const std::string lesson = text_member(body, "lesson", RoomBoard::longest_name);
+  std::map<std::string, double> numbers;
+  const Json* given = body.find("numbers");
+  if (given == nullptr || !given->is_object())
+    throw Error(ErrorCode::bad_value, "`numbers` is no object", "give numbers by name");
+  for (const auto& [name, value] : given->members()) {
+    if (!value.is_number())
+      throw Error(ErrorCode::bad_value, "the prediction `" + name + "` is no number", "give a number");
+    numbers[name] = value.number();
+  }
+  board_.predict(person, lesson, numbers);
+  return json_answer(Json::object({{"kept", static_cast<std::int64_t>(numbers.size())}}));
+}
+
+HttpResponse Api::help(std::size_t person, const HttpRequest& request) {
+  const bool wanted = flag_member(body_of(request), "wanted");
+  board_.ask_for_help(person, wanted);
+  return json_answer(Json::object({{"wanted", wanted}}));
 }
 
 HttpResponse Api::of_run(std::size_t person, const HttpRequest& request, const std::shared_ptr<PageRun>& run,

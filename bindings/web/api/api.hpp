@@ -2,7 +2,8 @@
 // The server's answers: the page's files to anybody who names it rightly, and under /api, to whoever has a
 // token: about, complete, check, runs with their events, files and views, and lessons. A problem is
 // {error: {message, hint?}}. A person finds their own runs only; another's are not there. The first person of
-// a room, its teacher, finds all: /api/room lists them.
+// a room, its teacher, finds all: /api/room lists them, and /api/people whoever is in the room with their
+// predictions (put up by POST /api/predictions) and whether they ask for help (POST /api/help).
 #pragma once
 
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "bindings/web/api/access.hpp"
 #include "bindings/web/api/page_files.hpp"
+#include "bindings/web/api/room_board.hpp"
 #include "bindings/web/http.hpp"
 #include "bindings/web/runs/run_queue.hpp"
 #include "bindings/web/runs/shares.hpp"
@@ -42,6 +44,9 @@ class Api final : public HttpHandler {
   HttpResponse begin_run(std::size_t person, const HttpRequest& request);
   HttpResponse runs_of(std::size_t person) const;
   HttpResponse room() const;
+  HttpResponse people() const;
+  HttpResponse predict(std::size_t person, const HttpRequest& request);
+  HttpResponse help(std::size_t person, const HttpRequest& request);
   HttpResponse of_run(std::size_t person, const HttpRequest& request, const std::shared_ptr<PageRun>& run,
                       const std::string& rest);
   HttpResponse lessons() const;
@@ -51,6 +56,7 @@ class Api final : public HttpHandler {
   const Access& access_;
   RunQueue& runs_;
   const PageFiles page_;
+  RoomBoard board_;
   Shares checks_{1, 4, 2};  // two for people whose scripts are checked quickly
   Shares streams_;          // answers that last
 };
