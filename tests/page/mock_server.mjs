@@ -32,7 +32,7 @@ const lessons = [
       '- `swell` has waves of 25 µm\n- `fine` has waves of 1 µm\n\n| face | slope |\n|---|---|\n| swell | 0.1 |\n| fine | 1.2 |\n\n```lua\nlocal s = lab.surface.flat{ cells=8, size=1 }\n```\n\n' +
       '<img src=x onerror="window.injected=1"> [a link](javascript:window.injected=1) & [another](https://example.org/)\n\n*Then try:* tips on the swell.',
     script:
-      '-- What roughness is\nlocal lab = require "asperity"\nlocal my_guess = nil\n\nlocal book = lab.notebook "tips"\nfor N = 1, 8 do\n  book:write{ N=N, ["Ra [m]"]=2.9e-6 - N * 1e-7, mu=0.3 + N / 50 }\nend\nprint "three faces"\n',
+      '-- What roughness is\nlocal lab = require "asperity"\nlocal my_guess = { Ra=nil, slope=nil } -- shares between 0 and 1\n\nlocal book = lab.notebook "tips"\nfor N = 1, 8 do\n  book:write{ N=N, ["Ra [m]"]=2.9e-6 - N * 1e-7, mu=0.3 + N / 50 }\nend\nprint "three faces"\n',
   },
   {
     name: '02_dimension',
@@ -105,6 +105,14 @@ function viewOf(name) {
 // With a viewBox and no size of its own, as gnuplot writes it.
 const chart =
   '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 200"><style>path{stroke:#0b4f7d}</style><rect width="400" height="200" fill="white"/><path d="M20 180L380 20" fill="none"/><text x="30" y="40">Ra against N</text></svg>';
+
+// The rows of a study of work and precision, as its file has them: a setting that failed has no error.
+const study = `way,cells,end,error,seconds [s],reason
+finer grid,16,measured,0.0054,0.0005,
+finer grid,32,measured,0.00032,0.0013,
+"tighter, 64 cells",64,measured,0.0005,0.0045,
+"tighter, 64 cells",64,failed,,,"no ""answer"", it says"
+`;
 
 /** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`,
     `mock.file NAME`, `mock.waits N`. */
@@ -187,7 +195,21 @@ function* eventsOf(script) {
   yield { type: 'finished', status: 'done', exit: 0, seconds: 1.23 };
 }
 
-export async function startMock(folder, { token = 'testtoken', port = 0, most = 2 } = {}) {
+/** Two students of a room; the token of the mock is its teacher's, or with `room: 'student'` a student's. */
+const people = [
+  {
+    name: 'Ada',
+    help: false,
+    predictions: [
+      { lesson: '01_roughness', name: 'Ra', value: 0.5 },
+      { lesson: '01_roughness', name: 'slope', value: 0.1 },
+    ],
+  },
+  { name: 'Émilie', help: true, predictions: [{ lesson: '01_roughness', name: 'Ra', value: 0.9 }] },
+];
+
+export async function startMock(folder, { token = 'testtoken', port = 0, most = 2, room = '' } = {}) {
+  const told = []; // what students put up
   const runs = new Map();
   let cut = 0; // how many event streams to break off
   const start = (script, name) => {
@@ -235,8 +257,19 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
         return send(200, {
           version: '0.2.0',
           limits: { memory_bytes: 1e9, seconds: 30, output_bytes: 1e6, runs: most },
-          classroom: false,
+          classroom: room !== '',
+          teacher: room === 'teacher',
         });
+      if (room && (what === 'predictions' || what === 'help') && request.method === 'POST') {
+        told.push({ what, ...body });
+        return send(200, {});
+      }
+      if (room === 'teacher' && what === 'people') return send(200, people);
+      if (room === 'teacher' && what === 'room')
+        return send(200, [
+          { id: '1', name: '01_roughness', state: 'done', owner: 'Ada' },
+          { id: '2', name: '02_dimension', state: 'running', owner: 'Émilie' },
+        ]);
       if (what === 'lessons') {
         if (!id)
           return send(
@@ -325,6 +358,8 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
       if (part === 'files')
         return rest[0].endsWith('.svg')
           ? send(200, chart, 'image/svg+xml')
+          : rest[0] === 'work_precision.csv'
+            ? send(200, study, 'text/csv')
           : send(200, 'N,Ra [m]\n1,2.8e-06\n', 'text/csv');
       return send(404, { error: 'nothing is there' });
     } catch (error) {
@@ -338,6 +373,7 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
     address,
     url: `${address}/#${token}`,
     cut: (count) => (cut = count),
+    told,
     close: () => new Promise((r) => (server.closeAllConnections?.(), server.close(r))),
   };
 }

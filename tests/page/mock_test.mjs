@@ -82,7 +82,7 @@ test('Lesson, PredictedBeforeItsTextIsRead', () =>
     await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
     assert.match(
       await on.text(page, '#lessons'),
-      /Question.*Three faces.*Predict.*A ball of 5 µm.*Your prediction.*my_guess.*Ra is how far.*Then try:/s,
+      /Question.*Three faces.*Predict.*A ball of 5 µm.*Your prediction.*its run compares them.*Ra is how far.*Then try:/s,
     );
     const box = await (await page.$('.prediction textarea')).boundingBox();
     assert.ok(box.y + box.height < 720, 'the box is seen without scrolling');
@@ -91,14 +91,14 @@ test('Lesson, PredictedBeforeItsTextIsRead', () =>
         '.prediction textarea',
         (e) => document.getElementById(e.getAttribute('aria-describedby')).textContent,
       ),
-      'Kept here and with a saved run. To have it compared, write its numbers into my_guess in the script too.',
+      'Kept here and with a saved run.',
     );
     // A lesson whose script compares nothing promises nothing.
     await page.click('.back');
     await page.waitForSelector('.lessons li:nth-child(2) button');
     await page.click('.lessons li:nth-child(2) button');
     await on.until(page, () => document.querySelector('.lesson'), 'the other lesson should open');
-    assert.equal(await on.text(page, '#prediction-hint'), 'Kept here and with a saved run.');
+    assert.equal(await page.$('.prediction input'), null);
   }));
 
 test('Lesson, MarkupInItsTextStaysText', () =>
@@ -289,7 +289,8 @@ test('Chart, AnyColumnAgainstAnyOther', () =>
     await on.finished(page);
     await tab(page, 'chart');
     await page.waitForSelector('.chart svg circle');
-    const [x, y, per] = (await page.$$('.charts select')).slice(-3);
+    await page.click('.axes summary');
+    const [x, y, , per] = (await page.$$('.charts select')).slice(-4);
     assert.match(await on.text(page, '.charts .caption'), /^Ra \[µm\] against N: 16 points, 2 lines, one per face\./);
     await per.select('');
     assert.match(await on.text(page, '.charts .caption'), /^Ra \[µm\] against N: 16 points\./);
@@ -297,7 +298,9 @@ test('Chart, AnyColumnAgainstAnyOther', () =>
     await y.select('mu');
     await per.select('face');
     assert.match(await on.text(page, '.charts .caption'), /^mu against Ra \[µm\]: 16 points, 2 lines, one per face\./);
-    assert.deepEqual([(await page.$$('.chart svg circle')).length, (await page.$$('.chart svg rect')).length], [9, 9]);
+    // One line for each face, eight marks of each, and one of each in the legend.
+    const marks = (shape) => page.$$eval(`.chart svg .dot ${shape}`, (all) => all.length);
+    assert.deepEqual([await marks('circle'), await marks('path'), (await page.$$('.chart svg .line path')).length], [9, 9, 2]);
     for (const box of await page.$$('.charts input[type=checkbox]')) await box.click();
     assert.match(await on.text(page, '.chart svg'), /0\.4/);
     await on.assertFits(page, 'the chart');
@@ -318,14 +321,14 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
     await on.run(page, 'for N = 1, 8 do end\n');
     await on.finished(page);
     await tab(page, 'chart');
-    // The second notebook of the run, a list of columns of which the first is constant to rounding.
+    // The second notebook of the run, and of a list of columns those of one unit.
     assert.deepEqual(
       await shown(
         'local none, book = 1, lab.notebook "big"\nfor N = 1, 8 do end -- mock.rows 9\n' +
           '-- book:chart{ x="v", y="i" }\n' +
-          'book:chart{ x="i", y={ "level", "v" }, where={ x={ 1 } }, log_x=true,\n  title="a: book:chart{ x=1 }" }\n',
+          'book:chart{ x="i", y={ "v", "level" }, where={ i={ 1, 2, 3 } }, log_x=true,\n  title="a: book:chart{ x=1 }" }\n',
       ),
-      { caption: 'v [µm] against i: 9 points.', logX: true, logY: false },
+      { caption: 'v [µm] against i: 3 points.', logX: true, logY: false },
     );
     assert.deepEqual(
       await shown(
@@ -343,7 +346,7 @@ test('Chart, BeginsWithWhatTheScriptCharts', () =>
       'i against v [µm]: 9 points.',
     );
     // What a person chose stays.
-    const [, y] = (await page.$$('.charts select')).slice(-3);
+    const [, y] = (await page.$$('.charts select')).slice(-4);
     await y.select('level');
     assert.equal((await shown(loop)).caption, 'level against v [µm]: 9 points.');
   }));

@@ -39,6 +39,7 @@ export interface About {
   limits?: { memory_bytes?: number; seconds?: number; output_bytes?: number; runs?: number };
   classroom?: boolean;
   teacher?: boolean;
+  help?: boolean; // whether this person asks for it
 }
 
 /** A run of anybody in the room, as its teacher sees it. */
@@ -47,6 +48,13 @@ export interface RoomRun {
   name: string;
   owner: string;
   state: string;
+}
+
+/** Somebody of the room, as its teacher sees them. */
+export interface RoomPerson {
+  name: string;
+  help: boolean;
+  predictions: { lesson: string; name: string; value: number }[];
 }
 
 export interface ViewField {
@@ -136,6 +144,10 @@ export class Api {
   start = (script: string, name: string): Promise<{ id: string }> =>
     this.json('POST', '/api/runs', { script, name, views: true });
   room = (): Promise<RoomRun[]> => this.json('GET', '/api/room');
+  people = (): Promise<RoomPerson[]> => this.json('GET', '/api/people');
+  predict = (lesson: string, numbers: Record<string, number>): Promise<unknown> =>
+    this.json('POST', '/api/predictions', { lesson, numbers });
+  askForHelp = (wanted: boolean): Promise<unknown> => this.json('POST', '/api/help', { wanted });
   stop = (id: string): Promise<unknown> => this.json('DELETE', `/api/runs/${encodeURIComponent(id)}`);
   view = (id: string, name: string): Promise<View> =>
     this.json('GET', `/api/runs/${encodeURIComponent(id)}/views/${encodeURIComponent(name)}`);

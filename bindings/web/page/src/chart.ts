@@ -1,56 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One column of a notebook against another, as SVG: the same drawing on the page and in a saved run.
-// Every row is a point; a line goes through the means of the rows that share an x, as the notebook's
-// own charts do. Colours are attributes, so the drawing needs no style sheet. It draws no error bars.
+// Columns of a notebook against another, drawn as SVG by Observable Plot: the same drawing on the page and in a
+// saved run. Every row is a point; a line goes through the means of the rows that share an x, as the notebook's
+// own charts do. Colours are attributes, so the drawing needs no style sheet.
 
-import { scaleLinear, scaleLog } from 'd3-scale';
+import { axisX, axisY, dot, gridY, line, plot, rectY, ruleX, ruleY, text, type Markish } from '@observablehq/plot';
+import { linesOf, type ChartChoice, type Line, type Point } from './chart_choice';
 import { svg } from './dom';
-import { drawMarks, markAt, marksFor, type Place } from './marks';
+import type { Ink } from './ink';
+import { crowded, marksFor, radii, share, type Marks, type Place } from './marks';
 import type { Notebook } from './run';
-import { label, numberText, raised, sameToRounding, scaleFor, type Scale } from './units';
+import { axisFor, type Axis } from './ticks';
+import { label, numberText, scaleFor, type Scale } from './units';
 
-export interface ChartChoice {
-  x: string;
-  y: string;
-  per: string; // a line for each value of this column; empty for one line
-  logX: boolean;
-  logY: boolean;
-}
-
-export interface Ink {
-  text: string;
-  muted: string;
-  grid: string;
-  paper: string;
-  series: string[];
-}
-
-// Okabe and Ito's colours for every kind of colour vision, darkened or lightened to stand out from paper.
-export const lightInk: Ink = {
-  text: '#1c2126',
-  muted: '#4d5963',
-  grid: '#dfe3e6',
-  paper: '#ffffff',
-  series: ['#0b5fa5', '#b04a00', '#00765a', '#9a4480', '#6b5b00', '#3a3f47', '#3d86b8', '#c2611f'],
-};
-export const darkInk: Ink = {
-  text: '#e6eaed',
-  muted: '#aeb9c2',
-  grid: '#343c44',
-  paper: '#14181c',
-  series: ['#6fb7ee', '#f0964b', '#4fc9a4', '#e194c4', '#e0cd4e', '#c6ccd2', '#9fd3f2', '#ffbf8f'],
-};
-
-interface Point {
-  x: number;
-  y: number;
-}
-
-interface Line {
-  name: string;
-  points: Point[];
-  means: Point[];
-}
+const fontSize = 15; // px
+const lineHeight = 24; // px, of the legend's rows
+const symbols = ['circle', 'square', 'triangle', 'diamond'] as const;
+const mostNamed = 16; // lines in the legend
 
 export interface Drawn {
   element: SVGElement;
@@ -62,228 +27,265 @@ export interface Drawn {
 export function drawChart(notebook: Notebook, choice: ChartChoice, width: number, height: number, ink: Ink): Drawn {
   const { lines, left } = linesOf(notebook, choice);
   const all = lines.flatMap((l) => l.points);
-  const name = `${choice.y} against ${choice.x}`;
-  const root = svg('svg', {
-    xmlns: 'http://www.w3.org/2000/svg',
-    viewBox: `0 0 ${width} ${height}`,
-    width,
-    height,
-    role: 'img',
-    'font-family': 'system-ui, sans-serif',
-    'font-size': 15,
-    fill: ink.text,
-  });
+  const name = `${choice.y.join(', ')} against ${choice.x}`;
   if (all.length === 0) {
-    const why = left ? 'No row has both numbers above zero, as these axes need.' : 'No row has both numbers yet.';
-    root.append(svg('text', { x: width / 2, y: height / 2, 'text-anchor': 'middle', fill: ink.muted }, why));
-    root.setAttribute('aria-label', `${name}: ${why}`);
-    return { element: root, summary: why, left };
+    const why = left ? 'No row has both numbers above zero, as these axes need' : 'No row has both numbers yet';
+    return { element: sentence(`${why}.`, `${name}: ${why}`, width, height, ink), summary: why, left };
   }
   const scaleX = scaleFor(notebook.units[choice.x], greatest(all.map((p) => p.x)));
-  const scaleY = scaleFor(notebook.units[choice.y], greatest(all.map((p) => p.y)));
-  const legend = lines.length > 1 ? lines : [];
-  const legendRows = legendLayout(legend, choice.per, notebook, width - 90);
-  const top = 14 + legendRows.length * 24;
-  const y = axis(
-    all.map((p) => p.y / scaleY.factor),
+  const scaleY = scaleFor(notebook.units[choice.y[0]], greatest(all.map((p) => p.y)));
+  const legend = legendRows(lines.length > 1 ? lines : [], width - 90);
+  const margin = { left: 0, right: 24, top: 14 + legend.length * lineHeight, bottom: 56 };
+  const ends = choice.spread ? lines.flatMap((l) => l.means.flatMap((m) => barOf(m, choice.logY))) : [];
+  const y = axisFor(
+    [...all.map((p) => p.y), ...ends].map((v) => v / scaleY.factor),
     choice.logY,
-    [height - 56, top],
-    Math.max(3, Math.floor((height - top) / 60)),
+    apartBy(() => 1.6 * fontSize, height - margin.top - margin.bottom),
   );
-  const widest = Math.max(...y.ticks.map((t) => tickText(t, y).length));
-  const margin = { left: Math.max(58, 42 + 8.4 * widest), right: 20, top, bottom: 56 };
-  const x = axis(
+  margin.left = Math.max(58, 46 + Math.max(...y.labels.map(widthOf)));
+  const inside = width - margin.left - margin.right;
+  const x = axisFor(
     all.map((p) => p.x / scaleX.factor),
     choice.logX,
-    [margin.left, width - margin.right],
-    Math.max(3, Math.floor(width / 110)),
+    apartBy((text) => widthOf(text) + 16, inside),
   );
 
-  for (const tick of y.ticks) {
-    const at = y.place(tick);
-    root.append(
-      svg('line', { x1: margin.left, x2: width - margin.right, y1: at, y2: at, stroke: ink.grid }),
-      svg('text', { x: margin.left - 8, y: at + 5, 'text-anchor': 'end', fill: ink.muted }, tickText(tick, y)),
-    );
-  }
-  for (const tick of x.ticks) {
-    const at = x.place(tick);
-    root.append(
-      svg('line', { x1: at, x2: at, y1: height - margin.bottom, y2: height - margin.bottom + 5, stroke: ink.muted }),
-      svg(
-        'text',
-        { x: at, y: height - margin.bottom + 22, 'text-anchor': 'middle', fill: ink.muted },
-        tickText(tick, x),
-      ),
-    );
-  }
-  root.append(
-    svg('line', {
-      x1: margin.left,
-      x2: width - margin.right,
-      y1: height - margin.bottom,
-      y2: height - margin.bottom,
-      stroke: ink.muted,
-    }),
-    svg(
-      'text',
-      { x: (margin.left + width - margin.right) / 2, y: height - 8, 'text-anchor': 'middle' },
-      label(choice.x, scaleX),
-    ),
-    svg(
-      'text',
-      { transform: `translate(18 ${(top + height - margin.bottom) / 2}) rotate(-90)`, 'text-anchor': 'middle' },
-      label(choice.y, scaleY),
-    ),
-  );
-  const placed = (p: Point): Place => ({ x: x.place(p.x / scaleX.factor), y: y.place(p.y / scaleY.factor) });
-  const places = lines.map((line) => line.points.map(placed));
-  const marks = lines.map((line, k) => marksFor(places[k], line.means.length === line.points.length));
-  lines.forEach((line, index) => {
-    const colour = ink.series[index % ink.series.length];
-    const path = line.means
-      .map(placed)
-      .map((p, i) => `${i ? 'L' : 'M'}${p.x.toFixed(1)} ${p.y.toFixed(1)}`)
-      .join('');
-    root.append(svg('path', { d: path, fill: 'none', stroke: colour, 'stroke-width': 2, 'stroke-linejoin': 'round' }));
-    // Points of one chart have one size.
-    const kind = marks[index] === 'large' && marks.some((m) => m !== 'large') ? 'small' : marks[index];
-    const words = (k: number): string => pointText(line, line.points[k], choice, scaleX, scaleY);
-    for (const mark of drawMarks(places[index], kind, index, { colour, paper: ink.paper }, words)) root.append(mark);
+  const scaled = (p: Point): Point => ({ x: p.x / scaleX.factor, y: p.y / scaleY.factor });
+  const place = (p: Point): Place => ({
+    x: inside * shareOf(p.x / scaleX.factor, x, choice.logX),
+    y: (height - margin.top - margin.bottom) * shareOf(p.y / scaleY.factor, y, choice.logY),
   });
-  for (const [row, entries] of legendRows.entries()) {
-    for (const entry of entries) {
-      const place = { x: margin.left + entry.at + 6, y: 14 + row * 24 };
-      const mark = markAt(entry.index, place, 5, ink.series[entry.index % ink.series.length]);
-      root.append(mark, svg('text', { x: margin.left + entry.at + 18, y: 19 + row * 24 }, entry.text));
-    }
-  }
+  const places = lines.map((l) => l.points.map(place));
+  const kinds = lines.map((l, k): Marks =>
+    choice.points === false ? 'none' : marksFor(places[k], l.means.length === l.points.length),
+  );
+  const drawn = lines.flatMap((l, k): Markish[] => {
+    const stroke = ink.series[k % ink.series.length];
+    // Points of one chart have one size.
+    const kind = kinds[k] === 'large' && kinds.some((m) => m !== 'large') ? 'small' : kinds[k];
+    const bars = l.means.filter((m) => choice.spread && m.deviation > 0);
+    return [
+      ruleX(bars, {
+        x: (m) => m.x / scaleX.factor,
+        y1: (m) => barOf(m, choice.logY)[0] / scaleY.factor,
+        y2: (m) => barOf(m, choice.logY)[1] / scaleY.factor,
+        stroke,
+        strokeWidth: 1.5,
+      }),
+      line(l.means.map(scaled), { x: 'x', y: 'y', stroke, strokeWidth: 2 }),
+      ...dotsOf(l, places[k], kind, k, ink, scaled, (p) => pointText(l, p, choice, scaleX, scaleY)),
+    ];
+  });
+  const words = { fontSize, fill: ink.text };
+  const element = plot({
+    className: 'columns',
+    width,
+    height,
+    marginLeft: margin.left,
+    marginRight: margin.right,
+    marginTop: margin.top,
+    marginBottom: margin.bottom,
+    x: { type: choice.logX ? 'log' : 'linear', domain: x.domain },
+    y: { type: choice.logY ? 'log' : 'linear', domain: y.domain },
+    marks: [
+      gridY(y.ticks, { stroke: ink.grid, strokeOpacity: 1 }),
+      axisY(y.ticks, { ...words, fill: ink.muted, tickSize: 0, tickPadding: 8, text: labelOf(y), label: null }),
+      axisX(x.ticks, { ...words, fill: ink.muted, stroke: ink.muted, text: labelOf(x), label: null }),
+      ruleY([y.domain[0]], { stroke: ink.muted }),
+      text([label(choice.x, scaleX)], { ...words, frameAnchor: 'bottom', dy: 48 }),
+      text([yLabel(choice, scaleY)], { ...words, frameAnchor: 'left', rotate: -90, dx: 16 - margin.left }),
+      ...drawn,
+      ...legendMarks(legend, margin.top, ink),
+    ],
+  }) as SVGSVGElement;
   const summary =
-    `${label(choice.y, scaleY)} against ${label(choice.x, scaleX)}: ${count(all.length, 'point')}` +
-    (lines.length > 1 ? `, ${count(lines.length, 'line')}, one per ${choice.per}` : '') +
-    (marks.includes('none') ? ', too close together to be marked one by one' : '');
-  root.setAttribute('aria-label', summary);
-  return { element: root, summary, left };
+    `${yLabel(choice, scaleY)} against ${label(choice.x, scaleX)}: ${count(all.length, 'point')}` +
+    (lines.length > 1 ? `, ${count(lines.length, 'line')}${choice.per ? `, one per ${choice.per}` : ''}` : '') +
+    (kinds.includes('none') && choice.points !== false ? ', too close together to be marked one by one' : '');
+  return { element: asPicture(element, summary, ink), summary, left };
 }
 
-function linesOf(notebook: Notebook, choice: ChartChoice): { lines: Line[]; left: number } {
-  const groups = new Map<string, Point[]>();
-  let left = 0;
-  for (const row of notebook.rows) {
-    const x = row[choice.x];
-    const y = row[choice.y];
-    const fits =
-      typeof x === 'number' &&
-      typeof y === 'number' &&
-      Number.isFinite(x) &&
-      Number.isFinite(y) &&
-      !(choice.logX && x <= 0) &&
-      !(choice.logY && y <= 0);
-    if (!fits) {
-      ++left;
-      continue;
-    }
-    const key = choice.per ? keyText(row[choice.per]) : '';
-    const points = groups.get(key);
-    if (points) points.push({ x, y });
-    else groups.set(key, [{ x, y }]);
+/** How many of these numbers lie in each of some equal steps: a drawing, and its sentence. */
+export function drawHistogram(values: number[], name: string, width: number, height: number, ink: Ink): Drawn {
+  const axis = axisFor(
+    values,
+    false,
+    apartBy((text) => widthOf(text) + 16, width - 70),
+  );
+  const [low, high] = axis.domain;
+  const steps = Math.max(4, Math.min(12, Math.ceil(2 * Math.sqrt(values.length))));
+  const bins = Array.from({ length: steps }, (_, k) => ({
+    from: low + ((high - low) * k) / steps,
+    to: low + ((high - low) * (k + 1)) / steps,
+    count: 0,
+  }));
+  for (const v of values) ++bins[Math.min(steps - 1, Math.floor(((v - low) / (high - low)) * steps))].count;
+  const most = Math.max(...bins.map((b) => b.count));
+  const counts = axisFor([0, most], false, apartBy(() => 1.6 * fontSize, height - 70));
+  const words = { fontSize, fill: ink.text };
+  const element = plot({
+    className: 'columns',
+    width,
+    height,
+    marginLeft: 44,
+    marginRight: 24,
+    marginTop: 10,
+    marginBottom: 52,
+    x: { domain: axis.domain },
+    y: { domain: counts.domain },
+    marks: [
+      gridY(counts.ticks, { stroke: ink.grid, strokeOpacity: 1 }),
+      axisY(counts.ticks, { ...words, fill: ink.muted, tickSize: 0, tickPadding: 8, text: labelOf(counts), label: null }),
+      rectY(
+        bins.filter((b) => b.count > 0),
+        { x1: 'from', x2: 'to', y: 'count', fill: ink.series[0], inset: 1 },
+      ),
+      axisX(axis.ticks, { ...words, fill: ink.muted, stroke: ink.muted, text: labelOf(axis), label: null }),
+      ruleY([0], { stroke: ink.muted }),
+      text([name], { ...words, frameAnchor: 'bottom', dy: 46 }),
+    ],
+  }) as SVGSVGElement;
+  const sorted = [...values].sort((a, b) => a - b);
+  const summary =
+    `${name}: ${count(values.length, 'prediction')}, from ${numberText(sorted[0])} to ${numberText(sorted[sorted.length - 1])}, ` +
+    `half of them up to ${numberText(sorted[Math.floor((sorted.length - 1) / 2)])}`;
+  return { element: asPicture(element, summary, ink), summary, left: 0 };
+}
+
+function dotsOf(
+  l: Line,
+  places: Place[],
+  kind: Marks,
+  index: number,
+  ink: Ink,
+  scaled: (p: Point) => Point,
+  words: (p: Point) => string,
+): Markish[] {
+  if (kind === 'none') return [];
+  const close = crowded(places, 2 * radii[kind]);
+  const fill = ink.series[index % ink.series.length];
+  // In a cloud of points the line through their means is seen through them.
+  const cloud = share(close) > 0.5;
+  const single = kind === 'large' ? l.points.filter((_, k) => !close[k]) : [];
+  const rest = kind === 'large' ? l.points.filter((_, k) => close[k]) : l.points;
+  return [single, rest].map((points, outlined) =>
+    dot(points, {
+      x: (p: Point) => scaled(p).x,
+      y: (p: Point) => scaled(p).y,
+      r: radii[kind],
+      symbol: symbols[index % symbols.length],
+      fill,
+      fillOpacity: cloud ? 0.5 : 1,
+      stroke: outlined === 0 ? ink.paper : 'none',
+      title: words,
+    }),
+  );
+}
+
+/** A sentence in the chart's place. */
+function sentence(words: string, name: string, width: number, height: number, ink: Ink): SVGElement {
+  const root = svg('svg', { viewBox: `0 0 ${width} ${height}`, width, height });
+  root.append(
+    svg('text', { x: width / 2, y: height / 2, 'text-anchor': 'middle', 'font-size': fontSize, fill: ink.muted }, words),
+  );
+  return asPicture(root, name, ink);
+}
+
+/** Without Plot's own style sheet, which the page's policy forbids, and with a name instead of parts. */
+function asPicture(root: SVGElement, name: string, ink: Ink): SVGElement {
+  root.querySelector('style')?.remove();
+  for (const part of root.querySelectorAll('[aria-label], [aria-hidden], [aria-description]')) {
+    if (part.getAttribute('aria-label')) part.setAttribute('class', part.getAttribute('aria-label')!.replace(/\W+/g, '-'));
+    for (const attribute of ['aria-label', 'aria-hidden', 'aria-description']) part.removeAttribute(attribute);
   }
-  const lines = [...groups].map(([name, points]) => ({ name, points, means: meansOf(points) }));
-  return { lines, left };
+  root.setAttribute('xmlns', 'http://www.w3.org/2000/svg');
+  root.setAttribute('role', 'img');
+  root.setAttribute('aria-label', name);
+  root.setAttribute('font-family', 'system-ui, sans-serif');
+  root.setAttribute('font-size', String(fontSize));
+  root.setAttribute('fill', ink.text);
+  return root;
 }
 
-function meansOf(points: Point[]): Point[] {
-  const sums = new Map<number, { sum: number; count: number }>();
-  for (const p of points) {
-    const at = sums.get(p.x) ?? { sum: 0, count: 0 };
-    sums.set(p.x, { sum: at.sum + p.y, count: at.count + 1 });
-  }
-  return [...sums].map(([x, s]) => ({ x, y: s.sum / s.count })).sort((a, b) => a.x - b.x);
+function barOf(mean: { y: number; deviation: number }, log: boolean): [number, number] {
+  const low = mean.y - mean.deviation;
+  return [log && low <= 0 ? mean.y : low, mean.y + mean.deviation];
 }
 
-function keyText(value: unknown): string {
-  return typeof value === 'number'
-    ? numberText(value)
-    : value === undefined || value === null
-      ? '(none)'
-      : String(value);
+function shareOf(value: number, axis: Axis, log: boolean): number {
+  const [low, high] = axis.domain;
+  return log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
 }
 
-interface Axis {
-  place: (value: number) => number;
-  ticks: number[];
-  log: boolean;
+/** Neighbouring labels need as much as `size` says, half of it to either side. */
+function apartBy(size: (text: string) => number, length: number) {
+  return (labels: string[], shares: number[]): boolean =>
+    labels.every((text, k) => k === 0 || length * (shares[k] - shares[k - 1]) >= (size(text) + size(labels[k - 1])) / 2);
 }
 
-function axis(values: number[], log: boolean, range: [number, number], wanted: number): Axis {
-  let low = values.reduce((least, v) => Math.min(least, v), Infinity);
-  let high = values.reduce((most, v) => Math.max(most, v), -Infinity);
-  if (sameToRounding(low, high)) {
-    const half = log ? 0 : Math.abs(low) / 10 || 1;
-    [low, high] = log ? [low / 2, high * 2] : [low - half, high + half];
-  }
-  if (!log) {
-    const scale = scaleLinear().domain([low, high]).nice(wanted).range(range);
-    return { place: scale, ticks: scale.ticks(wanted), log };
-  }
-  const scale = scaleLog().domain([low, high]).range(range);
-  const decades = Math.log10(high / low);
-  if (decades < 1) {
-    const linear = scaleLinear().domain([low, high]).nice(wanted);
-    const [from, to] = linear.domain();
-    scale.domain([from > 0 ? from : low, to]);
-    return { place: scale, ticks: linear.ticks(wanted).filter((t) => t > 0), log };
-  }
-  scale.nice();
-  const [from, to] = scale.domain();
-  const every = Math.ceil(Math.log10(to / from) / wanted);
-  const factors = decades <= 2 ? [1, 2, 5] : [1];
-  const ticks: number[] = [];
-  for (let power = Math.floor(Math.log10(from)); 10 ** power <= to * 1.001; power += every) {
-    for (const factor of factors) {
-      const tick = factor * 10 ** power;
-      if (tick >= from * 0.999 && tick <= to * 1.001) ticks.push(tick);
-    }
-  }
-  return { place: scale, ticks, log };
+const ruler = document.createElement('canvas').getContext('2d');
+
+function widthOf(text: string): number {
+  if (!ruler) return 8.6 * text.length;
+  ruler.font = `${fontSize}px system-ui, sans-serif`;
+  return ruler.measureText(text).width;
 }
 
-function tickText(tick: number, on: Axis): string {
-  const power = Math.log10(Math.abs(tick));
-  if (on.log && (power < -3.5 || power > 4.5) && Math.abs(power - Math.round(power)) < 1e-9)
-    return `10${raised(Math.round(power))}`;
-  return numberText(tick, 6);
+function labelOf(axis: Axis): (tick: number) => string {
+  return (tick) => axis.labels[axis.ticks.indexOf(tick)];
 }
 
-function pointText(line: Line, p: Point, choice: ChartChoice, x: Scale, y: Scale): string {
-  const per = choice.per ? `${choice.per} = ${line.name}\n` : '';
+function yLabel(choice: ChartChoice, scale: Scale): string {
+  return label(choice.y.join(', '), scale);
+}
+
+function pointText(l: Line, p: Point, choice: ChartChoice, x: Scale, y: Scale): string {
   const number = (value: number, scale: Scale): string =>
     numberText(value / scale.factor) + (scale.unit && ' ' + scale.unit);
-  return `${per}${choice.x} = ${number(p.x, x)}\n${choice.y} = ${number(p.y, y)}`;
+  const part = choice.per ? `${l.name}\n` : '';
+  return `${part}${choice.x} = ${number(p.x, x)}\n${l.column} = ${number(p.y, y)}`;
 }
 
-/** Entries of the legend in rows that fit the width; the first says what parts the lines. */
-function legendLayout(
-  lines: Line[],
-  per: string,
-  notebook: Notebook,
-  width: number,
-): { text: string; at: number; index: number }[][] {
-  const rows: { text: string; at: number; index: number }[][] = [];
-  const unit = notebook.units[per];
+interface Entry {
+  text: string;
+  at: number;
+  index: number;
+}
+
+/** Names of the lines in rows that fit the width. */
+function legendRows(lines: Line[], width: number): Entry[][] {
+  const rows: Entry[][] = [];
   let at = Infinity;
-  lines.slice(0, 16).forEach((line, index) => {
-    const text = `${per} = ${line.name}${unit ? ' ' + unit : ''}`;
-    const room = 36 + 8.2 * text.length;
+  const add = (text: string, index: number): void => {
+    const room = 36 + widthOf(text);
     if (at + room > width) {
       rows.push([]);
       at = 0;
     }
     rows[rows.length - 1].push({ text, at, index });
     at += room;
-  });
-  if (lines.length > 16) rows[rows.length - 1].push({ text: `and ${lines.length - 16} more`, at, index: 16 });
+  };
+  lines.slice(0, mostNamed).forEach((l, k) => add(l.name, k));
+  if (lines.length > mostNamed) add(`and ${lines.length - mostNamed} more`, mostNamed);
   return rows;
+}
+
+function legendMarks(rows: Entry[][], top: number, ink: Ink): Markish[] {
+  return rows.flatMap((entries, row) =>
+    entries.flatMap(({ text: words, at, index }) => {
+      const place = { frameAnchor: 'top-left' as const, dx: at + 6, dy: 14 + row * lineHeight - top };
+      return [
+        dot([0], {
+          ...place,
+          r: 5,
+          symbol: symbols[index % symbols.length],
+          fill: ink.series[index % ink.series.length],
+          stroke: 'none',
+        }),
+        text([words], { ...place, dx: at + 18, textAnchor: 'start', lineAnchor: 'middle', fontSize, fill: ink.text }),
+      ];
+    }),
+  );
 }
 
 function greatest(values: number[]): number {

@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any column of a notebook against any other: which axes, a line for each value of which column, axes
-// linear or logarithmic. It begins with what the script charts; a choice that is made stays with the
-// notebook's name from run to run.
+// The charts of a run as the script asks for them, and any column of a notebook against any others of one unit:
+// which axes, a line for each value of which column, axes linear or logarithmic. A choice that is made stays
+// with the chart's name from run to run. The axes are folded away until they are asked for. The library that draws is loaded when a chart is first looked at.
 
-import { darkInk, drawChart, lightInk, type ChartChoice } from './chart';
+import type { ChartChoice } from './chart_choice';
 import { Choice, h, saveAs } from './dom';
-import { firstChoice, firstNotebook } from './first_chart';
-import { numericColumns, type Notebook, type Run } from './run';
+import { chartsOf, columnsLike, type RunChart } from './first_chart';
+import { inkNow, lightInk } from './ink';
+import { numericColumns, type Run } from './run';
+
+type Drawing = typeof import('./chart');
+
+const several = '\n'; // as a choice of y: all those of the present chart
 
 export class ChartPane {
   private run: Run | undefined;
-  private asked = ''; // the notebook that was chosen by hand
+  private asked = ''; // the chart that was chosen by hand
+  private drawing: Drawing | undefined;
   private readonly choices = new Map<string, ChartChoice>();
-  private readonly which = new Choice('Notebook', (name) => {
+  private readonly which = new Choice('Chart', (name) => {
     this.asked = name;
     this.draw();
   });
   private readonly x = new Choice('x', (x) => this.set({ x }));
-  private readonly y = new Choice('y', (y) => this.set({ y }));
+  private readonly y = new Choice('y', (y) => y !== several && this.set({ y: [y] }));
+  private readonly more = new Choice('and', (y) => y && this.set({ y: [...this.shown()!.choice.y, y] }));
   private readonly per = new Choice('One line per', (per) => this.set({ per }));
   private readonly logX = h('input', { type: 'checkbox', onchange: () => this.set({ logX: this.logX.checked }) });
   private readonly logY = h('input', { type: 'checkbox', onchange: () => this.set({ logY: this.logY.checked }) });
@@ -26,7 +33,10 @@ export class ChartPane {
   private readonly note = h('p', { className: 'caption' });
   private readonly body: HTMLElement;
 
-  constructor(readonly element: HTMLElement) {
+  constructor(
+    readonly element: HTMLElement,
+    private readonly failed: (error: unknown) => void,
+  ) {
     const save = h('button', { type: 'button', onclick: () => this.save() }, 'Save SVG');
     this.body = h(
       'div',
@@ -35,10 +45,20 @@ export class ChartPane {
         'div',
         { className: 'choices' },
         this.which.element,
-        this.x.element,
-        this.y.element,
-        this.per.element,
-        h('span', { className: 'pair' }, h('label', {}, this.logX, ' log x'), h('label', {}, this.logY, ' log y')),
+        h(
+          'details',
+          { className: 'axes' },
+          h('summary', {}, 'Axes'),
+          h(
+            'div',
+            { className: 'choices' },
+            this.x.element,
+            this.y.element,
+            this.more.element,
+            this.per.element,
+            h('span', { className: 'pair' }, h('label', {}, this.logX, ' log x'), h('label', {}, this.logY, ' log y')),
+          ),
+        ),
       ),
       this.frame,
       h('div', { className: 'below' }, this.note, save),
@@ -50,40 +70,41 @@ export class ChartPane {
 
   show(run: Run | undefined): void {
     this.run = run;
-    const names = this.names();
-    this.empty.hidden = names.length > 0;
-    this.body.hidden = names.length === 0;
+    const any = this.charts().length > 0;
+    this.empty.hidden = any;
+    this.body.hidden = !any;
     this.empty.textContent = run?.active ? 'No row yet.' : 'Columns of a notebook are drawn here against each other.';
-    if (names.length) this.draw();
+    if (any) this.draw();
   }
 
-  /** The chart of a notebook as it is chosen, or as it would be at first. */
-  choiceFor(run: Run, notebook: Notebook): ChartChoice | undefined {
-    const columns = numericColumns(notebook);
-    if (columns.length < 2) return undefined;
-    const known = this.choices.get(notebook.name);
-    if (known && columns.includes(known.x) && columns.includes(known.y)) {
-      return notebook.columns.includes(known.per) ? known : { ...known, per: '' };
-    }
-    return firstChoice(run, notebook);
+  /** What draws, once it is loaded. */
+  async library(): Promise<Drawing> {
+    return (this.drawing ??= await import('./chart'));
   }
 
-  private names(): string[] {
-    return [...(this.run?.notebooks.values() ?? [])].filter((n) => numericColumns(n).length >= 2).map((n) => n.name);
+  /** The charts of a run as they are chosen, or as they would be at first. */
+  chartsFor(run: Run): RunChart[] {
+    return chartsOf(run).map((chart) => {
+      const known = this.choices.get(chart.name);
+      const columns = numericColumns(chart.notebook);
+      if (!known || !columns.includes(known.x) || !known.y.every((y) => columns.includes(y))) return chart;
+      const per = chart.notebook.columns.includes(known.per) ? known.per : '';
+      return { ...chart, choice: { ...known, per } };
+    });
   }
 
-  /** The notebook that is shown, and how. */
-  private shown(): { notebook: Notebook; choice: ChartChoice } | undefined {
-    const names = this.names();
-    if (!this.run || names.length === 0) return undefined;
-    const name = names.includes(this.asked) ? this.asked : firstNotebook(this.run, names);
-    const notebook = this.run.notebooks.get(name)!;
-    return { notebook, choice: this.choiceFor(this.run, notebook)! };
+  private charts(): RunChart[] {
+    return this.run ? this.chartsFor(this.run) : [];
+  }
+
+  private shown(): RunChart | undefined {
+    const charts = this.charts();
+    return charts.find((c) => c.name === this.asked) ?? charts[0];
   }
 
   private set(change: Partial<ChartChoice>): void {
     const present = this.shown();
-    if (present) this.choices.set(present.notebook.name, { ...present.choice, ...change });
+    if (present) this.choices.set(present.name, { ...present.choice, ...change });
     this.draw();
   }
 
@@ -91,26 +112,40 @@ export class ChartPane {
     const shown = this.shown();
     if (!shown || this.element.offsetParent === null) return;
     const { notebook, choice } = shown;
-    const names = this.names();
+    const charts = this.charts();
     const options = (columns: string[]): { value: string; text: string }[] =>
       columns.map((c) => ({ value: c, text: c }));
-    this.which.element.hidden = names.length < 2;
-    this.which.choose(options(names), notebook.name);
-    this.x.choose(options(numericColumns(notebook)), choice.x);
-    this.y.choose(options(numericColumns(notebook)), choice.y);
+    const columns = numericColumns(notebook);
+    this.which.element.hidden = charts.length < 2;
+    this.which.choose(
+      charts.map((c) => ({ value: c.name, text: c.title })),
+      shown.name,
+    );
+    this.x.choose(options(columns), choice.x);
+    const together = choice.y.length > 1 ? [{ value: several, text: choice.y.join(', ') }] : [];
+    this.y.choose([...together, ...options(columns)], choice.y.length > 1 ? several : choice.y[0]);
+    const more = columnsLike(notebook, choice.y[0]).filter((c) => c !== choice.x && !choice.y.includes(c));
+    this.more.element.hidden = more.length === 0;
+    this.more.choose([{ value: '', text: '(no other)' }, ...options(more)], '');
     this.per.choose(
-      [{ value: '', text: '(one line)' }, ...options(notebook.columns.filter((c) => c !== choice.x && c !== choice.y))],
+      [
+        { value: '', text: '(one line)' },
+        ...options(notebook.columns.filter((c) => c !== choice.x && !choice.y.includes(c))),
+      ],
       choice.per,
     );
     this.logX.checked = choice.logX;
     this.logY.checked = choice.logY;
-    const ink = matchMedia('(prefers-color-scheme: dark)').matches ? darkInk : lightInk;
-    const drawn = drawChart(
+    if (!this.drawing) {
+      this.library().then(() => this.draw(), this.failed);
+      return;
+    }
+    const drawn = this.drawing.drawChart(
       notebook,
       choice,
       Math.max(280, this.frame.clientWidth),
       Math.max(220, this.frame.clientHeight),
-      ink,
+      inkNow(),
     );
     this.frame.replaceChildren(drawn.element);
     this.note.textContent =
@@ -122,11 +157,11 @@ export class ChartPane {
 
   private save(): void {
     const shown = this.shown();
-    if (!shown) return;
+    if (!shown || !this.drawing) return;
     const { notebook, choice } = shown;
-    const drawn = drawChart(notebook, choice, 900, 560, lightInk).element;
+    const drawn = this.drawing.drawChart(notebook, choice, 900, 560, lightInk).element;
     saveAs(
-      `${notebook.name} ${choice.y} against ${choice.x}.svg`.replace(/[^\w .-]/g, '_'),
+      `${notebook.name} ${choice.y.join(' ')} against ${choice.x}.svg`.replace(/[^\w .-]/g, '_'),
       new Blob([new XMLSerializer().serializeToString(drawn)], { type: 'image/svg+xml' }),
     );
   }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The charts that a script asks for, read from its text: `book:chart{ x="N", y="Ra", log_x=true }`. Only
-// what is written out is known; a column named by a variable is not, and such a call is passed over. And
-// the order in which it names its columns, which a row does not keep.
+// The charts that a script asks for, read from its text: `book:chart{ x="N", y="Ra", log_x=true }`, and
+// `study:chart "cost.svg"`, which is error against seconds. Only what is written out is known; a column named by
+// a variable is not, and such a call is passed over. And the order in which it names its columns, which a row
+// does not keep.
+
+import type { Cell } from './api';
 
 export interface Charted {
   /** Empty where the text does not tell which notebook it is. */
@@ -11,6 +14,10 @@ export interface Charted {
   per: string;
   logX: boolean;
   logY: boolean;
+  title: string;
+  where: Record<string, Cell[]>;
+  points: boolean;
+  spread: boolean;
 }
 
 interface Token {
@@ -18,11 +25,14 @@ interface Token {
   value: string;
 }
 
-type Field = string | boolean | string[];
+type Field = string | boolean | string[] | Record<string, Cell[]>;
+
+const study = { x: 'seconds', y: ['error'], per: 'way', logX: true, logY: true, where: {}, points: true, spread: false };
 
 export function chartedIn(script: string): Charted[] {
   const tokens = tokensOf(script);
   const books = new Map<string, string>(); // names of notebooks by the variables that hold them
+  const studies = studiesIn(script);
   const found: Charted[] = [];
   const is = (at: number, value: string): boolean => tokens[at]?.kind !== 'text' && tokens[at]?.value === value;
   tokens.forEach((token, at) => {
@@ -32,20 +42,43 @@ export function chartedIn(script: string): Charted[] {
       const variable = assignedTo(tokens, at);
       if (variable) books.set(variable, tokens[past].value);
     }
-    if (token.value === 'chart' && is(at - 1, ':') && is(past, '{')) {
-      const { x, y, one_line_per: per, log_x, log_y } = fieldsOf(tokens, past);
+    if (token.value !== 'chart' || !is(at - 1, ':')) return;
+    const holder = tokens[at - 2]?.value ?? '';
+    if (tokens[past]?.kind === 'text' && studies.has(holder)) {
+      const notebook = studies.get(holder)!;
+      found.push({ ...study, notebook, title: `${notebook}: error against time` });
+    } else if (is(past, '{')) {
+      const { x, y, one_line_per: per, log_x, log_y, title, where, points, spread } = fieldsOf(tokens, past);
       if (typeof x !== 'string' || (typeof y !== 'string' && !Array.isArray(y))) return;
       found.push({
-        notebook: books.get(tokens[at - 2]?.value ?? '') ?? '',
+        notebook: books.get(holder) ?? '',
         x,
-        y: [y].flat(),
+        y: [y].flat() as string[],
         per: typeof per === 'string' ? per : '',
         logX: log_x === true,
         logY: log_y === true,
+        title: typeof title === 'string' ? title : '',
+        where: typeof where === 'object' && !Array.isArray(where) ? where : {},
+        points: points !== false,
+        spread: spread === true,
       });
     }
   });
   return found;
+}
+
+/** Names of the studies of a script by the variables that hold them; each keeps its rows in the file <name>.csv. */
+export function studiesIn(script: string): Map<string, string> {
+  const tokens = tokensOf(script);
+  const studies = new Map<string, string>();
+  tokens.forEach((token, at) => {
+    if (token.kind !== 'word' || token.value !== 'work_precision' || tokens[at - 1]?.value !== '.') return;
+    const past = tokens[at + 1]?.value === '(' ? at + 2 : at + 1;
+    const variable = assignedTo(tokens, at);
+    const { name } = fieldsOf(tokens, past);
+    if (variable) studies.set(variable, typeof name === 'string' ? name : token.value);
+  });
+  return studies;
 }
 
 /** Keys of tables in the order in which the text first has them, units left out: `N`, `["Ra [m]"]`. */
@@ -110,8 +143,10 @@ function fieldsOf(tokens: Token[], at: number): Record<string, Field | undefined
     if (depth !== 1 || tokens[k].kind !== 'word' || sign(k + 1) !== '=') continue;
     const value = tokens[k + 2];
     if (value?.kind === 'text' && ends(k + 3)) fields[tokens[k].value] = value.value;
-    if (value?.kind === 'word' && value.value === 'true' && ends(k + 3)) fields[tokens[k].value] = true;
-    if (sign(k + 2) === '{') fields[tokens[k].value] = textsOf(tokens, k + 3);
+    if (value?.kind === 'word' && /^(true|false)$/.test(value.value) && ends(k + 3))
+      fields[tokens[k].value] = value.value === 'true';
+    if (sign(k + 2) === '{')
+      fields[tokens[k].value] = tokens[k].value === 'where' ? whereOf(tokens, k + 3) : textsOf(tokens, k + 3);
   }
   return fields;
 }
@@ -125,4 +160,32 @@ function textsOf(tokens: Token[], from: number): string[] | undefined {
     else if (kind !== 'sign' || (value !== ',' && value !== ';')) return undefined;
   }
   return undefined;
+}
+
+/** `body={ "a", "b" }, press=2` as far as it is plain; a column whose values are not known parts no rows. */
+function whereOf(tokens: Token[], from: number): Record<string, Cell[]> {
+  const where: Record<string, Cell[]> = {};
+  let column = '';
+  let depth = 1;
+  let known = true;
+  const close = (): void => {
+    if (!known) delete where[column];
+    known = true;
+    column = '';
+  };
+  for (let k = from; k < tokens.length && depth > 0; ++k) {
+    const { kind, value } = tokens[k];
+    const bracketed = kind === 'text' && tokens[k + 1]?.value === ']';
+    if (depth === 1 && (kind === 'word' || bracketed) && tokens[k + (bracketed ? 2 : 1)]?.value === '=') {
+      close();
+      column = value.replace(/ *\[.*\]$/, '');
+      where[column] = [];
+    } else if (kind === 'text' && !bracketed) where[column]?.push(value);
+    else if (kind === 'sign' && /^\d/.test(value)) where[column]?.push(Number(value));
+    else if (value === '{') ++depth;
+    else if (value === '}') --depth;
+    else if (kind === 'word' || !'=,;[]'.includes(value)) known = false;
+  }
+  close();
+  return where;
 }

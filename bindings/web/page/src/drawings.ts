@@ -3,9 +3,9 @@
 // the light colours of paper. One drawing a view, of what the pane would show first: of a press its
 // pressure, of a surface its heights.
 
-import { lightInk } from './chart';
 import { coloursOf, legend, rangeOf } from './colour';
 import { svg } from './dom';
+import { lightInk } from './ink';
 import {
   anchorText,
   barFor,

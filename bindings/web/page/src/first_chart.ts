@@ -1,17 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which chart of a notebook is shown first: what the script itself charts, by its text or by the names of
-// the files it drew, and else the columns that vary and that it writes first.
+// The charts of a run: what the script itself charts, by its text or by the names of the files it drew, and of
+// every other notebook one of the columns that vary and that it writes first.
 
-import type { ChartChoice } from './chart';
+import type { ChartChoice } from './chart_choice';
 import type { Charted } from './charted';
 import { numericColumns, type Notebook, type Run } from './run';
-import { sameToRounding } from './units';
+import { sameToRounding, scaleFor } from './units';
 
-export function firstChoice(run: Run, notebook: Notebook): ChartChoice {
+/** One chart of a run. */
+export interface RunChart {
+  name: string; // the same from run to run
+  title: string;
+  notebook: Notebook;
+  choice: ChartChoice;
+}
+
+/** All that can be drawn now, those of the script first. */
+export function chartsOf(run: Run): RunChart[] {
+  const found: RunChart[] = [];
+  const drawable = [...run.notebooks.values()].filter((n) => numericColumns(n).length >= 2);
   for (const charted of run.charted) {
-    const choice = asCharted(charted, notebook);
-    if (choice) return choice;
+    for (const notebook of drawable) {
+      const choice = asCharted(charted, notebook);
+      if (!choice) continue;
+      const title = charted.title || `${choice.y.join(', ')} against ${choice.x}`;
+      if (found.some((c) => c.name === `${notebook.name}: ${title}`)) break;
+      found.push({ name: `${notebook.name}: ${title}`, title, notebook, choice });
+      break;
+    }
   }
+  for (const notebook of drawable) {
+    if (found.some((c) => c.notebook === notebook)) continue;
+    found.push({ name: notebook.name, title: notebook.name, notebook, choice: firstChoice(run, notebook) });
+  }
+  return found;
+}
+
+/** The columns that can be drawn up beside this one: those of its unit. */
+export function columnsLike(notebook: Notebook, column: string): string[] {
+  const dimension = (c: string): string => scaleFor(notebook.units[c], 0).unit;
+  return numericColumns(notebook).filter((c) => dimension(c) === dimension(column));
+}
+
+function firstChoice(run: Run, notebook: Notebook): ChartChoice {
   const columns = numericColumns(notebook);
   const written = (c: string): number => {
     const at = run.keys.indexOf(c);
@@ -24,19 +55,10 @@ export function firstChoice(run: Run, notebook: Notebook): ChartChoice {
       return values > 1 && values <= 8;
     }) ?? '';
   const drawn = byFile(run, notebook, columns);
-  if (drawn) return { ...drawn, per, logX: false, logY: false };
+  if (drawn) return { x: drawn.x, y: [drawn.y], per, logX: false, logY: false };
   const x = varied[0] ?? columns[0];
   const y = varied[1] ?? columns.find((c) => c !== x)!;
-  return { x, y, per, logX: false, logY: false };
-}
-
-/** The notebook that the script charts first, of those that can be drawn. */
-export function firstNotebook(run: Run, names: string[]): string {
-  for (const charted of run.charted) {
-    const name = names.find((n) => asCharted(charted, run.notebooks.get(n)!));
-    if (name) return name;
-  }
-  return names[0];
+  return { x, y: [y], per, logX: false, logY: false };
 }
 
 function asCharted(charted: Charted, notebook: Notebook): ChartChoice | undefined {
@@ -44,10 +66,11 @@ function asCharted(charted: Charted, notebook: Notebook): ChartChoice | undefine
   if (charted.notebook && charted.notebook !== notebook.name) return undefined;
   if (!columns.includes(charted.x)) return undefined;
   const known = charted.y.filter((c) => columns.includes(c));
-  const y = known.find((c) => varies(notebook, c)) ?? known[0];
-  if (y === undefined) return undefined;
+  if (known.length === 0) return undefined;
+  const alike = columnsLike(notebook, known[0]);
   const per = notebook.columns.includes(charted.per) ? charted.per : '';
-  return { x: charted.x, y, per, logX: charted.logX, logY: charted.logY };
+  const { x, logX, logY, where, points, spread } = charted;
+  return { x, y: known.filter((c) => alike.includes(c)), per, logX, logY, where, points, spread };
 }
 
 /** A chart without a name of its own is in the file <notebook>-<y>-<x>.svg, with any further y between. */

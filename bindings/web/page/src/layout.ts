@@ -94,6 +94,32 @@ export function divider(
   });
 }
 
+/** A button that lets an element fill the window and puts it back; meanwhile nothing else can be reached. */
+export class Filling {
+  constructor(
+    private readonly button: HTMLButtonElement,
+    private readonly element: HTMLElement,
+    private readonly changed: (on: boolean) => void,
+  ) {
+    button.addEventListener('click', () => this.set(!this.on));
+  }
+
+  get on(): boolean {
+    return this.element.classList.contains('filling');
+  }
+
+  set(on: boolean): void {
+    this.element.classList.toggle('filling', on);
+    this.button.setAttribute('aria-pressed', String(on));
+    for (let e: HTMLElement | null = this.element; e && e !== document.body; e = e.parentElement) {
+      for (const other of e.parentElement?.children ?? []) {
+        if (other !== e && other instanceof HTMLElement && !other.matches('script, dialog, [aria-live]')) other.inert = on;
+      }
+    }
+    this.changed(on);
+  }
+}
+
 /** F6 goes to the next pane that is there, Shift-F6 to the one before. */
 export function goRound(panes: { element: HTMLElement; enter: () => void }[]): void {
   document.addEventListener('keydown', (event) => {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The lessons beside the editor: a list with their questions, and the one that is open. Its question comes
 // first, then what to predict with a place for the reader's own prediction, and only then the text that
-// begins to answer. Edits of a lesson's script and predictions are kept by name in
-// the browser; reset brings the lesson's own script back.
+// begins to answer. Edits of a lesson's script and words of predictions are kept by name in the browser; reset
+// brings the lesson's own script back.
 
 import type { Api, Lesson, LessonEntry } from './api';
-import { h, prose } from './dom';
+import { h } from './dom';
 import { calledOut, markdown } from './markdown';
-import { keep, kept, keptScript } from './storage';
+import { PredictionBox, type ScriptAtHand } from './prediction_box';
+import type { Guess } from './predictions';
+import { keptScript } from './storage';
 
 export interface Opened {
   key: string; // names the document in the browser's storage
@@ -19,12 +21,16 @@ export interface Opened {
 export class LessonsPane {
   private entries: LessonEntry[] | undefined;
   private readonly lessons = new Map<string, Lesson>();
+  /** Of the lesson that is open. */
+  prediction: PredictionBox | undefined;
 
   constructor(
     readonly element: HTMLElement,
     private readonly api: Api,
     private readonly open: (document: Opened) => void,
     private readonly own: () => void,
+    private readonly script: ScriptAtHand,
+    private readonly predicted: (lesson: string, guesses: Guess[]) => void,
     private readonly failed: (error: unknown) => void,
   ) {}
 
@@ -34,6 +40,7 @@ export class LessonsPane {
     } catch (error) {
       this.failed(error);
     }
+    this.prediction = undefined;
     const entries = this.entries ?? [];
     const list = h(
       'ol',
@@ -83,34 +90,19 @@ export class LessonsPane {
       this.lessons.set(name, lesson);
       const entry = this.entries?.find((e) => e.name === name);
       const question = lesson.question ?? entry?.question;
-      const prediction = h('textarea', {
-        rows: 3,
-        value: kept(`prediction.${name}`) ?? '',
-        oninput: () => keep(`prediction.${name}`, prediction.value || null),
-        'aria-describedby': 'prediction-hint',
-      });
+      const key = `lesson.${name}`;
+      this.open({ key, title: lesson.title, script: keptScript(key) ?? lesson.script, original: lesson.script });
+      this.prediction = new PredictionBox(name, lesson.script, this.script, this.predicted);
       this.element.replaceChildren(
         h('button', { type: 'button', className: 'back', onclick: () => void this.list(true) }, '← All lessons'),
         h('h2', { tabIndex: -1 }, lesson.title),
         ...(question ? [calledOut('Question', question)] : []),
         ...(lesson.predict ? [calledOut('Predict', lesson.predict)] : []),
-        h('label', { className: 'prediction' }, h('span', {}, 'Your prediction, before you run it'), prediction),
-        h(
-          'p',
-          { className: 'hint', id: 'prediction-hint' },
-          prose(
-            'Kept here and with a saved run.' +
-              (/\bmy_guess\b/.test(lesson.script)
-                ? ' To have it compared, write its numbers into `my_guess` in the script too.'
-                : ''),
-          ),
-        ),
+        this.prediction.element,
         h('div', { className: 'lesson' }, markdown(lesson.text)),
       );
       this.element.scrollTop = 0;
       if (focus) this.element.querySelector('h2')!.focus();
-      const key = `lesson.${name}`;
-      this.open({ key, title: lesson.title, script: keptScript(key) ?? lesson.script, original: lesson.script });
       return true;
     } catch (error) {
       this.failed(error);

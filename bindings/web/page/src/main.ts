@@ -7,15 +7,19 @@ import { ChartPane } from './chart_pane';
 import { byId, h, prose, saveAs } from './dom';
 import { Editor } from './editor';
 import { FilesPane } from './files_pane';
-import { divider, goRound, Tabs } from './layout';
+import { chartsOf } from './first_chart';
+import { divider, Filling, goRound, Tabs } from './layout';
 import { LessonsPane, type Opened } from './lessons_pane';
 import { Messages } from './messages';
 import { OutputPane } from './output_pane';
 import { PicturePane } from './picture_pane';
-import { Room } from './room';
+import type { Guess } from './predictions';
+import { showWhose } from './results_heading';
+import { HelpButton, Room } from './room';
 import { Run, statusText } from './run';
 import { savedRun } from './save';
 import { keep, keepScript, kept, keptScript, whenWrittenElsewhere } from './storage';
+import { readStudy } from './studies';
 import { TablePane } from './table_pane';
 import { bytes, duration } from './units';
 
@@ -42,6 +46,8 @@ for _, MPa in ipairs{ 10, 20, 50, 100 } do
 end
 `;
 
+const oneColumn = 1150; // px, the width up to which page.css has one
+
 const api = new Api();
 const messages = new Messages(() => void greet());
 const { say, failed } = messages;
@@ -52,6 +58,7 @@ const stopButton = byId<HTMLButtonElement>('stop');
 const saveButton = byId<HTMLButtonElement>('save');
 let about: About | undefined;
 let run: Run | undefined;
+let runOf = ''; // the key of its script
 let listening: AbortController | undefined;
 const openBefore = kept('open') ?? '';
 let opened: Opened = {
@@ -67,6 +74,7 @@ const editor = new Editor(byId('editor'), api, {
   changed: (text) => {
     if (!keepScript(opened.key, text === opened.original ? null : text))
       say('This browser does not keep the script.');
+    lessons.prediction?.read();
     showDocument();
   },
   checked: showProblems,
@@ -74,10 +82,13 @@ const editor = new Editor(byId('editor'), api, {
 });
 const output = new OutputPane(byId('output'), (line) => editor.goTo(line));
 const table = new TablePane(byId('table'));
-const charts = new ChartPane(byId('chart'));
+const charts = new ChartPane(byId('chart'), failed);
 const pictures = new PicturePane(byId('picture'), api, failed);
 const files = new FilesPane(byId('files'), api, failed);
-const tabs = new Tabs(byId('tabs'), () => draw());
+const tabs = new Tabs(byId('tabs'), () => {
+  draw();
+  showResults();
+});
 const lessons = new LessonsPane(
   byId('lessons'),
   api,
@@ -86,6 +97,8 @@ const lessons = new LessonsPane(
     open({ key: 'own', title: 'Your own script', script: keptScript('own') ?? newcomer, original: newcomer });
     editor.focus();
   },
+  { text: () => editor.text, replace: (script) => editor.replace(script) },
+  predicted,
   failed,
 );
 
@@ -96,6 +109,22 @@ function open(document: Opened): void {
   const code = document.script.split('\n').findIndex((line) => line.trim() && !line.startsWith('--'));
   if (code > 8) editor.showLine(code + 1);
   showDocument();
+  draw();
+}
+
+/** In one column the results may be out of sight. */
+function showResults(): void {
+  if (innerWidth <= oneColumn) byId('results').scrollIntoView();
+}
+
+let toTell = 0;
+
+/** Numbers predicted in a lesson; a room's teacher sees them. */
+function predicted(lesson: string, guesses: Guess[]): void {
+  if (!about?.classroom) return;
+  const numbers = Object.fromEntries(guesses.filter((g) => g.value !== undefined).map((g) => [g.name, g.value!]));
+  clearTimeout(toTell);
+  toTell = window.setTimeout(() => api.predict(lesson, numbers).catch(failed), 600);
 }
 
 function showDocument(): void {
@@ -145,8 +174,11 @@ function draw(): void {
       'table',
       [...(run?.notebooks.values() ?? [])].reduce((sum, n) => sum + n.rows.length, 0),
     );
+    tabs.count('chart', run ? chartsOf(run).length : 0);
     tabs.count('picture', run?.views.length ?? 0);
     tabs.count('files', run?.files.size ?? 0);
+    showWhose(run, runOf, opened.key);
+    lessons.prediction?.judge(runOf === opened.key ? run : undefined);
     showStatus();
   });
 }
@@ -210,9 +242,10 @@ function follow(next: Run, key: string): void {
   listening?.abort();
   const mine = (listening = new AbortController());
   run = next;
+  runOf = key;
   announced = Date.now();
   pictures.show(run);
-  sessionStorage.setItem('asperity.run', JSON.stringify({ id: run.id, name: run.name, script: run.script, key }));
+  sessionStorage.setItem('asperity.run', JSON.stringify({ id: run.id, name: run.name, script: run.script, began: run.began, key }));
   draw();
   api
     .events(
@@ -222,6 +255,7 @@ function follow(next: Run, key: string): void {
         next.take(event);
         if (run !== next) return;
         if (event.type === 'error') markError();
+        if (event.type === 'file') readStudy(next, event.name, api).then((read) => read && draw(), failed);
         if (event.type === 'finished') ended(next);
         announce();
         draw();
@@ -251,6 +285,7 @@ function ended(done: Run): void {
   waitsForEnd = false;
   if (done.errors.length > 0 || (done.status === 'limit' && done.notebooks.size === 0)) tabs.select('output');
   const first = done.errors[0];
+  if (runOf === opened.key) showResults();
   say(
     `${statusText(done, duration)}${done.reason ? `: ${done.reason}` : ''}.${first ? ` ${first.line === undefined ? '' : `Line ${first.line}: `}${first.message}` : ''}`,
   );
@@ -281,7 +316,7 @@ async function save(): Promise<void> {
       pictures,
       version: about?.version ?? '',
       title: run.name,
-      prediction: run.name === opened.title && lesson ? kept(`prediction.${lesson}`) : null,
+      prediction: runOf === opened.key && lesson ? kept(`prediction.${lesson}`) : null,
     });
     const name =
       run.name
@@ -334,6 +369,7 @@ async function greet(): Promise<void> {
     }
     byId('about').textContent = limits(about);
     room.offer(about.teacher === true);
+    help.offer(about.classroom === true && about.teacher !== true, about.help === true);
     if (!lessons.element.querySelector('.lessons, .lesson')) await firstLessons();
   } catch (error) {
     if (!messages.watching || !(error instanceof ApiError) || error.failure !== 'gone') failed(error);
@@ -352,9 +388,10 @@ function resume(): void {
       id: string;
       name: string;
       script: string;
+      began?: number;
       key: string;
     } | null;
-    if (last && api.hasToken) follow(new Run(last.id, last.name, last.script), last.key);
+    if (last && api.hasToken) follow(new Run(last.id, last.name, last.script, last.began), last.key);
   } catch {
     sessionStorage.removeItem('asperity.run');
   }
@@ -398,6 +435,11 @@ chooser.addEventListener('change', () => {
 });
 byId('lessons-button').addEventListener('click', () => showLessons(byId('lessons').hidden));
 const room = new Room(api, failed);
+const help = new HelpButton(api, failed);
+const filling = new Filling(byId<HTMLButtonElement>('fill'), byId('results'), (on) => {
+  byId('fill').textContent = on ? 'Put it back' : 'Fill the window';
+  draw();
+});
 const keys = byId<HTMLDialogElement>('keys');
 byId('keys-close').addEventListener('click', () => keys.close());
 byId('keys-button').addEventListener('click', () => keys.showModal());
@@ -407,6 +449,8 @@ document.addEventListener(
     if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) {
       event.preventDefault();
       void start();
+    } else if (event.key === 'Escape' && filling.on && !keys.open) {
+      filling.set(false);
     } else if (event.key === 'Escape' && run?.active && !keys.open && !editor.wantsEscape) {
       void stop();
     }

@@ -7,6 +7,7 @@ import type { Api } from './api';
 import { coloursOf, legend, rangeOf } from './colour';
 import { Choice, h } from './dom';
 import { drawFlat, drawingsOf, type Drawing } from './drawings';
+import { inkNow } from './ink';
 import {
   anchorText,
   barFor,
@@ -25,7 +26,6 @@ import {
 } from './pictures';
 import type { Run } from './run';
 import type { ReliefScene } from './scene';
-import { darkInk, lightInk } from './chart';
 
 const fetched = 24; // views kept in memory
 
@@ -224,8 +224,7 @@ export class PicturePane {
 
   private build(): void {
     const colour = this.colour!;
-    const dark = matchMedia('(prefers-color-scheme: dark)').matches;
-    const ink = dark ? darkInk : lightInk;
+    const ink = inkNow();
     const range = rangeOf(colour.name, colour.values);
     const factor = exaggerations[this.step];
     this.slider.value = String(this.step);

@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a teacher sees of the room: whose scripts run and wait, and a button to stop each. It is asked for while it is
-// open and not otherwise.
+// What a teacher sees of the room: whose scripts run and wait, with a button to stop each; what each student ran last
+// and who asks for help; and the room's predictions, a histogram of each number of a lesson. It is asked for while
+// it is open and not otherwise. And the button by which a student asks for help.
 
-import type { Api, RoomRun } from './api';
-import { byId, h } from './dom';
+import type { Api, RoomPerson, RoomRun } from './api';
+import { byId, Choice, h } from './dom';
+import { inkNow } from './ink';
 
 const askedAgain = 2000; // ms
 
 export class Room {
   private readonly dialog = byId<HTMLDialogElement>('room');
   private readonly list = byId('room-runs');
+  private readonly people = byId('room-people');
+  private readonly which = new Choice('Of', () => void this.drawPredictions());
+  private readonly figure = h('figure', {});
+  private readonly caption = h('p', { className: 'caption' });
+  private present: RoomPerson[] = [];
   private timer = 0;
 
   constructor(
     private readonly api: Api,
     private readonly failed: (error: unknown) => void,
   ) {
+    byId('room-predictions').append(this.which.element, this.figure, this.caption);
     byId('room-button').addEventListener('click', () => {
       this.dialog.showModal();
       void this.ask();
@@ -32,8 +40,11 @@ export class Room {
 
   private async ask(): Promise<void> {
     try {
-      const runs = await this.api.room();
+      const [runs, people] = await Promise.all([this.api.room(), this.api.people()]);
       this.show(runs.filter((run) => run.state === 'running' || run.state === 'waiting'));
+      this.showPeople(people, runs);
+      this.present = people;
+      await this.drawPredictions();
     } catch (error) {
       this.dialog.close();
       this.failed(error);
@@ -66,6 +77,50 @@ export class Room {
     if (focused) document.getElementById(focused)?.focus();
   }
 
+  /** Who asks for help comes first. */
+  private showPeople(people: RoomPerson[], runs: RoomRun[]): void {
+    const last = new Map(runs.map((run) => [run.owner, run]));
+    const row = (p: RoomPerson): HTMLElement => {
+      const run = last.get(p.name);
+      return h(
+        'tr',
+        { className: p.help ? 'asks' : '' },
+        h('th', { scope: 'row' }, p.name),
+        h('td', {}, run ? `${run.name || 'script'}, ${run.state}` : 'none'),
+        h('td', {}, p.help ? 'asks for help' : ''),
+      );
+    };
+    const head = ['Student', 'Last run', 'Help'].map((t) => h('th', { scope: 'col' }, t));
+    const sorted = [...people.filter((p) => p.help), ...people.filter((p) => !p.help)];
+    this.people.replaceChildren(
+      h('table', {}, h('thead', {}, h('tr', {}, ...head)), h('tbody', {}, ...sorted.map(row))),
+    );
+  }
+
+  private async drawPredictions(): Promise<void> {
+    const groups = new Map<string, number[]>();
+    for (const { lesson, name, value } of this.present.flatMap((p) => p.predictions)) {
+      const key = name ? `${lesson}: ${name.replace(/_/g, ' ')}` : lesson;
+      groups.set(key, [...(groups.get(key) ?? []), value]);
+    }
+    const names = [...groups.keys()].sort();
+    const chosen = names.includes(this.which.value) ? this.which.value : names[0];
+    this.which.element.hidden = names.length === 0;
+    this.figure.hidden = names.length === 0;
+    if (chosen === undefined) {
+      this.caption.textContent = 'Nobody has predicted a number yet.';
+      return;
+    }
+    this.which.choose(
+      names.map((n) => ({ value: n, text: n })),
+      chosen,
+    );
+    const { drawHistogram } = await import('./chart');
+    const drawn = drawHistogram(groups.get(chosen)!, chosen, 560, 240, inkNow());
+    this.figure.replaceChildren(drawn.element);
+    this.caption.textContent = `${drawn.summary}.`;
+  }
+
   private async stop(id: string): Promise<void> {
     try {
       await this.api.stop(id);
@@ -73,5 +128,29 @@ export class Room {
     } catch (error) {
       this.failed(error);
     }
+  }
+}
+
+export class HelpButton {
+  private readonly button = byId<HTMLButtonElement>('help-button');
+  private wanted = false;
+
+  constructor(api: Api, failed: (error: unknown) => void) {
+    this.button.addEventListener('click', () => {
+      const wanted = !this.wanted;
+      api.askForHelp(wanted).then(() => this.show(wanted), failed);
+    });
+  }
+
+  /** Whether there is anybody to ask, and whether that was done before. */
+  offer(inRoom: boolean, wanted: boolean): void {
+    this.button.hidden = !inRoom;
+    this.show(wanted);
+  }
+
+  private show(wanted: boolean): void {
+    this.wanted = wanted;
+    this.button.textContent = wanted ? 'Help is asked for' : 'Ask for help';
+    this.button.setAttribute('aria-pressed', String(wanted));
   }
 }

@@ -45,13 +45,13 @@ export class Run {
   readonly errors: RunError[] = [];
   readonly keys: string[]; // of its script's tables, columns among them, as first written
   readonly charted: Charted[]; // what its script charts, as far as the script's text tells
-  readonly began = Date.now();
   private characters = 0;
 
   constructor(
     readonly id: string,
     readonly name: string,
     readonly script: string,
+    readonly began = Date.now(),
   ) {
     this.charted = chartedIn(script);
     this.keys = keysIn(script);

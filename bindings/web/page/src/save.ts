@@ -4,10 +4,10 @@
 // a document and serialised, so every text is escaped by the browser.
 
 import type { Api } from './api';
-import { drawChart, lightInk } from './chart';
 import type { ChartPane } from './chart_pane';
 import { h, prose } from './dom';
 import { pictureClass, pictureType } from './files_pane';
+import { lightInk } from './ink';
 import type { PicturePane } from './picture_pane';
 import { statusText, type Run } from './run';
 import { csvOf, tableOf } from './table_pane';
@@ -105,12 +105,14 @@ export async function savedRun(run: Run, from: Sources): Promise<{ html: string;
       ),
     );
   }
+  const { drawChart } = await from.charts.library();
+  const charts = from.charts.chartsFor(run);
   for (const notebook of run.notebooks.values()) {
     body.append(h('h2', {}, `Notebook: ${notebook.name}`));
-    const choice = from.charts.choiceFor(run, notebook);
-    if (choice) {
+    for (const { title, choice } of charts.filter((c) => c.notebook === notebook)) {
       const drawn = drawChart(notebook, choice, 860, 500, lightInk);
-      body.append(h('figure', {}, drawn.element, h('figcaption', {}, `${drawn.summary}.`)));
+      const words = title === notebook.name ? '' : `${title}. `;
+      body.append(h('figure', {}, drawn.element, h('figcaption', {}, `${words}${drawn.summary}.`)));
     }
     body.append(
       h('div', { className: 'scroll' }, tableOf(notebook)),

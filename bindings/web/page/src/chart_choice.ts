@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a chart of a notebook shows, and the lines that this makes of its rows: one for each column up, and of
+// each for every value of a column that parts them.
+
+import type { Cell } from './api';
+import type { Notebook } from './run';
+import { numberText } from './units';
+
+export interface ChartChoice {
+  x: string;
+  y: string[]; // columns of one unit
+  per: string; // a line for each value of this column; empty for one line
+  logX: boolean;
+  logY: boolean;
+  where?: Record<string, Cell[]>; // rows whose columns have one of these values
+  points?: boolean; // false: lines alone
+  spread?: boolean; // bars of a standard deviation of the rows that share an x
+}
+
+export interface Point {
+  x: number;
+  y: number;
+}
+
+export interface Mean extends Point {
+  deviation: number; // of the sample; 0 where one row has this x
+}
+
+export interface Line {
+  name: string;
+  column: string;
+  points: Point[];
+  means: Mean[];
+}
+
+/** The lines, and how many rows have no point in any: no number, or none that a logarithmic axis can show. */
+export function linesOf(notebook: Notebook, choice: ChartChoice): { lines: Line[]; left: number } {
+  const groups = new Map<string, { column: string; points: Point[] }>();
+  let left = 0;
+  const wanted = Object.entries(choice.where ?? {});
+  const rows = notebook.rows.filter((row) => wanted.every(([column, values]) => values.includes(row[column])));
+  for (const row of rows) {
+    const x = row[choice.x];
+    let drawn = false;
+    for (const column of choice.y) {
+      const y = row[column];
+      if (!shown(x, choice.logX) || !shown(y, choice.logY)) continue;
+      drawn = true;
+      const key = nameOf(row, column, choice, notebook);
+      const group = groups.get(key);
+      if (group) group.points.push({ x, y });
+      else groups.set(key, { column, points: [{ x, y }] });
+    }
+    if (!drawn) ++left;
+  }
+  const order = (column: string): number => choice.y.indexOf(column);
+  const lines = [...groups]
+    .map(([name, { column, points }]) => ({ name, column, points, means: meansOf(points) }))
+    .sort((a, b) => order(a.column) - order(b.column));
+  return { lines, left };
+}
+
+function shown(value: Cell | undefined, log: boolean): value is number {
+  return typeof value === 'number' && Number.isFinite(value) && !(log && value <= 0);
+}
+
+function nameOf(row: Record<string, Cell>, column: string, choice: ChartChoice, notebook: Notebook): string {
+  if (!choice.per) return column;
+  const unit = notebook.units[choice.per];
+  const value = row[choice.per];
+  const text =
+    typeof value === 'number' ? numberText(value) : value === undefined || value === null ? '(none)' : String(value);
+  // A text says by itself what it is; a number does not.
+  const part = typeof value === 'string' ? text : `${choice.per} = ${text}${unit ? ' ' + unit : ''}`;
+  return choice.y.length > 1 ? `${column}, ${part}` : part;
+}
+
+function meansOf(points: Point[]): Mean[] {
+  const groups = new Map<number, number[]>();
+  for (const p of points) {
+    const group = groups.get(p.x);
+    if (group) group.push(p.y);
+    else groups.set(p.x, [p.y]);
+  }
+  return [...groups]
+    .map(([x, ys]) => {
+      const y = ys.reduce((sum, v) => sum + v, 0) / ys.length;
+      const squares = ys.reduce((sum, v) => sum + (v - y) ** 2, 0);
+      return { x, y, deviation: ys.length > 1 ? Math.sqrt(squares / (ys.length - 1)) : 0 };
+    })
+    .sort((a, b) => a.x - b.x);
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A lesson's place for predictions: a field for each number, which is the number in the lesson's script; a place
+// for words, kept in the browser; and what came of the numbers, once a run has answered.
+
+import { h } from './dom';
+import { guessesIn, verdictsOf, withGuess, type Guess } from './predictions';
+import type { Run } from './run';
+import { keep, kept } from './storage';
+
+export interface ScriptAtHand {
+  text: () => string;
+  replace: (script: string) => void;
+}
+
+export class PredictionBox {
+  readonly element: HTMLElement;
+  private readonly fields: { name: string; input: HTMLInputElement }[];
+  private readonly missing = h('p', { className: 'hint', hidden: true }, 'The script has no my_guess any more; Reset brings it back.');
+  private readonly judged = h('div', { className: 'judged', hidden: true });
+
+  constructor(
+    readonly lesson: string,
+    original: string,
+    private readonly script: ScriptAtHand,
+    private readonly changed: (lesson: string, guesses: Guess[]) => void,
+  ) {
+    const guesses = guessesIn(original);
+    this.fields = (guesses?.list ?? []).map(({ name }) => ({
+      name,
+      input: h('input', { type: 'number', step: 'any', oninput: () => this.put(name) }),
+    }));
+    const words = h('textarea', {
+      rows: 2,
+      value: kept(`prediction.${lesson}`) ?? '',
+      oninput: () => keep(`prediction.${lesson}`, words.value || null),
+      'aria-describedby': 'prediction-hint',
+    });
+    const note = guesses?.note ? ` (${guesses.note})` : '';
+    this.element = h(
+      'section',
+      { className: 'prediction', 'aria-label': 'Your prediction' },
+      h('b', {}, 'Your prediction, before you run it'),
+      ...(guesses
+        ? [
+            h(
+              'div',
+              { className: 'guesses' },
+              ...this.fields.map(({ name, input }) =>
+                h('label', {}, h('span', {}, name ? name.replace(/_/g, ' ') : 'Number'), input),
+              ),
+            ),
+            h('p', { className: 'hint' }, `Numbers${note}: they stand in the script, and its run compares them.`),
+            this.missing,
+          ]
+        : []),
+      h('label', {}, h('span', {}, guesses ? 'And why' : 'In words'), words),
+      h('p', { className: 'hint', id: 'prediction-hint' }, 'Kept here and with a saved run.'),
+      this.judged,
+    );
+    this.read();
+  }
+
+  /** The script was edited: its numbers are shown. */
+  read(): void {
+    if (this.fields.length === 0) return;
+    const guesses = guessesIn(this.script.text());
+    this.missing.hidden = guesses !== undefined;
+    for (const { name, input } of this.fields) {
+      const value = guesses?.list.find((g) => g.name === name)?.value;
+      input.disabled = guesses === undefined;
+      if (document.activeElement !== input) input.value = value === undefined ? '' : String(value);
+    }
+  }
+
+  /** What a run of this lesson said of the numbers; nothing while it has not come to them. */
+  judge(run: Run | undefined): void {
+    const verdicts = run && !run.active ? verdictsOf(run) : [];
+    this.judged.hidden = verdicts.length === 0;
+    this.judged.replaceChildren(...verdicts.map((v) => h('p', {}, v)));
+  }
+
+  private put(name: string): void {
+    const { input } = this.fields.find((f) => f.name === name)!;
+    const value = input.value.trim() === '' || !Number.isFinite(input.valueAsNumber) ? undefined : input.valueAsNumber;
+    this.script.replace(withGuess(this.script.text(), name, value));
+    this.changed(this.lesson, guessesIn(this.script.text())?.list ?? []);
+  }
+}

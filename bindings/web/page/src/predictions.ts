@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The numbers that a reader predicts before a lesson runs. They have one place, `my_guess` in the lesson's script,
+// as `local my_guess = nil -- in degrees` or `local my_guess = { halved=nil, heavy=nil }`; the script compares them
+// with what it found in lines that begin with "You said". Here they are read from the script, put into it, and
+// their answers picked out of what a run printed.
+
+import type { Run } from './run';
+
+export interface Guess {
+  name: string; // empty for a number that stands alone
+  value: number | undefined;
+}
+
+export interface Guesses {
+  list: Guess[];
+  note: string; // what the script says of them: unit, range
+}
+
+const line = /^local my_guess = (\{[^}\n]*\}|[^{\n]*?)[ \t]*(?:--[ \t]*([^\n]*))?$/m;
+
+/** The guesses that the script has room for; undefined where it has none. */
+export function guessesIn(script: string): Guesses | undefined {
+  const found = line.exec(script);
+  if (!found) return undefined;
+  const [, given, note = ''] = found;
+  if (!given.startsWith('{')) return { list: [{ name: '', value: numberOf(given) }], note };
+  const list = [...given.matchAll(/(\w+)\s*=\s*([^,}]+)/g)].map(([, name, value]) => ({
+    name,
+    value: numberOf(value.trim()),
+  }));
+  return { list, note };
+}
+
+/** The script with this number in its place, or nil again; the script itself where it has no such place. */
+export function withGuess(script: string, name: string, value: number | undefined): string {
+  const literal = value === undefined ? 'nil' : String(value);
+  return script.replace(line, (whole: string, given: string) => {
+    const changed =
+      name === ''
+        ? literal
+        : given.replace(new RegExp(`(\\b${name}\\s*=\\s*)[^,}]*?(\\s*[,}])`), (_, lead, end) => lead + literal + end);
+    const at = whole.indexOf(given);
+    return whole.slice(0, at) + changed + whole.slice(at + given.length);
+  });
+}
+
+function numberOf(literal: string): number | undefined {
+  const text = /^"\s*([-+.\deE]+).*"$/.exec(literal)?.[1] ?? literal;
+  return text.trim() === '' || Number.isNaN(Number(text)) ? undefined : Number(text);
+}
+
+/** What became of the guesses: the script's own sentences. */
+export function verdictsOf(run: Run): string[] {
+  const printed = run.output
+    .filter((part) => part.stream === 'out')
+    .map((part) => part.text)
+    .join('');
+  return printed.match(/^You said .*$/gm) ?? [];
+}

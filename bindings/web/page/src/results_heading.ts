@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whose results are shown: a line over the tabs with script, run and time. Results of another script than the open
+// one are greyed, and the line says so.
+
+import { byId } from './dom';
+import type { Run } from './run';
+
+export function showWhose(run: Run | undefined, key: string, opened: string): void {
+  const line = byId('results-of');
+  const elsewhere = run !== undefined && key !== opened;
+  byId('results').classList.toggle('elsewhere', elsewhere);
+  const time = run ? new Date(run.began).toLocaleTimeString('en-GB', { hour: '2-digit', minute: '2-digit' }) : '';
+  const words = run ? `${run.name} · run ${run.id} · ${time}${elsewhere ? ' · not of the open script' : ''}` : 'No run yet';
+  if (line.textContent !== words) line.textContent = words;
+}

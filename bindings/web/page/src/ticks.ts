@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The axis of a chart: how far it runs, and where its ticks stand. Labels of ticks never touch: of the sets of
+// ticks from many to few the first is taken whose labels stand apart. An axis of whole numbers has whole ticks. A
+// logarithmic axis ends where its data end, and writes all of its ticks in one way.
+
+import { scaleLinear } from 'd3-scale';
+import { raised, sameToRounding } from './units';
+
+export interface Axis {
+  domain: [number, number];
+  ticks: number[];
+  labels: string[];
+}
+
+/** Whether labels at these shares of the axis's length, from 0 to 1, stand apart from each other. */
+export type Apart = (labels: string[], shares: number[]) => boolean;
+
+export function axisFor(values: number[], log: boolean, apart: Apart): Axis {
+  let low = values.reduce((least, v) => Math.min(least, v), Infinity);
+  let high = values.reduce((most, v) => Math.max(most, v), -Infinity);
+  const whole = values.every((v) => Math.abs(v) < 1e9 && Math.abs(v - Math.round(v)) < 1e-9);
+  const single = sameToRounding(low, high);
+  if (single && log) [low, high] = [low / 2, high * 2];
+  else if (single) [low, high] = whole ? [low - 1, high + 1] : [low - spare(low), high + spare(low)];
+  const domain: [number, number] = log ? aLittleBeyond(low, high) : niceAround(low, high, whole);
+  const share = log
+    ? (v: number): number => Math.log(v / domain[0]) / Math.log(domain[1] / domain[0])
+    : (v: number): number => (v - domain[0]) / (domain[1] - domain[0]);
+  const sets = log ? logarithmic(domain) : linear(domain, whole);
+  for (const ticks of sets) {
+    const labels = log ? labelsOfPowers(ticks) : labelsOf(ticks);
+    if (apart(labels, ticks.map(share))) return { domain, ticks, labels };
+  }
+  const last = sets[sets.length - 1].slice(0, 1);
+  return { domain, ticks: last, labels: log ? labelsOfPowers(last) : labelsOf(last) };
+}
+
+function spare(value: number): number {
+  return Math.abs(value) / 10 || 1;
+}
+
+/** So much that a mark on the rim is whole. */
+function aLittleBeyond(low: number, high: number): [number, number] {
+  const factor = (high / low) ** 0.03;
+  return [low / factor, high * factor];
+}
+
+function niceAround(low: number, high: number, whole: boolean): [number, number] {
+  const [from, to] = scaleLinear().domain([low, high]).nice(6).domain();
+  return whole ? [Math.floor(from), Math.ceil(to)] : [from, to];
+}
+
+function linear([low, high]: [number, number], whole: boolean): number[][] {
+  const scale = scaleLinear().domain([low, high]);
+  const sets = [8, 6, 5, 4, 3, 2].map((count) => scale.ticks(count).filter((t) => !whole || Number.isInteger(t)));
+  return distinct([...sets, [low, high], [high]]);
+}
+
+function logarithmic([low, high]: [number, number]): number[][] {
+  const decades = Math.log10(high / low);
+  const sets: number[][] = [];
+  const add = (factors: number[], every = 1): void => {
+    const ticks: number[] = [];
+    for (let power = Math.floor(Math.log10(low)); 10 ** power <= high; ++power) {
+      if (power % every !== 0) continue;
+      for (const factor of factors) {
+        const tick = Number(`${factor}e${power}`);
+        if (tick >= low && tick <= high) ticks.push(tick);
+      }
+    }
+    if (ticks.length >= 2) sets.push(ticks);
+  };
+  if (decades < 0.8) sets.push(...linear([low, high], false).filter((ticks) => ticks[0] > 0 && ticks.length > 1));
+  if (decades < 4) add([1, 2, 5]);
+  if (decades < 5) add([1, 3]);
+  for (const every of [1, 2, 3, 4, 5, 10, 20, 50]) add([1], every);
+  const within = scaleLinear()
+    .domain([low, high])
+    .ticks(3)
+    .filter((t) => t > 0);
+  return distinct([...sets, within, [high]].filter((ticks) => ticks.length > 0));
+}
+
+function distinct(sets: number[][]): number[][] {
+  return sets.filter((ticks, k) => ticks.length > 0 && sets.findIndex((other) => String(other) === String(ticks)) === k);
+}
+
+/** Plain numbers, or all with the power of ten of the greatest; as many digits as tell them apart. */
+function labelsOf(ticks: number[]): string[] {
+  const greatest = ticks.reduce((most, t) => Math.max(most, Math.abs(t)), 0);
+  const power = greatest > 0 ? Math.floor(Math.log10(greatest) + 1e-9) : 0;
+  const far = power < -3 || power > 5;
+  const factor = far ? 10 ** power : 1;
+  const behind = far ? `×10${raised(power)}` : '';
+  for (let digits = 4; ; ++digits) {
+    const labels = ticks.map((t) => (t === 0 ? '0' : `${Number((t / factor).toPrecision(digits))}${behind}`));
+    if (new Set(labels).size === ticks.length || digits >= 15) return labels.map((l) => l.replace(/^-/, '−'));
+  }
+}
+
+/** Plain numbers where all of them are such, else all as powers of ten. */
+function labelsOfPowers(ticks: number[]): string[] {
+  if (ticks.every((t) => t >= 0.999e-2 && t < 1.001e5)) return labelsOf(ticks);
+  return ticks.map((t) => {
+    const power = Math.floor(Math.log10(t) + 1e-9);
+    const mantissa = Number((t / 10 ** power).toPrecision(4));
+    return `${mantissa === 1 ? '' : `${mantissa}×`}10${raised(power)}`;
+  });
+}

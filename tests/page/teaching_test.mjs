@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page as a place to teach, in Chromium against the stand-in for the server: charts as scripts ask for them,
+// results that belong to their script, a window as a projector has it, colours, predictions, and a room.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { after, before, test as register } from 'node:test';
+import * as on from './browser.mjs';
+import { startMock } from './mock_server.mjs';
+
+const test = (name, act) => register(name, { timeout: 90_000 }, act);
+const root = new URL('../../', import.meta.url);
+
+let browser, mock;
+before(async () => {
+  browser = await on.openBrowser();
+  mock = await startMock(on.pageFolder);
+});
+after(async () => {
+  await browser?.close();
+  await mock?.close();
+});
+
+async function visit(options, act, server = mock) {
+  const page = await on.openPage(browser, server.url, options);
+  try {
+    await on.until(page, () => document.querySelector('.lessons button'), 'the lessons should be listed');
+    await act(page);
+    await on.assertQuiet(page);
+  } finally {
+    await page.done();
+  }
+}
+
+const book = (rows, chart) => `local book = lab.notebook "big" -- mock.rows ${rows}\nbook:chart{ ${chart} }\n`;
+
+/** Runs a script and shows its first chart, whose caption says that it has so many points. */
+async function charted(page, script, points) {
+  await on.run(page, script);
+  await on.until(page, () => /^(Done|Failed)/.test(document.querySelector('#status').textContent), 'it should end');
+  await page.click('#tab-chart');
+  await on.until(
+    page,
+    (n) => document.querySelector('.charts .caption').textContent.includes(`: ${n} points`),
+    'all should be drawn',
+    points,
+  );
+}
+
+const ticks = (page, axis) =>
+  page.$$eval(`.chart .${axis}-axis-tick-label text`, (texts) =>
+    texts.map((t) => {
+      const { left, right, top, bottom } = t.getBoundingClientRect();
+      return { text: t.textContent, left, right, top, bottom };
+    }),
+  );
+
+// T2
+test('Chart, EachColumnThatTheScriptChartsIsALine', () =>
+  visit({}, async (page) => {
+    await charted(page, book(9, 'x="v", y={ "level", "i" }'), 18);
+    assert.equal((await page.$$('.chart .line path')).length, 2);
+    assert.deepEqual(await page.$$eval('.chart .text text', (t) => t.map((e) => e.textContent).slice(-2)), ['level', 'i']);
+    const places = await page.$$eval('.chart .dot circle', (all) => all.map((c) => Number(c.getAttribute('cy'))));
+    assert.ok(
+      places.every((y) => y > 0 && y < 1000),
+      'the axis reaches both',
+    );
+    // Another is added by hand, where it has the unit.
+    await charted(page, book(9, 'x="v", y="i"'), 9);
+    await page.click('.axes summary');
+    const [, , more] = (await page.$$('.charts select')).slice(-4);
+    assert.deepEqual(await more.$$eval('option', (o) => o.map((e) => e.value)), ['', 'level']);
+    await more.select('level');
+    assert.equal((await page.$$('.chart .line path')).length, 2);
+    await on.assertAccessible(page, 'a chart with its axes');
+  }));
+
+test('Chart, OfAStudyIsErrorAgainstSeconds', () =>
+  visit({}, async (page) => {
+    await charted(page, 'local study = lab.work_precision{ try={} } -- mock.file work_precision.csv\nstudy:chart "cost.svg"\n', 3);
+    assert.equal(
+      await on.text(page, '.charts .caption'),
+      'error against seconds [ms]: 3 points, 2 lines, one per way. 1 row is left out: no number, or none above zero for a logarithmic axis.',
+    );
+    assert.deepEqual(await page.$$eval('.charts input[type=checkbox]', (boxes) => boxes.map((b) => b.checked)), [true, true]);
+  }));
+
+test('Chart, EachOfTheScriptCanBeChosen', () =>
+  visit({}, async (page) => {
+    const script =
+      'local book = lab.notebook "big" -- mock.rows 9\nbook:chart{ x="i", y="v", title="First" }\n' +
+      'book:chart{ x="i", y="level", where={ i={ 2, 3 } }, title="Second" }\n';
+    await charted(page, script, 9);
+    const [which] = await page.$$('.charts select');
+    assert.deepEqual(await which.$$eval('option', (o) => o.map((e) => e.text)), ['First', 'Second']);
+    assert.equal(await on.text(page, '#tab-chart .count'), '2');
+    await which.select('big: Second');
+    assert.match(await on.text(page, '.charts .caption'), /^level against i: 2 points/);
+  }));
+
+// T10
+test('Axis, LabelsOfTicksStandApart', () =>
+  visit({}, async (page) => {
+    for (const [width, height] of [
+      [1920, 1080],
+      [1280, 577],
+      [960, 540],
+      [800, 600],
+    ]) {
+      await page.setViewport({ width, height });
+      for (const [rows, logs] of [
+        [3, 'log_x=true'],
+        [9, ''],
+        [300, 'log_x=true, log_y=true'],
+        [5000, ''],
+      ]) {
+        await charted(page, book(rows, `x="i", y="v", ${logs}`), rows);
+        for (const axis of ['x', 'y']) {
+          const labels = await ticks(page, axis);
+          assert.ok(labels.length >= 2, `${axis} of ${rows} rows: ${labels.map((l) => l.text)}`);
+          assert.equal(new Set(labels.map((l) => l.text)).size, labels.length, 'each tick has its own label');
+          labels.forEach((a, k) =>
+            labels.slice(k + 1).forEach((b) =>
+              assert.ok(
+                a.right + 4 < b.left || b.right + 4 < a.left || a.bottom <= b.top || b.bottom <= a.top,
+                `${width}: ${a.text} and ${b.text}`,
+              ),
+            ),
+          );
+        }
+      }
+    }
+  }));
+
+test('Axis, OfWholeNumbersHasWholeTicks', () =>
+  visit({}, async (page) => {
+    for (const rows of [2, 3, 5]) {
+      await charted(page, book(rows, 'x="i", y="v"'), rows);
+      const labels = (await ticks(page, 'x')).map((l) => l.text);
+      assert.ok(labels.every((t) => /^\d+$/.test(t)), labels.join(' '));
+    }
+  }));
+
+test('Axis, LogarithmicEndsWhereItsDataEndAndWritesAllTicksInOneWay', () =>
+  visit({}, async (page) => {
+    await charted(page, book(300, 'x="i", y="v", log_x=true'), 300);
+    const labels = (await ticks(page, 'x')).map((l) => l.text);
+    assert.ok(labels.includes('100') && !labels.includes('1000'), labels.join(' '));
+    const { last, right } = await page.evaluate(() => ({
+      last: Math.max(...[...document.querySelectorAll('.chart .line path, .chart .dot')].map((e) => e.getBoundingClientRect().right)),
+      right: document.querySelector('.chart svg').getBoundingClientRect().right,
+    }));
+    assert.ok(right - last < 60, `the data end ${right - last} px before the chart does`);
+    await charted(page, book(300, 'x="v", y="i", log_x=true, log_y=true'), 300);
+    for (const axis of ['x', 'y']) {
+      const powers = (await ticks(page, axis)).filter((l) => l.text.includes('10') && /[⁰¹²³⁴-⁹⁻]/.test(l.text)).length;
+      assert.ok(powers === 0 || powers === (await ticks(page, axis)).length, 'powers of ten, or none');
+    }
+  }));
+
+// T3
+test('Results, OfAnotherScriptAreNamedAndGreyed', () =>
+  visit({}, async (page) => {
+    assert.equal(await on.text(page, '#results-of'), 'No run yet');
+    await page.click('.lessons button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    await on.run(page, 'print "of the first"\n');
+    await on.finished(page);
+    const whose = () => on.text(page, '#results-of');
+    assert.match(await whose(), /^What roughness is, and what a stylus misses · run \d+ · \d\d:\d\d$/);
+    const grey = () => page.$eval('#output', (e) => getComputedStyle(e).filter);
+    assert.equal(await grey(), 'none');
+    await page.click('.back');
+    await page.waitForSelector('.lessons li:nth-child(2) button');
+    await page.click('.lessons li:nth-child(2) button');
+    await on.until(page, () => /not of the open script/.test(document.querySelector('#results-of').textContent), 'it should say so');
+    assert.match(await whose(), /^What roughness is.* · not of the open script$/);
+    assert.equal(await grey(), 'grayscale(1)');
+    await on.assertAccessible(page, 'results of another script');
+    // A reload keeps whose they are, and when.
+    const before = await whose();
+    await page.reload();
+    await on.until(page, () => /run \d/.test(document.querySelector('#results-of').textContent), 'they should be back');
+    await on.until(page, (b) => document.querySelector('#results-of').textContent === b, 'as before', before);
+    await on.run(page, 'print "of the second"\n');
+    await on.until(page, () => /^Fractal/.test(document.querySelector('#results-of').textContent), 'its own results');
+    assert.equal(await grey(), 'none');
+  }));
+
+// T4
+for (const [width, height, columns] of [
+  [1280, 720, 5],
+  [1151, 700, 5],
+  [1150, 700, 1],
+  [960, 540, 1],
+  [800, 600, 1],
+])
+  test(`Window, AChartIsLegibleAt${width}x${height}`, () =>
+    visit({ width, height }, async (page) => {
+      await charted(page, book(9, 'x="v", y={ "level", "i" }'), 18);
+      const seen = await page.evaluate(() => ({
+        columns: getComputedStyle(document.querySelector('.panes')).gridTemplateColumns.split(' ').length,
+        high: document.querySelector('.chart svg').getBoundingClientRect().height,
+        em: parseFloat(getComputedStyle(document.querySelector('.chart')).fontSize),
+        tabs: new Set([...document.querySelectorAll('#tabs button')].map((t) => t.getBoundingClientRect().top)).size,
+        wide: document.scrollingElement.scrollWidth > innerWidth,
+        beside: document.querySelector('.chart svg').getBoundingClientRect().right <= innerWidth,
+      }));
+      assert.equal(seen.columns, columns);
+      assert.ok(seen.high >= 16 * seen.em, `the chart is ${seen.high} px high`);
+      assert.deepEqual([seen.tabs, seen.wide, seen.beside], [1, false, true]);
+      await on.assertAccessible(page, `${width} x ${height}`);
+    }));
+
+test('Results, FillTheWindowByKeysAndGoBack', () =>
+  visit({ width: 960, height: 540 }, async (page) => {
+    await charted(page, 'for N = 1, 8 do end\n', 16);
+    await page.focus('#fill');
+    await page.keyboard.press('Enter');
+    const box = await (await page.$('#results')).boundingBox();
+    assert.deepEqual([box.x, box.y, box.width, box.height], [0, 0, 960, 540]);
+    await on.pause(300);
+    const chart = await (await page.$('.chart svg')).boundingBox();
+    assert.ok(chart.height > 320 && chart.width > 880, `${chart.width} x ${chart.height}`);
+    assert.equal(await page.$eval('#fill', (e) => e.getAttribute('aria-pressed')), 'true');
+    for (let k = 0; k < 12; ++k) {
+      await page.keyboard.press('Tab');
+      assert.ok(await page.evaluate(() => document.activeElement === document.body || document.activeElement.closest('#results')));
+    }
+    await on.assertAccessible(page, 'filling the window');
+    await page.click('#tab-picture');
+    await on.until(page, () => document.querySelector('.key svg'), 'the picture should come');
+    await on.pause(300);
+    assert.ok((await (await page.$('.stage')).boundingBox()).height > 230);
+    await page.keyboard.press('Escape');
+    assert.equal(await page.$eval('#results', (e) => e.classList.contains('filling')), false);
+    await page.focus('#run');
+    assert.equal(await on.focused(page), 'run');
+  }));
+
+// T8
+test('Colours, AreThoseOfPictures', () => {
+  const page = readFileSync(new URL('bindings/web/page/src/palettes.ts', root), 'utf8');
+  const engine = readFileSync(new URL('engine/plot/palette.cpp', root), 'utf8');
+  const hex = (text) => text.match(/0x[0-9a-f]{6}/g);
+  for (const name of ['viridis', 'cividis', 'heat', 'contact']) {
+    const [, mine] = new RegExp(`${name}: \\{\\s*colours: \\[([^\\]]*)\\]`).exec(page);
+    const [, theirs] = new RegExp(`unsigned ${name}\\[\\] = \\{([^}]*)\\}`).exec(engine);
+    assert.deepEqual(hex(mine), hex(theirs), name);
+  }
+  assert.equal(/none: (0x\w+)/.exec(page)[1], /unsigned nothing = (0x\w+)/.exec(engine)[1]);
+  const [, fields] = /palette_of_field\(std::string_view field\) \{([^}]*)\}/.exec(engine);
+  const of = Object.fromEntries(
+    [...fields.matchAll(/((?:field == "\w+"(?: \|\| )?)+)\)? ?(?:\? |return )"(\w+)"/g)].flatMap(([, names, palette]) =>
+      names.match(/"(\w+)"/g).map((n) => [n.slice(1, -1), palette]),
+    ),
+  );
+  const [, given] = /ofField[^{]*= \{([^}]*)\}/.exec(page);
+  assert.deepEqual(Object.fromEntries([...given.matchAll(/(\w+): '(\w+)'/g)].map(([, f, p]) => [f, p])), of);
+});
+
+test('Prediction, IsANumberOfTheScriptAndIsJudged', () =>
+  visit({}, async (page) => {
+    await page.click('.lessons button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    assert.deepEqual(await page.$$eval('.guesses label', (l) => l.map((e) => e.textContent)), ['Ra', 'slope']);
+    assert.match(await on.text(page, '.prediction'), /shares between 0 and 1/);
+    const [ra, slope] = await page.$$('.guesses input');
+    await ra.type('0.5');
+    assert.match(await on.editorText(page), /^local my_guess = \{ Ra=0\.5, slope=nil \} -- shares between 0 and 1$/m);
+    await slope.type('-1e-2');
+    assert.match(await on.editorText(page), /\{ Ra=0\.5, slope=-0\.01 \}/);
+    for (let k = 0; k < 5; ++k) await page.keyboard.press('Backspace');
+    assert.match(await on.editorText(page), /\{ Ra=0\.5, slope=nil \}/);
+    // It is the script's number: an edit of the one is an edit of the other, also after a reload.
+    await page.reload();
+    await on.until(page, () => document.querySelector('.guesses input')?.value === '0.5', 'the number should be kept');
+    const verdict = 'You said 0.5 of the share of Ra: it is 0.96, 1.9 times too little.';
+    await on.run(page, `local my_guess = { Ra=0.7, slope=nil }\nprint "${verdict}"\n`);
+    assert.equal(await page.$eval('.guesses input', (e) => e.value), '0.7');
+    await on.finished(page);
+    await on.until(page, () => !document.querySelector('.judged').hidden, 'it should be judged');
+    assert.equal(await on.text(page, '.judged'), verdict);
+    await on.assertAccessible(page, 'a prediction that is judged');
+    await on.write(page, 'print "no guess"\n');
+    assert.equal(await page.$eval('.guesses input', (e) => e.disabled), true);
+    assert.match(await on.text(page, '.prediction'), /has no my_guess any more/);
+    await page.click('#reset');
+    assert.deepEqual(await page.$$eval('.guesses input', (all) => all.map((e) => [e.value, e.disabled])), [
+      ['', false],
+      ['', false],
+    ]);
+  }));
+
+test('Room, TheTeacherSeesPredictionsRunsAndWhoAsksForHelp', async () => {
+  const server = await startMock(on.pageFolder, { room: 'teacher' });
+  try {
+    await visit(
+      { width: 960, height: 540 },
+      async (page) => {
+        await on.until(page, () => !document.querySelector('#room-button').hidden, 'the room should be offered');
+        assert.equal(await page.$eval('#help-button', (e) => e.hidden), true);
+        await page.focus('#room-button');
+        await page.keyboard.press('Enter');
+        await on.until(page, () => document.querySelector('#room-predictions svg'), 'the histogram should come');
+        assert.deepEqual(await page.$$eval('#room-people tbody tr', (rows) => rows.map((r) => r.innerText.split('\t').map((t) => t.trim()))), [
+          ['Émilie', '02_dimension, running', 'asks for help'],
+          ['Ada', '01_roughness, done', ''],
+        ]);
+        assert.match(await on.text(page, '#room-runs'), /^Émilie: 02_dimension, runningStop$/);
+        assert.equal(
+          await on.text(page, '#room-predictions .caption'),
+          '01_roughness: Ra: 2 predictions, from 0.5 to 0.9, half of them up to 0.5.',
+        );
+        assert.equal((await page.$$('#room-predictions svg .bar rect, #room-predictions svg .rect rect')).length, 2);
+        await (await page.$('#room-predictions select')).select('01_roughness: slope');
+        await on.until(
+          page,
+          () => /slope: 1 prediction,/.test(document.querySelector('#room-predictions .caption').textContent),
+          'the other number should be shown',
+        );
+        await on.assertAccessible(page, 'the room');
+        await page.keyboard.press('Escape');
+        assert.equal(await page.$eval('#room', (e) => e.open), false);
+      },
+      server,
+    );
+  } finally {
+    await server.close();
+  }
+});
+
+test('Room, AStudentPredictsAndAsksForHelp', async () => {
+  const server = await startMock(on.pageFolder, { room: 'student' });
+  try {
+    await visit(
+      {},
+      async (page) => {
+        await on.until(page, () => !document.querySelector('#help-button').hidden, 'there is somebody to ask');
+        await page.click('#help-button');
+        await on.until(page, () => document.querySelector('#help-button').ariaPressed === 'true', 'it should be asked');
+        await page.click('.lessons button');
+        await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+        await page.type('.guesses input', '0.25');
+        for (let k = 0; k < 40 && server.told.length < 2; ++k) await on.pause(50);
+        await page.click('#help-button');
+        await on.until(page, () => document.querySelector('#help-button').ariaPressed === 'false', 'and taken back');
+        assert.deepEqual(server.told, [
+          { what: 'help', wanted: true },
+          { what: 'predictions', lesson: '01_roughness', numbers: { Ra: 0.25 } },
+          { what: 'help', wanted: false },
+        ]);
+        await on.assertFits(page, 'a student of a room');
+        await on.assertAccessible(page, 'a student of a room');
+      },
+      server,
+    );
+  } finally {
+    await server.close();
+  }
+});
