@@ -24,7 +24,7 @@ struct ResultFacts {
   std::vector<std::pair<std::string, std::string>> texts;
   Cost cost;
   bool however_cheap = false;  // to be kept even if it would be quicker computed again
-  double least_seconds = 0;    // not worth keeping if it cost less, whatever the store thinks
+  double least_seconds = 0;    // not worth a file if it cost less, whatever the store thinks
 };
 
 struct FoundResult : ResultFacts {
