@@ -2369,4 +2369,21 @@ function lab.table.read(path, options) end
 ---@return asperity.Table
 function lab.table.from(rows, options) end
 
+---@class asperity.options.lab.knob
+---@field name string by which it is set; the same one in a script is the same knob (string, required)
+---@field from number|string the lower end of its slider; above 0 with log (number|string, required)
+---@field to number|string the upper end (number|string, required)
+---@field value number|string what it is unless it is set otherwise, between the two (number|string, required)
+---@field log? boolean equal ways of the slider are equal ratios (boolean, default false)
+
+---Numbers of a script that whoever runs it may set otherwise.
+---@class asperity.lab.knob
+---@overload fun(options: asperity.options.lab.knob): number
+lab.knob = {}
+
+---Moves a knob in the prompt: once the line has ended, what was entered is run again from its start with the new value, and heavy calls whose inputs are as they were are taken from memory. Where that fails, all stays as it was. A script cannot move its own knobs.
+---@param name string of a knob that was made
+---@param value number|string between its bounds; a plain number is SI
+function lab.knob.set(name, value) end
+
 return lab

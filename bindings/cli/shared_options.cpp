@@ -29,6 +29,16 @@ CLI::Option* add_script_options(CLI::App& options, RunCommand& run, std::string&
   return script;
 }
 
+void add_knobs(CLI::App& options, std::vector<std::string>& knobs) {
+  options
+      .add_option(
+          "--knob", knobs,
+          "NAME=VALUE: what a knob of the script (lab.knob) is set to, e.g. --knob pressure=\"50 MPa\"; "
+          "may be given again")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+}
+
 void add_machine_options(CLI::App& options, int& threads, std::string& memory) {
   options.add_option("--threads", threads, "threads to use (default: one per processor)")
       ->check(CLI::Range(1, 4096));
@@ -83,6 +93,12 @@ std::optional<double> seconds_of(const std::string& text) {
   }
   throw Error(ErrorCode::bad_value, "a time limit is " + asperity::quoted(text),
               "give a time such as 60s or \"2 min\"");
+}
+
+GivenKnobs knobs_of(const std::vector<std::string>& texts) {
+  GivenKnobs knobs;
+  for (const std::string& text : texts) add_given_knob(knobs, text);
+  return knobs;
 }
 
 std::optional<std::int64_t> bytes_of(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bindings/cli/commands/run_command.hpp"
 
@@ -22,6 +23,8 @@ namespace asperity::cli {
 void add_seed(CLI::App& options, std::uint64_t& seed);
 // The script, which is required, its seed, --limit-time and its arguments. Returns the option of the script.
 CLI::Option* add_script_options(CLI::App& options, RunCommand& run, std::string& limit_time);
+// --knob, which may be given again; knobs_of reads it.
+void add_knobs(CLI::App& options, std::vector<std::string>& knobs);
 // --threads and --limit-memory.
 void add_machine_options(CLI::App& options, int& threads, std::string& memory);
 // --out and those of the machine.
@@ -35,6 +38,8 @@ void check_confinement(const RunCommand& run);
 
 // "60s", "2 min", or a number of seconds, above zero; none of "". Throws Error{bad_value}.
 std::optional<double> seconds_of(const std::string& text);
+// "pressure=50 MPa" each. Throws Error{bad_value}.
+GivenKnobs knobs_of(const std::vector<std::string>& texts);
 // "4G", "512M", "64KiB", "1000000"; none of "". Throws Error{bad_value}.
 std::optional<std::int64_t> bytes_of(const std::string& text);
 

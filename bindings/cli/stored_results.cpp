@@ -70,6 +70,11 @@ std::vector<std::string> changes_of(const RunCommand& command, const RecordedRun
     changed.emplace_back("its arguments");
   if (command.seed_given && static_cast<std::int64_t>(command.seed) != recorded.seed)
     changed.emplace_back("the seed");
+  const Json given = given_knobs_json(command.knobs);
+  const Json then = given_knobs_json(recorded.knobs);
+  for (const auto& [name, knob] : given.members())
+    if (const Json* as_recorded = then.find(name); as_recorded == nullptr || !(*as_recorded == knob))
+      changed.push_back("the knob " + asperity::quoted(name));
   return changed;
 }
 
@@ -160,6 +165,9 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
     command.text = recorded.script_text;
     if (command.arguments.empty()) command.arguments = recorded.arguments;
     if (!command.seed_given) command.seed = static_cast<std::uint64_t>(recorded.seed);
+    GivenKnobs knobs = recorded.knobs;
+    for (const auto& [name, text] : command.knobs) knobs[name] = text;
+    command.knobs = std::move(knobs);
     return command;
   }
   if (recorded.status == "done") {
@@ -177,6 +185,7 @@ std::optional<RunCommand> taken_up(RunCommand command, bool leads) {
   command.text = recorded.script_text;
   command.arguments = recorded.arguments;
   command.seed = static_cast<std::uint64_t>(recorded.seed);
+  command.knobs = recorded.knobs;
   return command;
 }
 

@@ -6,6 +6,7 @@
 #include "bindings/lua/friction/law.hpp"
 #include "bindings/lua/metrology/stylus.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/run/knob.hpp"
 #include "bindings/lua/run/ledger.hpp"
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
@@ -33,8 +34,8 @@ const Module& spread_module();
 
 const std::vector<const Module*>& modules() {
   static const std::vector<const Module*> all = {
-      &lab_module(),      &units_module(), &surface_module(), &profile_module(),
-      &protocol_module(), &exact_module(), &spread_module(),  &table_module(),
+      &lab_module(),   &units_module(),  &surface_module(), &profile_module(), &protocol_module(),
+      &exact_module(), &spread_module(), &table_module(),   &knob_module(),
   };
   return all;
 }

@@ -134,6 +134,7 @@ RecordedRun read_run(const fs::path& root, bool journal_may_be_damaged) {
   for (const Json& argument : member(manifest, "arguments", file).list())
     run.arguments.push_back(argument.string());
   run.seed = static_cast<std::int64_t>(member(manifest, "seed", file).number());
+  if (const Json* knobs = manifest.find("knobs")) run.knobs = given_knobs(*knobs);
   run.trusted = member(manifest, "trusted", file).boolean();
   run.versions = member(manifest, "versions", file);
   if (const Json* machine = rest.is_object() ? rest.find("machine") : nullptr) run.machine = *machine;

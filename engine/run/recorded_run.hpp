@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/files/json.hpp"
+#include "engine/run/run_knobs.hpp"
 
 namespace asperity {
 
@@ -22,6 +23,7 @@ struct RecordedRun {
   std::string script_text;
   std::vector<std::string> arguments;
   std::int64_t seed = 1;
+  GivenKnobs knobs;  // the values it was made with
   bool trusted = false;
   Json versions;
   Json machine = Json::object();  // machine_facts() of where it ran; empty where they were not noted

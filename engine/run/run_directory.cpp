@@ -125,6 +125,7 @@ void RunDirectory::begin(const RunSetup& setup) {
       .set("arguments", Json::strings(setup.arguments))
       .set("seed", setup.seed)
       .set("trusted", setup.trusted);
+  if (!setup.knobs.is_null()) manifest_.set("knobs", setup.knobs);
   if (!setup.barriers.is_null()) {
     manifest_.set("confined", true);
     unhashed_.set("barriers", setup.barriers);

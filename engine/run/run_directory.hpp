@@ -55,6 +55,7 @@ struct RunSetup {
   std::vector<std::string> arguments;
   std::int64_t seed = 1;
   int threads = 1;
+  Json knobs{};                    // given_knobs_json() of what was given; null for none
   Json versions = Json::object();  // program, libraries, compiler
   Json barriers{};  // what held a confined run and what it could read; null for one that was not confined
 };

@@ -74,7 +74,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
     const lua::State state = make_state(session, unlimited);
     const Watchdog::Watching watching(watchdog, state.get());
     const int result = execute(state.get(), command, text, 0);
-    if (result == LUA_OK) return end("", "");
+    if (result == LUA_OK) return end("", unmade_knobs(session));
     const std::string message = lua::error_text(state.get(), -1);
     if (observer != nullptr && stop_flag().reason() != StopReason::none) {
       observer->ended(failed, stop_flag().reason(), "the " + verb + " was stopped");
@@ -105,14 +105,17 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
 struct FollowedScript {
   RunCommand run;
   std::string time;
+  std::vector<std::string> knobs;
   bool json = false;  // of `explain`
 };
 
 CommandReader declare_check(CLI::App& options) {
   const auto given = std::make_shared<FollowedScript>();
   add_script_options(options, given->run, given->time);
+  add_knobs(options, given->knobs);
   return [given]() -> CommandWork {
     given->run.limit_time = seconds_of(given->time);
+    given->run.knobs = knobs_of(given->knobs);
     return [given] { return cli::check(given->run); };
   };
 }
@@ -120,9 +123,11 @@ CommandReader declare_check(CLI::App& options) {
 CommandReader declare_explain(CLI::App& options) {
   const auto given = std::make_shared<FollowedScript>();
   add_script_options(options, given->run, given->time);
+  add_knobs(options, given->knobs);
   options.add_flag("--json", given->json, "as JSON");
   return [given]() -> CommandWork {
     given->run.limit_time = seconds_of(given->time);
+    given->run.knobs = knobs_of(given->knobs);
     return [given] { return cli::explain(given->run, given->json); };
   };
 }

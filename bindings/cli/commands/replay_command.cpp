@@ -263,6 +263,7 @@ int replay(const ReplayCommand& command) {
   run.script = recorded->script_path;
   run.text = recorded->script_text;
   run.arguments = recorded->arguments;
+  run.knobs = recorded->knobs;
   run.seed = static_cast<std::uint64_t>(recorded->seed);
   const auto lines = static_cast<std::int64_t>(recorded->journal.size());
   if (command.from && (*command.from < 1 || *command.from > lines)) {

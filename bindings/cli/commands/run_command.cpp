@@ -96,10 +96,12 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
   struct Given {
     RunCommand run;
     std::string time, memory, store_limit, shard, disk;
+    std::vector<std::string> knobs;
   };
   const auto given = std::make_shared<Given>();
   add_script_options(options, given->run, given->time)->required(false);
   add_run_options(options, given->run, given->memory);
+  add_knobs(options, given->knobs);
   add_trust(options, given->run.trust);
   add_store_options(options, given->run, given->store_limit, given->shard);
   add_confinement(options, given->run, given->disk);
@@ -109,6 +111,7 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
     run.seed_given = options.count("--seed") > 0;
     run.limit_time = seconds_of(given->time);
     run.limit_memory = bytes_of(given->memory);
+    run.knobs = knobs_of(given->knobs);
     run.store_limit = given->store_limit == "0" ? 0 : bytes_of(given->store_limit);
     if (!given->shard.empty()) run.shard = parse_shard(given->shard);
     if (run.shard && run.store_limit == 0)
@@ -202,6 +205,7 @@ int execute(lua_State* L, const RunCommand& command, const std::string& text, in
 lua::State make_state(lua::Session& session, const RunCommand& command) {
   session.seed = command.seed;
   session.trusted = command.trust;
+  session.knobs = std::make_shared<RunKnobs>(command.knobs);
   const std::string folder = std::filesystem::path(command.script).parent_path().string();
   session.script = {command.script, folder.empty() ? "." : folder};
   lua::State state = lua::make_state(session, session.script.folder);
@@ -231,6 +235,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     setup.arguments = command.arguments;
     setup.seed = static_cast<std::int64_t>(command.seed);
     setup.threads = thread_count();
+    if (!command.knobs.empty()) setup.knobs = given_knobs_json(command.knobs);
     setup.versions = version_json();
     kept = result_files(command);
     run = std::make_shared<RunDirectory>(setup);
@@ -356,6 +361,15 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   return status;
 }
 
+std::string unmade_knobs(const lua::Session& session) {
+  try {
+    session.knobs->check_all_made();
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 std::string run_script(RunContext& context, const std::function<int(int)>& at_exit) {
   lua::Session session(context.monitor);
   session.run = context.run;
@@ -363,6 +377,7 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   Digester script;
   script.add(context.text);
   for (const std::string& argument : context.command.arguments) script.add(argument);
+  if (!context.command.knobs.empty()) script.add("knobs").add(RunKnobs(context.command.knobs).given_text());
   session.script_digest = script.hex();
   session.shard = context.command.shard;
   if (RunObserver* observer = context.command.observer; observer != nullptr && observer->looks_at_results())
@@ -380,12 +395,14 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
     std::_Exit(done);
   };
   session.exit_hook = [&](int code) {
-    if (code == 0 && context.run->expectations().failed() > 0) code = failed;
-    context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed,
-                        "os.exit(" + std::to_string(code) + ")");
+    const std::string unmade = code == 0 ? unmade_knobs(session) : "";
+    if (!unmade.empty() && context.command.observer == nullptr)
+      std::fprintf(stderr, "asperity: %s\n", unmade.c_str());
+    if (!unmade.empty() || (code == 0 && context.run->expectations().failed() > 0)) code = failed;
+    const std::string why = unmade.empty() ? "os.exit(" + std::to_string(code) + ")" : unmade;
+    context.run->finish(code == 0 ? RunStatus::done : RunStatus::failed, why);
     context.summary();
-    if (context.command.observer != nullptr)
-      context.command.observer->ended(code, StopReason::none, "os.exit(" + std::to_string(code) + ")");
+    if (context.command.observer != nullptr) context.command.observer->ended(code, StopReason::none, why);
     code = at_exit(code);
     if (context.command.ranks != nullptr) code = context.command.ranks->leave(code);
     std::fflush(nullptr);
@@ -393,7 +410,7 @@ std::string run_script(RunContext& context, const std::function<int(int)>& at_ex
   };
   const lua::State state = make_state(session, context.command);
   const Watchdog::Watching watching(context.watchdog, state.get());
-  if (execute(state.get(), context.command, context.text, 0) == LUA_OK) return "";
+  if (execute(state.get(), context.command, context.text, 0) == LUA_OK) return unmade_knobs(session);
   return lua::placed_memory_error(lua::error_text(state.get(), -1));
 }
 

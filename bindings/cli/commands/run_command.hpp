@@ -14,6 +14,7 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/files/json.hpp"
+#include "engine/run/run_knobs.hpp"
 
 namespace asperity {
 class RunDirectory;
@@ -37,6 +38,7 @@ struct RunCommand {
   std::optional<double> limit_time;          // seconds
   bool trust = false;
   std::vector<std::string> arguments;
+  GivenKnobs knobs;
   std::optional<std::string> text;          // of the script, where it is not read from its file
   std::optional<std::string> resume;        // directory of a run that was cut off
   bool anew = false;                        // of another script: its files are moved aside, its results stay
@@ -97,6 +99,9 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
 // Runs the script to its end, or to its os.exit: then the directory is closed, `at_exit` is asked for the
 // exit status, given that of the script, and the program ends there. Returns why it failed, "" if it did not.
 std::string run_script(RunContext& context, const std::function<int(int)>& at_exit);
+
+// Why a value that was given set no knob of the script that has ended; "" where each did.
+std::string unmade_knobs(const lua::Session& session);
 
 // A Lua state for the command's script, whose session is given what the command says.
 lua::State make_state(lua::Session& session, const RunCommand& command);

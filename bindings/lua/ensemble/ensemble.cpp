@@ -12,6 +12,7 @@
 #include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/knob.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/specimen/explanation.hpp"
 #include "engine/core/arithmetic/random.hpp"
@@ -263,8 +264,14 @@ void record(const Session& session, const EnsembleKeys& keys, const std::vector<
   session.run->journal().write("ensemble", line);
 }
 
-// What cases read is read by the run, or by the case that this ensemble stands in.
+// What cases read, and the knobs they asked for, are of the run, or of the case that this ensemble stands in.
 void note_inputs(const Session& session, const std::vector<CaseResult>& results) {
+  for (const CaseResult& result : results)
+    for (const RunKnob& knob : result.knobs) {
+      session.knobs->make(knob);  // a case that was kept, or ran in another process, has not
+      if (session.notes != nullptr) session.notes->knobs.push_back(knob);
+    }
+  note_knobs(session);
   for (const CaseResult& result : results)
     for (const CaseInput& input : result.inputs)
       if (session.notes != nullptr)
@@ -356,6 +363,7 @@ Values ensemble(Call& call) {
     common.depth = session.depth + 1;
     common.refinement = session.refinement;
     common.variation = session.variation;
+    common.knobs = session.knobs;
     common.ledger = session.ledger;
     common.results = results_for_cases(session);
     common.watched = lua_gethook(call.L) != nullptr;

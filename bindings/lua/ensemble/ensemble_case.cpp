@@ -267,6 +267,7 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
     session.depth = setup.depth;
     session.refinement = setup.refinement;
     session.variation = setup.variation;
+    session.knobs = setup.knobs;
     session.ledger = setup.ledger;
     session.output = output.file();
     session.left_behind = &setup.run->left_behind();
@@ -287,6 +288,7 @@ CaseResult run_case(const CaseSetup& setup, RunningStates& states) {
     }
     result.output = output.text();
     result.inputs = std::move(notes.inputs);
+    result.knobs = std::move(notes.knobs);
     result.drew = notes.drew;
   } catch (const std::exception& error) {
     result.failure = error.what();

@@ -40,6 +40,7 @@ struct CaseSetup {
   int depth = 1;  // ensembles the case stands inside
   std::shared_ptr<Refinement> refinement;
   std::shared_ptr<Variation> variation;
+  std::shared_ptr<RunKnobs> knobs;
   std::shared_ptr<Ledger> ledger;
   ResultStore* results = nullptr;  // of the run; may be null
   ScriptSpelling script;           // how the script is named
@@ -52,7 +53,8 @@ struct CaseResult : FinishedCase {
   std::shared_ptr<const PackedValue> row;  // null if it failed
   std::string digest;                      // of the row
   std::vector<CaseInput> inputs;
-  bool drew = false;  // random numbers, which its seed decides
+  std::vector<RunKnob> knobs;  // that it asked for
+  bool drew = false;           // random numbers, which its seed decides
   double seconds = 0;
 };
 

@@ -17,7 +17,7 @@ namespace asperity::lua {
 
 namespace {
 
-constexpr std::string_view case_form = "asperity case 2";
+constexpr std::string_view case_form = "asperity case 3";
 constexpr std::size_t bytes_a_number = 6;  // whole numbers that a double holds exactly
 
 // Bytes in a field of a kept result.
@@ -76,6 +76,15 @@ std::string case_bytes(const CaseResult& result, const std::vector<CaseValue>& g
     out.text(input.digest);
     out.text(input.beside_script);
   }
+  out.number(static_cast<std::uint64_t>(result.knobs.size()));
+  for (const RunKnob& knob : result.knobs) {
+    out.text(knob.name);
+    for (const double number : {knob.from, knob.to, knob.value}) out.number(number);
+    out.number(knob.log);
+    for (const std::int8_t exponent :
+         {knob.dimension.length, knob.dimension.mass, knob.dimension.time, knob.dimension.angle})
+      out.number(std::int64_t{exponent});
+  }
   out.number(result.drew);
   out.number(result.transforms);
   out.number(result.seconds);
@@ -96,6 +105,16 @@ CaseResult case_from_bytes(std::string_view bytes, const std::vector<CaseValue>&
     input.digest = in.text();
     input.beside_script = in.text();
     result.inputs.push_back(std::move(input));
+  }
+  for (std::size_t left = in.count(); left > 0; --left) {
+    RunKnob knob;
+    knob.name = in.text();
+    for (double* number : {&knob.from, &knob.to, &knob.value}) *number = in.number<double>();
+    knob.log = in.truth();
+    for (std::int8_t* exponent :
+         {&knob.dimension.length, &knob.dimension.mass, &knob.dimension.time, &knob.dimension.angle})
+      *exponent = static_cast<std::int8_t>(in.number<std::int64_t>());
+    result.knobs.push_back(std::move(knob));
   }
   result.drew = in.truth();
   result.transforms = in.number<double>();
@@ -118,7 +137,7 @@ StoredCases::StoredCases(const Session& session, const PackedValue& run) {
   if (!content_.whole) script_ = session.script_digest + " " + std::to_string(session.ensembles);
 }
 
-std::string StoredCases::key_of(const CaseSetup& setup, bool drew) const {
+std::string StoredCases::key_of(const CaseSetup& setup, bool drew, bool asked) const {
   Digester digester;
   // A case's own arithmetic is the C library's: machines where that rounds otherwise do not share cases.
   digester.add(case_form).add(c_library_functions()).add(content_.digest).add(setup.depth);
@@ -133,14 +152,16 @@ std::string StoredCases::key_of(const CaseSetup& setup, bool drew) const {
   if (!whole)
     digester.add(script_.empty() ? setup.script_digest + " " + std::to_string(setup.ensemble) : script_);
   if (drew) digester.add(static_cast<std::int64_t>(setup.seed));
+  if (asked) digester.add("knobs").add(setup.knobs->given_text());
   return "case " + digester.hex();
 }
 
 std::optional<CaseResult> StoredCases::find(const CaseSetup& setup, bool with_failures) const {
   if (store_ == nullptr) return {};
-  for (const bool drew : {false, true}) {
+  for (const auto& [drew, asked] :
+       {std::pair(false, false), std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
     try {
-      std::optional<FoundResult> found = store_->find(key_of(setup, drew));
+      std::optional<FoundResult> found = store_->find(key_of(setup, drew, asked));
       if (!found) continue;
       const std::string bytes = unpacked(found->take("case"), found->number("bytes"));
       CaseResult result = case_from_bytes(bytes, setup.values);
@@ -174,7 +195,7 @@ void StoredCases::keep(const CaseSetup& setup, const CaseResult& result, bool al
   facts.numbers = {{"bytes", static_cast<double>(bytes.size())}};
   facts.texts = {{"lines", content_.lines}, {"names lines", names_a_line(bytes) ? "yes" : "no"}};
   const Field field = packed(bytes);
-  store_->keep(key_of(setup, result.drew), "lab.ensemble", facts, {{"case", &field}});
+  store_->keep(key_of(setup, result.drew, !result.knobs.empty()), "lab.ensemble", facts, {{"case", &field}});
 }
 
 }  // namespace asperity::lua

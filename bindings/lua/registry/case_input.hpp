@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case of an ensemble depends on beside its arguments: the files it looked at, and whether it drew
-// random numbers. The stored result of a case is used again only where all of these are as they were.
+// What a case of an ensemble depends on beside its arguments: the files it looked at, the knobs it asked for,
+// and whether it drew random numbers. The stored result of a case is used again only where all of these are as
+// they were.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "engine/run/run_knobs.hpp"
 
 namespace asperity::lua {
 
@@ -23,6 +26,7 @@ std::string present_digest(const std::string& file);
 
 struct CaseNotes {
   std::vector<CaseInput> inputs;
+  std::vector<RunKnob> knobs;
   bool drew = false;  // random numbers, which its seed decides
 };
 

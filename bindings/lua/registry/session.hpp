@@ -20,6 +20,7 @@
 #include "engine/core/monitor.hpp"
 #include "engine/run/case_scheduler.hpp"
 #include "engine/run/ledger.hpp"
+#include "engine/run/run_knobs.hpp"
 
 namespace asperity {
 class RunDirectory;
@@ -78,10 +79,14 @@ class Session {
   std::map<std::string, int> studies;      // names given to studies of work and precision, and how often
   std::shared_ptr<Refinement> refinement;  // of a script that a study of accuracy runs again; may be null
   std::shared_ptr<Variation> variation;  // of a recorded run that is run again with other values; may be null
-  ScriptSpelling script;                 // as it was named; empty where there is none
-  std::string script_digest;             // of the text of the script and its arguments; may be empty
-  int ensembles = 0;                     // that the script has begun
-  std::optional<Shard> shard;            // of a run that computes some of the cases only
+  // The numbers that the script asks whoever runs it for; the states of cases share those of their ensemble.
+  std::shared_ptr<RunKnobs> knobs = std::make_shared<RunKnobs>();
+  // What lab.knob.set does with a value that the knob takes; empty where nothing is run again.
+  std::function<void(const std::string& name, const std::string& value)> move_knob;
+  ScriptSpelling script;       // as it was named; empty where there is none
+  std::string script_digest;   // of the text of the script and its arguments; may be empty
+  int ensembles = 0;           // that the script has begun
+  std::optional<Shard> shard;  // of a run that computes some of the cases only
   // What a shard does where the script can go no further without the cases of others: ends the process.
   std::function<void(const std::string& sentence)> shard_end;
   // Called with the results of each heavy call; may be empty.

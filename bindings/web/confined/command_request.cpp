@@ -91,6 +91,19 @@ std::string bytes_of(std::string_view characters) {
   return bytes;
 }
 
+Json knobs_json(const GivenKnobs& knobs) {
+  Json::List list;
+  for (const auto& [name, text] : knobs) list.push_back(texts_json({name, text}));
+  return list;
+}
+
+GivenKnobs knobs_in(const Json& json, const char* name) {
+  GivenKnobs knobs;
+  for (const Json& knob : command_member(json, name).list())
+    knobs.emplace(bytes_of(knob.list().at(0).string()), bytes_of(knob.list().at(1).string()));
+  return knobs;
+}
+
 Json command_json(const cli::RunCommand& run, const cli::ReplayCommand* replay) {
   Json json = Json::object({{"script", text_json(run.script)},
                             {"out", optional_text(run.out)},
@@ -100,6 +113,7 @@ Json command_json(const cli::RunCommand& run, const cli::ReplayCommand* replay) 
                             {"limit_memory", optional_digits(run.limit_memory)},
                             {"limit_time", run.limit_time ? Json(*run.limit_time) : Json()},
                             {"arguments", texts_json(run.arguments)},
+                            {"knobs", knobs_json(run.knobs)},
                             {"text", optional_text(run.text)},
                             {"resume", optional_text(run.resume)},
                             {"reuse", texts_json(run.reuse)},
@@ -129,6 +143,7 @@ CarriedCommand command_of(const Json& json) {
   if (const Json& limit = command_member(json, "limit_time"); !limit.is_null())
     run.limit_time = limit.number();
   run.arguments = texts_in(json, "arguments");
+  run.knobs = knobs_in(json, "knobs");
   run.text = optional_text_in(json, "text");
   run.resume = optional_text_in(json, "resume");
   run.reuse = texts_in(json, "reuse");

@@ -10,6 +10,7 @@
 #include "bindings/cli/commands/replay_command.hpp"
 #include "bindings/cli/commands/run_command.hpp"
 #include "engine/core/files/json.hpp"
+#include "engine/run/run_knobs.hpp"
 
 namespace asperity::web {
 
@@ -23,6 +24,9 @@ struct CarriedCommand {
 };
 
 // `replay` may be null; its own `run` is not looked at.
+// Each a list of its name and what it was given as; knobs_in throws Error{bad_file}.
+Json knobs_json(const GivenKnobs& knobs);
+GivenKnobs knobs_in(const Json& json, const char* name);
 Json command_json(const cli::RunCommand& run, const cli::ReplayCommand* replay);
 // Throws Error{bad_file}.
 CarriedCommand command_of(const Json& json);

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/lua/run/knob.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bindings/lua/registry/case_input.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/text.hpp"
+#include "engine/run/run_directory.hpp"
+#include "engine/run/run_knobs.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+struct KnobKeys {
+  RunKnob knob;
+  // The key that told what kind of quantity it is, and how; empty while only plain numbers were met.
+  std::string told_by, told;
+};
+
+// A bound or the value: of whatever kind the first one with a unit is.
+Option<KnobKeys> knob_quantity(std::string name, double RunKnob::*member, std::string sentence) {
+  return custom<KnobKeys>(
+             std::move(name), "number|string", std::move(sentence),
+             [member](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
+               if (value.is_unknown()) return;
+               if (value.is_number()) {
+                 keys.knob.*member = value.number();
+                 return;
+               }
+               if (!value.is_text())
+                 return detail::wrong_type(value, info, "a number or a quantity such as \"20 MPa\"",
+                                           problems);
+               const std::string text(value.text());
+               try {
+                 const Quantity quantity = parse_quantity(text);
+                 keys.knob.*member = quantity.value;
+                 if (quantity.dimension == dimension::number) return;
+                 if (!keys.told_by.empty() && quantity.dimension != keys.knob.dimension) {
+                   problems.push_back(quoted(info.name) + " is " + quoted(text) + ", " +
+                                      describe(quantity.dimension) + ", and " + quoted(keys.told_by) +
+                                      " is " + quoted(keys.told) + ", " + describe(keys.knob.dimension) +
+                                      "; give quantities of one kind");
+                   return;
+                 }
+                 keys.knob.dimension = quantity.dimension;
+                 keys.told_by = info.name;
+                 keys.told = text;
+               } catch (const Error& error) {
+                 problems.push_back(quoted(info.name) + ": " + error.what());
+               }
+             })
+      .required();
+}
+
+void check_knob(KnobKeys& keys, Problems& problems) {
+  if (!problems.empty()) return;
+  try {
+    require_knob(keys.knob);
+  } catch (const Error& error) {
+    problems.push_back(error.what());
+  }
+}
+
+const Block<KnobKeys>& knob_block() {
+  static const Block<KnobKeys> block{
+      "lab.knob",
+      {Option<KnobKeys>(
+           custom<KnobKeys>(
+               "name", "string", "by which it is set; the same one in a script is the same knob",
+               [](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
+                 if (value.is_text())
+                   keys.knob.name = std::string(value.text());
+                 else
+                   detail::wrong_type(value, info, "a string", problems);
+               }))
+           .required(),
+       knob_quantity("from", &RunKnob::from, "the lower end of its slider; above 0 with log"),
+       knob_quantity("to", &RunKnob::to, "the upper end"),
+       knob_quantity("value", &RunKnob::value, "what it is unless it is set otherwise, between the two"),
+       custom<KnobKeys>(
+           "log", "boolean", "equal ways of the slider are equal ratios",
+           [](const Argument& value, const OptionInfo& info, KnobKeys& keys, Problems& problems) {
+             if (value.is_boolean())
+               keys.knob.log = value.boolean();
+             else
+               detail::wrong_type(value, info, "true or false", problems);
+           })
+           .defaults_to("false")},
+      check_knob};
+  return block;
+}
+
+Values make_knob(Call& call) {
+  const KnobKeys keys = call.options(knob_block());
+  const Session& session = call.session();
+  const double value = session.knobs->make(keys.knob);
+  if (session.notes != nullptr) session.notes->knobs.push_back(keys.knob);
+  note_knobs(session);
+  return {value};
+}
+
+Values set_knob(Call& call) {
+  const std::string name = call.text(1, "name");
+  const Argument value = call.argument(2);
+  if (!value.is_number() && !value.is_text())
+    throw Error(ErrorCode::bad_value, "`value` is " + value.describe(),
+                "give a number or a quantity such as \"50 MPa\"");
+  Session& session = call.session();
+  if (!session.move_knob)
+    throw Error(ErrorCode::not_permitted, "a script does not move its knobs: it would run itself again",
+                "set one from outside, by asperity run SCRIPT --knob " + name +
+                    "=..., in the prompt, or on the page");
+  const std::string text = value.is_number() ? format_exact(value.number()) : std::string(value.text());
+  (void)session.knobs->value_of(name, text);
+  session.move_knob(name, text);
+  return {};
+}
+
+}  // namespace
+
+void note_knobs(const Session& session) {
+  if (session.run != nullptr && !session.is_case && !session.knobs->empty())
+    session.run->note("knobs", session.knobs->json());
+}
+
+const Module& knob_module() {
+  static const Module module = [] {
+    Module m;
+    m.path = "lab.knob";
+    m.sentence = "Numbers of a script that whoever runs it may set otherwise.";
+    m.functions = {
+        {.name = "set",
+         .body = set_knob,
+         .sentence =
+             "Moves a knob in the prompt: once the line has ended, what was entered is run again from its "
+             "start with the new value, and heavy calls whose inputs are as they were are taken from memory. "
+             "Where that fails, all stays as it was. A script cannot move its own knobs.",
+         .parameters = {{"name", "string", "of a knob that was made"},
+                        {"value", "number|string", "between its bounds; a plain number is SI"}},
+         .example = "-- lab.knob.set(\"pressure\", \"50 MPa\")"}};
+    m.call = Function{
+        .name = "knob",
+        .body = make_knob,
+        .sentence =
+            "A number that may be set from outside within bounds; returns its value, in SI. A slider on the "
+            "page, "
+            "`lab.knob.set` in the prompt, `--knob pressure=\"50 MPa\"` on the command line. A run records "
+            "the values it was made with, and replay and resume take those.",
+        .options = &knob_block(),
+        .returns = "number",
+        .example =
+            "local p = lab.knob{ name=\"pressure\", from=\"1 MPa\", to=\"200 MPa\", value=\"20 MPa\", "
+            "log=true }"};
+    return m;
+  }();
+  return module;
+}
+
+}  // namespace asperity::lua
