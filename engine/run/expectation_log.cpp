@@ -21,6 +21,11 @@ void ExpectationLog::add(Verdict verdict) {
   verdicts_.push_back(std::move(verdict));
 }
 
+std::vector<Verdict> ExpectationLog::exchange(std::vector<Verdict> verdicts) {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(verdicts_, std::move(verdicts));
+}
+
 std::vector<Verdict> ExpectationLog::verdicts() const {
   const std::lock_guard lock(mutex_);
   return verdicts_;

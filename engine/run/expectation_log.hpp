@@ -17,6 +17,8 @@ Json to_json(const Verdict& verdict);
 class ExpectationLog {
  public:
   void add(Verdict verdict);
+  // Takes what is there away, and puts that in its place.
+  std::vector<Verdict> exchange(std::vector<Verdict> verdicts);
   std::vector<Verdict> verdicts() const;
   std::size_t passed() const;
   std::size_t failed() const;

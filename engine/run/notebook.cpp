@@ -116,6 +116,11 @@ Table Notebook::table() const {
   return table_;
 }
 
+void Notebook::write_again() {
+  const std::lock_guard lock(mutex_);
+  if (!csv_.empty() && table_.rows() > 0) rewrite();
+}
+
 bool Notebook::save(std::chrono::milliseconds patience) {
   const std::unique_lock lock = lock_within(mutex_, patience);
   if (!lock.owns_lock()) return false;

@@ -49,6 +49,9 @@ class Notebook {
   // A copy of what is written now.
   Table table() const;
 
+  // Writes the CSV as the rows are, over what another notebook of the same file wrote. Throws
+  // Error{bad_file}.
+  void write_again();
   // Brings the CSV up to date if a write failed. Waits at most `patience` for a writer that is stuck;
   // returns false if that was not enough. Throws Error{bad_file}.
   bool save(std::chrono::milliseconds patience);

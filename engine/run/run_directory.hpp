@@ -126,6 +126,17 @@ class RunDirectory {
   std::shared_ptr<Notebook> notebook(std::string_view name);
   ExpectationLog& expectations() { return expectations_; }
 
+  // What a script that is run again from its start, in the same directory, makes anew.
+  struct Findings {
+    std::vector<std::shared_ptr<Notebook>> notebooks;
+    std::vector<Verdict> verdicts;
+  };
+  // Takes notebooks and verdicts out: a notebook that is asked for now begins without rows. The journal goes
+  // on, with an event "again".
+  Findings set_aside();
+  // In the place of those made since: what began again came to nothing. The files are as they were.
+  void put_back(Findings findings);
+
   // A member of the manifest; `unhashed` for what may differ between equal runs. Written by finish().
   void note(std::string_view key, Json value);
   void note_unhashed(std::string_view key, Json value);

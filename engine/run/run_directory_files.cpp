@@ -94,6 +94,29 @@ std::vector<std::string> RunDirectory::written() const {
   return {outputs_.begin(), outputs_.end()};
 }
 
+RunDirectory::Findings RunDirectory::set_aside() {
+  Findings findings;
+  findings.verdicts = expectations_.exchange({});
+  const std::lock_guard lock(mutex_);
+  findings.notebooks = std::exchange(notebooks_, {});
+  journal_->write("again", Json::object());
+  return findings;
+}
+
+void RunDirectory::put_back(Findings findings) {
+  expectations_.exchange(std::move(findings.verdicts));
+  std::vector<std::shared_ptr<Notebook>> made;
+  {
+    const std::lock_guard lock(mutex_);
+    made = std::exchange(notebooks_, std::move(findings.notebooks));
+  }
+  for (const auto& notebook : made) {
+    std::error_code gone;
+    if (!notebook->csv().empty()) fs::remove(notebook->csv(), gone);
+  }
+  for (const auto& notebook : notebooks_) notebook->write_again();
+}
+
 std::shared_ptr<Notebook> RunDirectory::notebook(std::string_view name) {
   if (name.empty()) throw Error(ErrorCode::bad_value, "a notebook has an empty name", "give it a name");
   const auto find = [&]() -> std::shared_ptr<Notebook> {

@@ -3,10 +3,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/exit_status.hpp"
@@ -16,11 +18,14 @@
 #include "bindings/cli/watchdog.hpp"
 #include "bindings/lua/editor/prompt.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/knob.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+#include "engine/run/result_memory.hpp"
 #include "engine/run/run_directory.hpp"
 
 namespace asperity::cli {
@@ -33,7 +38,7 @@ class Conversation {
       : command_(command),
         reader_(LineHistory(command.no_history ? std::filesystem::path() : LineHistory::default_file()),
                 [this](std::string_view line, std::size_t position) {
-                  return prompt_->complete(line, position);
+                  return bench_->prompt->complete(line, position);
                 }) {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
@@ -46,20 +51,13 @@ class Conversation {
     setup.seed = static_cast<std::int64_t>(command.seed);
     setup.threads = thread_count();
     setup.versions = version_json();
-    run_ = std::make_shared<RunDirectory>(std::move(setup),
-                                          [this] { return prompt_ ? prompt_->script() : std::string(); });
+    run_ = std::make_shared<RunDirectory>(
+        std::move(setup), [this] { return bench_ ? bench_->prompt->script() : std::string(); });
     run_->note("prompt", true);
     monitor_.keep_warnings_in(run_.get());
-    session_.seed = command.seed;
-    session_.trusted = command.trust;
-    session_.run = run_;
-    session_.exit_hook = [this](int code) {
-      finish(code == 0 ? RunStatus::done : RunStatus::failed, "os.exit(" + std::to_string(code) + ")");
-      std::fflush(nullptr);
-      std::_Exit(code);
-    };
-    state_ = lua::make_state(session_, ".");
-    prompt_.emplace(state_.get());
+    memory_.emplace(remembered(command));
+    monitor_.keep_results_in(&*memory_);
+    bench_ = make_bench({});
     hear_stops();
   }
 
@@ -69,10 +67,10 @@ class Conversation {
                   lua::version_text().c_str());
     std::string line;
     for (int number = 1;; ++number) {
-      const LineReader::Event event = reader_.read(prompt_->continued() ? ">> " : "> ", line);
+      const LineReader::Event event = reader_.read(bench_->prompt->continued() ? ">> " : "> ", line);
       if (event == LineReader::Event::end) break;
       if (event == LineReader::Event::given_up)
-        prompt_->forget();
+        bench_->prompt->forget();
       else if (!take(line, reader_.terminal() ? 1 : number))
         break;
     }
@@ -80,6 +78,86 @@ class Conversation {
   }
 
  private:
+  // What the lines work on: a Lua state and what it holds.
+  struct Bench {
+    explicit Bench(Monitor& monitor) : session(monitor) {}
+    lua::Session session;
+    lua::State state;
+    std::optional<lua::Prompt> prompt;
+  };
+
+  std::unique_ptr<Bench> make_bench(const GivenKnobs& knobs) {
+    auto bench = std::make_unique<Bench>(monitor_);
+    lua::Session& session = bench->session;
+    session.seed = command_.seed;
+    session.trusted = command_.trust;
+    session.run = run_;
+    session.knobs = std::make_shared<RunKnobs>(knobs);
+    session.move_knob = [this](const std::string& name, const std::string& value) { moves_[name] = value; };
+    session.exit_hook = [this](int code) {
+      finish(code == 0 ? RunStatus::done : RunStatus::failed, "os.exit(" + std::to_string(code) + ")");
+      std::fflush(nullptr);
+      std::_Exit(code);
+    };
+    bench->state = lua::make_state(session, ".");
+    bench->prompt.emplace(bench->state.get());
+    return bench;
+  }
+
+  // Bytes of results that stay in memory.
+  static std::int64_t remembered(const ReplCommand& command) {
+    constexpr std::int64_t most = std::int64_t{256} << 20;
+    return command.limit_memory ? std::min(most, *command.limit_memory / 4) : most;
+  }
+
+  // What was entered, from its start, with the knobs that the last line moved. Where that fails, the bench is
+  // the one that was.
+  lua::Prompt::Outcome run_again(Watchdog& watchdog) {
+    GivenKnobs knobs = knobs_;
+    std::string what;
+    for (const auto& [name, value] : moves_) {
+      knobs[name] = value;
+      what += (what.empty() ? "" : ", ") + name + " = " + value;
+    }
+    const ResultMemory::Counts before = memory_->counts();
+    RunDirectory::Findings findings = run_->set_aside();
+    std::unique_ptr<Bench> next;
+    try {
+      next = make_bench(knobs);
+    } catch (const Error& error) {
+      error_ = what + ": " + error.what();
+      run_->put_back(std::move(findings));
+      return lua::Prompt::Outcome::failed;
+    }
+    next->session.script_digest = unique_digest();
+    lua::Prompt::Outcome outcome;
+    {
+      const Watchdog::Watching watching(watchdog, next->state.get());
+      if (command_.limit_time || command_.limit_memory) lua::watch_for_stops(next->state.get());
+      // Asked for before it was watched, a stop reached the state that was.
+      if (stop_flag().reason() != StopReason::none) lua::interrupt(next->state.get());
+      outcome = next->prompt->run_again(bench_->prompt->script(), "now " + what);
+    }
+    if (outcome == lua::Prompt::Outcome::failed) {
+      error_ = what + ": " + next->prompt->error() + "\nall is as it was before";
+      run_->put_back(std::move(findings));
+      lua::note_knobs(bench_->session);
+      return outcome;
+    }
+    bench_ = std::move(next);
+    knobs_ = std::move(knobs);
+    const ResultMemory::Counts now = memory_->counts();
+    std::fflush(stdout);
+    monitor_.clear();
+    std::fprintf(stderr, "%s: heavy results: %lld computed, %lld taken from memory\n", what.c_str(),
+                 static_cast<long long>(now.missed - before.missed),
+                 static_cast<long long>(now.found - before.found));
+    return outcome;
+  }
+
+  // No two lines of a prompt are the same text of a script.
+  std::string unique_digest() { return "line " + std::to_string(++lines_) + " of a prompt"; }
+
   // False where the session is to end.
   bool take(const std::string& line, int number) {
     lua::Prompt::Outcome outcome;
@@ -94,8 +172,19 @@ class Conversation {
             finish(RunStatus::killed, reason_text(reason), std::chrono::milliseconds(500));
           },
           reader_.terminal() ? Watchdog::CtrlC::waits : Watchdog::CtrlC::ends_within_grace);
-      const Watchdog::Watching watching(watchdog, state_.get());
-      outcome = prompt_->take(line, number);
+      moves_.clear();
+      {
+        const Watchdog::Watching watching(watchdog, bench_->state.get());
+        bench_->session.script_digest = unique_digest();
+        const std::size_t knobs = bench_->session.knobs->made().size();
+        outcome = bench_->prompt->take(line, number);
+        error_ = bench_->prompt->error();
+        if (outcome == lua::Prompt::Outcome::failed) {
+          bench_->session.knobs->keep_first(knobs);
+          lua::note_knobs(bench_->session);
+        }
+      }
+      if (outcome == lua::Prompt::Outcome::done && !moves_.empty()) outcome = run_again(watchdog);
       stopped = stop_flag().reason();
       terminated = watchdog.terminated() || (stopped == StopReason::interrupt && !reader_.terminal());
     }
@@ -113,8 +202,8 @@ class Conversation {
   // Takes back what a stop left behind, so that the next line runs.
   void hear_stops() {
     stop_flag().clear();
-    lua_sethook(state_.get(), nullptr, 0, 0);
-    if (command_.limit_time || command_.limit_memory) lua::watch_for_stops(state_.get());
+    lua_sethook(bench_->state.get(), nullptr, 0, 0);
+    if (command_.limit_time || command_.limit_memory) lua::watch_for_stops(bench_->state.get());
     if (command_.limit_memory) memory::set_limit(*command_.limit_memory);
   }
 
@@ -127,13 +216,13 @@ class Conversation {
   // What a line that failed is told with. Where a limit was met is worth knowing; where Ctrl-C was pressed is
   // not.
   std::string failure(StopReason stopped) const {
-    if (stopped == StopReason::none) return prompt_->error();
-    return reason_text(stopped) + (stopped == StopReason::interrupt ? "" : "\n" + prompt_->error());
+    if (stopped == StopReason::none) return error_;
+    return reason_text(stopped) + (stopped == StopReason::interrupt ? "" : "\n" + error_);
   }
 
   int end() {
     int status = done;
-    if (!reader_.terminal() && prompt_->continued()) {
+    if (!reader_.terminal() && bench_->prompt->continued()) {
       std::fprintf(stderr, "asperity: the input ends within a statement\n");
       lines_failed_ = true;
     }
@@ -162,10 +251,12 @@ class Conversation {
   const ReplCommand& command_;
   LineReader reader_;  // first: it blocks signals for the threads of all that follows
   TerminalMonitor monitor_;
-  lua::Session session_{monitor_};
+  std::optional<ResultMemory> memory_;
   std::shared_ptr<RunDirectory> run_;
-  lua::State state_;
-  std::optional<lua::Prompt> prompt_;
+  std::unique_ptr<Bench> bench_;
+  GivenKnobs knobs_, moves_;  // in force; and those that the line moved
+  std::string error_;         // of the last line
+  int lines_ = 0;
   bool lines_failed_ = false, stopped_ = false;
 };
 

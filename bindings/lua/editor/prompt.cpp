@@ -197,6 +197,18 @@ Prompt::Outcome Prompt::take(std::string_view line, int number) {
   return Outcome::failed;
 }
 
+Prompt::Outcome Prompt::run_again(const std::string& script, const std::string& why) {
+  const Argument::StackGuard guard(L);
+  lua_pushcfunction(L, traceback_handler);
+  const int handler = lua_gettop(L);
+  if (!load(script) || lua_pcall(L, 0, 0, handler) != LUA_OK) {
+    error_ = without_idle_traceback(error_text(L, -1));
+    return Outcome::failed;
+  }
+  script_ = script + "-- " + why + "\n";
+  return Outcome::done;
+}
+
 Prompt::Outcome Prompt::run(const std::string& text, bool is_expression, bool has_owner) {
   keep_globals();
   lua_pushcfunction(L, traceback_handler);
@@ -226,6 +238,9 @@ void Prompt::remember(const std::string& text, bool is_expression) {
     return of.substr(script.token(0).begin, script.token(end - 1).end - script.token(0).begin);
   };
   const std::string line = words(text);
+  const bool moves = script.word(0) == "lab" && script.is(1, ".") && script.word(2) == "knob" &&
+                     script.is(3, ".") && script.word(4) == "set";
+  if (moves) return;  // the script is run again, and told what moved
   const bool about_itself = script.word(0) == "help" || script.word(0) == "show";
   const bool call =
       script.is(end - 1, ")") || script.is(end - 1, "}") || script.token(end - 1).kind == Token::Kind::text;

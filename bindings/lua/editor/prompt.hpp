@@ -24,6 +24,9 @@ class Prompt {
   // Takes the next line, which is line `number` of whatever it comes from. `more`: what came so far is not
   // whole. `failed`: error() says why, and the state is ready for the next line.
   Outcome take(std::string_view line, int number = 1);
+  // Runs what an earlier prompt, in another state, became, from its start: `script` is its script(). Then a
+  // line of the script says why. `more` never.
+  Outcome run_again(const std::string& script, const std::string& why);
   // A message as a run prints it, with a traceback where functions of the script were running.
   const std::string& error() const { return error_; }
 
