@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole cases of an ensemble in the store of its run: what a case found, under a key made of what its
 // function does (not of how the script is called and where it lies), the case's values and, where the case
-// drew random numbers, its seed, and where it asked for knobs, what was given for them. A run that is resumed,
-// an edited script and other processes find them there. What a case read from files is kept with it, and
-// holds only while the files are the same; what it asked of the clock or the environment stays as it was.
+// drew random numbers, its seed, and where it asked for knobs, what was given for them. A run that is
+// resumed, an edited script and other processes find them there. What a case read from files is kept with it,
+// and holds only while the files are the same; what it asked of the clock or the environment stays as it was.
 // Nothing is kept of cases whose script may do anything (--trust), of studies and of variations.
 #pragma once
 

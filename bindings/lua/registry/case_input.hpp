@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a case of an ensemble depends on beside its arguments: the files it looked at, the knobs it asked for,
-// and whether it drew random numbers. The stored result of a case is used again only where all of these are as
-// they were.
+// and whether it drew random numbers. The stored result of a case is used again only where all of these are
+// as they were.
 #pragma once
 
 #include <cstdint>
