@@ -63,7 +63,7 @@ GROUPS = {
     "examples": ("examples: ", PROGRAM, ("examples",)),
     "lessons": ("lessons: ", PROGRAM, ("scripts/lessons",)),
     "serve": ("(serve|confined run|plain streams): ", ("bindings/lua", "bindings/cli", "bindings/main", "bindings/web", "scripts"), ("tests/web",)),
-    "page": ("page:", ("bindings/web", "scripts/lessons"), ("tests/page",)),
+    "page": ("page:", ("bindings/web", "scripts/lessons", "engine/plot/palette"), ("tests/page",)),
     "package": ("package: ", STUDY, ("tests/package", "examples/library")),
     "worked": ("worked examples: ?", CONTACT + ("docs/contributor.md",), ("tests/contributor",)),
     "checks": ("checks:", PROGRAM, ("tests/checks", "docs", "examples", "bench", "tests")),
@@ -102,9 +102,9 @@ FUZZED = {"core": ("engine/core/files/json",),
 # What several reproductions and claims have in common; any other file of theirs is one test.
 SHARED_BY_REPRODUCTIONS = ("tests/reproductions/beginning.sh", "tests/reproductions/reproduction.py",
                            "tests/reproductions/serving.py",
-                           "tests/known_to_fail/known_to_fail.sh", "tests/known_to_fail/claims_of_page.mjs")
+                           "tests/known_to_fail/known_to_fail.sh")
 USED_BY_REPRODUCTIONS = ("tests/scripts/runner/run_script", "tests/scripts/runner/process", "tests/scripts/runner/saying",
-                         "tests/web/client", "tests/page/browser", "tests/page/mock_server", "tests/page/run")
+                         "tests/web/client")
 # What runs over the ranks of mpirun.
 RANKS = re.compile("slab|mpi|spread|ranks|ensemble|scheduler|packed_value|^engine/core/|^bindings/(cli/|main)")
 # Files of the build: what differs there may change anything.

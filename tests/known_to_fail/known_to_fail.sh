@@ -4,12 +4,11 @@
 # hold. A claim that holds, a file without one, and a file that does not come to its end, are all an exit status of 0,
 # which CTest tells as a failure; 77 is a test that cannot be run here.
 #
-#   tests/known_to_fail/known_to_fail.sh PROGRAM FILE FOLDER BUILD_FOLDER
+#   tests/known_to_fail/known_to_fail.sh PROGRAM FILE FOLDER
 set -eu
 program=$(readlink -f -- "$1")
 file=$(readlink -f -- "$2")
 folder=$3
-build=$4
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
@@ -18,7 +17,6 @@ case $file in
   *.lua) "$program" run "$file" --out run > output 2> errors || status=$? ;;
   *.sh) sh "$file" "$program" "$folder/there" > output 2> errors || status=$? ;;
   *.py) python3 -B "$file" "$program" "$folder/there" > output 2> errors || status=$? ;;
-  *.mjs) sh "$(dirname "$file")/../page/run.sh" "$file" "$build" "$program" > output 2> errors || status=$? ;;
 esac
 cat output errors
 [ $status != 77 ] || exit 77

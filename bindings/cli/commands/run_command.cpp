@@ -283,10 +283,14 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
     if (!verdicts.empty()) std::fprintf(stderr, "%s\n", verdicts.c_str());
     for (const Verdict& verdict : run->expectations().verdicts())
       if (!verdict.passed) std::fprintf(stderr, "  failed: %s\n", verdict.sentence.c_str());
+    // What was saved is worth a word from a second on.
+    const std::string saved =
+        counts.seconds_saved < 1
+            ? ""
+            : ", which had cost " + format_quantity(counts.seconds_saved, dimension::time, 3);
     if (counts.found > 0)
-      std::fprintf(stderr, "%lld %s taken from the store, which had cost %s\n",
-                   static_cast<long long>(counts.found), counts.found == 1 ? "result was" : "results were",
-                   format_quantity(counts.seconds_saved, dimension::time, 3).c_str());
+      std::fprintf(stderr, "%lld %s taken from the store%s\n", static_cast<long long>(counts.found),
+                   counts.found == 1 ? "result was" : "results were", saved.c_str());
     for (const std::string& notice : results.notices()) std::fprintf(stderr, "%s\n", notice.c_str());
     if (const std::string departure = run->journal().departure(); !departure.empty())
       std::fprintf(stderr, "%s\n", departure.c_str());

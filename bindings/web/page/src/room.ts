@@ -116,7 +116,7 @@ export class Room {
       chosen,
     );
     const { drawHistogram } = await import('./chart');
-    const drawn = drawHistogram(groups.get(chosen)!, chosen, 560, 240, inkNow());
+    const drawn = drawHistogram(groups.get(chosen)!, chosen, 560, 200, inkNow());
     this.figure.replaceChildren(drawn.element);
     this.caption.textContent = `${drawn.summary}.`;
   }
