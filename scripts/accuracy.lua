@@ -9,6 +9,15 @@ accuracy.bounds = { 0.1, 0.01, 0.001 }
 
 local function percent(share) return ("%g %%"):format(100 * share) end
 
+-- Writes a part of the page: its lines, then the script and how it was run. Parts stand in the order of `number`; 0 stands
+-- before all else.
+function accuracy.write(number, lines)
+  local script = ("examples/accuracy/%s.lua"):format(arg[0]:match "([^/]+)%.lua$")
+  local file <close> = assert(io.open(("section_%02d.md"):format(number), "w"))
+  file:write(table.concat(lines, "\n"), ("\n\nScript: `%s`.\n\nAgain: `asperity run %s%s`.\n"):format(script, script,
+    #arg > 0 and " -- " .. table.concat(arg, " ") or ""))
+end
+
 -- Shows a study, and writes its part of the page. `number` (where it stands there), `title`, the `question`,
 -- what is taken for the `truth`, the `study` itself, and what is to be learnt from it, `finding`.
 function accuracy.show(given)
@@ -33,11 +42,8 @@ function accuracy.show(given)
       add(("| %s | none of these | | |"):format(percent(bound)))
     end
   end
-  local script = ("examples/accuracy/%s.lua"):format(arg[0]:match "([^/]+)%.lua$")
-  add("", given.finding, "", ("Script: `%s`."):format(script), "", ("Again: `asperity run %s%s`."):format(script,
-    #arg > 0 and " -- " .. table.concat(arg, " ") or ""))
-  local file <close> = assert(io.open(("section_%02d.md"):format(given.number), "w"))
-  file:write(table.concat(lines, "\n"), "\n")
+  add("", given.finding)
+  accuracy.write(given.number, lines)
 end
 
 return accuracy

@@ -41,6 +41,7 @@ for script in examples/accuracy/*.lua; do
   case $name in
     contact_area) finer=finest=2048 ;;
     plastic_volume) finer=finest=512 ;;
+    cells_or_seeds) finer=faces=64 ;;
   esac
   "$program" run --out "$runs/$name" "$script" -- budget=120 $finer >"$runs/$name.output" || {
     cat "$runs/$name.output" >&2
@@ -51,11 +52,15 @@ mkdir -p docs/pictures/accuracy
 rm -f docs/pictures/accuracy/*.svg
 cp "$runs"/*/*.svg docs/pictures/accuracy/
 {
-  cat "$here/page.md"
+  # What stands in front of all, between the title and the text.
+  sed -n 1,4p "$here/page.md"
+  cat "$runs"/cells_or_seeds/section_00.md
+  sed -n '4,$p' "$here/page.md"
   printf '\nMachine: %s, %s processors; %s; %s.\n' \
     "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)" "$(nproc)" \
     "$("$program" version | head -n 1 | tr -s ' ')" "$(date -u +%Y-%m-%d)"
   for section in "$runs"/*/section_*.md; do
+    case $section in */section_00.md) continue ;; esac
     printf '%s %s\n' "$(basename -- "$section")" "$section"
   done | sort | while read -r _ section; do
     printf '\n'
