@@ -180,7 +180,7 @@ export async function assertFits(page, what) {
     if (root.scrollWidth > innerWidth || root.scrollHeight > innerHeight)
       wide.push(`the page: ${root.scrollWidth} x ${root.scrollHeight}`);
     for (const e of document.querySelectorAll(
-      '.bar > *, .pane > *, .panel > *, .toolbar > *, .choices > *, .tabs > *',
+      '.bar > *, .pane > *, .panel > *, .toolbar > *, .choices > *, .tabs > *, .below > *, .knobs > *',
     )) {
       const box = e.getBoundingClientRect();
       if (box.width === 0 || e.closest('[hidden], .unseen')) continue;

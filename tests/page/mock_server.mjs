@@ -75,7 +75,7 @@ function viewOf(name) {
   const n = 128;
   const z = wave(n, 1.2e-6);
   if (name.startsWith('surface')) return { title: 'Surface 1', event: 1, fields: [field('height', 'm', n, z)] };
-  const top = 1.9e-6;
+  const top = 1.9e-6 - 2e-7 * Number(/^state-(\d+)$/.exec(name)?.[1] ?? 0);
   return {
     title: 'Press 1',
     event: 2,
@@ -114,9 +114,25 @@ finer grid,32,measured,0.00032,0.0013,
 "tighter, 64 cells",64,failed,,,"no ""answer"", it says"
 `;
 
+/** "mock.knob NAME FROM TO VALUE UNIT [MOST]"; above MOST the script fails. */
+function knobIn(line, given) {
+  const found = /mock\.knob (\w+) (\S+) (\S+) (\S+) (\w+)(?: (\S+))?/.exec(line);
+  if (!found) return undefined;
+  const [, name, from, to, value, unit, most] = found;
+  return {
+    name,
+    value: Number(given[name] ?? value),
+    from: Number(from),
+    to: Number(to),
+    log: Number(from) > 0,
+    unit,
+    most: Number(most ?? Infinity),
+  };
+}
+
 /** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`,
-    `mock.file NAME`, `mock.waits N`. */
-function* eventsOf(script) {
+    `mock.file NAME`, `mock.waits N`, `mock.views N`, `mock.knob NAME FROM TO VALUE UNIT`. */
+function* eventsOf(script, knobs = {}) {
   const lines = script.split('\n');
   const waits = Number(/mock\.waits (\d+)/.exec(script)?.[1] ?? 0);
   if (waits) {
@@ -139,6 +155,15 @@ function* eventsOf(script) {
       yield { type: 'finished', status: 'failed', exit: 1, seconds: 0.2 };
       return;
     }
+    const knob = knobIn(line, knobs);
+    if (knob) {
+      if (knob.value > knob.most) {
+        yield { type: 'error', line: k + 1, message: `${knob.name} is too much` };
+        yield { type: 'finished', status: 'failed', exit: 1, seconds: 0.2 };
+        return;
+      }
+      yield { type: 'output', stream: 'out', text: `${knob.name} is ${knob.value}\n` };
+    }
     const printed = /print\s*\(?"(.*)"/.exec(line);
     if (printed) yield { type: 'output', stream: 'out', text: printed[1] + '\n' };
     if (/mock\.flood/.test(line))
@@ -147,6 +172,8 @@ function* eventsOf(script) {
     const rows = Number(/mock\.rows (\d+)/.exec(line)?.[1] ?? 0);
     for (let i = 1; i <= rows; ++i)
       yield { type: 'row', notebook: 'big', row: { level: 0.3 + i * 1e-14, i, v: i * i * 1e-6 }, units: { v: 'm' } };
+    const views = Number(/mock\.views (\d+)/.exec(line)?.[1] ?? 0);
+    for (let v = 1; v <= views; ++v) yield { type: 'view', name: `state-${v}`, title: `contact:press at ${v} MPa` };
     const named = /mock\.file (\S+)/.exec(line);
     if (named) yield { type: 'file', name: named[1], bytes: chart.length, kind: 'chart' };
     if (/mock\.limit/.test(line)) {
@@ -212,15 +239,15 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
   const told = []; // what students put up
   const runs = new Map();
   let cut = 0; // how many event streams to break off
-  const start = (script, name) => {
-    const run = { id: String(runs.size + 1), name, events: [], waiters: new Set(), stopped: false };
+  const start = (script, name, knobs) => {
+    const run = { id: String(runs.size + 1), name, script, knobs, events: [], waiters: new Set(), stopped: false };
     const put = (event) => {
       run.events.push({ n: run.events.length + 1, ...event });
       run.waiters.forEach((w) => w());
     };
     runs.set(run.id, run);
     (async () => {
-      for (const event of eventsOf(script)) {
+      for (const event of eventsOf(script, knobs)) {
         if (run.stopped) return put({ type: 'finished', status: 'stopped', exit: 130, seconds: 0.5 });
         if (typeof event === 'number') await new Promise((r) => setTimeout(r, event));
         else put(event);
@@ -330,7 +357,7 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
             error: `${most} runs are going, as many as this server allows`,
             hint: 'wait until one has ended, or stop one',
           });
-        return send(201, { id: start(body.script, body.name).id });
+        return send(201, { id: start(body.script, body.name, body.knobs).id });
       }
       const run = runs.get(id);
       if (!run) return send(404, { error: `there is no run ${id}` });
@@ -355,6 +382,14 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
         }
       }
       if (part === 'views') return send(200, viewOf(rest[0]));
+      if (part === 'files' && rest[0] === 'manifest.json') {
+        const knobs = {};
+        for (const line of run.script.split('\n')) {
+          const knob = knobIn(line, run.knobs ?? {});
+          if (knob) knobs[knob.name] = knob;
+        }
+        return send(200, { status: 'done', knobs });
+      }
       if (part === 'files')
         return rest[0].endsWith('.svg')
           ? send(200, chart, 'image/svg+xml')
@@ -371,6 +406,7 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
   const address = `http://127.0.0.1:${server.address().port}`;
   return {
     address,
+    runs,
     url: `${address}/#${token}`,
     cut: (count) => (cut = count),
     told,

@@ -447,6 +447,124 @@ test('Picture, DrawnTurnedExaggeratedAndHonest', () =>
     assert.match(await on.text(page, '.key'), /height\[µm\]/);
   }));
 
+test('Picture, OfARunOneAfterTheOtherByKeysAlone', () =>
+  visit({}, async (page) => {
+    await on.run(page, '-- mock.views 5\n');
+    await on.finished(page);
+    await tab(page, 'picture');
+    const place = (text) =>
+      on.until(page, (t) => document.querySelector('.scrubber output').textContent === t, `it should be ${text}`, text);
+    const selected = () => page.$eval('.pictures select', (e) => e.selectedOptions[0].textContent);
+    await place('7 of 7');
+    await page.focus('.scrub');
+    await page.keyboard.press('Home');
+    await place('1 of 7');
+    await on.until(page, () => /^1 × 1 mm · heights/.test(document.querySelector('.pictures .caption').textContent), 'the surface should come');
+    assert.match(await selected(), /^Surface 1/);
+    for (let k = 0; k < 2; ++k) await page.keyboard.press('ArrowRight');
+    await place('3 of 7');
+    await on.until(page, () => /gap, drawn/.test(document.querySelector('.pictures .caption').textContent), 'the press should come');
+    assert.equal(await selected(), 'contact:press at 2 MPa');
+    assert.equal(await page.$eval('.scrub', (e) => e.getAttribute('aria-valuetext')), '3 of 7: contact:press at 2 MPa');
+    const third = await on.pixels(page);
+    await page.keyboard.down('Shift');
+    await page.keyboard.press('Tab');
+    await page.keyboard.up('Shift');
+    assert.equal(await on.focused(page), 'Play');
+    await page.keyboard.press('Space');
+    assert.equal(await on.focused(page), 'Pause');
+    await place('5 of 7');
+    await page.keyboard.press('Space');
+    const kept = await on.text(page, '.scrubber output');
+    await on.pause(1000);
+    assert.equal(await on.text(page, '.scrubber output'), kept, 'a pause should hold');
+    assert.ok(on.differing(third, await on.pixels(page)) > 0.01, 'another picture should be seen');
+    await page.keyboard.press('Space');
+    await place('7 of 7');
+    await on.until(page, () => document.querySelector('.scrubber button').textContent === 'Play', 'it should end');
+    await page.keyboard.press('Space');
+    await place('1 of 7');
+    const [which] = await page.$$('.pictures select');
+    await which.select('state-4');
+    await place('5 of 7');
+    await on.assertAccessible(page, 'with pictures to go through');
+    await on.assertFits(page, 'with pictures to go through');
+  }));
+
+test('Picture, AloneHasNothingToGoThrough', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'error "early"\n');
+    await on.finished(page, 'Failed');
+    await tab(page, 'picture');
+    await on.until(page, () => document.querySelector('.pictures .caption').textContent, 'the picture should come');
+    assert.equal(await page.$eval('.scrubber', (e) => e.hidden), true);
+  }));
+
+const knobSays = (page, text) =>
+  on.until(
+    page,
+    (t) => document.querySelector('.knobs output')?.textContent === t,
+    `the knob should say ${text}`,
+    text,
+  );
+const printed = (page, text) =>
+  on.until(page, (t) => document.querySelector('#output').textContent.includes(t), `it should print ${text}`, text);
+
+test('Knob, MovedByKeysRunsTheScriptAgain', () =>
+  visit({}, async (page) => {
+    const runs = () => mock.runs.size;
+    await on.run(page, '-- mock.knob pressure 1e6 1e8 1e7 Pa 5e7\n-- mock.knob cells 1 5 3 one\n');
+    await printed(page, 'pressure is 10000000');
+    await knobSays(page, '10 MPa');
+    await page.focus('.knobs input');
+    const before = runs();
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('ArrowRight');
+    await knobSays(page, '10.23 MPa');
+    await printed(page, 'pressure is 10230000');
+    await printed(page, 'cells is 3');
+    assert.equal(runs(), before + 1, 'two presses of a key are one move');
+    assert.equal(await on.focused(page), 'pressure', 'the slider keeps the focus');
+    // An error at one value, and none at the next.
+    await page.keyboard.press('End');
+    await knobSays(page, '100 MPa');
+    await printed(page, 'pressure is too much');
+    await on.assertAccessible(page, 'with knobs');
+    await on.assertFits(page, 'with knobs');
+    await page.focus('.knobs input');
+    await page.keyboard.press('Home');
+    await knobSays(page, '1 MPa');
+    await printed(page, 'pressure is 1000000');
+    await on.finished(page);
+    // Run itself takes the script's own values, and the slider says so.
+    await page.click('#run');
+    await printed(page, 'pressure is 10000000');
+    await knobSays(page, '10 MPa');
+    // Another script has other knobs, or none.
+    await on.run(page, 'print "plain"\n');
+    await printed(page, 'plain');
+    assert.equal(await page.$eval('.knobs', (e) => e.hidden), true);
+  }));
+
+test('Knob, MovedWhileARunGoesOnStopsThatRun', () =>
+  visit({}, async (page) => {
+    await on.run(page, '-- mock.knob p 0 4 1 one\n-- mock.waits 1\n');
+    await printed(page, 'p is 1');
+    await knobSays(page, '1 one');
+    const before = mock.runs.size;
+    await page.focus('.knobs input');
+    await page.keyboard.press('End');
+    await on.until(page, () => document.querySelector('#status').textContent.startsWith('Waiting'), 'it should run again');
+    await page.keyboard.press('Home');
+    await page.keyboard.press('ArrowRight');
+    await printed(page, 'p is 0.01');
+    await on.finished(page);
+    assert.equal(mock.runs.size, before + 2);
+    const states = [...mock.runs.values()].slice(-2).map((r) => r.events.at(-1).status);
+    assert.deepEqual(states, ['stopped', 'done']);
+    assert.equal(await on.text(page, '.knobs output'), '0.01 one');
+  }));
+
 test('Keyboard, Alone', () =>
   visit({}, async (page) => {
     const seen = [];
@@ -635,9 +753,10 @@ test('Save, OneFileThatOpensAnywhere', async () => {
       await page.type('.prediction textarea', 'it <i>halves</i>');
       await on.run(
         page,
-        '-- </script><script>window.injected=1</script> & "quoted"\nprint "</pre><b>bold</b>"\nfor N = 1, 8 do end\n',
+        '-- </script><script>window.injected=1</script> & "quoted"\n-- mock.knob pressure 1e6 1e8 1e7 Pa\nprint "</pre><b>bold</b>"\nfor N = 1, 8 do end\n',
       );
       await on.finished(page);
+      await knobSays(page, '10 MPa');
       await page.click('#save');
       await on.until(
         page,
@@ -661,6 +780,7 @@ test('Save, OneFileThatOpensAnywhere', async () => {
     assert.match(shown, /<\/pre><b>bold<\/b>/);
     assert.match(shown, /it <i>halves<\/i>/);
     assert.match(shown, /Ra \[µm\]/);
+    assert.match(shown, /pressure: 10 MPa \(1 MPa to 100 MPa\)/);
     assert.match(shown, /held: Ra falls with N/);
     assert.match(shown, /128 × 128 means of 8 × 8 nodes of 1024 × 1024/);
     assert.equal(await saved.evaluate(() => window.injected), undefined);

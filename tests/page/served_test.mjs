@@ -66,6 +66,47 @@ test('Served, UnderOneSecond', () =>
     assert.ok(Math.min(...times) < 1000, times.join());
   }));
 
+const pressed = `local lab = require "asperity"
+local p = lab.knob{ name="pressure", from="1 MPa", to="200 MPa", value="20 MPa", log=true }
+local s = lab.surface.self_affine{ cells=256, size="1 mm", hurst=0.8, rms_height="1 um", short_wave="20 um",
+  material=lab.material "Al-2011" }
+local c = lab.contact{ lower=s, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
+if p > 1.5e8 then error "more than the press can do" end
+print("area", c:press{ pressure=p }.area_fraction)
+`;
+
+test('Knob, MovesThePictureAndEndsInAnErrorAtOneValue', () =>
+  visit({}, async (page) => {
+    await on.run(page, pressed);
+    await on.finished(page);
+    await on.until(page, () => document.querySelector('.knobs output')?.textContent === '20 MPa', 'a slider should come');
+    await page.click('#tab-picture');
+    const titled = (text) =>
+      on.until(
+        page,
+        (t) => document.querySelector('.relief').getAttribute('aria-label')?.startsWith(t),
+        `the picture should be ${text}`,
+        text,
+      );
+    await titled('contact:press at 20 MPa');
+    await page.focus('.knobs input');
+    const times = [];
+    for (let k = 0; k < 5; ++k) {
+      const begun = performance.now();
+      await page.keyboard.press('ArrowRight');
+      await titled(`contact:press at ${await on.text(page, '.knobs output')}`);
+      times.push(performance.now() - begun);
+    }
+    console.log(`the picture of a press on 256 x 256 follows a key after ${times.map((t) => `${Math.round(t)} ms`).join(', ')}`);
+    await page.keyboard.press('End');
+    await on.finished(page, 'Failed');
+    await page.focus('.knobs input');
+    await page.keyboard.press('Home');
+    await on.finished(page);
+    await page.click('#tab-picture');
+    await titled('contact:press at 1 MPa');
+  }));
+
 test('Lesson, OpenedEditedRunLookedAtAndSaved', async () => {
   const downloads = join(folder, 'saved');
   mkdirSync(downloads);

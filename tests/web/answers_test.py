@@ -93,6 +93,25 @@ def test_errors_carry_their_line():
         assert of_type(events, "error")[0]["line"] == 1
 
 
+def test_knobs_are_given_with_a_run():
+    script = 'local lab = require "asperity"\nprint(lab.knob{ name="p", from="1 MPa", to="9 MPa", value="2 MPa" })\n'
+    with Server(runner.program) as server:
+        def begun(knobs):
+            return server.ask("POST", "/api/runs", {"script": script, "knobs": knobs})
+        run = begun({"p": "5e6"}).json()["id"]
+        events = server.events(run)
+        assert finished(events)["status"] == "done", events
+        assert of_type(events, "output")[0]["text"] == "5000000.0\n", events
+        manifest = server.ask("GET", f"/api/runs/{run}/files/manifest.json").json()
+        assert manifest["knobs"] == {"p": {"value": 5e6, "from": 1e6, "to": 9e6, "log": False, "unit": "Pa"}}
+        run = begun({"q": "1"}).json()["id"]
+        end = finished(server.events(run))
+        assert end["status"] == "failed", end
+        for wrong in ([], "p", {"p": 5}, {"p": "fast"}, {"p=q": "1"}, {"": "1"}, {"p": "1" * 200},
+                      {f"p{k}": "1" for k in range(101)}):
+            assert begun(wrong).status == 400, wrong
+
+
 def test_views_are_block_means_and_say_so():
     with Server(runner.program) as server:
         events = server.run(press, views=True)

@@ -48,6 +48,26 @@ std::int64_t whole_member(const Json& body, const std::string& key, std::int64_t
   return static_cast<std::int64_t>(number);
 }
 
+GivenKnobs knobs_member(const Json& body, const std::string& key) {
+  constexpr std::size_t most = 100, longest = 100;
+  const Json* found = body.find(key);
+  if (found == nullptr || found->is_null()) return {};
+  const Json::Members& members = found->members();
+  if (members.size() > most)
+    throw Error(ErrorCode::bad_value,
+                asperity::quoted(key) + " has " + std::to_string(members.size()) + " members",
+                "give at most " + std::to_string(most));
+  GivenKnobs knobs;
+  for (const auto& [name, value] : members) {
+    if (name.find('=') != std::string::npos)
+      throw Error(ErrorCode::bad_value, asperity::quoted(name) + " is no name of a knob");
+    if (value.string().size() > longest)
+      throw Error(ErrorCode::bad_value, "the value of " + asperity::quoted(name) + " is too long");
+    add_given_knob(knobs, name + "=" + value.string());
+  }
+  return knobs;
+}
+
 bool flag_member(const Json& body, const std::string& key) {
   const Json* found = body.find(key);
   return found != nullptr && !found->is_null() && found->boolean();

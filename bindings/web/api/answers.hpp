@@ -6,6 +6,7 @@
 
 #include "bindings/web/http.hpp"
 #include "engine/core/files/json.hpp"
+#include "engine/run/run_knobs.hpp"
 
 namespace asperity::web {
 
@@ -16,6 +17,8 @@ HttpResponse problem_answer(int status, const std::string& message, const std::s
 Json body_of(const HttpRequest& request);
 std::string text_member(const Json& body, const std::string& key, std::size_t longest);
 std::int64_t whole_member(const Json& body, const std::string& key, std::int64_t otherwise);
+// An object of texts, name -> "50 MPa" or "5e7"; none where it is not there. At most a hundred.
+GivenKnobs knobs_member(const Json& body, const std::string& key);
 bool flag_member(const Json& body, const std::string& key);
 
 }  // namespace asperity::web

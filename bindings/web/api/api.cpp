@@ -161,6 +161,7 @@ HttpResponse Api::begin_run(std::size_t person, const HttpRequest& request) {
   if (body.find("name") != nullptr) asked.name = text_member(body, "name", longest_name);
   asked.seed = whole_member(body, "seed", 1);
   asked.views = flag_member(body, "views");
+  asked.knobs = knobs_member(body, "knobs");
   try {
     const auto run = runs_.add(person, std::move(asked));
     return json_answer(Json::object({{"id", run->id}}), 201);

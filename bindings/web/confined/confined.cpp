@@ -103,6 +103,7 @@ int run_or_check(const ConfinedRequest& request) {
   command.out = ".";
   command.threads = request.threads;
   command.seed = static_cast<std::uint64_t>(request.seed);
+  command.knobs = request.knobs;
   command.limit_memory = request.confinement.memory_bytes;
   command.limit_time = request.seconds;
   command.limit_disk = request.confinement.file_bytes;
@@ -131,6 +132,7 @@ Json to_json(const ConfinedRequest& request) {
                        {"seconds", request.seconds},
                        {"threads", request.threads},
                        {"views", request.views},
+                       {"knobs", knobs_json(request.knobs)},
                        {"barriers", Json::strings(request.barriers)},
                        {"places", std::move(places)},
                        {"work_folder", characters_of(c.work)},
@@ -157,6 +159,7 @@ ConfinedRequest confined_request(const Json& json) {
   request.views = request_member(json, "views").boolean();
   for (const Json& barrier : request_member(json, "barriers").list())
     request.barriers.push_back(barrier.string());
+  if (json.find("knobs") != nullptr) request.knobs = knobs_in(json, "knobs");
   // Of a command alone.
   if (const Json* places = json.find("places"))
     for (const Json& place : places->list())

@@ -11,6 +11,7 @@
 
 #include "bindings/web/sandbox/confinement.hpp"
 #include "engine/core/files/json.hpp"
+#include "engine/run/run_knobs.hpp"
 
 namespace asperity::web {
 
@@ -28,6 +29,7 @@ struct ConfinedRequest {
   double seconds = 60;  // the script's own limit of time
   int threads = 1;
   bool views = false;
+  GivenKnobs knobs{};
   std::vector<std::string> barriers{};  // what must stand before a script is begun, as confine() names it
   Json command{};                       // of `asperity run --confined` (confined_command.hpp); else null
   int lock = -1;  // open file of the lock of its run directory, which the child inherits; -1: none

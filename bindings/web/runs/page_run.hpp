@@ -16,6 +16,7 @@
 
 #include "bindings/web/confined/confined.hpp"
 #include "bindings/web/runs/event_log.hpp"
+#include "engine/run/run_knobs.hpp"
 
 namespace asperity::web {
 
@@ -37,6 +38,7 @@ struct RunRequest {
   std::string script, name;
   std::int64_t seed = 1;
   bool views = false;
+  GivenKnobs knobs{};
 };
 
 class PageRun {

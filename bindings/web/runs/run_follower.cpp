@@ -43,6 +43,7 @@ ConfinedRequest request_of(const PageRun& run, const RunLimits& limits,
   request.seconds = limits.seconds;
   request.threads = limits.threads;
   request.views = run.request.views;
+  request.knobs = run.request.knobs;
   request.barriers = barriers;
   return request;
 }

@@ -141,8 +141,8 @@ export class Api {
     signal?: AbortSignal,
   ): Promise<{ from: number; candidates: Candidate[] }> =>
     this.json('POST', '/api/complete', { text, position }, signal);
-  start = (script: string, name: string): Promise<{ id: string }> =>
-    this.json('POST', '/api/runs', { script, name, views: true });
+  start = (script: string, name: string, knobs: Record<string, string> = {}): Promise<{ id: string }> =>
+    this.json('POST', '/api/runs', { script, name, views: true, knobs });
   room = (): Promise<RoomRun[]> => this.json('GET', '/api/room');
   people = (): Promise<RoomPerson[]> => this.json('GET', '/api/people');
   predict = (lesson: string, numbers: Record<string, number>): Promise<unknown> =>

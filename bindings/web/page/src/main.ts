@@ -8,6 +8,7 @@ import { byId, h, prose, saveAs } from './dom';
 import { Editor } from './editor';
 import { FilesPane } from './files_pane';
 import { chartsOf } from './first_chart';
+import { KnobsPane } from './knobs';
 import { divider, Filling, goRound, Tabs } from './layout';
 import { LessonsPane, type Opened } from './lessons_pane';
 import { Messages } from './messages';
@@ -85,6 +86,8 @@ const table = new TablePane(byId('table'));
 const charts = new ChartPane(byId('chart'), failed);
 const pictures = new PicturePane(byId('picture'), api, failed);
 const files = new FilesPane(byId('files'), api, failed);
+const knobs = new KnobsPane(api, { again, stop, failed });
+byId('tabs').after(knobs.element);
 const tabs = new Tabs(byId('tabs'), () => {
   draw();
   showResults();
@@ -165,6 +168,7 @@ function draw(): void {
   requestAnimationFrame(() => {
     asked = false;
     const shown = tabs.selected;
+    knobs.show(run);
     if (shown === 'output') output.show(run);
     if (shown === 'table') table.show(run);
     if (shown === 'chart') charts.show(run);
@@ -236,6 +240,16 @@ async function start(): Promise<void> {
     failed(error);
   }
   showStatus();
+}
+
+/** Runs the script of a run with other values of its knobs; false where a run goes on. */
+async function again(of: Run, values: Record<string, string>): Promise<boolean> {
+  if (run?.active) return false;
+  const { key } = JSON.parse(sessionStorage.getItem('asperity.run') ?? '{}') as { key?: string };
+  const { id } = await api.start(of.script, of.name, values);
+  messages.clear();
+  follow(new Run(id, of.name, of.script), key ?? 'own');
+  return true;
 }
 
 function follow(next: Run, key: string): void {

@@ -26,6 +26,7 @@ import {
 } from './pictures';
 import type { Run } from './run';
 import type { ReliefScene } from './scene';
+import { Scrubber } from './scrub';
 
 const fetched = 24; // views kept in memory
 
@@ -43,9 +44,10 @@ export class PicturePane {
   private flat = false;
   private pending = false;
   private readonly which = new Choice('Picture', (name) => {
-    this.followed = name === this.run?.views[this.run.views.length - 1]?.name;
-    void this.look(name);
+    this.scrubber.pause();
+    void this.choose(name);
   });
+  private readonly scrubber = new Scrubber((place) => this.choose(this.run?.views[place]?.name ?? this.shown));
   private readonly colourChoice = new Choice('Colour', (name) => this.pick(name, this.relief?.name ?? 'flat'));
   private readonly reliefChoice = new Choice('Relief', (name) => this.pick(this.colour?.name ?? '', name));
   private readonly slider = h('input', {
@@ -90,7 +92,7 @@ export class PicturePane {
       h('div', { className: 'picture' }, this.stage, this.key),
       this.caption,
       this.leftOut,
-      h('div', { className: 'below' }, h('p', {}, 'Drag it, or use the arrow keys.'), reset, above),
+      h('div', { className: 'below' }, this.scrubber.element, h('p', {}, 'Drag it, or use the arrow keys.'), reset, above),
     );
     element.append(this.empty, this.body);
     this.listen();
@@ -101,6 +103,7 @@ export class PicturePane {
   show(run: Run | undefined): void {
     if (run !== this.run) {
       this.run = run;
+      this.scrubber.pause();
       this.maps.clear();
       this.shown = '';
       this.followed = true;
@@ -120,6 +123,10 @@ export class PicturePane {
     this.which.choose(
       views.map((v) => ({ value: v.name, text: v.title })),
       name,
+    );
+    this.scrubber.show(
+      views.map((v) => v.title),
+      views.findIndex((v) => v.name === name),
     );
     if (name !== this.shown && this.visible) void this.look(name);
   }
@@ -142,6 +149,13 @@ export class PicturePane {
     this.maps.set(name, coming);
     if (this.maps.size > fetched) this.maps.delete(this.maps.keys().next().value!);
     return coming;
+  }
+
+  /** Shows a picture that was asked for; from the last one on, those that are made are followed. */
+  private async choose(name: string): Promise<void> {
+    this.followed = name === this.run?.views[this.run.views.length - 1]?.name;
+    await this.look(name);
+    this.show(this.run);
   }
 
   private async look(name: string): Promise<void> {

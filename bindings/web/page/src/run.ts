@@ -4,6 +4,7 @@
 
 import type { Cell, RunEvent } from './api';
 import { chartedIn, keysIn, type Charted } from './charted';
+import type { Knob } from './knobs';
 
 export type Status = 'starting' | 'running' | 'done' | 'failed' | 'stopped' | 'limit' | 'lost';
 
@@ -42,6 +43,7 @@ export class Run {
   readonly views: { name: string; title: string }[] = [];
   viewsLeftOut = 0; // surfaces and presses that have no view, so that the run was not held up
   readonly expectations: { text: string; held: boolean }[] = [];
+  knobs: Knob[] = []; // with the values it was made with, once that is known
   readonly errors: RunError[] = [];
   readonly keys: string[]; // of its script's tables, columns among them, as first written
   readonly charted: Charted[]; // what its script charts, as far as the script's text tells

@@ -8,6 +8,7 @@ import type { ChartPane } from './chart_pane';
 import { h, prose } from './dom';
 import { pictureClass, pictureType } from './files_pane';
 import { lightInk } from './ink';
+import { knobText } from './knobs';
 import type { PicturePane } from './picture_pane';
 import { statusText, type Run } from './run';
 import { csvOf, tableOf } from './table_pane';
@@ -65,6 +66,15 @@ export async function savedRun(run: Run, from: Sources): Promise<{ html: string;
     ),
   );
   if (from.prediction) body.append(h('h2', {}, 'Prediction'), h('p', {}, from.prediction));
+  if (run.knobs.length > 0)
+    body.append(
+      h('h2', {}, 'Knobs'),
+      h(
+        'ul',
+        {},
+        ...run.knobs.map((k) => h('li', {}, `${k.name}: ${knobText(k)} (${knobText(k, k.from)} to ${knobText(k, k.to)})`)),
+      ),
+    );
   for (const e of run.errors) {
     body.append(
       h(
