@@ -10,8 +10,7 @@
 namespace asperity::bracketed_secant_test {
 namespace {
 
-int evaluations(const std::function<double(double)>& f, double wanted, double begin) {
-  BracketedSecant root(wanted);
+int evaluations(const std::function<double(double)>& f, double wanted, double begin, BracketedSecant root) {
   double at = begin;
   for (int n = 1; n < 200; ++n) {
     const double value = f(at);
@@ -23,6 +22,9 @@ int evaluations(const std::function<double(double)>& f, double wanted, double be
   }
   return 200;
 }
+int evaluations(const std::function<double(double)>& f, double wanted, double begin) {
+  return evaluations(f, wanted, begin, BracketedSecant(wanted));
+}
 
 TEST(BracketedSecant, FindsRootsOfMonotoneFunctions) {
   EXPECT_LE(evaluations([](double x) { return x; }, 3, 1), 3);
@@ -33,6 +35,27 @@ TEST(BracketedSecant, FindsRootsOfMonotoneFunctions) {
             60);
   // No double is near enough: halved in every second step down to the last of 52 digits.
   EXPECT_LE(evaluations([](double x) { return x < 2 ? 1e-9 * x : 2e-9 + 1e9 * (x - 2); }, 1, 1), 110);
+}
+
+TEST(BracketedSecant, TakesPowersAndFullContactByTheirLogarithms) {
+  using Scale = BracketedSecant::Scale;
+  const auto by_logarithms = [](const std::function<double(double)>& f, double wanted, double begin,
+                                BracketedSecant::Point end) {
+    return evaluations(f, wanted, begin, BracketedSecant(wanted, {0, 0}, end, Scale::logarithmic));
+  };
+  const BracketedSecant::Point nothing_known{BracketedSecant::unknown, BracketedSecant::unknown};
+  // An approach under light loads.
+  const auto power = [](double x) { return std::pow(x, .2); };
+  EXPECT_LE(by_logarithms(power, 1, 1e-3, nothing_known), 6);
+  EXPECT_GT(evaluations(power, 1, 1e-3), 8);
+  EXPECT_LE(by_logarithms([](double x) { return std::log1p(1e6 * x); }, 10, 1e-5, nothing_known), 10);
+  // An approach near full contact, in which it ends with no slope: a secant creeps towards such a root.
+  const auto near_full = [](double x) { return x < 1 ? 1 - std::pow(1 - x, 2.5) : 1; };
+  EXPECT_LE(by_logarithms(near_full, 1 - 1e-6, .4, {1, 1}), 6);
+  EXPECT_GT(evaluations(near_full, 1 - 1e-6, .4, BracketedSecant(1 - 1e-6, {0, 0}, {1, 1})), 12);
+  // Full contact, of which any more says the same.
+  const auto saturated = [](double x) { return x < 1e-3 ? x : BracketedSecant::unknown; };
+  EXPECT_LE(by_logarithms(saturated, 9e-4, 1, nothing_known), 60);
 }
 
 TEST(BracketedSecant, ADoubtfulValueLeavesTheBracket) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
+
 namespace asperity {
 
 namespace {
@@ -12,6 +14,8 @@ constexpr double enough_gain = 0.3;    // of what the last step left of the erro
 constexpr int few_short = 2;           // steps that all fall short, before they grow
 constexpr double furthest = 100;       // times the last place, where nothing lies above
 constexpr double off_the_ends = 0.01;  // of the bracket, that a chord through its ends keeps away from them
+constexpr double near_the_end = 0.3;   // of the end there was at first
+constexpr double usual_power = 1.5, least_power = 1e-3;
 }  // namespace
 
 void BracketedSecant::take(Point found, bool sure) {
@@ -28,10 +32,55 @@ void BracketedSecant::take(Point found, bool sure) {
     high_ = found.at < high_.at ? found : high_;
 }
 
+double BracketedSecant::secant() const {
+  const bool first = taken_ < 2 || last_.value == before_.value;
+  const auto ratio = [](double x, double y) { return elementary::log(x / y); };
+  if (scale_ == Scale::logarithmic && end_.value < unknown && last_.at > near_the_end * end_.at &&
+      last_.at < end_.at && last_.value < end_.value) {
+    // By what is lacking of the end, from which a function may go off as any power.
+    const double lacks = end_.at - last_.at, power = [&] {
+      if (first || !(before_.at < end_.at && before_.value < end_.value)) return usual_power;
+      return ratio(end_.value - last_.value, end_.value - before_.value) / ratio(lacks, end_.at - before_.at);
+    }();
+    const double factor =
+        elementary::exp(ratio(end_.value - wanted_, end_.value - last_.value) / std::max(power, least_power));
+    return end_.at - lacks * factor;
+  }
+  if (first && !(last_.value > 0)) return 4 * last_.at;
+  if (first && scale_ == Scale::linear) return last_.at * (wanted_ / last_.value);
+  if (first)
+    return last_.at * std::clamp(elementary::pow(wanted_ / last_.value, usual_power), 1 / furthest, furthest);
+  if (scale_ == Scale::logarithmic && last_.value > 0 && before_.value > 0 && before_.at > 0) {
+    const double power = ratio(last_.value, before_.value) / ratio(last_.at, before_.at);
+    const double factor = elementary::exp(ratio(wanted_, last_.value) / std::max(power, least_power));
+    return last_.at * std::clamp(factor, 1 / furthest, furthest);
+  }
+  return last_.at + (wanted_ - last_.value) * (last_.at - before_.at) / (last_.value - before_.value);
+}
+
+double BracketedSecant::width() const {
+  return scale_ == Scale::logarithmic && low_.at > 0 ? elementary::log(high_.at / low_.at)
+                                                     : high_.at - low_.at;
+}
+
+double BracketedSecant::part_of_the_way(double share) const {
+  if (scale_ == Scale::logarithmic && low_.at > 0)
+    return low_.at * elementary::exp(share * elementary::log(high_.at / low_.at));
+  return low_.at + share * (high_.at - low_.at);
+}
+
+double BracketedSecant::chord() const {
+  double share = 0.5;
+  if (high_.value < unknown) {
+    const bool by_factors = scale_ == Scale::logarithmic && low_.at > 0 && low_.value > 0;
+    share = by_factors ? elementary::log(wanted_ / low_.value) / elementary::log(high_.value / low_.value)
+                       : (wanted_ - low_.value) / (high_.value - low_.value);
+  }
+  return part_of_the_way(std::clamp(share, off_the_ends, 1 - off_the_ends));
+}
+
 std::optional<double> BracketedSecant::next() {
-  double place = last_.value > 0 ? last_.at * (wanted_ / last_.value) : 4 * last_.at;
-  if (taken_ > 1 && last_.value != before_.value)
-    place = last_.at + (wanted_ - last_.value) * (last_.at - before_.at) / (last_.value - before_.value);
+  double place = secant();
   const auto inside = [&](double x) { return x > low_.at && x < high_.at; };
   if (!std::isfinite(high_.at)) {
     // A step for each that fell short is one more of those that grow.
@@ -41,16 +90,15 @@ std::optional<double> BracketedSecant::next() {
     place = std::min(place, furthest * last_.at);
     return inside(place) ? std::optional(place) : std::nullopt;
   }
-  const double width = high_.at - low_.at;
+  const double width = this->width();
   const bool gains = std::abs(last_.value - wanted_) < enough_gain * std::abs(before_.value - wanted_);
   slow_ = width > 0.5 * width_ && !gains ? slow_ + 1 : 0;
   width_ = width;
-  if (slow_ > slow_steps || !inside(place)) {
-    // Through the ends of the bracket, or its middle.
-    const double share = high_.value < unknown ? (wanted_ - low_.value) / (high_.value - low_.value) : 0.5;
-    place = low_.at + width * (slow_ > slow_steps ? 0.5 : std::clamp(share, off_the_ends, 1 - off_the_ends));
-    if (slow_ > slow_steps) slow_ = 0;
-  }
+  if (slow_ > slow_steps)
+    place = part_of_the_way(0.5);
+  else if (!inside(place))
+    place = chord();
+  if (slow_ > slow_steps) slow_ = 0;
   return inside(place) ? std::optional(place) : std::nullopt;
 }
 

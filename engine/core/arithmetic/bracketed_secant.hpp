@@ -2,7 +2,8 @@
 // Where a function that never falls takes a given value, from values that are each dear: the secant through
 // the last two, kept within the bracket of those below and above, which is halved where the secant gains
 // little; while nothing is known to lie above, steps that keep falling short grow. A value too rough to say
-// on which side it lies leaves the bracket as it is.
+// on which side it lies leaves the bracket as it is. A function that goes as a power of the place is sought
+// by its logarithm over that of the place, near a high end that is known by what it lacks of that.
 #pragma once
 
 #include <limits>
@@ -17,17 +18,28 @@ class BracketedSecant {
   };
   static constexpr double unknown = std::numeric_limits<double>::infinity();
 
+  enum class Scale { linear, logarithmic };
+
   // 0 < wanted. `low`: nothing at nothing, unless more is known; `high` may be infinite.
-  explicit BracketedSecant(double wanted, Point low = {0, 0}, Point high = {unknown, unknown})
-      : wanted_(wanted), low_(low), high_(high) {}
+  explicit BracketedSecant(double wanted, Point low = {0, 0}, Point high = {unknown, unknown},
+                           Scale scale = Scale::linear)
+      : wanted_(wanted), scale_(scale), low_(low), high_(high), end_(high) {}
 
   void take(Point found, bool sure);
   // The next place to try; none where no double is left between the two sides.
   std::optional<double> next();
 
  private:
+  double secant() const;
+  double width() const;
+  // Between the sides: so much of the way, or through their values.
+  double part_of_the_way(double share) const;
+  double chord() const;
+
   double wanted_;
+  Scale scale_;
   Point low_, high_;
+  Point end_;  // where it was high at first
   Point last_{}, before_{};
   int taken_ = 0, slow_ = 0, short_of_it_ = 0;
   double width_ = unknown;

@@ -108,6 +108,7 @@ bool spectral_gradient(ContactLevel& level, DescentFields& fields, double tolera
 enum class ChainEffort {
   start,  // of a finer grid: pressures may end outside their bounds, with gaps as the steps left them
   brief,  // an answer, or none without the last resort
+  quick,  // at an offset: the same, its gap computed afresh
   full    // an answer, down to thousands of projected gradients
 };
 

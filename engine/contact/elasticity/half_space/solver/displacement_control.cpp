@@ -11,6 +11,8 @@
 #include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
 #include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/core/arithmetic/bracketed_secant.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
@@ -125,8 +127,9 @@ HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, con
 struct SoughtByLoad {
   // Never falls as the load grows.
   std::function<double(const HalfSpaceAnswer&)> measure;
-  double wanted = 0;  // > 0, of the measure
-  double length = 0;  // m: an error of so much in a gap is about all that is wanted
+  double wanted = 0;       // > 0, of the measure
+  double most = infinity;  // of the measure, however much the load
+  double length = 0;       // m: an error of so much in a gap is about all that is wanted
   // A load, Pa, under which more is known to be measured, and how much.
   BracketedSecant::Point above = {BracketedSecant::unknown, BracketedSecant::unknown};
 };
@@ -172,13 +175,12 @@ HalfSpaceAnswer solve_by_load(const HalfSpaceProblem& problem, const SoughtByLoa
   HalfSpaceProblem now = problem;
   now.best_effort = true;
   now.tolerance = std::max(problem.tolerance, loosest);
-  const BracketedSecant bracket(sought.wanted, {0, 0}, end);
+  const BracketedSecant bracket(sought.wanted, {0, 0}, end, BracketedSecant::Scale::logarithmic);
   BracketedSecant root = bracket;
   HalfSpaceAnswer answer = std::move(begun);
   int applications = answer.iterations, doubts = 0;
-  double pressure = answer.certificate.worst() < good_start && answer.mean_pressure > 0
-                        ? answer.mean_pressure
-                        : small_load(problem, sought.length);
+  // A descent that stalled at the approach has told about how much load that takes.
+  double pressure = std::max(answer.mean_pressure, small_load(problem, sought.length));
   if (!(pressure < end.at)) pressure = 0.5 * end.at;
   double error = infinity;
   for (int solve = 0; solve < most_solves && pressure > 0 && std::isfinite(pressure); ++solve) {
@@ -201,7 +203,10 @@ HalfSpaceAnswer solve_by_load(const HalfSpaceProblem& problem, const SoughtByLoa
     if (applications > most_applications || (near_enough && tightest)) break;
     const double residual = std::max(answer.certificate.worst(), tightest ? 0.0 : now.tolerance);
     const bool sure = error > gap_per_residual * unit * residual || (tightest && answer.converged);
-    root.take({pressure, found}, sure);
+    // Of full contact any more load says the same.
+    const bool nothing_more =
+        found > sought.wanted && sought.most - found < 0.1 * (sought.most - sought.wanted);
+    root.take({pressure, nothing_more ? infinity : found}, sure || nothing_more);
     now.tolerance = std::clamp(next_error * error / unit, problem.tolerance, now.tolerance);
     if (near_enough) continue;  // the same again, by a tighter solve
     const std::optional<double> next = root.next();
@@ -257,12 +262,24 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
       apart <= 0.5 * problem.tolerance)
     if (const auto pressure = pressure_of_full_contact(problem))
       return solve_at_full_contact(problem, *pressure, std::abs(full / approach - 1), monitor);
-  HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, nullptr, true, monitor);
+  // Elastic ground on long cells, where a descent that stalls goes downhill for long.
+  const bool quick = !problem.yield.limits() && keeps_line_loads(problem.grid.hy() / problem.grid.hx());
+  HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, nullptr,
+                                           quick ? ChainEffort::quick : ChainEffort::full, monitor);
   if (!answer.converged) {
     SoughtByLoad sought;
     sought.measure = [](const HalfSpaceAnswer& found) { return found.approach; };
     sought.wanted = sought.length = approach;
+    if (approach < full && uniform_compliance(problem) == 0)
+      if (const auto pressure = pressure_of_full_contact(problem)) sought.above = {*pressure, full};
     answer = solve_by_load(problem, sought, std::move(answer), monitor);
+    if (!answer.converged && quick) {
+      const int before = answer.iterations;
+      HalfSpaceAnswer downhill =
+          solve_at_offset(problem, approach, infinity, nullptr, ChainEffort::full, monitor);
+      downhill.iterations += before;
+      if (downhill.converged) answer = std::move(downhill);
+    }
   }
   return met(problem, std::move(answer), "an approach of " + metres(approach));
 }
@@ -375,6 +392,12 @@ bool load_tells_more(const HalfSpaceProblem& problem, const HalfSpaceAnswer& ans
          2 * answer.contacts > static_cast<std::int64_t>(problem.grid.nodes());
 }
 
+// All of the height is pressed away from full contact on: just before it, where full contact is within the
+// accuracy of what is asked for.
+double wanted_share(double fraction, double accuracy) {
+  return fraction >= 1 - 0.9 * accuracy ? 1 - 0.4 * accuracy : fraction;
+}
+
 // The answer that flattens by a share, to `accuracy` of it, the search begun at an approach: what is pressed
 // away never falls as the approach grows, and nothing but the displacement of the lowest point keeps the two
 // apart. Where the load should be sought instead, an answer that did not converge.
@@ -385,8 +408,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   const auto heights = problem.heights->values();
   const Range ends = known_range(heights);
   const double span = ends.span();
-  // All of the height is pressed away from full contact on: just before it.
-  const double wanted = std::min(fraction, 1 - 0.4 * accuracy) * span;
+  const double wanted = wanted_share(fraction, accuracy) * span;
   double approach = guess.value_or(wanted), most = infinity;
   BracketedSecant bracket(wanted);
   if (problem.boundary == Boundary::periodic) {
@@ -404,7 +426,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   HalfSpaceAnswer answer, before;
   double pressed = 0;
   double gain = 1;  // of what is pressed away, or of an error in it, per approach; at least 1
-  bool afresh = false;
+  bool afresh = false, stalled = false;
   int applications = 0;
   for (int solve = 0; solve < most_solves; ++solve) {
     HalfSpaceAnswer start;
@@ -413,11 +435,12 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
       start = further_along(answer, std::move(before), steps);
     }
     before = std::move(answer);
+    const ChainEffort effort = afresh ? ChainEffort::full : ChainEffort::brief;
     const bool warm = !start.pressure.empty();
-    answer = solve_at_offset(now, approach, 0.5 * wanted, warm ? &start : nullptr, afresh, monitor);
+    answer = solve_at_offset(now, approach, 0.5 * wanted, warm ? &start : nullptr, effort, monitor);
     applications += answer.iterations;
     if (warm && !answer.converged && now.tolerance > accuracy) {  // it may have been too far off after all
-      answer = solve_at_offset(now, approach, 0.5 * wanted, nullptr, afresh, monitor);
+      answer = solve_at_offset(now, approach, 0.5 * wanted, nullptr, effort, monitor);
       applications += answer.iterations;
     }
     const double pressed_before = std::exchange(pressed, flattened(problem, answer) * span);
@@ -428,7 +451,8 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     const double tightest = std::max(least_tolerance, accuracy / gain);
     const bool loose = now.tolerance > tightest;
     // Tighter than asked for, rounding may be in the way.
-    if (!answer.converged && (now.tolerance > accuracy || answer.certificate.worst() > accuracy)) break;
+    stalled = !answer.converged && (now.tolerance > accuracy || answer.certificate.worst() > accuracy);
+    if (stalled) break;
     const bool near_enough = error <= 0.5 * accuracy;
     const bool too_far = near_enough && most_at_the_cap(problem, answer);
     if (too_far && now.tolerance > least_tolerance) {  // perhaps by what the tolerance left
@@ -441,7 +465,9 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
       continue;
     }
     const bool sure = error > now.tolerance * gain;
-    root.take({approach, too_far ? infinity : pressed}, sure || too_far);
+    // Where all is pressed away any more approach says the same.
+    const bool nothing_more = too_far || (pressed > wanted && span - pressed < 0.1 * (span - wanted));
+    root.take({approach, nothing_more ? infinity : pressed}, sure || nothing_more);
     now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? 0.05 * error : 0.02 * error) / gain));
     if (near_enough && !too_far) continue;  // the same again, by a tighter solve
     const std::optional<double> next = root.next();
@@ -452,7 +478,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     }
     approach = next.value_or(approach);
   }
-  if (load_tells_more(problem, answer)) {
+  if (stalled || load_tells_more(problem, answer)) {
     answer.converged = false;
     answer.iterations = applications;
     return answer;
@@ -460,7 +486,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   if (!afresh) {
     answer.gap = {};
     HalfSpaceAnswer start = std::move(answer);
-    answer = solve_at_offset(now, approach, 0.5 * wanted, &start, true, monitor);
+    answer = solve_at_offset(now, approach, 0.5 * wanted, &start, ChainEffort::full, monitor);
     applications += answer.iterations;
   }
   answer.iterations = applications;
@@ -475,8 +501,8 @@ HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction
                                 Monitor& monitor) {
   SoughtByLoad sought;
   sought.measure = [&](const HalfSpaceAnswer& found) { return flattened(problem, found); };
-  // All of the height is pressed away from full contact on: just before it.
-  sought.wanted = std::min(fraction, 1 - 0.4 * problem.tolerance);
+  sought.wanted = wanted_share(fraction, problem.tolerance);
+  sought.most = 1;
   sought.length = fraction * known_range(problem.heights->values()).span();
   if (const auto full = pressure_of_full_contact(problem)) sought.above = {*full, 1};
   return solve_by_load(problem, sought, std::move(begun), monitor);
@@ -518,7 +544,7 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
     answer.offset += uniform * answer.mean_pressure;
     return answer;
   }
-  if (fraction >= 1 - 0.4 * problem.tolerance)
+  if (fraction >= 1 - 0.9 * problem.tolerance)
     if (const auto pressure = pressure_of_full_contact(problem))
       return solve_at_full_contact(problem, *pressure, 1 - fraction, monitor);
   const FlatteningGuess guess = guess_on_coarser_grid(problem, fraction);

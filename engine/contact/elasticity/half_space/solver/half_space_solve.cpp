@@ -392,7 +392,7 @@ Start start_in_cells(const CellUnits& units, const HalfSpaceAnswer& from) {
 }  // namespace
 
 HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
-                                HalfSpaceAnswer* start, bool afresh, Monitor& monitor) {
+                                HalfSpaceAnswer* start, ChainEffort effort, Monitor& monitor) {
   check_fields(problem);
   const Grid& grid = problem.grid;
   const Range ends = known_range(problem.heights->values());
@@ -423,7 +423,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   cell.tolerance = 0.49 * problem.tolerance;
   const double longest = std::max(static_cast<double>(grid.nx), grid.ny * cell.shape.aspect);
   cell.mean_pressure = std::min(*cell.offset / longest, greatest_pressure(cell.limit));
-  cell.afresh = afresh;
+  cell.at_offset = effort;
   std::span<double> pressures, gaps;
   if (start && start->pressure.size() == grid.nodes()) {
     pressures = start->pressure.values();
@@ -458,12 +458,12 @@ HalfSpaceAnswer solve_about_offset(const HalfSpaceProblem& problem, double& appr
   constexpr double less = 0.3;
   constexpr int tries = 5;
   const int before = start.iterations;
-  HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, &start, true, monitor);
+  HalfSpaceAnswer answer = solve_at_offset(problem, approach, infinity, &start, ChainEffort::full, monitor);
   answer.iterations += before;
   for (int n = 0; n < tries && !answer.converged; ++n) {
     if (n > 0) approach *= less;
     const int so_far = answer.iterations;
-    answer = solve_at_offset(problem, approach, infinity, nullptr, true, monitor);
+    answer = solve_at_offset(problem, approach, infinity, nullptr, ChainEffort::full, monitor);
     answer.iterations += so_far;
   }
   return answer;

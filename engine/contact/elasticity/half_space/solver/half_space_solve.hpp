@@ -22,6 +22,8 @@
 
 namespace asperity {
 
+enum class ChainEffort;  // descent.hpp
+
 struct HalfSpaceProblem {
   Grid grid;
   Boundary boundary = Boundary::periodic;
@@ -92,13 +94,12 @@ Field displacement_under(const HalfSpaceProblem& problem, const Field& pressure)
 // The same contact at a given approach > 0, whatever load that takes: the answer's mean pressure is what was
 // found. `length`: the least that gaps must be told apart by, in m; the rms and the approach count besides.
 // `start`, if not null and on the same grid: pressures to begin from, outside their bounds if need be, and
-// their gaps at its approach; what it holds is spent. `afresh`: gaps and certificate come from an application
-// of their own to the pressures handed out, not from the steps that led to them. Does not throw for lack of
-// convergence; of a periodic half-space in full contact without yield, or of a
-// tile whose nodes are all at the cap, there is no such answer, and `converged` is false or all nodes are at
-// the cap.
+// their gaps at its approach; what it holds is spent. `effort`: brief, quick or full (descent.hpp); brief
+// takes gaps and certificate from the steps that led to the pressures. Does not throw for lack of
+// convergence; of a periodic half-space in full contact without yield, or of a tile whose nodes are all at
+// the cap, there is no such answer, and `converged` is false or all nodes are at the cap.
 HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach, double length,
-                                HalfSpaceAnswer* start, bool afresh, Monitor& monitor);
+                                HalfSpaceAnswer* start, ChainEffort effort, Monitor& monitor);
 
 // What a certificate is made of, of all nodes: Σ p, least and greatest p, Σ p (g − min g) or what a cap makes
 // of it, and the least gap where p is below the cap (infinite: nowhere).

@@ -250,9 +250,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
         for_nodes(nodes, [upper, lowest, h = raw.data(), p = p.data()](std::size_t k) {
           p[k] = h[k] < lowest ? 0.0 : std::clamp(p[k], 0.0, upper);
         });
-      const ChainEffort effort = !finest          ? ChainEffort::start
-                                 : problem.afresh ? ChainEffort::full
-                                                  : ChainEffort::brief;
+      const ChainEffort effort = finest ? problem.at_offset : ChainEffort::start;
       end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, gap_known);
       if (!end.converged) level.gap(p, fields.gap);
       at.offset = at.interior_gap = *problem.offset;

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/monitor.hpp"
 
@@ -41,8 +41,8 @@ struct CellProblem {
   double mean_pressure = 0;
   // Given in place of the load, of which `mean_pressure` is then a guess, within twenty powers of ten.
   std::optional<double> offset;
-  bool afresh = true;  // at a given offset: the gap that is handed out comes from an application of its own
-  double length = 1;   // what gaps are measured by
+  ChainEffort at_offset = ChainEffort::full;  // where that is given
+  double length = 1;                          // what gaps are measured by
   double tolerance = 1e-6;
 };
 

@@ -440,8 +440,8 @@ DescentEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double o
   end.stage = "preconditioned descent at a given approach";
   end.converged = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
   if (end.converged || effort == ChainEffort::start) return end;
-  // One of the solves of a search: on long cells the load is found sooner.
-  if (effort == ChainEffort::brief && keeps_line_loads(level.shape.aspect)) return end;
+  // On long cells the load is found sooner.
+  if (effort != ChainEffort::full && keeps_line_loads(level.shape.aspect)) return end;
   end.stage = "preconditioned descent at a given approach, downhill";
   end.converged = offset_descent(level, fields, offset, tolerance, careful, effort, true, false);
   return end;
