@@ -874,6 +874,10 @@ function Profile:filled(options) end
 ---@return asperity.ProfileParameters
 function Profile:profile_parameters(options) end
 
+---The material ratio curve (Abbott-Firestone) of the measured heights, exact and not binned: Rmr(c) is its ratio(c), Rmc(p) its height(p).
+---@return asperity.MaterialRatioCurve
+function Profile:bearing() end
+
 ---The areal parameters of a map (ISO 25178-2), of the points that were measured. One that the map does not define is nil: why_not says why.
 ---@class asperity.ArealParameters
 ---@field Sa number|nil mean magnitude of the heights about their mean (m)

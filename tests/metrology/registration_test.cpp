@@ -454,6 +454,14 @@ TEST(Registration, RefusesMapsOfLittleInCommon) {
       "larger one, or measure both with like cells");
 }
 
+TEST(Registration, RefusesFewLongCellsAsWhatTheyAre) {
+  const Surface map(make_grid(64, 32, 64e-6, 96e-6), Field(ground(64, 32).heights()));
+  EXPECT_EQ(refusal(map, map),
+            "the maps are looked over in steps of 6 um, twice their longest cell, and 11 of these along a "
+            "side, under "
+            "16, do not tell a place; give the maps square cells with `resampled`, or measure on more cells");
+}
+
 TEST(Registration, OptionsOutOfRange) {
   const Surface map = ground(64, 64);
   RegistrationOptions options = turns_up_to(-1);

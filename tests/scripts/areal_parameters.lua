@@ -47,6 +47,19 @@ local flat = lab.surface.flat{ cells=16, size="1 um" }:areal_parameters()
 assert(flat.Sal == nil and flat.Sku == nil and flat.S10z == nil and flat.Sk == 0 and flat.Sdr == 0)
 assert(flat:why_not "Sal" == "all heights are equal")
 
+-- Of a plane less its plane there is rounding, and no shape of it.
+local plane = lab.surface.from_function{ cells=64, size="64 um", height=function(x, y) return 0.3 * x - 0.2 * y end }
+local nothing = plane:areal_parameters{ F=1 }
+assert(nothing.Sq < 1e-18 and nothing.Ssk == nil and nothing.Str == nil and nothing.Std == nil and nothing.Spd == nil)
+assert(nothing:why_not "Sku":find("but for rounding", 1, true))
+refused("nothing but rounding is left", function() return plane:profile{ row=3 }:profile_parameters{ section="12 um", F=1 } end)
+local row = lab.surface.from_function{ cells={ 64, 1 }, size={ "64 um", "1 um" }, height=function(x) return um * math.sin(x / um) end }
+assert(row:areal_parameters().Std == nil and row:areal_parameters().Spd == nil)
+
+-- A profile has the curve too: half of it lies above the mean.
+near(s:profile{ row=5 }:bearing():ratio(0), 0.5, 0.05, "Rmr(0)")
+near(s:profile{ row=5 }:bearing():height(0), s:profile{ row=5 }:roughness().peak, 1e-9, "Rmc(0), of whole periods")
+
 refused("is not below `L`", function() return s:areal_parameters{ S="1 mm", L="1 um" } end)
 refused("there is no areal parameter `Sqq`", function() return p:why_not "Sqq" end)
 refused("did you mean", function() return p.Sqr end)

@@ -36,9 +36,10 @@ Number known(const std::optional<TextureAspect>& texture, Number TextureAspect::
 Number known(const std::optional<TextureDirection>& direction, double TextureDirection::*member) {
   return direction ? Number((*direction).*member) : Number();
 }
-// Where all heights are equal neither is a number.
-Number unless_flat(const Parameters& p, double value) {
-  return p.heights().amplitude > 0 ? Number(value) : Number();
+// Where all heights are equal these are no numbers.
+Number unless_flat(const Parameters& p, Number value) { return p.flat() ? Number() : value; }
+Number of_hills(const Parameters& p, Number value) {
+  return p.has_inside() ? unless_flat(p, value) : Number();
 }
 
 const std::vector<ArealRow>& areal_rows() {
@@ -99,16 +100,16 @@ const std::vector<ArealRow>& areal_rows() {
       {"Spk", length, "reduced peak height", [](const P& p) { return Number(p.core().Spk); }},
       {"Svk", length, "reduced dale depth", [](const P& p) { return Number(p.core().Svk); }},
       {"Smr1", number, "material ratio at the upper end of the core, 0 to 1",
-       [](const P& p) { return Number(p.core().Smr1); }},
+       [](const P& p) { return unless_flat(p, p.core().Smr1); }},
       {"Smr2", number, "material ratio at the lower end of the core, 0 to 1",
-       [](const P& p) { return Number(p.core().Smr2); }},
+       [](const P& p) { return unless_flat(p, p.core().Smr2); }},
       {"Spkx", length, "from the core to the highest point",
        [](const P& p) { return Number(p.core().Spkx); }},
       {"Svkx", length, "from the core to the lowest point", [](const P& p) { return Number(p.core().Svkx); }},
       {"Sk_window", number,
        "material ratio at which the flattest 40 % begin; near a knee of the curve Sk, Spk and Smr1 hang on "
        "it",
-       [](const P& p) { return Number(p.core().window); }},
+       [](const P& p) { return unless_flat(p, p.core().window); }},
       {"Sxp", length, "height between the material ratios 2.5 % and 50 %",
        [](const P& p) { return Number(p.curve().height_difference(0.025, 0.5)); }},
       {"Vmp", length, "peak material volume per area, to 10 %",
@@ -122,15 +123,16 @@ const std::vector<ArealRow>& areal_rows() {
       {"Spd", per_area,
        "peaks per area: summits that stand `pruning` of Sz above their saddle, none at the rim or beside a "
        "hole",
-       [](const P& p) { return Number(p.hills().Spd); }},
-      {"Svd", per_area, "pits per area, by the same rule", [](const P& p) { return Number(p.hills().Svd); }},
+       [](const P& p) { return of_hills(p, p.hills().Spd); }},
+      {"Svd", per_area, "pits per area, by the same rule",
+       [](const P& p) { return of_hills(p, p.hills().Svd); }},
       {"Spc", per_length, "mean curvature of the peaks, by three samples each way",
-       [](const P& p) { return p.hills().Spc; }},
+       [](const P& p) { return of_hills(p, p.hills().Spc); }},
       {"S5p", length, "mean height of the five highest peaks above the mean; nil under five",
-       [](const P& p) { return p.hills().S5p; }},
+       [](const P& p) { return of_hills(p, p.hills().S5p); }},
       {"S5v", length, "mean depth of the five deepest pits; nil under five",
-       [](const P& p) { return p.hills().S5v; }},
-      {"S10z", length, "S5p + S5v", [](const P& p) { return p.hills().S10z; }},
+       [](const P& p) { return of_hills(p, p.hills().S5v); }},
+      {"S10z", length, "S5p + S5v", [](const P& p) { return of_hills(p, p.hills().S10z); }},
   };
   return rows;
 }

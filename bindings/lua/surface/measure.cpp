@@ -205,6 +205,10 @@ void warn_of_empty_filter(const Call& call, const GaussianFilter& filter, double
     warn("long_wave", *filter.long_wave,
          "no wave is longer than the " + format_quantity(length, dimension::length) +
              " there are: little more than the mean is taken away");
+  if (filter.short_wave && std::isfinite(*filter.short_wave) && *filter.short_wave > length * (1 + rounding))
+    warn("short_wave", *filter.short_wave,
+         "no wave is longer than the " + format_quantity(length, dimension::length) +
+             " there are: little more than the mean is left");
   if (filter.short_wave && *filter.short_wave < 2 * spacing * (1 - rounding))
     warn("short_wave", *filter.short_wave,
          "points " + format_quantity(spacing, dimension::length) + " apart carry no wave so short");

@@ -140,8 +140,21 @@ Values profile_parameters_of(Call& call) {
   return {profile_parameters_type()({std::move(values), std::move(prepared), preparation.section})};
 }
 
+Values bearing_of_profile(Call& call) {
+  return {object(MaterialRatioCurve(call.self<Profile>().measured_heights()))};
+}
+
 }  // namespace
 
+Function profile_bearing_method() {
+  return {.name = "bearing",
+          .body = bearing_of_profile,
+          .sentence =
+              "The material ratio curve (Abbott-Firestone) of the measured heights, exact and not binned: "
+              "Rmr(c) is its ratio(c), Rmc(p) its height(p).",
+          .returns = "MaterialRatioCurve",
+          .example = "print(p:bearing():ratio(0))"};
+}
 Function profile_parameters_method() {
   return {.name = "profile_parameters",
           .body = profile_parameters_of,

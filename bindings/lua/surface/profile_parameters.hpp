@@ -9,6 +9,7 @@
 namespace asperity::lua {
 
 Function profile_parameters_method();
+Function profile_bearing_method();
 const RecordInfo& profile_parameters_result();
 
 }  // namespace asperity::lua

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -43,11 +45,21 @@ Surface prepared_map(const Surface& surface, const ArealPreparation& preparation
   return result;
 }
 
+// Whether what is left of the map by its preparation is rounding: taking a plane away leaves some units in
+// the last place of the heights that were there.
+bool rounding_alone(const Surface& before, const Surface& after, const ArealPreparation& preparation) {
+  if (!preparation.F && !preparation.S && !preparation.L) return after.peak_to_valley() == 0;
+  const Range r = before.height_range();
+  constexpr double last_places = 1024 * std::numeric_limits<double>::epsilon();
+  return after.peak_to_valley() <= last_places * std::max(std::abs(r.min), std::abs(r.max));
+}
+
 }  // namespace
 
 struct ArealParameters::Groups {
   Surface map;
   ArealPreparation preparation;
+  bool flat;
   std::atomic<int> computed = 0;
   MadeOnce<Roughness> heights;
   MadeOnce<ArealSlopes> slopes;
@@ -59,7 +71,8 @@ struct ArealParameters::Groups {
   MadeOnce<std::optional<TextureDirection>> direction;
   MadeOnce<ArealUncertainty> uncertainty;
 
-  Groups(Surface m, ArealPreparation p) : map(std::move(m)), preparation(p) {}
+  Groups(Surface m, const Surface& before, ArealPreparation p)
+      : map(std::move(m)), preparation(p), flat(rounding_alone(before, map, p)) {}
 };
 
 ArealParameters::ArealParameters(const Surface& surface, const ArealPreparation& preparation) {
@@ -71,11 +84,13 @@ ArealParameters::ArealParameters(const Surface& surface, const ArealPreparation&
         "waves between the two are kept, so `S` must be the smaller");
   require(preparation.pruning >= 0 && preparation.pruning <= 1, "pruning", preparation.pruning, "",
           "give the share of Sz that a hill must rise, from 0 to 1");
-  groups_ = std::make_shared<Groups>(prepared_map(surface, preparation), preparation);
+  groups_ = std::make_shared<Groups>(prepared_map(surface, preparation), surface, preparation);
 }
 
 const Surface& ArealParameters::prepared() const { return groups_->map; }
 const ArealPreparation& ArealParameters::preparation() const { return groups_->preparation; }
+bool ArealParameters::flat() const { return groups_->flat; }
+bool ArealParameters::has_inside() const { return prepared().grid().nx > 2 && prepared().grid().ny > 2; }
 
 std::string ArealParameters::how() const {
   const ArealPreparation& p = preparation();
@@ -109,13 +124,13 @@ const Hills& ArealParameters::hills() const {
 const std::optional<TextureAspect>& ArealParameters::texture() const {
   return groups_->texture.get(groups_->computed, [&]() -> std::optional<TextureAspect> {
     const Grid& grid = prepared().grid();
-    if (prepared().peak_to_valley() == 0 || grid.nx < 2 || grid.ny < 2) return {};
+    if (flat() || grid.nx < 2 || grid.ny < 2) return {};
     return Autocorrelation(prepared()).texture();
   });
 }
 const std::optional<TextureDirection>& ArealParameters::direction() const {
   return groups_->direction.get(groups_->computed, [&]() -> std::optional<TextureDirection> {
-    if (prepared().peak_to_valley() == 0) return {};
+    if (flat()) return {};
     try {
       return texture_direction(prepared());
     } catch (const Error& error) {
@@ -134,8 +149,12 @@ std::string ArealParameters::why_not(const std::string& parameter) const {
   const auto one_of = [&](std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* name) { return parameter == name; });
   };
-  const bool flat = prepared().peak_to_valley() == 0;
-  if (one_of({"Ssk", "Sku"}) && flat) return "all heights are equal";
+  const std::string equal = prepared().peak_to_valley() == 0
+                                ? "all heights are equal"
+                                : "all heights are equal but for rounding of the map that was prepared";
+  if (one_of({"Ssk", "Sku", "Smr1", "Smr2", "Sk_window", "Spd", "Svd", "Spc", "S5p", "S5v", "S10z"}) &&
+      flat())
+    return equal;
   if (parameter == "Sdq" && !slopes().Sdq) return "no two neighbouring points were measured";
   if (parameter == "Sdq_seven" && !slopes().Sdq_seven)
     return "nowhere were a point and three neighbours each way along both axes measured";
@@ -150,7 +169,7 @@ std::string ArealParameters::why_not(const std::string& parameter) const {
       if (parameter == name && !value) return "one of sixteen tiles does not define it";
   }
   if (one_of({"Sal", "Str", "Str_bound"})) {
-    if (!texture()) return flat ? "all heights are equal" : "the map is one node wide";
+    if (!texture()) return flat() ? equal : "the map is one node wide";
     if (parameter == "Sal" && !texture()->Sal)
       return "along no direction does the autocorrelation fall to 0.2 within half the map";
     if (parameter == "Str" && !texture()->Str)
@@ -159,7 +178,11 @@ std::string ArealParameters::why_not(const std::string& parameter) const {
     if (parameter == "Str_bound" && !texture()->Str_bound) return "Str itself is defined";
   }
   if (one_of({"Std", "Std_wave"}) && !direction())
-    return flat ? "all heights are equal" : "no wave is between two cells and two thirds of the map long";
+    return flat() ? equal
+                  : "the map is under six cells wide, or no wave is between two cells and two thirds of the "
+                    "map long";
+  if (one_of({"Spd", "Svd", "Spc", "S5p", "S5v", "S10z"}) && !has_inside())
+    return "the map is under three nodes wide, and all of them are at its rim";
   if (parameter == "Spc" && !hills().Spc) return "no peak is left after pruning";
   if (parameter == "S5p" && !hills().S5p) return "fewer than five peaks are left after pruning";
   if (parameter == "S5v" && !hills().S5v) return "fewer than five pits are left after pruning";

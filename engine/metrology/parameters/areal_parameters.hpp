@@ -34,6 +34,11 @@ class ArealParameters {
 
   const Surface& prepared() const;
   const ArealPreparation& preparation() const;
+  // Whether all heights of the prepared map are equal, or differ by the rounding of its preparation alone, as
+  // those of a plane once its plane is taken away: moments, ratios, hills and texture are then not defined.
+  bool flat() const;
+  // Whether the map has nodes that are not at its rim; without them it has no hills.
+  bool has_inside() const;
   // "mean removed", or what else was: "F-operation of degree 1, S-filter 2.5 um, L-filter 0.8 mm; mean
   // removed".
   std::string how() const;
@@ -46,7 +51,7 @@ class ArealParameters {
   const Hills& hills() const;
   // None where heights are equal or the map is one node wide.
   const std::optional<TextureAspect>& texture() const;
-  // None where heights are equal, and where no wave lies in the band.
+  // None where heights are equal, where the map is under six cells wide, and where no wave lies in the band.
   const std::optional<TextureDirection>& direction() const;
   const ArealUncertainty& uncertainty() const;
 

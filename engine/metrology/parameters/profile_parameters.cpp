@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -182,6 +183,12 @@ PreparedProfile prepared_profile(const Profile& trace, const ProfilePreparation&
   const auto length = std::min(n - 2 * half, static_cast<std::size_t>(std::round(sections * samples)));
   const std::size_t first = half + (n - 2 * half - length) / 2;
   const std::span<const double> z = profile.measured_heights().subspan(first, length);
+  const Range before = trace.height_range(), left = known_range(z);
+  constexpr double last_places = 1024 * std::numeric_limits<double>::epsilon();
+  if (left.span() > 0 && left.span() <= last_places * std::max(std::abs(before.min), std::abs(before.max)))
+    refuse("nothing but rounding is left of the trace once form and waves longer than " +
+               metres(preparation.section) + " are taken away",
+           "its parameters need heights that differ");
   return {Profile::with_holes(h, Array<double>(z.begin(), z.end())), sections};
 }
 

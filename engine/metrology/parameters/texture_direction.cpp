@@ -17,6 +17,7 @@ namespace asperity {
 namespace {
 
 constexpr int half_degrees = 360;
+constexpr double least_cycles = 3;  // of the shortest waves along the shorter side
 
 Array<double> hann(int n) {
   Array<double> window(static_cast<std::size_t>(n));
@@ -61,6 +62,10 @@ TextureDirection texture_direction(const Surface& surface) {
   const Grid& grid = surface.grid();
   const Range r = surface.height_range();
   if (r.span() == 0) refuse("the direction of a flat surface was asked for", "it needs heights that differ");
+  const double nyquist = 0.5 / std::max(grid.hx(), grid.hy());
+  if (nyquist * std::min(grid.size_x, grid.size_y) < least_cycles)
+    refuse("the map is under six of its longer cells wide, and so few waves have no direction",
+           "measure more cells along the shorter side");
   const Field& z = surface.measured_heights();
   const double mean = exact_mean(MeasuredValues(surface).values(), r);
   const double unit = std::ldexp(1.0, -scale_exponent(std::max(r.max - mean, mean - r.min)));
@@ -73,7 +78,6 @@ TextureDirection texture_direction(const Surface& surface) {
             (h - mean) * unit * along_x[static_cast<std::size_t>(i)] * along_y[static_cast<std::size_t>(j)];
   const HalfSpectrum spectrum = fourier_forward(windowed);
 
-  const double nyquist = 0.5 / std::max(grid.hx(), grid.hy());
   const Bins bins;
   // Rows of waves by themselves, so that the sums have one order.
   Field of_rows(half_degrees, grid.ny);

@@ -17,8 +17,8 @@ struct TextureDirection {
       0;  // of the power that counts, the part within the one bin; 1/360 where there is no direction
 };
 
-// One transform, two copies of the grid. Throws Error{bad_value} for equal heights, and where no wave lies in
-// the band.
+// One transform, two copies of the grid. Throws Error{bad_value} for equal heights, for a map under six of
+// its longer cells along a side, and where no wave lies in the band.
 TextureDirection texture_direction(const Surface& surface);
 
 }  // namespace asperity

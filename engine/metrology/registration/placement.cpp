@@ -163,9 +163,16 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
       std::max({2 * widest, longest / (most_coarse_cells - 1),
                 std::min(std::sqrt(area) / (usual_coarse_cells - 1), shortest / least_coarse_cells)});
   const HeightMap coarse_before = coarser_map(before, spacing), coarse_after = coarser_map(after, spacing);
-  if (std::min({coarse_after.nx(), coarse_after.ny(), coarse_before.nx(), coarse_before.ny()}) <
-          least_coarse_cells ||
-      known_count(coarse_after.heights.values()) == 0 || known_count(coarse_before.heights.values()) == 0)
+  const int fewest = std::min({coarse_after.nx(), coarse_after.ny(), coarse_before.nx(), coarse_before.ny()});
+  const double ratio = std::max(after.hx, after.hy) / std::max(before.hx, before.hy);
+  if (fewest < least_coarse_cells && spacing <= 2 * widest && ratio < 2 && ratio > 0.5)
+    refuse("the maps are looked over in steps of " + metres(spacing * limits.cell) +
+               ", twice their longest cell, and " + std::to_string(fewest) +
+               " of these along a side, under " + std::to_string(least_coarse_cells) +
+               ", do not tell a place",
+           "give the maps square cells with `resampled`, or measure on more cells");
+  if (fewest < least_coarse_cells || known_count(coarse_after.heights.values()) == 0 ||
+      known_count(coarse_before.heights.values()) == 0)
     refuse("the maps have too little in common: one is " + extent_of(after, limits.cell) + " and the other " +
                extent_of(before, limits.cell),
            "crop the larger one, or measure both with like cells");
