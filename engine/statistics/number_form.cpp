@@ -23,6 +23,13 @@ std::string with_plain_blanks(std::string_view text) {
   return plain;
 }
 
+// A minus sign as typesetters write it.
+std::string with_plain_minus(std::string text) {
+  constexpr std::string_view minus = "\u2212";
+  if (text.starts_with(minus)) text.replace(0, minus.size(), "-");
+  return text;
+}
+
 std::string_view without_sign(std::string_view text) {
   if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
   return text;
@@ -51,8 +58,10 @@ bool looks_like_number(std::string_view text) {
 
 }  // namespace
 
+std::string with_plain_signs(std::string_view text) { return with_plain_minus(with_plain_blanks(text)); }
+
 std::optional<std::string> plain_number(std::string_view text, const NumberForm& form) {
-  std::string plain(text);
+  std::string plain = with_plain_minus(std::string(text));
   if (form.thousands == ' ') plain = with_plain_blanks(plain);
   if (form.thousands != '\0' && plain.find(form.thousands) != std::string::npos) {
     const std::string_view unsigned_text = without_sign(plain);
@@ -86,7 +95,14 @@ void NumberEvidence::prove(char& sign, char found, std::string_view text, const 
                                               : "blank")};
 }
 
-void NumberEvidence::add(std::string_view text, const std::string& place) {
+void NumberEvidence::add(std::string_view cell, const std::string& place) {
+  std::string joined = with_plain_signs(cell);
+  const std::string_view number = without_sign(joined);
+  if (parts_thousands(number.substr(0, std::min(number.find_first_of(".,eE"), number.size())), ' ')) {
+    if (thousands_ != ' ' && unclear_blank_.place.empty()) unclear_blank_ = {place, shown(joined)};
+    std::erase(joined, ' ');
+  }
+  const std::string_view text = joined;
   if (!looks_like_number(text)) return;
   const std::string_view digits = without_sign(text);
   const auto commas = std::ranges::count(digits, ','), points = std::ranges::count(digits, '.');
@@ -129,6 +145,10 @@ std::optional<NumberEvidence::Doubt> NumberEvidence::doubt() const {
   if (decimal_ != '\0' && decimal_ == thousands_)
     return Doubt{"the numbers", std::string("a ") + (decimal_ == ',' ? "comma" : "point") +
                                     " would be both the decimal sign and that of thousands"};
+  if (!unclear_blank_.place.empty() && thousands_ != ' ')
+    return Doubt{unclear_blank_.place, unclear_blank_.finding +
+                                           " has a blank between its digits; thousands=\" \" says that it "
+                                           "parts thousands"};
   if (!unclear_comma_.place.empty() && decimal_ != ',' && thousands_ != ',')
     return Doubt{
         unclear_comma_.place,

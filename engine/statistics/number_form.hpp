@@ -25,12 +25,15 @@ TextCell read_number(std::string_view text, const NumberForm& form);
 std::optional<std::string> plain_number(std::string_view text, const NumberForm& form);
 
 // What the numbers of a file tell of their form, one after another.
+// The signs of a number in ASCII: no-break and thin blanks as blanks, the minus of typesetters as a hyphen.
+std::string with_plain_signs(std::string_view text);
+
 class NumberEvidence {
  public:
   // What is said of the form beforehand; '\0' for nothing.
   NumberEvidence(char decimal, char thousands) : decimal_(decimal), thousands_(thousands) {}
   // A cell, and where it stands. What is no number tells nothing.
-  void add(std::string_view text, const std::string& place);
+  void add(std::string_view cell, const std::string& place);
   NumberForm form() const;
   // A sentence with the place of a number that can be read in two ways, or of one that is written otherwise
   // than one before it; nothing where all is clear.
@@ -43,7 +46,7 @@ class NumberEvidence {
   void prove(char& sign, char found, std::string_view text, const std::string& place);
 
   char decimal_, thousands_;
-  Doubt unclear_comma_, unclear_point_, contradiction_;
+  Doubt unclear_comma_, unclear_point_, unclear_blank_, contradiction_;
 };
 
 }  // namespace asperity

@@ -29,6 +29,8 @@ class StampColumn {
   };
   // A cell that is not empty. The first one that is read is the beginning unless they count since 1970.
   Reading read(std::string_view cell);
+  // Whether those read so far have dates.
+  bool dated() const { return first_ && first_->dated; }
 
  private:
   DateOrder order_;

@@ -2,6 +2,7 @@
 #include "engine/statistics/table_lines.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "engine/core/files/text_encoding.hpp"
 
@@ -15,8 +16,16 @@ char mark_of(Separator separator) {
   return separator == Separator::semicolon ? ';' : separator == Separator::tab ? '\t' : ',';
 }
 
-// Cells with their quotes taken off; a doubled quote inside stands for one.
-std::vector<TableCell> split_at(std::string_view line, Separator separator) {
+// What spreadsheets write for a cell that failed; at the beginning of a line it is no comment.
+bool is_failed_cell(std::string_view text) {
+  constexpr std::array<std::string_view, 7> failed{"#DIV/0!", "#N/A",  "#NAME?", "#NULL!",
+                                                   "#NUM!",   "#REF!", "#VALUE!"};
+  return std::ranges::any_of(failed, [text](std::string_view word) { return text.starts_with(word); });
+}
+
+// Cells with their quotes taken off; a doubled quote inside stands for one. `open` tells whether the last
+// one's quote is not closed.
+std::vector<TableCell> split_at(std::string_view line, Separator separator, bool* open = nullptr) {
   const bool blanks = separator == Separator::blank;
   const auto parts = [&](char c) { return blanks ? is_space(c) : c == mark_of(separator); };
   std::vector<TableCell> cells(1);
@@ -46,6 +55,7 @@ std::vector<TableCell> split_at(std::string_view line, Separator separator) {
     }
   }
   finish();
+  if (open) *open = inside;
   if (blanks && cells.size() > 1 && cells.back().text.empty() && !cells.back().quoted) cells.pop_back();
   return cells;
 }
@@ -100,12 +110,17 @@ std::size_t find_unquoted(std::string_view line, char wanted) {
 }
 
 std::string_view TableLines::without_comment(std::string_view line) {
-  return line.substr(0, find_unquoted(line, '#'));
+  for (std::size_t from = 0;;) {
+    const std::size_t at = find_unquoted(line.substr(from), '#');
+    if (at == std::string_view::npos) return line;
+    if (!is_failed_cell(line.substr(from + at))) return line.substr(0, from + at);
+    from += at + 1;
+  }
 }
 
 bool TableLines::is_comment(std::string_view line) {
   line = trimmed(line);
-  return line.empty() || line.front() == '#';
+  return line.empty() || (line.front() == '#' && !is_failed_cell(line));
 }
 
 TableLines::TableLines(const SourceFile& file, const TableForm& form)
@@ -194,8 +209,12 @@ bool TableLines::next_row(std::vector<TableCell>& cells) {
   for (std::string_view line; lines_.next(line);) {
     if (is_comment(line)) continue;
     // A # begins a comment unless the row is only whole with what follows it: "sample #3".
-    cells = split(without_comment(line));
-    if (cells.size() != heads_.size()) cells = split(line);
+    bool open = false;
+    cells = split_at(without_comment(line), separator_, &open);
+    if (cells.size() != heads_.size()) cells = split_at(line, separator_, &open);
+    if (open && (cells.size() == heads_.size() || !at_end_of_table()))
+      refuse_file(file_, "has a quote in " + here() + " that is not closed there",
+                  "write the table without line ends inside its cells");
     if (is_blank(cells)) continue;
     while (cells.size() > heads_.size() && cells.back().text.empty()) cells.pop_back();
     return true;

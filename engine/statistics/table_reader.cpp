@@ -235,7 +235,9 @@ class MeasuredTable {
         const bool words = std::ranges::none_of(cells, [](const TableCell& cell) {
           return read_cell(cell.text, Separator::blank).kind == CellKind::number;
         });
-        if (words && !rows_.empty() && lines_.at_end_of_table()) {
+        // Wider than the table, it is the table, and what was read stands above it.
+        const bool above = rows_.empty() || (wanted == 1 && cells.size() > 1);
+        if (words && !above && lines_.at_end_of_table()) {
           monitor_.warn(file_name(file_.path()) + ": what stands below the table, from " + lines_.here() +
                         " on, is left out");
           break;
@@ -245,8 +247,8 @@ class MeasuredTable {
                           std::string(cells.size() == 1 ? "is 1 cell"
                                                         : "are " + std::to_string(cells.size()) + " cells") +
                           " under " + std::to_string(wanted) + (wanted == 1 ? " head" : " heads") +
-                          (rows_.empty() ? "; lines above the heads are left out by skip=, as in skip=3"
-                                         : "; put # before a line that is no row"));
+                          (above ? "; lines above the heads are left out by skip=, as in skip=3"
+                                 : "; put # before a line that is no row"));
         continue;
       }
       rows_.push_back(std::move(cells));
@@ -285,7 +287,7 @@ class MeasuredTable {
   // None of its cells is a number, in whatever form.
   bool holds_words(std::size_t k) const {
     for (std::size_t row = 0; row < rows_.size(); ++row) {
-      const std::string text = text_of(cell(row, k));
+      const std::string text = with_plain_signs(text_of(cell(row, k)));
       if (!text.empty() && text.find_first_not_of("0123456789.,+-eE ") == std::string::npos &&
           text.find_first_of("0123456789") != std::string::npos)
         return false;
@@ -460,6 +462,8 @@ class MeasuredTable {
       problems_.add(place(0, k), *doubt);
       return "";
     }
+    std::optional<double> last;
+    bool warned = false;
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const std::string text = text_of(cell(row, k));
       if (read_number(text, number_form_).kind == CellKind::hole) {
@@ -469,7 +473,17 @@ class MeasuredTable {
       const StampColumn::Reading reading = stamps.read(text);
       if (!reading.seconds) problems_.add(place(row, k), reading.complaint);
       rows[row].emplace_back();
-      if (reading.seconds) rows[row].back() = *reading.seconds;
+      if (!reading.seconds) continue;
+      rows[row].back() = *reading.seconds;
+      constexpr double half_a_day = 43200;
+      if (!stamps.dated() && last && *reading.seconds < *last - half_a_day && !warned) {
+        monitor_.warn(
+            file_name(file_.path()) + " " + place(row, k) + ": " + shown(text) +
+            " is more than half a day before the time above; if midnight came between, the times need "
+            "their dates");
+        warned = true;
+      }
+      last = reading.seconds;
     }
     return "s";
   }

@@ -168,6 +168,58 @@ TEST(TableReader, ACommaIsReadWhereTheFileTellsWhatItIs) {
   EXPECT_EQ(csv("a;b\n1.250;2.500\n"), "a,b\n1.25,2.5\n");
 }
 
+TEST(TableReader, BlanksBetweenDigitsAreAskedForAndRead) {
+  const TableForm blanks = with([](TableForm& f) { f.thousands = ' '; });
+  for (const char* blank : {" ", "\u00A0", "\u202F"}) {
+    const std::string number = std::string("1") + blank + "250";
+    EXPECT_EQ(
+        refusal("a;b\n" + number + ";2\n"),
+        "line 2, column 1 (a): \"1 250\" has a blank between its digits; thousands=\" \" says that it parts "
+        "thousands");
+    EXPECT_EQ(csv("a;b\n" + number + ";2\n", blanks), "a,b\n1250,2\n");
+    EXPECT_EQ(csv("a;b\n" + number + ",5;2\n", blanks), "a,b\n1250.5,2\n");
+  }
+  EXPECT_EQ(csv("a;b\n\u22121.5;2\n"), "a,b\n-1.5,2\n");
+  EXPECT_EQ(csv("a;b\n\u22121,5;2\n"), "a,b\n-1.5,2\n");
+}
+
+TEST(TableReader, NoRowIsLostToWhatASpreadsheetWrites) {
+  // A failed cell begins with the mark of a comment.
+  EXPECT_EQ(
+      refusal("a,b\n1,2\n#DIV/0!,4\n"),
+      "line 3, column 1 (a): \"#DIV/0!\" is no number, as others of this column are; mend it, or text={ "
+      "\"a\" } takes all of them for texts");
+  EXPECT_EQ(refusal("a,b\n1,2\n3,#VALUE! # why\n").substr(0, 40),
+            "line 3, column 2 (b): \"#VALUE!\" is no nu");
+  EXPECT_EQ(csv("a,b\n1,2\n3,#N/A\n#N/A,4\n"), "a,b\n1,2\n3,\n,4\n");
+  EXPECT_EQ(csv("a,b\n1,2\n# 3,4\n5,6\n"), "a,b\n1,2\n5,6\n");
+  // A cell of two lines, and lines above a table that look like one of one column.
+  EXPECT_EQ(
+      refusal("a,b\n1,\"x\ny\"\n2,z\n"),
+      "has a quote in line 2 that is not closed there; write the table without line ends inside its cells");
+  EXPECT_EQ(refusal("Machine\nOp Li\n\na [N],b\n1,2\n").substr(0, 100),
+            "has 2 problems\n  line 4: there are 2 cells under 1 head; lines above the heads are left out by "
+            "skip=");
+}
+
+TEST(TableReader, TimesOfDayThatFallByHalfADayAreWarnedOf) {
+  const auto warnings = [](const std::string& text) {
+    class Counter final : public Monitor {
+     public:
+      void progress(std::string_view, double) override {}
+      void warn(std::string_view sentence) override {
+        count += sentence.find("is more than half a day before") != std::string_view::npos;
+      }
+      std::size_t count = 0;
+    } counter;
+    read_measured_table(SourceFile("t.csv", text), {}, counter);
+    return counter.count;
+  };
+  EXPECT_EQ(warnings("time,a\n23:59:59,1\n00:00:01,2\n00:00:03,3\n"), 1u);
+  EXPECT_EQ(warnings("time,a\n10:59:59,1\n10:00:01,2\n"), 0u);
+  EXPECT_EQ(warnings("time,a\n2026-11-23 23:59:59,1\n2026-11-22 00:00:01,2\n"), 0u);
+}
+
 TEST(TableReader, StampsAreSecondsFromTheFirst) {
   const std::string wanted = "time [s],x\n0,1\n900,2\n5400.5,3\n";
   for (const std::string text :

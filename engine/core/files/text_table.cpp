@@ -153,7 +153,7 @@ TextCell read_cell(std::string_view text, Separator separator) {
       return {CellKind::number, 0.0};
     return {CellKind::too_large, 0};
   }
-  static constexpr std::array<std::string_view, 6> names{"nan", "bad", "na", "n/a", "null", "none"};
+  static constexpr std::array<std::string_view, 7> names{"nan", "bad", "na", "n/a", "#n/a", "null", "none"};
   const std::string word = lower_case(text);
   if (std::find(names.begin(), names.end(), word) != names.end()) return hole;
   if (word.find_first_not_of('-') == std::string::npos || word.find_first_not_of('*') == std::string::npos)
