@@ -25,12 +25,14 @@ write_zip("plain.x3p", plain)
 write_zip("folder.x3p", {"My Map/" + name: data for name, data in plain.items()})
 assert printed('print(lab.surface.read "folder.x3p" == lab.surface.read "plain.x3p")') == "true\n"
 
+write("utf16.txt", "1 2\n3 4\n".encode("utf-16"))
+assert printed('print(lab.surface.read("utf16.txt", { size=1e-3, unit="um" }):height(1, 1) / 1e-6)').strip() == "4.0"
+
 write("trace.csv", "x [mm],z [um]\n0,1\n0.1,2\n0.2,4\n")
 assert printed('print(lab.profile.read("trace.csv"):heights()[3] / 1e-6)').startswith("4.0")
 
 rest = bytes(64)
 for name, data, what in [
-    ("map.txt", "1 2\n3 4\n".encode("utf-16"), "UTF-16 text"),
     ("trace.prf", "Stylus profiler\nOperator Li\n\n0.0 1.2\n0.1 1.3\n0.2 1.1\n", "has a head of its own"),
     ("map.al3d", b"AliconaImaging\0\r\n" + rest, "Alicona"),
     ("map.vk4", b"VK4_" + rest, "Keyence"),

@@ -82,14 +82,37 @@ TEST(TextMatrix, WhatIsNoTable) {
   EXPECT_NE(message_of([] { read_text("# only words\n"); }).find("holds no table of numbers"),
             std::string::npos);
   EXPECT_NE(message_of([] { read_text(std::string("1\0 2", 4)); }).find("is not text"), std::string::npos);
-  EXPECT_NE(message_of([] {
-              read_text(
-                  std::string("\xFF\xFE"
-                              "1\0 \0",
-                              6));
-            }).find("is UTF-16 text"),
-            std::string::npos);
   EXPECT_NE(message_of([] { read_text("1 2 1e3\n4 5 1,000.5\n"); }).find("has no number in line 2"),
+            std::string::npos);
+}
+
+// As Gwyddion writes where it speaks German.
+TEST(TextMatrix, HeadsOfAGermanGwyddion) {
+  const Surface surface = read_surface(SourceFile(
+      "map.txt", "# Breite: 12.34 \u00B5m\n# H\u00F6he: 5678.9 nm\n# Value units: um\n1 2\n3 4\n5 6\n"));
+  EXPECT_NEAR(surface.grid().size_x, 12.34e-6, 1e-18);
+  EXPECT_NEAR(surface.grid().size_y, 5678.9e-9, 1e-18);
+}
+
+// As spreadsheets save "Unicode text", and without the mark too; a head in it is one of any other text.
+TEST(TextMatrix, F7TextInUtf16IsReadAsItsLetters) {
+  const std::string text = "# Value units: um\n# Width: 3 \u00B5m\n# Height: 2 \u00B5m\n1\t2\t3\n4\t5\t6\n";
+  const Surface wanted = read_surface(SourceFile("map.txt", text));
+  for (const bool little : {true, false})
+    for (const bool marked : {true, false}) {
+      std::string bytes = !marked ? "" : little ? "\xFF\xFE" : "\xFE\xFF";
+      for (std::size_t k = 0; k < text.size(); ++k) {
+        // The micro sign is the one letter beyond ASCII.
+        const bool micro = text[k] == '\xC2';
+        const char low = micro ? text[++k] : text[k];
+        bytes += little ? std::string({low, '\0'}) : std::string({'\0', low});
+      }
+      const Surface surface = read_surface(SourceFile("map.txt", bytes));
+      EXPECT_EQ(surface.digest(), wanted.digest()) << little << marked;
+      EXPECT_EQ(surface.grid().size_x, 3e-6);
+    }
+  const std::string cut = "\xFF\xFE" + std::string("x\0y\0\n\0", 6);
+  EXPECT_NE(message_of([&] { read_surface(SourceFile("map.txt", cut)); }).find("holds no table of numbers"),
             std::string::npos);
 }
 

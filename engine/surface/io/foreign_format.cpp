@@ -105,7 +105,7 @@ std::optional<ForeignFormat> foreign_format(const SourceFile& file) {
   for (const ForeignMark& mark : foreign_marks)
     if (bytes.starts_with(mark.bytes)) return ForeignFormat{mark.what, mark.cure};
   if (bytes.starts_with("PK\x03\x04"sv)) return archive_format(file);
-  if (is_utf16(bytes)) return ForeignFormat{"UTF-16 text", "save it as UTF-8"};
+  if (is_utf16(bytes)) return ForeignFormat{utf16_text, "save it as UTF-8"};
   if (file.looks_like_text()) return {};
   for (const ForeignEnding& ending : foreign_endings)
     if (file.extension() == ending.extension) return ForeignFormat{ending.what, export_map};

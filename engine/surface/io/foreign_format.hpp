@@ -11,6 +11,9 @@
 
 namespace asperity {
 
+// What a text in UTF-16 is called: read.cpp reads it where it holds a table.
+inline constexpr const char* utf16_text = "UTF-16 text";
+
 struct ForeignFormat {
   std::string what;  // "an Excel workbook (.xlsx)"
   std::string cure;  // "save the sheet as CSV (UTF-8)"

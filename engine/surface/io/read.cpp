@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_encoding.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/deflated.hpp"
+#include "engine/surface/io/foreign_format.hpp"
 #include "engine/surface/io/format.hpp"
 #include "engine/surface/io/holes.hpp"
 
@@ -37,6 +39,28 @@ void check_call(const ReadProfileOptions& options) {
   require_length("spacing", options.spacing);
   require_length("unit", options.unit);
   require_length("unit_xy", options.unit_xy);
+}
+
+// A table in UTF-16, as spreadsheets save "Unicode text", in UTF-8. Formats with a head in UTF-16 read it
+// themselves.
+std::optional<SourceFile> as_utf8(const SourceFile& file, const std::string& forced) {
+  const std::optional<ForeignFormat> foreign = foreign_format(file);
+  if (!foreign || foreign->what != utf16_text) return {};
+  for (const Format* format : formats()) {
+    if (format == &text_format() || format == &xyz_format() || format == &stylus_csv_format()) continue;
+    if (forced.empty() ? format->recognises(file) : format->name == forced) return {};
+  }
+  const std::optional<std::string> text = utf8_of_utf16(file.bytes());
+  if (!text) return {};
+  return SourceFile(file.path(), Array<char>(text->begin(), text->end()), file.extension());
+}
+
+// What stands in a file that has to be unpacked, or written as UTF-8, before it is read; nothing for all
+// others.
+std::optional<SourceFile> plain_file(const SourceFile& given, const std::string& forced, Monitor& monitor) {
+  std::optional<SourceFile> unpacked = inside_gzip(given, monitor);
+  if (std::optional<SourceFile> text = as_utf8(unpacked ? *unpacked : given, forced)) return text;
+  return unpacked;
 }
 
 bool differ(double asked, double found) { return std::abs(asked - found) > 1e-9 * std::abs(found); }
@@ -205,8 +229,8 @@ Surface read_surface(const std::string& path, const ReadOptions& options, Monito
 
 Surface read_surface(const SourceFile& given, const ReadOptions& options, Monitor& monitor) {
   check_call(options);
-  const std::optional<SourceFile> unpacked = inside_gzip(given, monitor);
-  const SourceFile& file = unpacked ? *unpacked : given;
+  const std::optional<SourceFile> plain = plain_file(given, options.format, monitor);
+  const SourceFile& file = plain ? *plain : given;
   const Format* format = nullptr;
   HeightMap map = read_map(file, options.format, options.channel, monitor, &format);
   if (format == &text_format() && options.format.empty() && !map.size_x && map.heights.nx() == 3 &&
@@ -241,8 +265,8 @@ Profile read_profile(const std::string& path, const ReadProfileOptions& options,
 
 Profile read_profile(const SourceFile& given, const ReadProfileOptions& options, Monitor& monitor) {
   check_call(options);
-  const std::optional<SourceFile> unpacked = inside_gzip(given, monitor);
-  const SourceFile& file = unpacked ? *unpacked : given;
+  const std::optional<SourceFile> plain = plain_file(given, options.format, monitor);
+  const SourceFile& file = plain ? *plain : given;
   const Format* format = nullptr;
   HeightMap map = read_map(file, options.format, options.channel, monitor, &format);
   if (map.pairs || (!map.trace && map.heights.nx() == 2 && map.heights.ny() > 2 && format == &text_format()))

@@ -79,9 +79,9 @@ void take_in(Header& header, const SourceFile& file, std::string_view key_text, 
     header.pixel = needed(plain_number(value), file, key, value);
   } else if (key == "closed radius [m]") {
     header.closed_radius = needed(plain_number(value), file, key, value);
-  } else if (key == "width") {
+  } else if (key == "width" || key == "breite") {  // Gwyddion writes heads in its user's language
     header.size_x = needed(length_with_unit(value), file, key, value);
-  } else if (key == "height") {
+  } else if (key == "height" || key == "h\u00F6he") {
     header.size_y = needed(length_with_unit(value), file, key, value);
   } else if (key == "value units") {
     try {
@@ -233,8 +233,8 @@ const Format& text_format() {
   static const Format format{"text",
                              "a line of numbers first",
                              {"A matrix of numbers, one line a row, bare or under the heads of this program, "
-                              "of Gwyddion and of common exports.",
-                              "Heads of another kind, lines of different lengths, UTF-16.",
+                              "of Gwyddion and of common exports; in UTF-16 too.",
+                              "Heads of another kind, lines of different lengths.",
                               "Files of the public test set of SurfaceTopography."},
                              endings,
                              recognises_text_matrix,
