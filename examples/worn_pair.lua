@@ -123,7 +123,9 @@ for _, quantity in ipairs{ "Ra", "lost", "Ssk" } do
                    predicted = p.mean, truth = truth, off = m.mean / truth, predicted_off = p.mean / m.mean }
   end
 end
-print(("likeness of the damage, event 1 to 3: %.3f, %.3f, %.3f"):format(table.unpack(book:mean("likeness", { by = "event" }):column "mean")))
+for event, m in ipairs(book:mean("likeness", { by = "event" }):rows()) do
+  print(("%d   likeness of the damage %.3f (%.3f to %.3f)"):format(event, m.mean, m.low, m.high))
+end
 summary:chart{ x = "event", y = { "measured", "predicted", "truth" }, where = { quantity = "lost" }, y_label = "lost height, m",
                title = "Lost volume per area", file = "lost.svg" }
 
