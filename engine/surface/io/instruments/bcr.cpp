@@ -43,7 +43,7 @@ struct BcrHeader {
   std::size_t data_at = 0;
 };
 
-bool is_utf16(std::string_view bytes) {
+bool is_utf16_head(std::string_view bytes) {
   constexpr std::string_view mark("\xFF\xFE", 2), first("f\0i\0l\0e\0", 8);
   if (bytes.starts_with(mark)) bytes.remove_prefix(mark.size());
   if (bytes.size() < first.size()) return false;
@@ -54,7 +54,7 @@ bool is_utf16(std::string_view bytes) {
 
 BcrHeader header_of(const SourceFile& file, std::size_t characters) {
   const std::string_view bytes = file.bytes();
-  if (!is_utf16(bytes)) return {std::string(bytes.substr(0, characters)), characters};
+  if (!is_utf16_head(bytes)) return {std::string(bytes.substr(0, characters)), characters};
   BcrHeader header;
   for (std::size_t k = 0; k + 1 < bytes.size() && header.text.size() < characters; k += 2)
     header.text += bytes[k + 1] == '\0' ? bytes[k] : '?';
@@ -151,7 +151,7 @@ HeightMap read_bcr(const SourceFile& file, Monitor& monitor) {
   std::string_view data;
   const Lines lines = read_lines(file, data);
   std::string kind = lower_case(lines.at("fileformat"));
-  if (is_utf16(file.bytes()) && kind.ends_with(unicode_ending))
+  if (is_utf16_head(file.bytes()) && kind.ends_with(unicode_ending))
     kind.resize(kind.size() - unicode_ending.size());
   const bool integers = kind == "bcrstm";
   if (!integers && kind != "bcrf")
