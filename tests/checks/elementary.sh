@@ -3,7 +3,8 @@
 # N10: results do not hang on the C library's sine, exponential, logarithm or power, which choose by the processor:
 # no file of engine/ calls one but the file that tells C libraries apart, nor a function of the standard library
 # built on one, nor a random distribution (the names of unfinished files alone are drawn by the system); they are in
-# engine/core/arithmetic/elementary_functions.hpp. And Eigen is asked for products in one file alone, which fixes what Eigen chooses.
+# engine/core/arithmetic/elementary_functions.hpp. And Eigen is asked in two files alone: for products in one, which fixes what
+# Eigen chooses, and for singular values in another, where it has no vectors to choose.
 # usage: elementary.sh [the project's folder]
 set -eu
 cd "${1:-$(dirname -- "$0")/../..}"
@@ -23,9 +24,15 @@ if grep -rnE "<random>|std::(normal|lognormal|exponential|gamma|weibull)_distrib
   found=1
 fi
 if grep -rn '<Eigen/' engine --include='*.cpp' --include='*.hpp' |
-  grep -v '^engine/surface/generators/table_product\.cpp:'; then
+  grep -v -e '^engine/surface/generators/table_product\.cpp:' -e '^engine/statistics/least_squares\.cpp:'; then
   echo "Eigen chooses its operations by the processor: see engine/surface/generators/table_product.hpp"
   found=1
 fi
+for line in '#define EIGEN_DONT_VECTORIZE' '#define EIGEN_MAX_ALIGN_BYTES 0' '#define Eigen asperity_least_squares_eigen'; do
+  sed '/<Eigen\//q' engine/statistics/least_squares.cpp | grep -qFx "$line" || {
+    echo "engine/statistics/least_squares.cpp lacks $line before it includes Eigen"
+    found=1
+  }
+done
 grep -q 'elementary::sincos(' engine/core/fourier/fourier_lanes.cpp || { echo "the check reads no sources"; found=1; }
 exit $found
