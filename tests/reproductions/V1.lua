@@ -27,3 +27,21 @@ local hard = lab.contact{
 local st = hard:press{ pressure=889262.1864497022 }
 print(st.residual, st.cost.transforms)
 assert(st.converged)
+
+-- On cells so long the descent at an approach stalls, and the load is sought.
+local function noise(long)
+  local x = 1
+  return lab.surface.from_function{ cells=48, size={ 1e-3, 1e-3 * long }, material=m,
+    height=function() x = x * 16807 % 2147483647 return 1e-7 * x / 2147483647 end }
+end
+for _, case in ipairs{ { 400, 1e8 }, { 800, 1e8 }, { 800, 3e8 } } do
+  local pressure = case[2]
+  local long = lab.contact{ lower=noise(case[1]), upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
+  local by_pressure = long:press{ pressure=pressure }
+  for _, by in ipairs{ "approach", "indentation", "flatten" } do
+    local again = long:copy():press{ [by]=by_pressure[by] }
+    print(by, again.cost.transforms, by_pressure.cost.transforms)
+    assert(math.abs(again.pressure / pressure - 1) < 1e-3, again.pressure)
+    assert(again.cost.transforms <= 10 * by_pressure.cost.transforms + 60, again.cost.transforms)
+  end
+end
