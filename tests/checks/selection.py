@@ -63,7 +63,7 @@ expect(chooser.select(None).everything, "what is not known calls for everything"
 for path, name in {"examples/rough_on_rough.lua": "examples: rough_on_rough", "scripts/lessons/01_roughness.lua": "lessons: 01_roughness",
                    "tests/scripts/bad_keys.lua": "scripts: bad_keys", "tests/reproductions/F1.sh": "reproductions: F1",
                    "tests/known_to_fail/B4_box_counting.lua": "known to fail: B4 box counting",
-                   "tests/reproductions/beginning.sh": "reproductions: F3", "tests/page/browser.mjs": "known to fail: T2",
+                   "tests/reproductions/beginning.sh": "reproductions: F3", "tests/page/browser.mjs": "page:teaching",
                    "tests/scripts/runner/run_script.cpp": "reproductions: B1", "docs/accuracy.md": "known to fail: N7",
                    "bindings/web/http/server.cpp": "reproductions: F1", "bindings/main.cpp": "command line: CommandLine",
                    "bindings/web/serve_command.cpp": "command line: completion"}.items():

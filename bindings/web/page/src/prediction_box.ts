@@ -35,7 +35,6 @@ export class PredictionBox {
       oninput: () => keep(`prediction.${lesson}`, words.value || null),
       'aria-describedby': 'prediction-hint',
     });
-    const note = guesses?.note ? ` (${guesses.note})` : '';
     this.element = h(
       'section',
       { className: 'prediction', 'aria-label': 'Your prediction' },
@@ -49,12 +48,13 @@ export class PredictionBox {
                 h('label', {}, h('span', {}, name ? name.replace(/_/g, ' ') : 'Number'), input),
               ),
             ),
-            h('p', { className: 'hint' }, `Numbers${note}: they stand in the script, and its run compares them.`),
+            guesses.note ? h('p', { className: 'hint' }, guesses.note) : '',
             this.missing,
           ]
         : []),
       h('label', {}, h('span', {}, guesses ? 'And why' : 'In words'), words),
       h('p', { className: 'hint', id: 'prediction-hint' }, 'Kept here and with a saved run.'),
+      guesses ? h('p', { className: 'hint' }, 'Numbers stand in the script, and its run compares them.') : '',
       this.judged,
     );
     this.read();
