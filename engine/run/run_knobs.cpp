@@ -126,6 +126,11 @@ double RunKnobs::make(const RunKnob& knob) {
   return made_.back().value;
 }
 
+void RunKnobs::met(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  met_.insert(name);
+}
+
 double RunKnobs::value_of(const std::string& name, const std::string& text) const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> names;
@@ -161,7 +166,7 @@ void RunKnobs::check_all_made() const {
     listed.push_back(made.knob.name + " (" + bounds_text(made.knob) + ")");
   }
   for (const auto& [name, given] : given_) {
-    if (std::ranges::find(names, name) != names.end()) continue;
+    if (met_.contains(name) || std::ranges::find(names, name) != names.end()) continue;
     throw Error(ErrorCode::unknown_name,
                 "`--knob` gave " + quoted(name) + ", and no line of the script made such a knob" +
                     did_you_mean(name, names),

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,8 @@ class RunKnobs {
   // The value in force: what was given for it, or its own. Throws Error{bad_value} unless require_knob()
   // holds, where it was made before otherwise, and where what was given is of another kind or out of bounds.
   double make(const RunKnob& knob);
+  // Of a dry run, which does not know the value or the bounds: that the script asks for a knob of this name.
+  void met(const std::string& name);
   // What `text` sets it to. Throws Error{unknown_name} where no such knob was made, Error{bad_value} as
   // make().
   double value_of(const std::string& name, const std::string& text) const;
@@ -84,6 +87,7 @@ class RunKnobs {
   std::map<std::string, Given> given_;  // not changed after it was made
   mutable std::mutex mutex_;            // of what follows
   std::vector<Made> made_;
+  std::set<std::string> met_;
 };
 
 }  // namespace asperity

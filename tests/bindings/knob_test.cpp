@@ -108,6 +108,17 @@ TEST_F(KnobTest, OfALineThatFailedMayBeMadeOtherwise) {
   EXPECT_NE(refusal("name='a', from=0, to=2, value=1"), "");
 }
 
+TEST_F(KnobTest, OfADryRunMayHangOnAResultItDoesNotKnow) {
+  open_dry();
+  give({{"n", "0.5"}});
+  EXPECT_EQ(
+      run("local s = lab.surface.self_affine{ cells=8, size=1, hurst=0.8, rms_height=1, short_wave=0.5 }\n"
+          "local n = lab.knob{ name='n', from=0, to=1, value=s:roughness().Ra }\n"
+          "local twice = 2 * n"),
+      "");
+  session.knobs->check_all_made();
+}
+
 TEST_F(KnobTest, IsMovedByNoScript) {
   EXPECT_NE(run(std::string(pressure) + " lab.knob.set('pressure', '5 MPa')").find("does not move its knobs"),
             std::string::npos);

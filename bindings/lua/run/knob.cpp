@@ -104,6 +104,14 @@ Values make_knob(Call& call) {
   return {value};
 }
 
+// A dry run may not know what a bound or the value hangs on.
+void look_at_knob(const Call& call) {
+  if (!call.argument(1).is_table()) return;
+  with_key(call.argument(1), "name", [&](const Argument& name) {
+    if (name.is_text()) call.session().knobs->met(std::string(name.text()));
+  });
+}
+
 Values set_knob(Call& call) {
   const std::string name = call.text(1, "name");
   const Argument value = call.argument(2);
@@ -155,7 +163,8 @@ const Module& knob_module() {
         .returns = "number",
         .example =
             "local p = lab.knob{ name=\"pressure\", from=\"1 MPa\", to=\"200 MPa\", value=\"20 MPa\", "
-            "log=true }"};
+            "log=true }",
+        .look = look_at_knob};
     return m;
   }();
   return module;
