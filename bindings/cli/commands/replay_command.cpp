@@ -279,7 +279,14 @@ int replay(const ReplayCommand& command) {
   std::shared_ptr<lua::Variation> variation;
   try {
     if (!command.settings.empty()) variation = std::make_shared<lua::Variation>();
-    for (const std::string& setting : command.settings) variation->set(setting);
+    for (const std::string& setting : command.settings) {
+      if (setting.starts_with("knob.") || setting.starts_with("lab.knob."))
+        throw Error(ErrorCode::bad_value,
+                    "`--set` is " + asperity::quoted(setting) + ", and a replay takes knobs as recorded",
+                    "run its script with --knob NAME=VALUE, and --reuse " + command.recorded +
+                        " for what stays the same");
+      variation->set(setting);
+    }
   } catch (const Error& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return bad_usage;

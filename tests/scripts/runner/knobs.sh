@@ -61,6 +61,9 @@ ends 1 'no line of the script made such a knob' "$program" check knobs.lua --kno
 ends 0 'together: 1 press' "$program" explain knobs.lua --knob pressure="50 MPa"
 ends 1 'out of its bounds' "$program" explain knobs.lua --knob pressure="500 MPa"
 
+# A variation does not move a knob that was recorded.
+ends 2 'takes knobs as recorded' "$program" replay given --out r6 --set knob.value="30 MPa"
+
 # Confined, values go along.
 if "$program" run knobs.lua --out confined --confined --knob pressure="60 MPa" > printed 2> errors; then
   grep -qx '60000000.0	6.0' printed || fail "a confined run took another value"
