@@ -25,7 +25,7 @@ Scene checked(const Scene& scene) {
   check(scene);
   check_accuracy(scene);
   Scene result = scene;
-  if (scene.accuracy.asked) result.accuracy.tolerance = first_tolerance(scene.accuracy.asked->error);
+  if (scene.accuracy.asked) result.accuracy.tolerance = first_tolerance(*scene.accuracy.asked);
   return result;
 }
 

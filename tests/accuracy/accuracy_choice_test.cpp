@@ -71,7 +71,7 @@ TEST(AccuracyChoice, StopsAtTheFirstGridThatIsGoodEnough) {
   EXPECT_EQ(pair.lower().grid().nx, 512);
   EXPECT_NE(
       pair.plan().text().find("the first press chooses cells and tolerance for an error of 5 % of "
-                              "corrected_area_fraction, from 64 x 64 cells up to 4096 x 4096 cells; what "
+                              "corrected_area_fraction, from 16 x 16 cells up to 4096 x 4096 cells; what "
                               "follows is of the cells given"),
       std::string::npos)
       << pair.plan().text();
@@ -141,6 +141,37 @@ TEST(AccuracyChoice, CoarseCellsThatMissTheWavesDoNotCount) {
   const State state = pair.press({PressBy::pressure, 1e7, {}});
   EXPECT_GT(state.chosen()->nx, 128);
   EXPECT_EQ(state.chosen()->tried.front().note, "the heights were not carried");
+}
+
+// 64 cells were 1.5 % off: a contact 13 cells wide. The truth is of 2048 cells.
+TEST(AccuracyChoice, N6ABallAFewCellsWideIsMet) {
+  const Surface ball =
+      sphere_surface({Grid{1024, 1024, 1e-3, 1e-3}, 0.03, SphereShape::sphere}).with_material([] {
+        Material material;
+        material.young = 1e11;
+        material.poisson = 0;
+        return material;
+      }());
+  const double truth = 0.13591;
+  for (const double error : {0.1, 0.03, 0.01}) {
+    SpecimenPair pair(asking(ball, rigid_material(), Boundary::free, error));
+    const State state = pair.press({PressBy::pressure, 4e7, {}});
+    EXPECT_NEAR(state.corrected_area_fraction(), truth, error * truth) << state.chosen()->text();
+    EXPECT_TRUE(state.chosen()->met());
+  }
+}
+
+// A grid by itself proves nothing: none under 32 cells, nor under 64 for what is not an area.
+TEST(AccuracyChoice, CoarseCellsAreNotBelievedAlone) {
+  for (const auto& [of, fewest] : {std::pair{"corrected_area_fraction", 32}, std::pair{"energy", 64}}) {
+    SpecimenPair pair(asking(rough(256, 5, 8), rigid_material(), Boundary::periodic, 0.9, {of}));
+    const ChosenAccuracy& chosen = *pair.press({PressBy::pressure, 3e7, {}}).chosen();
+    EXPECT_EQ(chosen.nx, fewest) << of;
+    for (const TriedGrid& tried : chosen.tried)
+      if (tried.nx < fewest) {
+        EXPECT_EQ(tried.note, "no finer grid agreed yet") << of;
+      }
+  }
 }
 
 TEST(AccuracyChoice, HertzIsMet) {
@@ -376,7 +407,7 @@ TEST(AccuracyChoice, TwoRoughBodiesLieAsTheyDid) {
     const LatticeIsometry pose = LatticeIsometry(128, 128).turned(quarters).shifted(7, 30);
     const ContactGeometry as_given(scene, pose);
     const AccuracyChoice coarse = choose_accuracy(scene, as_given, {PressBy::pressure, 2e7, {}});
-    ASSERT_EQ(coarse.geometry->grid().nx, 64) << coarse.state.chosen()->text();
+    ASSERT_LT(coarse.geometry->grid().nx, 128) << coarse.state.chosen()->text();
     EXPECT_EQ(off_at_shared_nodes(coarse.geometry->combined(), as_given.combined()), 0) << quarters;
     Scene close = scene;
     close.accuracy.asked->error = 0.002;
