@@ -19,6 +19,12 @@ int again(lua_State* L) {
   return 1;
 }
 
+// A loop calls what it goes by with its state, here nil, and with what the turn before gave. How often a loop
+// goes round that hangs on an unknown result is not known: once.
+int called(lua_State* L) {
+  return lua_gettop(L) == 3 && lua_isnil(L, 2) && Argument(L, 3).is_unknown() ? 0 : again(L);
+}
+
 int compared(lua_State* L) { return luaL_error(L, "%s", cannot_follow); }
 
 int to_string(lua_State* L) {
@@ -146,7 +152,7 @@ void push_unknown(lua_State* L) {
         {"__mod", again},        {"__pow", again},          {"__unm", again},    {"__idiv", again},
         {"__band", again},       {"__bor", again},          {"__bxor", again},   {"__shl", again},
         {"__shr", again},        {"__bnot", again},         {"__concat", again}, {"__len", again},
-        {"__index", again},      {"__call", again},         {"__lt", compared},  {"__le", compared},
+        {"__index", again},      {"__call", called},        {"__lt", compared},  {"__le", compared},
         {"__newindex", ignored}, {"__tostring", to_string}, {nullptr, nullptr}};
     lua_newtable(L);
     luaL_setfuncs(L, methods, 0);
