@@ -39,7 +39,7 @@ TEST_F(Example, EveryOneRunsAfterThePreambleAlone) {
   for (const Function* function : all_functions()) {
     TearDown();
     SetUp();
-    EXPECT_EQ(run(example_preamble() + "do " + function->example + " end"), "")
+    EXPECT_EQ(run(example_preamble() + "do " + function->example + "\nend"), "")
         << qualified_name(*function) << ": " << function->example;
     ASSERT_NE(session.run, nullptr);
     EXPECT_EQ(session.run->expectations().failed(), 0) << qualified_name(*function);
