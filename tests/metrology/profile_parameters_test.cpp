@@ -87,6 +87,42 @@ TEST(ProfileParameters, SectionsAreTakenFromTheMiddleOnceTheEndsAreCut) {
   EXPECT_FALSE(setting_class("Sc6"));
 }
 
+// No wave is taken away as too long: a long one, and the tilt where F does not take it, stay.
+TEST(ProfileParameters, OfThePrimaryProfileAreOfTheWholeLength) {
+  Array<double> z(5000);
+  for (int i = 0; i < 5000; ++i)
+    z[static_cast<std::size_t>(i)] = std::sin(2 * pi * i / 100 + .3) + 3 * std::cos(2 * pi * i / 5000);
+  const Profile long_waves(.1, z);
+  const Profile primary = primary_profile(long_waves, {}, {});
+  EXPECT_EQ(primary.size(), 5000);
+  const ProfileParameters p = profile_parameters(primary, {.sections = 1});
+  expect_near(p.Rq.value, std::sqrt(.5 + 4.5), 1e-9, "Pq");
+  EXPECT_EQ(p.Rz.value, p.Rt);
+  EXPECT_FALSE(p.Rz.u);
+  // A tilt stays unless F takes it; the sine goes along with it by 8e-4.
+  const Profile level = sine(0);
+  for (std::size_t k = 0; k < z.size(); ++k) z[k] = level.heights()[k] + .02 * static_cast<double>(k);
+  const double tilted = profile_parameters(primary_profile(Profile(.1, z), {}, {}), {.sections = 1}).Rq.value;
+  expect_near(tilted * tilted, .5 + .02 * .02 * (5000. * 5000 - 1) / 12, 2e-3, "Pq of a tilted trace");
+  expect_near(profile_parameters(primary_profile(Profile(.1, z), 1, {}), {.sections = 1}).Rq.value,
+              profile_parameters(levelled(level, 1), {.sections = 1}).Rq.value, 1e-9, "Pq less the tilt");
+}
+
+TEST(ProfileParameters, ThePrimaryProfileLosesHalfOfSAtEitherEnd) {
+  // A wave of the length of S is halved, but for the rims, which a filter feels for a little more than half.
+  const Profile primary = primary_profile(sine(0), {}, 10.);
+  EXPECT_EQ(primary.size(), 4900);
+  expect_near(profile_parameters(primary, {.sections = 1}).Rq.value, std::sqrt(.5) / 2, 1e-5, "Pq");
+  EXPECT_EQ(primary_profile(sine(0), {}, 499.).size(), 10);
+  EXPECT_THROW(primary_profile(sine(0), {}, 500.), Error);
+  EXPECT_THROW(primary_profile(sine(0), {}, 0.), Error);
+  EXPECT_THROW(primary_profile(sine(0), {}, -1.), Error);
+  Array<double> ramp(100);
+  for (std::size_t k = 0; k < 100; ++k) ramp[k] = .3 * static_cast<double>(k);
+  EXPECT_THROW(primary_profile(Profile(1, ramp), 1, {}), Error);
+  EXPECT_NO_THROW(primary_profile(Profile(1, ramp), {}, {}));
+}
+
 TEST(ProfileParameters, HolesAreLeftOut) {
   Array<double> z(5000);
   const Profile whole = sine(.05);
@@ -108,7 +144,7 @@ TEST(ProfileParameters, OfAMeasuredTrace) {
   // The printed positions are rounded to 0.1 um.
   const Array<double> heights(read.heights().begin(), read.heights().end());
   const Profile trace = levelled(Profile(.15625e-6, heights), 1);
-  const ProfileParameters p = profile_parameters(trace);
+  const ProfileParameters p = profile_parameters(primary_profile(trace, {}, {}));
   const double um = 1e-6;
   expect_near(p.Ra.value / um, 0.0812542049347, 1e-9, "Ra");
   expect_near(p.Rq.value / um, 0.0942430489054, 1e-9, "Rq");

@@ -237,9 +237,11 @@ const Class& class_of<Profile>() {
     };
     for (Function& method : missing_point_methods_of_profile()) c.methods.push_back(std::move(method));
     c.methods.push_back(profile_parameters_method());
+    c.methods.push_back(primary_parameters_method());
     c.methods.push_back(profile_bearing_method());
-    c.results = {&roughness_type(false), &spectrum_type(), &fractal_dimension_type(), &outliers_type(false),
-                 &profile_parameters_result()};
+    c.results = {&roughness_type(false),       &spectrum_type(),
+                 &fractal_dimension_type(),    &outliers_type(false),
+                 &profile_parameters_result(), &primary_parameters_result()};
     return c;
   }();
   return type;

@@ -131,6 +131,16 @@ SectionedValue over_sections(int sections, const Of& of) {
   return result;
 }
 
+// What subtraction leaves of a trace that is all form has no shape of its own.
+void refuse_rounding(const Profile& trace, std::span<const double> left, const std::string& once) {
+  const Range before = trace.height_range();
+  const double span = known_range(left).span();
+  constexpr double last_places = 1024 * std::numeric_limits<double>::epsilon();
+  if (span > 0 && span <= last_places * std::max(std::abs(before.min), std::abs(before.max)))
+    refuse("nothing but rounding is left of the trace once " + once,
+           "its parameters need heights that differ");
+}
+
 }  // namespace
 
 std::optional<ProfilePreparation> setting_class(std::string_view name) {
@@ -152,6 +162,25 @@ std::optional<ProfilePreparation> setting_class(std::string_view name) {
       return preparation;
     }
   return {};
+}
+
+Profile primary_profile(const Profile& trace, const std::optional<int>& F, const std::optional<double>& S) {
+  if (trace.closed()) refuse("a closed outline has no primary profile", "give a profile along a line");
+  if (S) require_positive("S", *S, "m");
+  const double h = trace.spacing();
+  const auto n = static_cast<std::size_t>(trace.size());
+  const double cut = S ? std::ceil(*S / h / 2) : 0;
+  if (2 * cut + 2 > static_cast<double>(n))
+    refuse("nothing is left of the trace of " + metres(trace.length()) + " once half of `S`, " + metres(*S) +
+               ", is cut off at either end",
+           "give a longer trace or a smaller `S`");
+  Profile profile = trace;
+  if (F) profile = levelled(profile, *F);
+  if (S) profile = gaussian_filtered(profile, {.short_wave = S, .long_wave = {}});
+  const auto first = static_cast<std::size_t>(cut);
+  const std::span<const double> z = profile.measured_heights().subspan(first, n - 2 * first);
+  refuse_rounding(trace, z, "its form is taken away");
+  return Profile::with_holes(h, Array<double>(z.begin(), z.end()));
 }
 
 PreparedProfile prepared_profile(const Profile& trace, const ProfilePreparation& preparation) {
@@ -183,12 +212,7 @@ PreparedProfile prepared_profile(const Profile& trace, const ProfilePreparation&
   const auto length = std::min(n - 2 * half, static_cast<std::size_t>(std::round(sections * samples)));
   const std::size_t first = half + (n - 2 * half - length) / 2;
   const std::span<const double> z = profile.measured_heights().subspan(first, length);
-  const Range before = trace.height_range(), left = known_range(z);
-  constexpr double last_places = 1024 * std::numeric_limits<double>::epsilon();
-  if (left.span() > 0 && left.span() <= last_places * std::max(std::abs(before.min), std::abs(before.max)))
-    refuse("nothing but rounding is left of the trace once form and waves longer than " +
-               metres(preparation.section) + " are taken away",
-           "its parameters need heights that differ");
+  refuse_rounding(trace, z, "form and waves longer than " + metres(preparation.section) + " are taken away");
   return {Profile::with_holes(h, Array<double>(z.begin(), z.end())), sections};
 }
 

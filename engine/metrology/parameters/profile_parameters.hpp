@@ -67,6 +67,11 @@ struct PreparedProfile {
 // The class Sc1 … Sc5 of ISO 21920-3 by its name: `S` and `section`. Nothing where there is no such class.
 std::optional<ProfilePreparation> setting_class(std::string_view name);
 
+// Of which the P parameters are: F, then S, and no L-filter; the waviness stays. Where S is given, half of it
+// is cut off at either end; else the whole length is evaluated. A closed outline is refused, and a trace of
+// which nothing, or nothing but rounding, is left: Error{bad_value}.
+Profile primary_profile(const Profile& trace, const std::optional<int>& F, const std::optional<double>& S);
+
 // A closed outline is refused; so are sections under ten samples, a trace that holds no section once its ends
 // are cut, and S not below the section: Error{bad_value}.
 PreparedProfile prepared_profile(const Profile& trace, const ProfilePreparation& preparation);
