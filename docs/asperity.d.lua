@@ -93,6 +93,8 @@
 ---@field distance number[] of the whole stencil, m, rising; of heights the width of the blocks
 ---@field value number[] root mean square at each distance: a slope, 1/m or m; nan where nothing was measured
 ---@field least number[] of curvature alone: the most negative at each distance, 1/m
+---@field cut_off number|nil where `tip` is given, the distance from which on the map is reliable along the way of the stencils (surface:reliability) (m)
+---@field reliable boolean[]|nil where `tip` is given, whether each distance is at the cut-off or above
 
 ---From which scale on a tip of this radius can have measured what stands in the map: shorter stencils have, somewhere, hollows sharper than the tip. 0: all scales; half the map: none.
 ---@class asperity.Reliability
@@ -190,6 +192,42 @@
 ---@field section number length of each, and nesting index of the L-filter (m)
 ---@field measured integer samples that were measured
 ---@field profile asperity.Profile the roughness profile
+
+---The P parameters of ISO 21920-2 of a trace after F-operation and S-filter, with its long waves.
+---@class asperity.PrimaryParameters
+---@field Pa number mean magnitude about the mean line, over the evaluation length (m)
+---@field Pq number root mean square about the mean line, over the evaluation length (m)
+---@field Psk number skewness of the heights
+---@field Pku number kurtosis of the heights
+---@field Pp number greatest height above the mean line, mean over the sections (m)
+---@field Pv number greatest depth below it, mean over the sections (m)
+---@field Pz number Pp + Pv (m)
+---@field Pt number highest less lowest point of the evaluation length (m)
+---@field Ppt number greatest of the sections' heights (m)
+---@field Pvt number greatest of the sections' depths (m)
+---@field Pzx number greatest height within a section moved sample by sample (m)
+---@field Pdq number|nil root mean square slope by the rule of seven samples, three dropped at each end
+---@field Pdq_edges number|nil root mean square slope by forward differences
+---@field Pda number|nil mean magnitude of the slope, by forward differences
+---@field Pdr number|nil developed length over length, less 1, by forward differences
+---@field Psm number|nil mean width of the elements by crossings of the mean line; nil where none is whole (m)
+---@field Pc number|nil mean height of the elements; nil where none is whole (m)
+---@field elements integer how many, of the passes from the left and from the right
+---@field Pk number core height: the fall of the least-squares line of the material ratio curve over its flattest 40 % (m)
+---@field Ppk number reduced peak height (m)
+---@field Pvk number reduced dale depth (m)
+---@field Pmrk1 number material ratio at the upper end of the core, 0 to 1
+---@field Pmrk2 number material ratio at the lower end of the core, 0 to 1
+---@field Ppkx number from the core to the highest point (m)
+---@field Pvkx number from the core to the lowest point (m)
+---@field Pdc number height between the material ratios 2.5 % and 50 % (m)
+---@field u_Pa number|nil standard uncertainty of Pa from its scatter over the sections; nil of one section (m)
+---@field u_Pq number|nil the same of Pq (m)
+---@field u_Pz number|nil the same of Pz; with five sections 95 % lie within 2.78 of it (m)
+---@field sections integer that entered
+---@field section number length of each (m)
+---@field measured integer samples that were measured
+---@field profile asperity.Profile the primary profile, as it was evaluated
 
 ---How far the contact conditions are from being met, each relative.
 ---@class asperity.Certificate
@@ -571,6 +609,7 @@ local Material = {}
 ---@field of? "slope"|"curvature"|"height" slope over a distance, curvature over twice a distance, or height about the planes of blocks ("slope"|"curvature"|"height", default "slope")
 ---@field along? "x"|"y" which way the stencils lie ("x"|"y", default "x")
 ---@field cells? integer[] distances in cells; of heights the blocks a side (integer[], default {1, 2, 4, …} to a quarter of the map)
+---@field tip? number|string radius of the tip that measured the map: the result then says which distances are reliable (a length above 0)
 
 ---@class asperity.options.surface.reliability
 ---@field tip number|string radius of the tip that measured the map (a length above 0, required)
@@ -732,7 +771,7 @@ function Surface:bearing() end
 ---@return asperity.Autocorrelation
 function Surface:autocorrelation() end
 
----Slope, curvature or height by scale (Sanner et al. 2022).
+---Slope, curvature or height by scale (Sanner et al. 2022); with `tip`, from which scale on it is reliable.
 ---@param options? asperity.options.surface.scale_dependence
 ---@return asperity.ScaleDependence
 function Surface:scale_dependence(options) end
@@ -789,6 +828,12 @@ function Surface:reliability(options) end
 ---@field F? integer F-operation: degree of the polynomial taken away first; without it none (integer from 0 to 5)
 ---@field S? number|string nesting index Nis of the S-filter: shorter waves are attenuated; without it none (a length above 0)
 ---@field threshold? number of Rp and Rv: lower hills and dales are no elements of Rsm and Rc (number from 0 to 1, default 0.1)
+
+---@class asperity.options.profile.primary_parameters
+---@field F? integer F-operation: degree of the polynomial taken away first; without it none (integer from 0 to 5)
+---@field S? number|string nesting index Nis of the S-filter: shorter waves are attenuated, half of it is cut off at either end; without it none (a length above 0)
+---@field sections? integer equal parts of the evaluation length; one, the whole of it, unless asked (integer from 1 to 1000, default 1)
+---@field threshold? number of Pp and Pv: lower hills and dales are no elements of Psm and Pc (number from 0 to 1, default 0.1)
 
 ---Heights at equal spacing along a line, or once around a closed outline; an immutable value.
 ---@class asperity.Profile
@@ -873,6 +918,11 @@ function Profile:filled(options) end
 ---@param options asperity.options.profile.profile_parameters
 ---@return asperity.ProfileParameters
 function Profile:profile_parameters(options) end
+
+---The P parameters of ISO 21920-2 (Pa, Pq, Pz, Pt, …): of the trace as it was measured, over its whole length, without an L-filter. A tilt left in dominates them: `F=1`.
+---@param options? asperity.options.profile.primary_parameters
+---@return asperity.PrimaryParameters
+function Profile:primary_parameters(options) end
 
 ---The material ratio curve (Abbott-Firestone) of the measured heights, exact and not binned: Rmr(c) is its ratio(c), Rmc(p) its height(p).
 ---@return asperity.MaterialRatioCurve

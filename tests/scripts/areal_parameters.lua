@@ -70,6 +70,12 @@ near(slopes.value[1], p.Sdq / math.sqrt(2), 1e-9, "slope along x over a cell")
 near(slopes.distance[2], 2 * um, 1e-12, "its distance")
 assert(s:scale_dependence{ of="curvature", cells={ 2 } }.least[1] < 0)
 assert(s:reliability{ tip="1 nm" }.cut_off == 0 and s:reliability{ tip="1 mm" }.x > 32 * um)
+assert(slopes.cut_off == nil and slopes.reliable == nil)
+local blunt = s:scale_dependence{ of="slope", cells={ 1, 4, 60 }, tip="10 um" }
+near(blunt.cut_off, s:reliability{ tip="10 um" }.x, 1e-12, "the cut-off of the tip")
+assert(blunt.cut_off > 2 * um and blunt.reliable[1] == false and blunt.reliable[2] == false)
+assert(blunt.reliable[3] == (blunt.distance[3] >= blunt.cut_off) and #blunt.reliable == 3)
+assert(s:scale_dependence{ of="height", tip="1 nm" }.reliable[1])
 refused("whose stencil fits", function() return s:scale_dependence{ cells={ 300 } } end)
 
 -- A trace: sections as the standard has them, none guessed.
@@ -86,4 +92,19 @@ refused("neither `section` nor `class`", function() return long:profile_paramete
 refused("both `section` and `class`", function() return long:profile_parameters{ section="1 mm", class="Sc3" } end)
 refused("there is no setting class `Sc7`", function() return long:profile_parameters{ class="Sc7" } end)
 refused("holds no section", function() return trace:profile_parameters{ class="Sc5" } end)
+
+-- The primary profile keeps its long waves and its whole length; nothing is required of the call.
+local waves = lab.surface.from_function{ cells={ 4096, 1 }, size={ "4.096 mm", "1 um" }, height=function(x)
+  return um * math.sin(2 * math.pi * x / (64 * um)) + 3 * um * math.cos(2 * math.pi * x / (4096 * um))
+end }:profile{ row=0 }
+local primary = waves:primary_parameters()
+near(primary.Pq, um * math.sqrt(0.5 + 4.5), 1e-9, "Pq")
+near(primary.Pz, primary.Pt, 0, "Pz of one section is Pt")
+assert(primary.measured == 4096 and primary.sections == 1 and primary.u_Pz == nil and primary.profile == waves)
+near(primary.section, 4.096e-3, 1e-12, "the evaluation length")
+assert(waves:profile_parameters{ section="0.512 mm" }.Rq < 0.75 * um)
+assert(waves:primary_parameters{ S="64 um", F=1, sections=5 }.u_Pz > 0)
+refused("did you mean", function() return primary.Rq end)
+refused("`primary_parameters` takes no long waves away", function() return waves:profile_parameters{} end)
+refused("unknown key `section`", function() return waves:primary_parameters{ section="0.8 mm" } end)
 print "areal parameters: done"

@@ -200,6 +200,7 @@ struct ScaleDependenceKeys {
   ScaleQuantity of = ScaleQuantity::slope;
   ScaleAxis along = ScaleAxis::x;
   std::vector<int> cells;
+  std::optional<double> tip;
 };
 const Block<ScaleDependenceKeys>& scale_dependence_block() {
   using O = ScaleDependenceKeys;
@@ -221,20 +222,37 @@ const Block<ScaleDependenceKeys>& scale_dependence_block() {
                          o.cells.push_back(static_cast<int>(*n));
                      });
                  })
-           .defaults_to("{1, 2, 4, …} to a quarter of the map")}};
+           .defaults_to("{1, 2, 4, …} to a quarter of the map"),
+       quantity(
+           "tip", &O::tip, dimension::length, above(0),
+           "radius of the tip that measured the map: the result then says which distances are reliable")}};
   return block;
 }
 
-const RecordType<ScaleDependence>& scale_dependence_type() {
-  using S = ScaleDependence;
+struct MeasuredScales {
+  ScaleDependence found;
+  std::optional<double> cut_off;  // m
+  std::optional<std::vector<bool>> reliable;
+};
+
+const RecordType<MeasuredScales>& scale_dependence_type() {
+  using S = MeasuredScales;
+  const auto of = [](std::vector<double> ScaleDependence::*member) {
+    return [member](const S& s) { return s.found.*member; };
+  };
   static const RecordType<S> type{
       "ScaleDependence",
       "scale dependence",
       "Root mean square slope, curvature or height by the distance over which it is taken.",
-      {{"distance", &S::distance, "of the whole stencil, m, rising; of heights the width of the blocks"},
-       {"value", &S::value,
+      {{"distance", of(&ScaleDependence::distance),
+        "of the whole stencil, m, rising; of heights the width of the blocks"},
+       {"value", of(&ScaleDependence::value),
         "root mean square at each distance: a slope, 1/m or m; nan where nothing was measured"},
-       {"least", &S::least, "of curvature alone: the most negative at each distance, 1/m"}}};
+       {"least", of(&ScaleDependence::least), "of curvature alone: the most negative at each distance, 1/m"},
+       {"cut_off", &S::cut_off, dimension::length,
+        "where `tip` is given, the distance from which on the map is reliable along the way of the stencils "
+        "(surface:reliability)"},
+       {"reliable", &S::reliable, "where `tip` is given, whether each distance is at the cut-off or above"}}};
   return type;
 }
 
@@ -249,7 +267,14 @@ Values scale_dependence_of(Call& call) {
     std::sort(keys.cells.rbegin(), keys.cells.rend());
   else
     std::sort(keys.cells.begin(), keys.cells.end());
-  return {scale_dependence_type()(scale_dependence(surface, keys.of, keys.along, keys.cells))};
+  MeasuredScales scales{scale_dependence(surface, keys.of, keys.along, keys.cells), {}, {}};
+  if (keys.tip) {
+    scales.cut_off = tip_cut_off(surface, keys.along, *keys.tip);
+    scales.reliable.emplace();
+    for (const double distance : scales.found.distance)
+      scales.reliable->push_back(distance >= *scales.cut_off * (1 - 1e-9));
+  }
+  return {scale_dependence_type()(scales)};
 }
 
 struct ReliabilityKeys {
@@ -354,7 +379,9 @@ std::vector<Function> parameter_methods() {
        .example = "print(s:autocorrelation():at(3, 0))"},
       {.name = "scale_dependence",
        .body = scale_dependence_of,
-       .sentence = "Slope, curvature or height by scale (Sanner et al. 2022).",
+       .sentence =
+           "Slope, curvature or height by scale (Sanner et al. 2022); with `tip`, from which scale on "
+           "it is reliable.",
        .options = &scale_dependence_block(),
        .options_optional = true,
        .returns = "ScaleDependence",
