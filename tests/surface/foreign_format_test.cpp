@@ -66,9 +66,14 @@ TEST(ForeignFormat, F7ATextWithAHeadOfItsOwnIsToldWhereItsNumbersBegin) {
   EXPECT_EQ(
       refusal("trace.prf", "Stylus profiler\nOperator Li\nSpeed 0.5 mm/s\n\n0.0 1.2\n0.1 1.3\n0.2 1.1\n"),
       "\"trace.prf\" has a head of its own, from line 1, \"Stylus profiler\", to line 4, over 2 columns of "
-      "numbers: such heads are not read; put # before its lines, or delete them; over points a line such as "
-      "\"x [mm],z [um]\" or \"x [mm],y [mm],z [um]\" names the columns and their units");
-  EXPECT_NE(refusal("trace.txt", "Stylus profiler\n1 2\n3 4\n5 6\n").find("has a head of its own"),
+      "numbers: they may be positions and heights, or a matrix of heights; a line such as \"x [mm],z [um]\" "
+      "below "
+      "the head says so of a trace; or say `format` = \"text\": `profile.read` then takes positions and "
+      "heights, "
+      "`surface.read` a matrix");
+  EXPECT_NE(refusal("trace.txt", "Stylus profiler, hall\n1 2\n3 4\n5 6\n").find("has a head of its own"),
+            std::string::npos);
+  EXPECT_NE(refusal("map.txt", "Zygo ASCII Data File - Format 2\n0 1 2\n1 2 3\n4 5 6\n").find("MetroPro"),
             std::string::npos);
   EXPECT_NE(refusal("words.txt", "Only words,\nand two lines of them\n").find("holds no table of numbers"),
             std::string::npos);

@@ -11,6 +11,7 @@
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
 #include "tests/surface/files.hpp"
+#include "tests/surface/warnings.hpp"
 
 namespace asperity::sur_writer_test {
 namespace {
@@ -62,6 +63,21 @@ TEST(SurWriter, HeightsReadBackWithinHalfAStepAndHolesExactly) {
           ASSERT_LE(std::abs(is - was), 0.5 * step + rounding) << k << ", " << unit;
         }
       }
+}
+
+// The file holds its spacing in four bytes: a size that differs by their rounding contradicts nothing.
+TEST(SurWriter, TheSizeThatWasWrittenIsNotWarnedOf) {
+  const Scratch scratch;
+  const Surface surface = rough(1e-6, 0, false);
+  write_surface(surface, scratch.path("a.sur"));
+  for (const double factor : {1.0, 1.001}) {
+    ReadOptions options;
+    options.size_x = factor * surface.grid().size_x;
+    options.size_y = surface.grid().size_y;
+    testing::Warnings warnings;
+    EXPECT_EQ(read_surface(scratch.path("a.sur"), options, warnings).grid().size_x, *options.size_x);
+    EXPECT_EQ(warnings.told("of the call is used"), factor != 1) << factor;
+  }
 }
 
 TEST(SurWriter, FirstLineComesFirst) {

@@ -234,36 +234,4 @@ void warn_if_cut(const SourceFile& file, Monitor& monitor) {
                  ": the last line has no line end; if the file was cut short its last height may be wrong");
 }
 
-void refuse_headed_text(const SourceFile& file) {
-  if (!file.looks_like_text()) return;
-  constexpr std::size_t most_words = 1000, enough_rows = 3;
-  LineReader lines(file.text());
-  std::string_view line;
-  std::string first;  // line of words
-  std::size_t words = 0, first_number = 0, rows = 0, rows_from = 0, columns = 0;
-  while (rows < enough_rows && words < most_words && lines.next(line)) {
-    if (is_skipped(line)) continue;
-    if (is_row_of_numbers(line)) {
-      const std::size_t cells = cells_of(trimmed(line), separator_of(line)).size();
-      if (rows == 0 || cells != columns) rows_from = lines.number();
-      rows = cells == columns ? rows + 1 : 1;
-      columns = cells;
-      continue;
-    }
-    rows = 0;
-    columns = 0;
-    if (words++ == 0) {
-      first = shown(trimmed(line));
-      first_number = lines.number();
-    }
-  }
-  if (words == 0 || rows < enough_rows) return;
-  refuse_file(file,
-              "has a head of its own, from line " + std::to_string(first_number) + ", " + first +
-                  ", to line " + std::to_string(rows_from - 1) + ", over " + std::to_string(columns) +
-                  (columns == 1 ? " column" : " columns") + " of numbers: such heads are not read",
-              "put # before its lines, or delete them; over points a line such as \"x [mm],z [um]\" or "
-              "\"x [mm],y [mm],z [um]\" names the columns and their units");
-}
-
 }  // namespace asperity

@@ -70,8 +70,4 @@ TextTable read_table(LineReader& lines, const SourceFile& file, Monitor& monitor
 // Warns where the last line of a text has no end: a file that was cut within its last number looks the same.
 void warn_if_cut(const SourceFile& file, Monitor& monitor);
 
-// Throws Error{bad_file} for a text of words over a table of numbers, saying where each begins; nothing for
-// any other.
-void refuse_headed_text(const SourceFile& file);
-
 }  // namespace asperity

@@ -100,11 +100,14 @@ std::optional<std::vector<HeadColumn>> column_head(std::string_view line) {
   return columns;
 }
 
+bool are_points(const std::vector<HeadColumn>& columns) {
+  return columns.size() == 3 && columns[0].name.front() == 'x' && columns[1].name.front() == 'y' &&
+         columns[2].name.front() == 'z';
+}
+
 std::optional<std::vector<HeadColumn>> xyz_head(std::string_view line) {
   auto columns = column_head(line);
-  if (columns && columns->size() == 3 && (*columns)[0].name.front() == 'x' &&
-      (*columns)[1].name.front() == 'y' && (*columns)[2].name.front() == 'z')
-    return columns;
+  if (columns && are_points(*columns)) return columns;
   // Names that no separator parts as expected: "xyz", "x,y,z;".
   constexpr std::size_t short_line = 64;
   const std::string text = lower_case(without_mark(line));
@@ -115,13 +118,17 @@ std::optional<std::vector<HeadColumn>> xyz_head(std::string_view line) {
   return std::vector<HeadColumn>{{"x", {}, {}}, {"y", {}, {}}, {"z", {}, {}}};
 }
 
+bool are_of_profile(const std::vector<HeadColumn>& columns) {
+  if (columns.size() != 2) return false;
+  const HeadColumn &position = columns[0], &height = columns[1];
+  const bool plain = position.name == "x" && (height.name == "z" || height.name == "y");
+  return plain || position.unit || height.unit;
+}
+
 std::optional<std::vector<HeadColumn>> profile_head(std::string_view line) {
   auto columns = column_head(line);
-  if (!columns || columns->size() != 2) return {};
-  const HeadColumn &position = (*columns)[0], &height = (*columns)[1];
-  const bool plain = position.name == "x" && (height.name == "z" || height.name == "y");
-  if (plain || position.unit || height.unit) return columns;
-  return {};
+  if (!columns || !are_of_profile(*columns)) return {};
+  return columns;
 }
 
 std::optional<double> head_unit(const HeadColumn& column, const SourceFile& file, Monitor& monitor) {

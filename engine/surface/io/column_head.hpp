@@ -32,6 +32,10 @@ std::optional<std::vector<HeadColumn>> xyz_head(std::string_view line);
 // and "z" (or "y").
 std::optional<std::vector<HeadColumn>> profile_head(std::string_view line);
 
+// Whether columns are those of points, or of a profile, as xyz_head and profile_head have them.
+bool are_points(const std::vector<HeadColumn>& columns);
+bool are_of_profile(const std::vector<HeadColumn>& columns);
+
 // The unit of a column; a word that is no unit of length is warned of, and then the call has to say.
 std::optional<double> head_unit(const HeadColumn& column, const SourceFile& file, Monitor& monitor);
 

@@ -11,6 +11,7 @@
 #include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 #include "engine/surface/io/foreign_format.hpp"
+#include "engine/surface/io/own_head.hpp"
 
 namespace asperity {
 
@@ -52,6 +53,7 @@ bool has_extension_of(const Format& format, const SourceFile& file) {
 const Format& if_certain(const Format& format, const SourceFile& file) {
   if (&format != &text_format()) return format;
   if (has_extension_of(xyz_format(), file)) return xyz_format();
+  if (const auto head = own_head(file)) refuse_uncertain_lattice(file, *head);
   if (almost_triples(file))
     refuse_file(
         file,
@@ -93,7 +95,6 @@ const Format& choose_format(const SourceFile& file, const std::string& forced) {
     if (format->recognises(file)) return if_certain(*format, file);
   if (const std::optional<ForeignFormat> foreign = foreign_format(file))
     refuse_file(file, "is " + foreign->what + ", which is not read", foreign->cure);
-  refuse_headed_text(file);
   for (const Format* format : formats())
     if (has_extension_of(*format, file)) return if_certain(*format, file);
   refuse_file(file, "is of no known format; looked for " + joined(marks, " and "),

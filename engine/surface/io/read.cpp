@@ -63,7 +63,8 @@ std::optional<SourceFile> plain_file(const SourceFile& given, const std::string&
   return unpacked;
 }
 
-bool differ(double asked, double found) { return std::abs(asked - found) > 1e-9 * std::abs(found); }
+// By more than a file of numbers in four bytes rounds.
+bool differ(double asked, double found) { return std::abs(asked - found) > 1e-6 * std::abs(found); }
 
 // The call's value, else the file's; a warning when the call overrules the file.
 std::optional<double> settled(const std::optional<double>& asked, const std::optional<double>& found,

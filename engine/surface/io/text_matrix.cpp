@@ -4,7 +4,8 @@
 // instrument form `h= w= pixel size= height conversion factor=`, and comment lines `Width:`,
 // `Height:`, `Value units:`. A header that lies about the number of cells is an error. A profile of
 // this program's own is two columns, position and height, and so is a table over which a line such as
-// "x [mm],z [um]" says so (column_head.hpp); any other table is taken as heights.
+// "x [mm],z [um]" says so (column_head.hpp); any other table is taken as heights. Under a head of words
+// (own_head.hpp) it is the same, with what the head says for certain.
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "engine/core/quantity.hpp"
 #include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
+#include "engine/surface/io/own_head.hpp"
 
 namespace asperity {
 
@@ -141,13 +143,11 @@ Header read_header(LineReader& lines, const SourceFile& file) {
       lines = ahead;
       return header;
     }
-    if (line.find('=') == std::string_view::npos) {
-      refuse_headed_text(file);
+    if (line.find('=') == std::string_view::npos)
       refuse_file(
           file,
           "holds no table of numbers: line " + std::to_string(ahead.number()) + " starts with " + shown(line),
           "a text matrix has one line of numbers for each y, comments start with #");
-    }
     take_in_line(header, file, line);
   }
   return header;
@@ -161,7 +161,7 @@ bool recognises_text_matrix(const SourceFile& file) {
     const std::string_view text = trimmed(line);
     if (is_skipped(text)) continue;
     return is_row_of_numbers(text) || (text.starts_with("h=") && text.find("w=") != std::string_view::npos) ||
-           profile_head(text);
+           profile_head(text) || own_head(file);
   }
   return false;
 }
@@ -186,10 +186,60 @@ HeightMap pair_of(HeightMap map, const std::vector<HeadColumn>& head, const Sour
   return map;
 }
 
+// Nodes times spacing. A length that is stated too may be that from the first node to the last.
+std::optional<double> size_along(const SourceFile& file, const std::optional<double>& size,
+                                 const std::optional<double>& spacing, int nodes, const std::string& axis) {
+  if (!spacing) return size;
+  const double found = *spacing * nodes;
+  if (size && !(*size > 0.99 * (found - *spacing) && *size < 1.01 * found))
+    refuse_file(file,
+                "states in its head that it is " + format_quantity(*size, dimension::length) +
+                    " long along " + axis + " and that its " + std::to_string(nodes) + " points lie " +
+                    format_quantity(*spacing, dimension::length) + " apart",
+                "correct the one that is wrong");
+  return found;
+}
+
+HeightMap read_under_own_head(const SourceFile& file, const OwnHead& head, Monitor& monitor) {
+  LineReader lines(file.text());
+  std::string_view line;
+  while (lines.number() < head.lines && lines.next(line)) continue;
+  const TextTable table = read_table(lines, file, monitor);
+  warn_if_cut(file, monitor);
+  if (head.stated_columns && head.stated_rows && *head.stated_columns == table.rows &&
+      *head.stated_rows == table.columns && table.rows != table.columns)
+    refuse_file(file,
+                "states " + std::to_string(table.rows) + " columns and " + std::to_string(table.columns) +
+                    " rows, and holds " + std::to_string(table.columns) + " numbers on each of " +
+                    std::to_string(table.rows) + " lines",
+                "a line of numbers is one y: if lines of the file run along y, transpose it");
+  check_count(file, head.stated_columns, table.columns, "columns");
+  check_count(file, head.stated_rows, table.rows, "rows");
+  for (const std::string& what : head.twice)
+    monitor.warn(file_name(file.path()) + " states " + what + " in two ways in its head; neither is used");
+  HeightMap map;
+  map.heights = Field(table.columns, table.rows);
+  std::copy(table.values.begin(), table.values.end(), map.heights.values().begin());
+  map.unit = head.unit;
+  if (head.names && table.columns == 2 && are_of_profile(*head.names))
+    return pair_of(std::move(map), *head.names, file, monitor);
+  if (head.names && table.columns == 1 && head.names->front().unit) map.unit = head.names->front().unit;
+  if (table.columns == 1) {  // a trace, one sample a line
+    map.size_y = head.spacing_x ? *head.spacing_x * table.rows : head.size ? head.size : head.size_x;
+    return map;
+  }
+  map.size_x = size_along(file, head.size_x, head.spacing_x, table.columns, "x");
+  map.size_y = size_along(file, head.size_y, head.spacing_y, table.rows, "y");
+  if (!map.size_x) map.size_x = head.size;
+  if (!map.size_y && table.columns == table.rows) map.size_y = head.size;
+  return map;
+}
+
 HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
   if (file.bytes().starts_with("\xFF\xFE") || file.bytes().starts_with("\xFE\xFF"))
     refuse_file(file, "is UTF-16 text", "save it as UTF-8");
   if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
+  if (const auto head = own_head(file)) return read_under_own_head(file, *head, monitor);
   LineReader lines(file.text());
   const Header header = read_header(lines, file);
   TextTable table = read_table(lines, file, monitor);
@@ -230,15 +280,18 @@ HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
 
 const Format& text_format() {
   static constexpr std::array<std::string_view, 5> endings{"txt", "csv", "asc", "dat", "tsv"};
-  static const Format format{"text",
-                             "a line of numbers first",
-                             {"A matrix of numbers, one line a row, bare or under the heads of this program, "
-                              "of Gwyddion and of common exports; in UTF-16 too.",
-                              "Heads of another kind, lines of different lengths.",
-                              "Files of the public test set of SurfaceTopography."},
-                             endings,
-                             recognises_text_matrix,
-                             read_text_matrix};
+  static const Format format{
+      "text",
+      "a line of numbers first",
+      {"A matrix of numbers, one line a row, or a trace, bare or under a head: of this "
+       "program, of Gwyddion, of common exports, or of words, of which lengths with a "
+       "unit and counts are taken; in UTF-16 too.",
+       "Lines of different lengths; tables under words that may be points, a log or a "
+       "wrapped matrix, unless the head or the call says.",
+       "Files of the public test set of SurfaceTopography."},
+      endings,
+      recognises_text_matrix,
+      read_text_matrix};
   return format;
 }
 

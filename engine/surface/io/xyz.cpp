@@ -18,6 +18,7 @@
 #include "engine/core/text.hpp"
 #include "engine/surface/io/column_head.hpp"
 #include "engine/surface/io/format.hpp"
+#include "engine/surface/io/own_head.hpp"
 
 namespace asperity {
 
@@ -77,7 +78,8 @@ struct TriplesHead {
 
 // Takes in the comments and the line of names that stand before the numbers. A comment counts where it has
 // units.
-TriplesHead take_head(LineReader& lines) {
+// Under a head of words its last line names them.
+TriplesHead take_head(LineReader& lines, const SourceFile& file) {
   TriplesHead head;
   std::string_view line;
   for (LineReader ahead = lines; ahead.next(line); lines = ahead) {
@@ -92,6 +94,12 @@ TriplesHead take_head(LineReader& lines) {
       head.columns = std::move(columns);
       head.named = true;
       lines = ahead;
+    } else if (!is_row_of_numbers(line)) {
+      auto own = own_head(file);
+      if (!own || !own->names || !are_points(*own->names)) return head;
+      head.columns = std::move(own->names);
+      head.named = true;
+      while (lines.number() < own->lines && lines.next(line)) continue;
     }
     return head;
   }
@@ -108,7 +116,7 @@ std::optional<Triples> triples_of(const SourceFile& file) {
   if (!file.looks_like_text()) return {};
   if (file.text().starts_with("# asperity")) return {};  // a table of this program's own
   LineReader lines(file.text());
-  const TriplesHead head = take_head(lines);
+  const TriplesHead head = take_head(lines, file);
   std::string_view line;
   for (LineReader ahead = lines; ahead.next(line);) {
     if (is_skipped(line)) continue;
@@ -217,7 +225,7 @@ bool ends_within_a_line(const TextTable& table, const LatticeAxis& x, const Latt
 HeightMap read_xyz(const SourceFile& file, Monitor& monitor) {
   if (!file.looks_like_text()) refuse_file(file, "is not text: it holds zero bytes");
   LineReader lines(file.text());
-  const TriplesHead head = take_head(lines);
+  const TriplesHead head = take_head(lines, file);
   const TextTable table = read_table(lines, file, monitor);
   warn_if_cut(file, monitor);
   if (table.columns != 3)
