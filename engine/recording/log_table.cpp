@@ -337,7 +337,8 @@ void LogTable::require_one_of(int pressure, int load) {
   } else if (!has(pressure) && !has(load)) {
     const std::string names = others();
     problem(here(), "no column `pressure` or `load`" + (names.empty() ? names : " among others: " + names) +
-                        "; write \"pressure [MPa]\" or \"load [N]\"");
+                        "; write \"pressure [MPa]\" or \"load [N]\"" +
+                        (names.empty() ? "" : ", or choose one: columns={ load=\"its head\" }"));
   }
 }
 

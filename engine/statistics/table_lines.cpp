@@ -233,4 +233,11 @@ bool TableLines::at_end_of_table() const {
   return true;
 }
 
+bool TableLines::numbers_follow() const {
+  LineReader ahead = lines_;
+  for (std::string_view line; ahead.next(line);)
+    if (is_row_of_numbers(line) && cells_of(line, separator_of(line)).size() > 1) return true;
+  return false;
+}
+
 }  // namespace asperity

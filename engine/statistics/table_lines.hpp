@@ -46,6 +46,8 @@ class TableLines {
   // Whether nothing that follows has as many cells as there are heads: what is left stands below the table.
   // In all linear in the lines.
   bool at_end_of_table() const;
+  // Whether a line that follows holds nothing but numbers, two or more. Linear in what follows.
+  bool numbers_follow() const;
 
   std::size_t line() const { return lines_.number(); }
   std::size_t position() const { return lines_.position(); }

@@ -235,9 +235,11 @@ class MeasuredTable {
         const bool words = std::ranges::none_of(cells, [](const TableCell& cell) {
           return read_cell(cell.text, Separator::blank).kind == CellKind::number;
         });
-        // Wider than the table, it is the table, and what was read stands above it.
-        const bool above = rows_.empty() || (wanted == 1 && cells.size() > 1);
-        if (words && !above && lines_.at_end_of_table()) {
+        // Wider than the table, or over other numbers, it is the table, and what was read stands above it.
+        bool above = rows_.empty() || (wanted == 1 && cells.size() > 1);
+        const bool at_end = words && !above && lines_.at_end_of_table();
+        above = above || (at_end && lines_.numbers_follow());
+        if (at_end && !above) {
           monitor_.warn(file_name(file_.path()) + ": what stands below the table, from " + lines_.here() +
                         " on, is left out");
           break;
@@ -249,6 +251,7 @@ class MeasuredTable {
                           " under " + std::to_string(wanted) + (wanted == 1 ? " head" : " heads") +
                           (above ? "; lines above the heads are left out by skip=, as in skip=3"
                                  : "; put # before a line that is no row"));
+        if (at_end) break;
         continue;
       }
       rows_.push_back(std::move(cells));

@@ -320,9 +320,10 @@ TEST_F(PressLog, ColumnsThatMeanNothingCertainAreRefused) {
   EXPECT_EQ(refusal("pressure [Pa],load [N]\n1,1\n"),
             "bad_file: line 1: both `pressure` and `load` are given; choose one, and begin the title of the "
             "other with \"result \" or leave it out");
-  EXPECT_EQ(refusal("time [s],presure [MPa]\n0,1\n"),
-            "bad_file: line 1: no column `pressure` or `load` among others: \"presure [MPa]\" (did you mean "
-            "`pressure`?); write \"pressure [MPa]\" or \"load [N]\"");
+  EXPECT_EQ(
+      refusal("time [s],presure [MPa]\n0,1\n"),
+      "bad_file: line 1: no column `pressure` or `load` among others: \"presure [MPa]\" (did you mean "
+      "`pressure`?); write \"pressure [MPa]\" or \"load [N]\", or choose one: columns={ load=\"its head\" }");
   EXPECT_EQ(refusal("time [s]\n0\n"),
             "bad_file: line 1: no column `pressure` or `load`; write \"pressure [MPa]\" or \"load [N]\"");
 }

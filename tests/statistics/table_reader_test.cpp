@@ -202,6 +202,14 @@ TEST(TableReader, NoRowIsLostToWhatASpreadsheetWrites) {
             "skip=");
 }
 
+// Lines above a table of other separators look like one of their own; a footer of words is none.
+TEST(TableReader, ATableBelowWordsIsNotTakenForAFooter) {
+  EXPECT_EQ(
+      refusal("Logger X\nSerial 5\nload [kN],time [s]\n1.5,0\n2.5,1\n"),
+      "line 3: there are 3 cells under 2 heads; lines above the heads are left out by skip=, as in skip=3");
+  EXPECT_EQ(csv("a,b\n1,2\nend of the measurement\nby Li, on 4 May\n"), "a,b\n1,2\n");
+}
+
 TEST(TableReader, TimesOfDayThatFallByHalfADayAreWarnedOf) {
   const auto warnings = [](const std::string& text) {
     class Counter final : public Monitor {
