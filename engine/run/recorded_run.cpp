@@ -173,6 +173,30 @@ std::vector<std::string> altered_outputs(const RecordedRun& run) {
   return sentences;
 }
 
+std::vector<std::string> altered_inputs(const RecordedRun& run) {
+  std::vector<std::string> sentences;
+  const Json* inputs = run.ended() ? run.manifest.find("inputs") : nullptr;
+  if (inputs == nullptr) return sentences;
+  for (const Json& entry : inputs->list()) {
+    const auto file = named(entry);
+    const Json* digest = entry.find("digest");
+    if (!file || digest == nullptr) continue;
+    bool found = false, same = false;
+    // A file that the run wrote itself is named by its place in the run.
+    for (const fs::path& place : {fs::path(*file), run.root / *file}) {
+      std::error_code missing;
+      if (same || !fs::is_regular_file(place, missing)) continue;
+      found = true;
+      same = file_digest(place) == digest->string();
+    }
+    if (!same)
+      sentences.push_back("\"" + plain_text(*file) + "\"" +
+                          (found ? " is not what it was when the run had read it"
+                                 : ", which the run had read, is not found from here"));
+  }
+  return sentences;
+}
+
 std::vector<Difference> differences(const RecordedRun& recorded, const RecordedRun& again) {
   std::vector<Difference> found;
   // What a run has read comes before what followed from it.

@@ -51,6 +51,10 @@ RecordedRun read_run(const std::filesystem::path& root, bool journal_may_be_dama
 // not that of the manifest.
 std::vector<std::string> altered_outputs(const RecordedRun& run);
 
+// The same of the files that it read, as they are found from the working folder; none of a run that did not
+// come to its end. O(their bytes).
+std::vector<std::string> altered_inputs(const RecordedRun& run);
+
 struct Difference {
   std::string where;  // "line 4, contact:press, result"
   std::string recorded, again;

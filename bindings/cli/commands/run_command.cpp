@@ -430,6 +430,10 @@ int run(const RunCommand& asked) {
             "asperity: %s came to its end, and every file is as it was recorded; there is nothing to "
             "resume\n",
             asked.resume->c_str());
+        const std::vector<std::string> altered = altered_inputs(read_run(*asked.resume, true));
+        for (const std::string& sentence : altered) std::fprintf(stderr, "%s\n", sentence.c_str());
+        if (!altered.empty())
+          std::fprintf(stderr, "`asperity replay %s` says what follows from that\n", asked.resume->c_str());
         return done;
       }
       command = *std::move(again);

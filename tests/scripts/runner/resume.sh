@@ -137,6 +137,27 @@ ends 1 "was written anew" "$program" run --resume timed
 [ "$(wc -l < timed/times.csv)" = 4 ] || fail "rows of a journal written anew"
 [ "$(grep -c '"event":"row"' timed/journal.jsonl)" = 3 ] || fail "journal written anew"
 
+# A file that was read and has changed since is named, whether the run came to its end or not.
+cat > reads.lua <<'LUA'
+local lab = require "asperity"
+local table_read = lab.table.read "read.csv"
+lab.notebook "copies":write{ first = table_read:column "a"[1] }
+if (...) then error "here it is cut off" end
+LUA
+printf 'a,b\n1,2\n' > read.csv
+"$program" run reads.lua --out reads > /dev/null 2>&1 || fail "a table was not read"
+ends 0 "nothing to resume" "$program" run --resume reads
+grep -q "read.csv" output && { cat output; fail "a file that is as it was is named"; }
+printf 'a,b\n3,4\n' > read.csv
+ends 0 '"read.csv" is not what it was when the run had read it' "$program" run --resume reads
+ends 1 'read.csv' "$program" replay reads
+mv read.csv elsewhere.csv
+ends 0 '"read.csv", which the run had read, is not found from here' "$program" run --resume reads
+mv elsewhere.csv read.csv
+"$program" run reads.lua --out reads_cut -- cut > /dev/null 2>&1 && fail "the error was passed over"
+printf 'a,b\n5,6\n' > read.csv
+ends 1 '"read.csv" is not what it was when the run that is taken up had read it' "$program" run --resume reads_cut
+
 # Another script, arguments or seed.
 sed 's/event = 1, 8/event = 1, 9/' events.lua > edited.lua
 ends 2 "the script of" "$program" run edited.lua --resume whole
