@@ -66,6 +66,27 @@ test('Served, UnderOneSecond', () =>
     assert.ok(Math.min(...times) < 1000, times.join());
   }));
 
+// As the CSV has them: in the order that the notebook was given, those of no order after them by their names, and what
+// comes later last.
+for (const [name, columns, rows] of [
+  ['order', 'z,m,a,also,extra', '{ columns={ "z", "m", "a" } })\nbook:write{ a=1, extra=1, m=2, also=3, z=4 }'],
+  ['plain', 'b,m,z,a', '{})\nbook:write{ z=1, b=2, m=3 } book:write{ z=1, a=2 }'],
+])
+  test(`Table, ColumnsStandAsInTheCsv, ${name}`, () =>
+    visit({}, async (page) => {
+      await on.run(page, `local lab = require "asperity"\nlocal book = lab.notebook("${name}", ${rows}\n`);
+      await on.finished(page);
+      await page.click('#tab-table');
+      await on.until(page, () => document.querySelector('table thead th'), 'the table should be there');
+      const runs = join(folder, 'runs');
+      const [file] = readdirSync(runs, { recursive: true }).filter((f) => f.endsWith(`${name}.csv`));
+      assert.equal(readFileSync(join(runs, file), 'utf8').split('\n')[0], columns);
+      assert.equal(
+        await page.$$eval('table thead th', (heads) => heads.map((th) => th.textContent).join()),
+        `#,${columns}`,
+      );
+    }));
+
 const pressed = `local lab = require "asperity"
 local p = lab.knob{ name="pressure", from="1 MPa", to="200 MPa", value="20 MPa", log=true }
 local s = lab.surface.self_affine{ cells=256, size="1 mm", hurst=0.8, rms_height="1 um", short_wave="20 um",
