@@ -207,7 +207,7 @@ TEST(TableReader, ATableBelowWordsIsNotTakenForAFooter) {
   EXPECT_EQ(
       refusal("Logger X\nSerial 5\nload [kN],time [s]\n1.5,0\n2.5,1\n"),
       "line 3: there are 3 cells under 2 heads; lines above the heads are left out by skip=, as in skip=3");
-  EXPECT_EQ(csv("a,b\n1,2\nend of the measurement\nby Li, on 4 May\n"), "a,b\n1,2\n");
+  EXPECT_EQ(csv("a,b\n1,2\nend of the measurement\nby Li on 4 May\n"), "a,b\n1,2\n");
 }
 
 TEST(TableReader, TimesOfDayThatFallByHalfADayAreWarnedOf) {
