@@ -53,6 +53,15 @@ TEST(BracketedSecant, TakesPowersAndFullContactByTheirLogarithms) {
   const auto near_full = [](double x) { return x < 1 ? 1 - std::pow(1 - x, 2.5) : 1; };
   EXPECT_LE(by_logarithms(near_full, 1 - 1e-6, .4, {1, 1}), 6);
   EXPECT_GT(evaluations(near_full, 1 - 1e-6, .4, BracketedSecant(1 - 1e-6, {0, 0}, {1, 1})), 12);
+  // Peaks that have sunk as far as they go before the ground between them is reached: from a light load to
+  // one that hardly differs from it by what is measured, and lies far off.
+  const auto flat = [](double x) { return 1 + 1e-5 * std::log(x); };
+  EXPECT_LE(by_logarithms(flat, flat(2), 1, nothing_known), 5);
+  const auto sunk = [](double x) { return x < 1 ? 1 - .07 * std::pow(1 - x, 7) : 1; };
+  EXPECT_LE(by_logarithms(sunk, sunk(.5), .015, {1, 1}), 5);
+  // What goes as a power under light loads, and then as a line.
+  const auto punch = [](double x) { return 1 + .1 * x / (1 + x) + .01 * x; };
+  EXPECT_LE(by_logarithms(punch, punch(1000), 50, nothing_known), 5);
   // Full contact, of which any more says the same.
   const auto saturated = [](double x) { return x < 1e-3 ? x : BracketedSecant::unknown; };
   EXPECT_LE(by_logarithms(saturated, 9e-4, 1, nothing_known), 60);

@@ -15,11 +15,12 @@ constexpr int few_short = 2;           // steps that all fall short, before they
 constexpr double furthest = 100;       // times the last place, where nothing lies above
 constexpr double off_the_ends = 0.01;  // of the bracket, that a chord through its ends keeps away from them
 constexpr double near_the_end = 0.3;   // of the end there was at first
-constexpr double usual_power = 1.5, least_power = 1e-3;
+constexpr double usual_power = 1.5, least_power = 1e-9;
 }  // namespace
 
 void BracketedSecant::take(Point found, bool sure) {
   if (taken_ == 0 || found.at != last_.at) {
+    earlier_ = before_;
     before_ = last_;
     ++taken_;
   }
@@ -48,14 +49,35 @@ double BracketedSecant::secant() const {
   }
   if (first && !(last_.value > 0)) return 4 * last_.at;
   if (first && scale_ == Scale::linear) return last_.at * (wanted_ / last_.value);
-  if (first)
-    return last_.at * std::clamp(elementary::pow(wanted_ / last_.value, usual_power), 1 / furthest, furthest);
-  if (scale_ == Scale::logarithmic && last_.value > 0 && before_.value > 0 && before_.at > 0) {
+  if (first) {
+    const double by_power = elementary::pow(wanted_ / last_.value, usual_power);
+    double factor = by_power;
+    if (end_.value < unknown && last_.value < wanted_ && last_.at < end_.at) {
+      // A function that flattens out towards its end goes further than by the usual power, and no further
+      // than along the chord to the end: between the two.
+      const double chord = ratio(end_.value, last_.value) / ratio(end_.at, last_.at);
+      const double by_chord = elementary::exp(ratio(wanted_, last_.value) / chord);
+      factor = std::sqrt(by_power * std::max(by_power, by_chord));
+    }
+    return last_.at * std::clamp(factor, 1 / furthest, furthest);
+  }
+  if (scale_ == Scale::logarithmic && last_.value > 0 && before_.value > 0 && before_.at > 0 &&
+      !bends_as_a_line()) {
     const double power = ratio(last_.value, before_.value) / ratio(last_.at, before_.at);
     const double factor = elementary::exp(ratio(wanted_, last_.value) / std::max(power, least_power));
     return last_.at * std::clamp(factor, 1 / furthest, furthest);
   }
   return last_.at + (wanted_ - last_.value) * (last_.at - before_.at) / (last_.value - before_.value);
+}
+
+bool BracketedSecant::bends_as_a_line() const {
+  if (taken_ < 3 || !(earlier_.value > 0 && earlier_.at > 0) || earlier_.at == before_.at) return false;
+  const auto ratio = [](double x, double y) { return elementary::log(x / y); };
+  const double line = before_.value + (before_.value - earlier_.value) *
+                                          ((last_.at - before_.at) / (before_.at - earlier_.at));
+  const double power = ratio(before_.value, earlier_.value) / ratio(before_.at, earlier_.at);
+  const double curve = before_.value * elementary::exp(power * ratio(last_.at, before_.at));
+  return std::abs(line - last_.value) < std::abs(curve - last_.value);
 }
 
 double BracketedSecant::width() const {

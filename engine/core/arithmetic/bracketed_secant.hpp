@@ -3,7 +3,8 @@
 // the last two, kept within the bracket of those below and above, which is halved where the secant gains
 // little; while nothing is known to lie above, steps that keep falling short grow. A value too rough to say
 // on which side it lies leaves the bracket as it is. A function that goes as a power of the place is sought
-// by its logarithm over that of the place, near a high end that is known by what it lacks of that.
+// by its logarithm over that of the place while its values do, near a high end that is known by what it lacks
+// of that.
 #pragma once
 
 #include <limits>
@@ -31,6 +32,8 @@ class BracketedSecant {
 
  private:
   double secant() const;
+  // Whether the last value lies nearer to the line through the two before it than to their power.
+  bool bends_as_a_line() const;
   double width() const;
   // Between the sides: so much of the way, or through their values.
   double part_of_the_way(double share) const;
@@ -40,7 +43,7 @@ class BracketedSecant {
   Scale scale_;
   Point low_, high_;
   Point end_;  // where it was high at first
-  Point last_{}, before_{};
+  Point last_{}, before_{}, earlier_{};
   int taken_ = 0, slow_ = 0, short_of_it_ = 0;
   double width_ = unknown;
 };

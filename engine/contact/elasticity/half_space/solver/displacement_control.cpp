@@ -124,14 +124,27 @@ HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, con
               unconverged_hint(problem.grid, answer.certificate.worst(), rounding_residual(problem, answer)));
 }
 
+// Loads on either side of the one that is sought, and what was measured under them, as a search in the
+// approach has met them.
+struct LoadsMet {
+  std::optional<BracketedSecant::Point> below, above;
+
+  void take(BracketedSecant::Point found, double wanted) {
+    if (found.value < wanted && (!below || found.at > below->at)) below = found;
+    if (found.value > wanted && (!above || found.at < above->at)) above = found;
+  }
+};
+
 struct SoughtByLoad {
   // Never falls as the load grows.
   std::function<double(const HalfSpaceAnswer&)> measure;
-  double wanted = 0;       // > 0, of the measure
-  double most = infinity;  // of the measure, however much the load
-  double length = 0;       // m: an error of so much in a gap is about all that is wanted
+  double wanted = 0;  // > 0, of the measure
+  double most =
+      infinity;       // of the measure, however much the load; under the cap on all nodes it comes to that
+  double length = 0;  // m: an error of so much in a gap is about all that is wanted
   // A load, Pa, under which more is known to be measured, and how much.
   BracketedSecant::Point above = {BracketedSecant::unknown, BracketedSecant::unknown};
+  LoadsMet met{};
 };
 
 BracketedSecant::Point upper_end(const HalfSpaceProblem& problem, const SoughtByLoad& sought) {
@@ -139,7 +152,7 @@ BracketedSecant::Point upper_end(const HalfSpaceProblem& problem, const SoughtBy
   if (problem.yield.caps()) {
     const double facing = static_cast<double>(known_count(problem.heights->values()));
     const double cap = problem.yield.cap * (1 - 1e-12) * (facing / static_cast<double>(problem.grid.nodes()));
-    if (!(end.at < cap)) end = {cap, BracketedSecant::unknown};
+    if (!(end.at < cap)) end = {cap, sought.most};
   }
   return end;
 }
@@ -159,9 +172,11 @@ double small_load(const HalfSpaceProblem& problem, double length) {
 HalfSpaceAnswer solve_by_load(const HalfSpaceProblem& problem, const SoughtByLoad& sought,
                               HalfSpaceAnswer begun, Monitor& monitor) {
   constexpr int most_solves = 60, most_applications = 6000;
-  constexpr int most_doubts = 4;       // of a bracket
-  constexpr double good_start = 0.1;   // a certificate whose load and pressures are worth beginning from
-  constexpr double near_start = 0.3;   // of the load, that pressures are taken along
+  constexpr int most_doubts = 4;      // of a bracket
+  constexpr double good_start = 0.1;  // a certificate whose load and pressures are worth beginning from
+  constexpr double near_start = 0.3;  // of the load, that pressures are taken along
+  constexpr double near_if_easy = 2;  // the same, where solves are easy: those take few applications
+  constexpr int few_applications = 40;
   constexpr double loosest = 5e-3;     // tolerance of a solve
   constexpr double next_error = 2e-3;  // of the error there is, that the next solve may leave
   // A residual r may leave the deepest gap off by so many times r: complementarity averages over the load,
@@ -179,16 +194,28 @@ HalfSpaceAnswer solve_by_load(const HalfSpaceProblem& problem, const SoughtByLoa
   BracketedSecant root = bracket;
   HalfSpaceAnswer answer = std::move(begun);
   int applications = answer.iterations, doubts = 0;
+  bool easy = false;
   // A descent that stalled at the approach has told about how much load that takes.
   double pressure = std::max(answer.mean_pressure, small_load(problem, sought.length));
+  for (const auto& met : {sought.met.below, sought.met.above})
+    if (met && met->at < end.at) root.take(*met, true);
+  if (sought.met.below || sought.met.above) pressure = root.next().value_or(pressure);
   if (!(pressure < end.at)) pressure = 0.5 * end.at;
   double error = infinity;
   for (int solve = 0; solve < most_solves && pressure > 0 && std::isfinite(pressure); ++solve) {
-    const bool warm =
-        answer.certificate.worst() < good_start && std::abs(pressure / answer.mean_pressure - 1) < near_start;
+    const double ratio = pressure / answer.mean_pressure;
+    const double near = easy ? near_if_easy : near_start;
+    const bool warm = answer.certificate.worst() < good_start && ratio > 1 / (1 + near) && ratio < 1 + near;
     const HalfSpaceAnswer start = warm ? std::move(answer) : HalfSpaceAnswer{};
+    now.brief = warm && easy;
     answer = solve_at_pressure(now, pressure, warm ? &start : nullptr, monitor);
     applications += answer.iterations;
+    if (now.brief && !answer.converged) {  // the pressures it began with may have been in the way
+      now.brief = false;
+      answer = solve_at_pressure(now, pressure, nullptr, monitor);
+      applications += answer.iterations;
+    }
+    easy = answer.converged && answer.iterations <= few_applications;
     const double found = sought.measure(answer);
     error = std::abs(found / sought.wanted - 1);
     const bool near_enough = error <= 0.5 * problem.tolerance;
@@ -401,10 +428,16 @@ double wanted_share(double fraction, double accuracy) {
 // The answer that flattens by a share, to `accuracy` of it, the search begun at an approach: what is pressed
 // away never falls as the approach grows, and nothing but the displacement of the lowest point keeps the two
 // apart. Where the load should be sought instead, an answer that did not converge.
+// `met`: the loads on either side that it passed.
 HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
-                                    std::optional<double> guess, double accuracy, Monitor& monitor) {
+                                    std::optional<double> guess, double accuracy, LoadsMet& met,
+                                    Monitor& monitor) {
   constexpr int most_solves = 60;
+  // After so many solves, or fewer where they leave as much as `far`, the load is sought from what they met.
+  constexpr int most_by_approach = 8, few_by_approach = 4;
+  constexpr double far = 1e-2;
   constexpr double loosest = 1e-2, near = 0.3, least_tolerance = 1e-13;
+  constexpr double cautious = 20;  // an error, of the certificate there is
   const auto heights = problem.heights->values();
   const Range ends = known_range(heights);
   const double span = ends.span();
@@ -426,7 +459,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   HalfSpaceAnswer answer, before;
   double pressed = 0;
   double gain = 1;  // of what is pressed away, or of an error in it, per approach; at least 1
-  bool afresh = false, stalled = false;
+  bool afresh = false, stalled = false, by_load = false;
   int applications = 0;
   for (int solve = 0; solve < most_solves; ++solve) {
     HalfSpaceAnswer start;
@@ -447,6 +480,8 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     if (solve > 0 && approach != before.approach)
       gain = std::max(1.0, std::abs((pressed - pressed_before) / (approach - before.approach)));
     const double error = std::abs(pressed - wanted) / wanted;
+    const bool sure = error > std::min(now.tolerance, cautious * answer.certificate.worst()) * gain;
+    if (sure && answer.converged) met.take({answer.mean_pressure, pressed / span}, wanted / span);
     if (load_tells_more(problem, answer)) break;
     const double tightest = std::max(least_tolerance, accuracy / gain);
     const bool loose = now.tolerance > tightest;
@@ -464,12 +499,13 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
       afresh = true;
       continue;
     }
-    const bool sure = error > now.tolerance * gain;
     // Where all is pressed away any more approach says the same.
     const bool nothing_more = too_far || (pressed > wanted && span - pressed < 0.1 * (span - wanted));
     root.take({approach, nothing_more ? infinity : pressed}, sure || nothing_more);
     now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? 0.05 * error : 0.02 * error) / gain));
     if (near_enough && !too_far) continue;  // the same again, by a tighter solve
+    by_load = (met.below || met.above) && solve + 1 >= (error > far ? few_by_approach : most_by_approach);
+    if (by_load) break;
     const std::optional<double> next = root.next();
     if (!next && !loose) break;
     if (!next) {  // a loose solve was put on the wrong side
@@ -478,7 +514,7 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
     }
     approach = next.value_or(approach);
   }
-  if (stalled || load_tells_more(problem, answer)) {
+  if (stalled || by_load || load_tells_more(problem, answer)) {
     answer.converged = false;
     answer.iterations = applications;
     return answer;
@@ -498,8 +534,9 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
 
 // The same by its load, from what was `begun`.
 HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer begun,
-                                Monitor& monitor) {
+                                const LoadsMet& met, Monitor& monitor) {
   SoughtByLoad sought;
+  sought.met = met;
   sought.measure = [&](const HalfSpaceAnswer& found) { return flattened(problem, found); };
   sought.wanted = wanted_share(fraction, problem.tolerance);
   sought.most = 1;
@@ -520,9 +557,10 @@ FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fr
   for (auto next = coarser_problem(problem); next; next = coarser_problem(*coarse)) coarse = std::move(next);
   if (!coarse) return {};
   coarse->tolerance = about;
-  HalfSpaceAnswer there = flatten_by_approach(*coarse, fraction, {}, about, Monitor::silent());
-  const bool by_load = load_tells_more(*coarse, there);
-  if (by_load) there = flatten_by_load(*coarse, fraction, std::move(there), Monitor::silent());
+  LoadsMet met;
+  HalfSpaceAnswer there = flatten_by_approach(*coarse, fraction, {}, about, met, Monitor::silent());
+  const bool by_load = load_tells_more(*coarse, there) || (!there.converged && (met.below || met.above));
+  if (by_load) there = flatten_by_load(*coarse, fraction, std::move(there), met, Monitor::silent());
   if (by_load && there.converged) return {{}, there.mean_pressure};
   // Coarser grids miss the highest node. Where that is much of the approach they say little.
   const double higher =
@@ -549,11 +587,12 @@ HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double frac
       return solve_at_full_contact(problem, *pressure, 1 - fraction, monitor);
   const FlatteningGuess guess = guess_on_coarser_grid(problem, fraction);
   HalfSpaceAnswer answer;
+  LoadsMet loads;
   if (guess.pressure)
     answer.mean_pressure = *guess.pressure;
   else
-    answer = flatten_by_approach(problem, fraction, guess.approach, problem.tolerance, monitor);
-  if (!answer.converged) answer = flatten_by_load(problem, fraction, std::move(answer), monitor);
+    answer = flatten_by_approach(problem, fraction, guess.approach, problem.tolerance, loads, monitor);
+  if (!answer.converged) answer = flatten_by_load(problem, fraction, std::move(answer), loads, monitor);
   return met(problem, std::move(answer), "a flattening of " + format_short(fraction));
 }
 

@@ -423,7 +423,7 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   cell.tolerance = 0.49 * problem.tolerance;
   const double longest = std::max(static_cast<double>(grid.nx), grid.ny * cell.shape.aspect);
   cell.mean_pressure = std::min(*cell.offset / longest, greatest_pressure(cell.limit));
-  cell.at_offset = effort;
+  cell.effort = effort;
   std::span<double> pressures, gaps;
   if (start && start->pressure.size() == grid.nodes()) {
     pressures = start->pressure.values();
@@ -523,6 +523,7 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   if (flat) cell.length = std::sqrt(static_cast<double>(cell.shape.nodes()) * cell.shape.aspect);
   // A little less, so that what rounding adds on the way to pascals stays within it.
   cell.tolerance = 0.99 * problem.tolerance;
+  cell.effort = problem.brief ? ChainEffort::brief : ChainEffort::full;
 
   CellAnswer found;
   const bool may_be_full = problem.boundary == Boundary::periodic &&
@@ -543,7 +544,7 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
     }
   }
   HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, std::move(found));
-  if (!answer.converged && problem.yield.hardens())
+  if (!answer.converged && problem.yield.hardens() && !problem.brief)
     if (auto sought = sought_by_approach(problem, mean_pressure, answer, monitor)) return std::move(*sought);
   if (!answer.converged && !problem.best_effort)
     throw_unconverged(mean_pressure, answer.certificate, problem.tolerance, answer.iterations, grid,

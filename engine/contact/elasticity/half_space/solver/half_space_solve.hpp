@@ -40,7 +40,8 @@ struct HalfSpaceProblem {
   // What steps change is computed in single precision, where the grid allows, on any grid and with the memory
   // for that alone; pressures, gaps and the certificate are double all the same.
   bool single = false;
-  double weight = 1;  // of one transform in what is counted: less on a grid coarser than the one asked for
+  bool brief = false;  // under a mean pressure: without the last resort, and perhaps without success
+  double weight = 1;   // of one transform in what is counted: less on a grid coarser than the one asked for
 
   // Whether something faces the ground at node k.
   bool faces(std::size_t k) const { return !overhangs || !std::isnan((*heights)[k]); }

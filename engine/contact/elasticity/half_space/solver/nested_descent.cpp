@@ -250,7 +250,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
         for_nodes(nodes, [upper, lowest, h = raw.data(), p = p.data()](std::size_t k) {
           p[k] = h[k] < lowest ? 0.0 : std::clamp(p[k], 0.0, upper);
         });
-      const ChainEffort effort = finest ? problem.at_offset : ChainEffort::start;
+      const ChainEffort effort = finest ? problem.effort : ChainEffort::start;
       end = run_offset_chain(level, fields, *problem.offset, tolerance, effort, gap_known);
       if (!end.converged) level.gap(p, fields.gap);
       at.offset = at.interior_gap = *problem.offset;
@@ -263,7 +263,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
           if (raw[k] < lowest) p[k] = std::min(p[k], -2 * level.total_load());
       }
       project_to_load(p, {}, upper, level.total_load(), p);
-      end = run_chain(level, fields, tolerance, finest ? ChainEffort::full : ChainEffort::start);
+      end = run_chain(level, fields, tolerance, finest ? problem.effort : ChainEffort::start);
       if (!end.converged) level.gap(p, fields.gap);
       answer.from_peak = finest && LightContact(level, fields, problem).refine(end);
       for (int round = 0;; ++round) {
@@ -273,7 +273,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
         // Nodes that were snapped to the limit no longer balance the load.
         end.converged = round < most_snaps;
         if (!end.converged) break;
-        end = run_chain(level, fields, tolerance, ChainEffort::full);
+        end = run_chain(level, fields, tolerance, problem.effort);
         if (!end.converged) level.gap(p, fields.gap);
       }
     }

@@ -41,8 +41,8 @@ struct CellProblem {
   double mean_pressure = 0;
   // Given in place of the load, of which `mean_pressure` is then a guess, within twenty powers of ten.
   std::optional<double> offset;
-  ChainEffort at_offset = ChainEffort::full;  // where that is given
-  double length = 1;                          // what gaps are measured by
+  ChainEffort effort = ChainEffort::full;
+  double length = 1;  // what gaps are measured by
   double tolerance = 1e-6;
 };
 
