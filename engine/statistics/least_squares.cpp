@@ -6,6 +6,7 @@
 #define Eigen asperity_least_squares_eigen
 #define EIGEN_DONT_VECTORIZE
 #define EIGEN_MAX_ALIGN_BYTES 0
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include <algorithm>
@@ -249,6 +250,39 @@ std::vector<double> slopes_of(const CurveModel& model, double x, const std::vect
     slopes.push_back(slope);
   }
   return slopes;
+}
+
+LinearLeastSquares linear_least_squares(const TableColumns& columns, std::span<const double> y) {
+  using Matrix = Eigen::MatrixXd;
+  // Blocks of products as of one processor, so that sums have one order everywhere.
+  static const bool blocks_are_fixed = (Eigen::setCpuCacheSizes(1 << 15, 1 << 18, 1 << 21), true);
+  (void)blocks_are_fixed;
+  const auto rows = static_cast<Eigen::Index>(y.size()), count = static_cast<Eigen::Index>(columns.size());
+  Matrix a(rows, count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    for (Eigen::Index i = 0; i < rows; ++i)
+      a(i, k) = columns[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)];
+  const Eigen::HouseholderQR<Matrix> factors(a);
+  const Matrix q = factors.householderQ() * Matrix::Identity(rows, count);
+  const Matrix r = factors.matrixQR().topRows(count).triangularView<Eigen::Upper>();
+  LinearLeastSquares found;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double length = r.col(k).norm();
+    found.independence = std::min(found.independence, length > 0 ? std::abs(r(k, k)) / length : 0);
+  }
+  if (!(found.independence > 0)) return found;
+  const Eigen::Map<const Eigen::VectorXd> given(y.data(), rows);
+  const Eigen::VectorXd along = q.transpose() * given, residuals = given - q * along;
+  const Matrix inverse = r.triangularView<Eigen::Upper>().solve(q.transpose());
+  const Eigen::VectorXd coefficients = r.triangularView<Eigen::Upper>().solve(along);
+  found.coefficients.assign(coefficients.data(), coefficients.data() + count);
+  found.residuals.assign(residuals.data(), residuals.data() + rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    found.leverage.push_back(q.row(i).squaredNorm());
+    const double* first = inverse.col(i).data();
+    found.influence.emplace_back(first, first + count);
+  }
+  return found;
 }
 
 LeastSquares least_squares(const UsedPoints& points, const CurveModel& model,

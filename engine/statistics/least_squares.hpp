@@ -30,6 +30,19 @@ struct SingularValues {
 // Every entry must be finite.
 SingularValues singular_values(const TableColumns& columns);
 
+// The least squares of y on columns, by Householder's QR decomposition.
+struct LinearLeastSquares {
+  std::vector<double> coefficients, residuals;
+  std::vector<double> leverage;  // of each y on its own fitted value, from 0 to 1
+  TableColumns influence;        // influence[i][k]: change of coefficient k with y[i]
+  // The least part of a column that stands across those before it, relative to its length: near 0 where
+  // columns are not told apart, and the rest is then not to be used.
+  double independence = 1;
+};
+
+// Columns of the length of y, no more of them than there are y; every entry must be finite. O(n columns²).
+LinearLeastSquares linear_least_squares(const TableColumns& columns, std::span<const double> y);
+
 struct LeastSquares {
   std::vector<double> values;
   std::vector<double> scales;                   // of each parameter: steps of differences are in proportion

@@ -11,6 +11,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/statistics/least_squares.hpp"
 
 namespace asperity {
 
@@ -49,70 +50,11 @@ void add_terms(std::vector<int>& term, std::size_t input, int left, std::vector<
   }
 }
 
-// Least squares on columns that come one after the other: A = Q R by Gram and Schmidt's method, each column
-// made orthogonal twice (Giraud et al. 2005), so that terms of a higher degree leave the lower ones as they
-// are.
-class GrowingFit {
- public:
-  explicit GrowingFit(std::span<const double> answers)
-      : residuals_(answers.begin(), answers.end()), leverage_(answers.size()) {}
-
-  // False for a column that the points do not tell from those before.
-  bool add(std::vector<double> column) {
-    const double length = norm(column);
-    std::vector<double> r(q_.size() + 1);
-    for (int pass = 0; pass < 2; ++pass)
-      for (std::size_t k = 0; k < q_.size(); ++k) {
-        const double part = product_of(q_[k], column);
-        r[k] += part;
-        for (std::size_t i = 0; i < column.size(); ++i) column[i] -= part * q_[k][i];
-      }
-    r.back() = norm(column);
-    if (!(r.back() > 1e-8 * length)) return false;
-    for (double& value : column) value /= r.back();
-    const double part = product_of(column, residuals_);
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      residuals_[i] -= part * column[i];
-      leverage_[i] += column[i] * column[i];
-    }
-    parts_.push_back(part);
-    q_.push_back(std::move(column));
-    r_.push_back(std::move(r));
-    return true;
-  }
-
-  // What run i is missed by when the fit is made of the others; infinite where it alone decides a term.
-  double left_out(std::size_t i) const {
-    const double free = 1 - leverage_[i];
-    return free > 1e-10 ? residuals_[i] / free : std::numeric_limits<double>::infinity();
-  }
-  // R x = b.
-  std::vector<double> solved(std::vector<double> b) const {
-    for (std::size_t k = b.size(); k-- > 0;) {
-      b[k] /= r_[k][k];
-      for (std::size_t j = 0; j < k; ++j) b[j] -= r_[k][j] * b[k];
-    }
-    return b;
-  }
-  std::vector<double> coefficients() const { return solved(parts_); }
-  // By how much coefficients change when run i is left out.
-  std::vector<double> change_without(std::size_t i) const {
-    std::vector<double> b(q_.size());
-    for (std::size_t k = 0; k < b.size(); ++k) b[k] = -q_[k][i] * left_out(i);
-    return solved(std::move(b));
-  }
-
- private:
-  static double product_of(const std::vector<double>& a, const std::vector<double>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-    return sum;
-  }
-  static double norm(const std::vector<double>& a) { return std::sqrt(product_of(a, a)); }
-
-  std::vector<std::vector<double>> q_, r_;  // columns; r_[k] has k + 1 entries
-  std::vector<double> parts_, residuals_, leverage_;
-};
+// What run i is missed by when the fit is made of the others; infinite where it alone decides a term.
+double left_out(const LinearLeastSquares& fit, std::size_t i) {
+  const double free = 1 - fit.leverage[i];
+  return free > 1e-10 ? fit.residuals[i] / free : std::numeric_limits<double>::infinity();
+}
 
 double value_of_term(const std::vector<int>& term, const std::vector<std::vector<double>>& table) {
   double value = 1;
@@ -155,15 +97,16 @@ double jackknife(const std::vector<double>& without) {
   return std::sqrt((n - 1) / n * squares);
 }
 
-void fill_shares(PolynomialChaos& chaos, const GrowingFit& fit) {
+void fill_shares(PolynomialChaos& chaos, const LinearLeastSquares& fit) {
   const ShareSums of_all = share_sums(chaos.degrees, chaos.coefficients);
   chaos.mean = chaos.coefficients.front();
   chaos.variance = of_all.variance;
   const std::size_t inputs = chaos.inputs.size();
   std::vector<std::vector<double>> first(inputs), total(inputs);
   for (std::size_t i = 0; i < chaos.runs; ++i) {
-    std::vector<double> coefficients = fit.change_without(i);
-    for (std::size_t k = 0; k < coefficients.size(); ++k) coefficients[k] += chaos.coefficients[k];
+    std::vector<double> coefficients = chaos.coefficients;
+    const double missed = left_out(fit, i);
+    for (std::size_t k = 0; k < coefficients.size(); ++k) coefficients[k] -= fit.influence[i][k] * missed;
     const ShareSums sums = share_sums(chaos.degrees, coefficients);
     for (std::size_t j = 0; j < inputs; ++j) {
       first[j].push_back(sums.first[j]);
@@ -285,10 +228,10 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
     return found;
   }
 
-  GrowingFit fit(scaled);
   const auto tables = tables_of(inputs, points, highest);
   std::vector<std::vector<int>> terms;
-  std::optional<GrowingFit> best;
+  TableColumns columns;
+  std::optional<LinearLeastSquares> best;
   for (int degree = 0; degree <= highest; ++degree) {
     const std::size_t count = chaos_terms(inputs.size(), degree);
     if (runs_a_term * static_cast<double>(count) > static_cast<double>(runs)) break;
@@ -296,21 +239,20 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
     const std::size_t before = terms.size();
     std::vector<int> term(inputs.size());
     add_terms(term, 0, degree, terms);
-    bool told_apart = true;
-    for (std::size_t k = before; k < terms.size() && told_apart; ++k) {
-      std::vector<double> column(runs);
+    for (std::size_t k = before; k < terms.size(); ++k) {
+      std::vector<double>& column = columns.emplace_back(runs);
       for (std::size_t i = 0; i < runs; ++i) column[i] = value_of_term(terms[k], tables[i]);
-      told_apart = fit.add(std::move(column));
     }
-    if (!told_apart) break;
     if (degree == 0) continue;
+    LinearLeastSquares fit = linear_least_squares(columns, scaled);
+    if (!(fit.independence > 1e-8)) break;
     double squares = 0;
-    for (std::size_t i = 0; i < runs; ++i) squares += fit.left_out(i) * fit.left_out(i);
+    for (std::size_t i = 0; i < runs; ++i) squares += left_out(fit, i) * left_out(fit, i);
     const double error = squares / scatter;
     if (!std::isfinite(error)) continue;
     found.tried.push_back({degree, error});
     if (best && error >= found.leave_one_out) continue;
-    best = fit;
+    best = std::move(fit);
     found.degree = degree;
     found.leave_one_out = error;
     found.degrees = terms;
@@ -320,7 +262,7 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
     throw Error(ErrorCode::bad_value, "the runs do not tell the inputs apart",
                 "ask at points that differ in every input by itself");
   found.terms = found.degrees.size();
-  found.coefficients = best->coefficients();
+  found.coefficients = best->coefficients;
   fill_shares(found, *best);
   for (double& coefficient : found.coefficients) coefficient *= scale;
   found.mean *= scale;

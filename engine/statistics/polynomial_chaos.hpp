@@ -63,7 +63,7 @@ std::size_t chaos_runs(std::size_t inputs);
 // are 1.5 runs for each term and at most 300 terms, the one with the least leave-one-out error. Throws
 // Error{bad_value} for inputs as check_inputs does, counts that differ, an answer that is not finite (named
 // with its inputs), too few runs for degree 1, and runs that do not tell the inputs apart.
-// O(runs × terms²) some ten times.
+// O(runs × terms²) some ten times; the linear algebra is Eigen's (least_squares.hpp).
 PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
                                  std::span<const std::vector<double>> points, std::span<const double> answers,
                                  int highest = 12);
