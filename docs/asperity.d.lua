@@ -453,7 +453,7 @@
 
 ---A part of the error of a number.
 ---@class asperity.BudgetPart
----@field name string sampling, cells, solver, an input, or `inputs together`: what inputs do only together, and what their polynomial leaves open
+---@field name string sampling, cells, solver, tip, noise, an input, or `inputs together`: what inputs do only together, and what their polynomial leaves open
 ---@field u number standard uncertainty from this part, in the unit of the answer
 ---@field share number of the variance; all sum to 1
 ---@field share_error number standard error of the share of an input; 0 of other parts
@@ -1909,12 +1909,14 @@ function SpreadState:write(name, path) end
 ---@field where? table only rows in which these columns hold these values (table)
 
 ---@class asperity.options.lab.budget
----@field ask function function(x) returning the number, for a table x of the inputs, and of `cells`, `tolerance` and the names in `replicate` where they are given (function, required)
+---@field ask function function(x) returning the number, for a table x of the inputs, and of `cells`, `tolerance`, `tip`, `noise` and the names in `replicate` where they are given. Where it presses or makes surfaces, its calls are spread over threads, each in a fresh copy of everything it uses (function, required)
 ---@field inputs? table the uncertain quantities by name: { value=, u= }, with u the standard uncertainty in the same unit, or a share such as "5 %"; shape="uniform" for one that lies anywhere within √3 u, else it is normal. `ask` gets each as a plain SI number (table)
 ---@field replicate? table what makes another specimen of the same kind, such as { seed={ 1, 2, 3, 4, 5 } }: its scatter is the share of sampling; several lists go along together (table)
 ---@field cells? integer|integer[] cells a side, coarse to fine: two grids show the error of the cells, three its order too. The inputs are varied on the coarsest (integer|integer[])
 ---@field order? number|string|table of the error of the cells, the least and the greatest that are possible (a plain number|{a plain number, a plain number} from 0.1 to 10, default {1, 2})
 ---@field tolerance? number|number[] of the solver, loose to tight: the change between the two tightest bounds its error (number|number[])
+---@field tip? any|any[] tip radii of a stylus, blunt to sharp, such as { "5 um", "2 um" }: `ask` gets one as x.tip in m, the sharpest in all other runs; the change between the two sharpest bounds the error of the sharpest, of order 1 to 2 of the radius (length|length[])
+---@field noise? integer[] seeds of draws of an instrument's noise: `ask` gets one as x.noise and adds that noise to what is measured; x.noise is nil in all other runs. The scatter of the answers is the share of noise, which is that of one measurement (integer[])
 ---@field runs? integer how often the inputs are varied; without it three for each term of degree 2 (64 for five inputs), doubled up to three times while the leave-one-out error is above 5 % (integer from 3 to 100000)
 ---@field confidence? number of the interval (number above 0 and below 1, default 0.95)
 ---@field interval? "student"|"log" of the mean over replicates: Student's t, or for positive skewed answers the log interval of Cox, which assumes that their logarithms are normal ("student"|"log", default "student")

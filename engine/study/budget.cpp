@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -28,8 +29,9 @@ void check_ascent(const std::vector<double>& list, const char* key, bool ascendi
       refuse_request(quoted(key) + " holds " + format_short(list[k]), "give numbers above 0");
     if (k > 0 && (ascending ? list[k] <= list[k - 1] : list[k] >= list[k - 1]))
       refuse_request(quoted(key) + " goes from " + format_short(list[k - 1]) + " to " + format_short(list[k]),
-                     ascending ? "give each grid once, coarse ones first"
-                               : "give each tolerance once, loose ones first");
+                     ascending                        ? "give each grid once, coarse ones first"
+                     : std::string_view(key) == "tip" ? "give each radius once, blunt ones first"
+                                                      : "give each tolerance once, loose ones first");
   }
 }
 
@@ -47,11 +49,12 @@ double median_seconds(std::vector<double> values) {
 // Asks, counts and forecasts.
 class BudgetRuns {
  public:
-  BudgetRuns(const BudgetRequest& request, const BudgetAsk& ask) : request_(request), ask_(ask) {
+  BudgetRuns(const BudgetRequest& request, const BudgetBatch& ask) : request_(request), ask_(ask) {
     for (const UncertainInput& input : request.inputs) nominal_.push_back(input.value);
     grids_ = std::max<std::size_t>(1, request.cells.size());
     replicates_ = std::max<std::size_t>(1, request.replicates);
     tightest_ = request.tolerances.empty() ? 0 : request.tolerances.size() - 1;
+    sharpest_ = request.tips.empty() ? 0 : request.tips.size() - 1;
     total_ = budget_runs(request);
     seconds.resize(grids_);
     for (std::size_t c = 0; c < grids_; ++c)
@@ -62,12 +65,15 @@ class BudgetRuns {
   // answers[c][r]: on grid c with replicate r.
   std::vector<std::vector<double>> replicates() {
     std::vector<std::vector<double>> answers(grids_);
-    for (std::size_t r = 0; r < replicates_; ++r) {
-      for (std::size_t c = 0; c < grids_; ++c)
-        answers[c].push_back(run(nominal_, r, c, tightest_,
-                                 replicates_ > 1 ? "replicate " + std::to_string(r + 1) : "the value"));
-      if (r == 0) forecast();
-    }
+    const auto take = [&](const std::vector<double>& values) {
+      for (std::size_t k = 0; k < values.size(); ++k) answers[k % grids_].push_back(values[k]);
+    };
+    for (std::size_t c = 0; c < grids_; ++c) add_replicate(0, c);
+    take(run());
+    forecast();
+    for (std::size_t r = 1; r < replicates_; ++r)
+      for (std::size_t c = 0; c < grids_; ++c) add_replicate(r, c);
+    take(run());
     return answers;
   }
   // More runs over the inputs than were counted at first.
@@ -75,8 +81,26 @@ class BudgetRuns {
     total_ += more;
     weight_ += weight_of(0) * static_cast<double>(more);
   }
-  double loose() { return run(nominal_, 0, 0, tightest_ - 1, "solver"); }
-  double at(const std::vector<double>& inputs) { return run(inputs, 0, 0, tightest_, "inputs"); }
+  double loose() {
+    add(nominal_, 0, 0, tightest_ - 1, "solver");
+    return run().front();
+  }
+  double blunt() {
+    add(nominal_, 0, 0, tightest_, "tip");
+    asked_.back().tip = sharpest_ - 1;
+    return run().front();
+  }
+  std::vector<double> noisy() {
+    for (std::size_t k = 0; k < request_.noises; ++k) {
+      add(nominal_, 0, 0, tightest_, "noise");
+      asked_.back().noise = k;
+    }
+    return run();
+  }
+  std::vector<double> at(std::span<const std::vector<double>> inputs) {
+    for (const std::vector<double>& values : inputs) add(values, 0, 0, tightest_, "inputs");
+    return run();
+  }
 
   std::size_t count = 0;
   double sum = 0;
@@ -88,29 +112,56 @@ class BudgetRuns {
     return request_.cells.empty() ? 1 : request_.cells[c] * request_.cells[c];
   }
 
-  double run(const std::vector<double>& inputs, std::size_t replicate, std::size_t cells,
-             std::size_t tolerance, std::string part) {
-    BudgetSetting setting{inputs, replicate, cells, tolerance, std::move(part), ++count, total_, 0, 0};
+  void add_replicate(std::size_t replicate, std::size_t cells) {
+    add(nominal_, replicate, cells, tightest_,
+        replicates_ > 1 ? "replicate " + std::to_string(replicate + 1) : "the value");
+  }
+
+  void add(const std::vector<double>& inputs, std::size_t replicate, std::size_t cells, std::size_t tolerance,
+           std::string part) {
+    BudgetSetting setting;
+    setting.inputs = inputs;
+    setting.replicate = replicate;
+    setting.cells = cells;
+    setting.tolerance = tolerance;
+    setting.tip = sharpest_;
+    setting.part = std::move(part);
+    setting.number = ++count;
+    setting.of = total_;
     setting.done_before = std::min(1.0, done_ / weight_);
     done_ += weight_of(cells);
     setting.done_after = std::min(1.0, done_ / weight_);
-    const BudgetAnswer answer = ask_(setting);
-    if (!std::isfinite(answer.value))
-      throw Error(ErrorCode::bad_value,
-                  "the answer of run " + std::to_string(count) + " (" + setting.part + ") is not finite",
-                  "a budget needs a finite number of every run");
-    sum += answer.seconds;
-    if (setting.part == "solver")
-      loose_seconds = answer.seconds;
-    else if (setting.part != "inputs")
-      seconds[cells].push_back(answer.seconds);
-    return answer.value;
+    asked_.push_back(std::move(setting));
+  }
+
+  // The answers of what was added.
+  std::vector<double> run() {
+    if (asked_.empty()) return {};
+    const std::vector<BudgetSetting> settings = std::exchange(asked_, {});
+    const std::vector<BudgetAnswer> answers = ask_(settings);
+    std::vector<double> values;
+    for (std::size_t k = 0; k < settings.size(); ++k) {
+      const BudgetSetting& setting = settings[k];
+      if (!std::isfinite(answers[k].value))
+        throw Error(
+            ErrorCode::bad_value,
+            "the answer of run " + std::to_string(setting.number) + " (" + setting.part + ") is not finite",
+            "a budget needs a finite number of every run");
+      sum += answers[k].seconds;
+      if (setting.part == "solver")
+        loose_seconds = answers[k].seconds;
+      else if (setting.part != "inputs" && setting.part != "tip" && setting.part != "noise")
+        seconds[setting.cells].push_back(answers[k].seconds);
+      values.push_back(answers[k].value);
+    }
+    return values;
   }
 
   void forecast() const {
     if (!request_.at_most) return;
     double expected = seconds[0][0] * static_cast<double>(total_ - grids_ * replicates_);
     for (const auto& on_grid : seconds) expected += on_grid[0] * static_cast<double>(replicates_);
+    expected /= std::max(1, request_.at_a_time);
     if (expected > *request_.at_most)
       throw Error(ErrorCode::infeasible,
                   "the " + std::to_string(total_) + " runs will take " + format_short(expected, 2) +
@@ -119,9 +170,10 @@ class BudgetRuns {
   }
 
   const BudgetRequest& request_;
-  const BudgetAsk& ask_;
+  const BudgetBatch& ask_;
+  std::vector<BudgetSetting> asked_;  // that are not answered yet
   std::vector<double> nominal_;
-  std::size_t grids_ = 1, replicates_ = 1, tightest_ = 0, total_ = 0;
+  std::size_t grids_ = 1, replicates_ = 1, tightest_ = 0, sharpest_ = 0, total_ = 0;
   double weight_ = 0, done_ = 0;
 };
 
@@ -151,6 +203,9 @@ struct BudgetFindings {
   double change = 0;                 // to the finest grid, in the mean
   Extrapolation by;
   double factor_mean = 0, factor_spread = 0;
+  Extrapolation by_tip;  // of the change from the blunter tip to the sharpest
+  double tip_change = 0, tip_mean = 0, tip_spread = 0;
+  double noise = 0;                // standard deviation over its draws
   double solver = 0;               // half the width in which the error of the solver lies
   std::vector<double> of_answers;  // where chaos is refused: answers less their mean
 };
@@ -191,7 +246,8 @@ class BudgetDraws {
     std::vector<double> drawn;
     drawn.reserve(request_.draws);
     const Stream t(request_.seed, "budget sampling"), order(request_.seed, "budget order"),
-        solver(request_.seed, "budget solver"), lack(request_.seed, "budget lack");
+        solver(request_.seed, "budget solver"), lack(request_.seed, "budget lack"),
+        tip(request_.seed, "budget tip"), noise(request_.seed, "budget noise");
     std::vector<Stream> of_inputs;
     for (std::size_t j = 0; j < request_.inputs.size(); ++j)
       of_inputs.emplace_back(request_.seed, "budget input " + std::to_string(j));
@@ -202,6 +258,11 @@ class BudgetDraws {
       if (found_.change != 0)
         value += found_.change *
                  (found_.by.at(order.uniform(k, found_.by.low, found_.by.high)) - found_.factor_mean);
+      if (found_.tip_change != 0)
+        value += found_.tip_change *
+                 (found_.by_tip.at(tip.uniform(k, found_.by_tip.low, found_.by_tip.high)) - found_.tip_mean);
+      if (found_.noise > 0)
+        value += found_.noise * student_draw(noise, k, static_cast<double>(request_.noises - 1));
       if (found_.solver > 0) value += found_.solver * solver.uniform(k, -1, 1);
       if (!found_.of_answers.empty()) {
         value += found_.of_answers[static_cast<std::size_t>(lack.below(k, found_.of_answers.size()))];
@@ -313,6 +374,33 @@ void look_at_solver(const BudgetRequest& request, const std::vector<std::vector<
   found.solver = std::abs(runs.loose() - answers[0][0]) / (ratio - 1);
 }
 
+// What a stylus and its noise do to the answer; nothing is said of a budget that has no instrument.
+void look_at_instrument(const BudgetRequest& request, const std::vector<std::vector<double>>& answers,
+                        BudgetRuns& runs, BudgetFindings& found, Budget& budget) {
+  if (request.tips.size() > 1) {
+    const std::size_t last = request.tips.size() - 1;
+    found.by_tip = {request.tips[last - 1] / request.tips[last], 1, 2};
+    std::tie(found.tip_mean, found.tip_spread) = found.by_tip.moments();
+    found.tip_change = answers[0][0] - runs.blunt();
+    budget.notes.push_back("tip: the value is corrected by " +
+                           format_short(found.tip_mean * found.tip_change, 3) +
+                           " for an error of order 1 to 2 of its radius");
+  }
+  if (request.noises == 0) return;
+  const std::vector<double> noisy = runs.noisy();
+  const double n = static_cast<double>(noisy.size()), shift = average_of(noisy) - answers[0][0];
+  double squares = 0;
+  for (const double value : noisy)
+    squares += (value - answers[0][0] - shift) * (value - answers[0][0] - shift);
+  found.noise = std::sqrt(squares / (n - 1));
+  budget.notes.push_back("noise: n = " + std::to_string(noisy.size()) + ", moves the answer by " +
+                         format_short(shift, 3) + " in the mean, which is not corrected");
+  if (std::abs(shift) > 3 * found.noise)
+    budget.warnings.push_back("noise moves the answer by " + format_short(shift, 3) +
+                              ", far more than it scatters it: filter what is measured, or ask for what does "
+                              "not hang on the shortest waves");
+}
+
 void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindings& found, Budget& budget) {
   if (request.inputs.empty()) {
     budget.notes.emplace_back("inputs: taken as exact");
@@ -322,17 +410,19 @@ void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
   ChaosRequest of_inputs{request.inputs, request.runs, request.seed};
   if (request.at_most) of_inputs.runs = runs_of_inputs(request);
   std::size_t asked = 0;
-  ChaosOfRuns chaos = chaos_of_runs(
-      of_inputs, [&](const std::vector<double>& values) { return runs.at(values); },
+  ChaosOfRuns chaos = chaos_of_batches(
+      of_inputs, [&](std::span<const std::vector<double>> points) { return runs.at(points); },
       [&](std::size_t more) {
         if (asked > 0) runs.expect(more);
         asked += more;
       });
   budget.chaos = std::move(chaos.chaos);
   const std::vector<double>& answers = chaos.answers;
-  budget.notes.push_back("inputs: taken as independent, shares do not hold for correlated ones; " +
-                         budget.chaos->text());
-  if (budget.chaos->trust() == ChaosTrust::good) return;
+  // What is rough is said once, as a warning.
+  const bool good = budget.chaos->trust() == ChaosTrust::good;
+  budget.notes.push_back("inputs: taken as independent, shares do not hold for correlated ones" +
+                         (good ? "; " + budget.chaos->text() : std::string()));
+  if (good) return;
   budget.warnings.push_back(budget.chaos->text());
   if (budget.chaos->trust() == ChaosTrust::rough) return;
   const double mean = average_of(answers);
@@ -351,6 +441,8 @@ void add_parts(const BudgetRequest& request, const BudgetFindings& found, Budget
   if (budget.sample) add_part(budget, "sampling", *budget.sample->standard_error);
   if (request.cells.size() > 1) add_part(budget, "cells", std::abs(found.change) * found.factor_spread);
   if (request.tolerances.size() > 1) add_part(budget, "solver", found.solver / std::sqrt(3.0));
+  if (request.tips.size() > 1) add_part(budget, "tip", std::abs(found.tip_change) * found.tip_spread);
+  if (request.noises > 0) add_part(budget, "noise", found.noise);
   double variance_of_inputs = 0;
   if (!found.of_answers.empty()) {
     for (const double value : found.of_answers)
@@ -375,14 +467,17 @@ void add_parts(const BudgetRequest& request, const BudgetFindings& found, Budget
   }
 }
 
-void add_interval(const BudgetRequest& request, const BudgetFindings& found, Budget& budget) {
-  const bool sample_alone = budget.sample && !budget.chaos && found.change == 0 && found.solver == 0;
+void add_interval(const BudgetRequest& request, BudgetFindings& found, Budget& budget) {
+  const bool sample_alone = budget.sample && !budget.chaos && found.change == 0 && found.solver == 0 &&
+                            found.tip_change == 0 && found.noise == 0;
   budget.value = found.centre;
   if (sample_alone) {
     budget.low = *budget.sample->low;
     budget.high = *budget.sample->high;
     return;
   }
+  found.centre += found.tip_mean * found.tip_change;
+  budget.value = found.centre;
   if (budget.chaos && found.of_answers.empty())
     budget.value += budget.chaos->mean - budget.chaos->at(std::vector<double>(request.inputs.size()));
   const std::vector<double> drawn = BudgetDraws(request, found, budget).all();
@@ -398,6 +493,8 @@ void check_request(const BudgetRequest& request) {
     refuse_request("`replicate` has one value", "scatter takes two or more, better five");
   check_ascent(request.cells, "cells", true);
   check_ascent(request.tolerances, "tolerance", false);
+  check_ascent(request.tips, "tip", false);
+  if (request.noises == 1) refuse_request("`noise` has one draw", "scatter takes two or more, better five");
   if (!(request.order_low > 0) || !(request.order_high >= request.order_low) || !(request.order_high <= 10))
     refuse_request(
         "`order` goes from " + format_short(request.order_low) + " to " + format_short(request.order_high),
@@ -408,23 +505,33 @@ void check_request(const BudgetRequest& request) {
     refuse_request("`half_width` is " + format_short(*request.half_width), "give a finite number above 0");
   if (request.draws < 100) refuse_request("there are fewer than 100 draws", "give more");
   if (request.inputs.empty() && request.replicates == 0 && request.cells.size() < 2 &&
-      request.tolerances.size() < 2)
+      request.tolerances.size() < 2 && request.tips.size() < 2 && request.noises == 0)
     refuse_request("there is nothing to vary",
-                   "give `inputs`, `replicate`, or two or more `cells` or `tolerance`");
+                   "give `inputs`, `replicate`, `noise`, or two or more `cells`, `tolerance` or `tip`");
 }
 
 std::size_t budget_runs(const BudgetRequest& request) {
   return std::max<std::size_t>(1, request.cells.size()) * std::max<std::size_t>(1, request.replicates) +
-         (request.tolerances.size() > 1 ? 1 : 0) + runs_of_inputs(request);
+         (request.tolerances.size() > 1 ? 1 : 0) + (request.tips.size() > 1 ? 1 : 0) + request.noises +
+         runs_of_inputs(request);
 }
 
 Budget budget_of(const BudgetRequest& request, const BudgetAsk& ask) {
+  return budget_of_batches(request, [&ask](std::span<const BudgetSetting> settings) {
+    std::vector<BudgetAnswer> answers;
+    for (const BudgetSetting& setting : settings) answers.push_back(ask(setting));
+    return answers;
+  });
+}
+
+Budget budget_of_batches(const BudgetRequest& request, const BudgetBatch& ask) {
   check_request(request);
   Budget budget;
   budget.confidence = request.confidence;
   budget.replicates = request.replicates;
   budget.cells = request.cells;
   budget.tolerances = request.tolerances;
+  budget.tips = request.tips;
   budget.asked = request.half_width;
   BudgetFindings found;
   BudgetRuns runs(request, ask);
@@ -432,6 +539,7 @@ Budget budget_of(const BudgetRequest& request, const BudgetAsk& ask) {
   look_at_cells(request, answers, found, budget);
   look_at_sample(request, found, budget);
   look_at_solver(request, answers, runs, found, budget);
+  look_at_instrument(request, answers, runs, found, budget);
   look_at_inputs(request, runs, found, budget);
   add_parts(request, found, budget);
   add_interval(request, found, budget);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
 
@@ -164,6 +165,12 @@ void add_costs(Budget& budget, double order, double solver_seconds) {
       // The whole is run again, each run longer by what a halved tolerance takes.
       part.halving_seconds = planner.seconds(n, planner.finest()) +
                              runs * growth * solver_seconds * elementary::log(2) / elementary::log(ratio);
+    } else if (part.name == "tip") {
+      // Of an error that falls as the radius to the power of about 3/2.
+      part.halving =
+          "a tip of " + format_quantity(budget.tips.back() / elementary::exp2(2.0 / 3), dimension::length, 2);
+    } else if (part.name == "noise") {
+      part.halving = "the mean of four measurements";
     } else if (part.name == "inputs" || part.name == "inputs together") {
       part.halving = "better measured inputs";
     } else if (budget.chaos) {

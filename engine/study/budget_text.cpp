@@ -57,7 +57,7 @@ std::string Budget::text() const {
           padded_cell("share", 9, true) + "   to halve it\n";
   const bool rough = chaos && chaos->trust() == ChaosTrust::rough;
   for (const BudgetPart& part : parts) {
-    const bool of_input = !part.halving_seconds;
+    const bool of_input = !part.halving_seconds && part.name != "tip" && part.name != "noise";
     text += "  " + padded_cell(part.name, width, false) +
             padded_cell(format_short(part.uncertainty, 3), 11, true) +
             padded_cell((rough && of_input ? "~" : "") + budget_share_text(part.share), 9, true) + "   " +

@@ -23,21 +23,35 @@ std::string with_error(double share, double error) {
          format_short(std::round(1000 * error) / 10, 3) + " %";
 }
 
+InputBatch one_by_one(const InputAsk& ask) {
+  return [&ask](std::span<const std::vector<double>> points) {
+    std::vector<double> answers;
+    for (const std::vector<double>& values : points) answers.push_back(ask(values));
+    return answers;
+  };
+}
+
 }  // namespace
 
 ChaosOfRuns chaos_of_runs(const ChaosRequest& request, const InputAsk& ask, const RunsToCome& to_come) {
+  return chaos_of_batches(request, one_by_one(ask), to_come);
+}
+
+ChaosOfRuns chaos_of_batches(const ChaosRequest& request, const InputBatch& ask, const RunsToCome& to_come) {
   check_inputs(request.inputs);
   std::size_t runs = request.runs > 0 ? request.runs : chaos_runs(request.inputs.size());
   ChaosOfRuns found;
   for (std::size_t doubled = 0;; ++doubled) {
     const auto points = input_points(request.inputs, runs, request.seed);
     if (to_come) to_come(runs - found.answers.size());
-    while (found.answers.size() < runs) {
-      const std::vector<double>& point = points[found.answers.size()];
-      std::vector<double> values;
-      for (std::size_t j = 0; j < point.size(); ++j) values.push_back(request.inputs[j].at(point[j]));
-      found.answers.push_back(ask(values));
+    std::vector<std::vector<double>> values;
+    for (std::size_t run = found.answers.size(); run < runs; ++run) {
+      std::vector<double>& of_run = values.emplace_back();
+      for (std::size_t j = 0; j < points[run].size(); ++j)
+        of_run.push_back(request.inputs[j].at(points[run][j]));
     }
+    const std::vector<double> answers = ask(values);
+    found.answers.insert(found.answers.end(), answers.begin(), answers.end());
     found.chaos = polynomial_chaos(request.inputs, points, found.answers);
     if (found.chaos.trust() == ChaosTrust::good || request.runs > 0 || doubled == most_doublings)
       return found;
@@ -46,8 +60,13 @@ ChaosOfRuns chaos_of_runs(const ChaosRequest& request, const InputAsk& ask, cons
 }
 
 Sensitivity sensitivity_of(const ChaosRequest& request, const InputAsk& ask, const RunsToCome& to_come) {
+  return sensitivity_of_batches(request, one_by_one(ask), to_come);
+}
+
+Sensitivity sensitivity_of_batches(const ChaosRequest& request, const InputBatch& ask,
+                                   const RunsToCome& to_come) {
   Sensitivity found;
-  found.chaos = chaos_of_runs(request, ask, to_come).chaos;
+  found.chaos = chaos_of_batches(request, ask, to_come).chaos;
   require_trust(found.chaos);
   found.deviation = std::sqrt(found.chaos.variance);
   const auto& shares = found.chaos.shares;

@@ -29,11 +29,15 @@ struct ChaosOfRuns {
 
 // The answer at these values of the inputs.
 using InputAsk = std::function<double(const std::vector<double>&)>;
+// The answers at many such values, in their order, which may be computed side by side.
+using InputBatch = std::function<std::vector<double>(std::span<const std::vector<double>>)>;
 // Told how many runs will follow, before the first and at each doubling.
 using RunsToCome = std::function<void(std::size_t)>;
 
 // Throws as polynomial_chaos does, and whatever `ask` throws. No run is made twice.
 ChaosOfRuns chaos_of_runs(const ChaosRequest& request, const InputAsk& ask, const RunsToCome& to_come = {});
+ChaosOfRuns chaos_of_batches(const ChaosRequest& request, const InputBatch& ask,
+                             const RunsToCome& to_come = {});
 
 struct Sensitivity {
   PolynomialChaos chaos;
@@ -47,5 +51,7 @@ struct Sensitivity {
 
 // Throws as chaos_of_runs does, and Error{not_converged} where no shares can be had.
 Sensitivity sensitivity_of(const ChaosRequest& request, const InputAsk& ask, const RunsToCome& to_come = {});
+Sensitivity sensitivity_of_batches(const ChaosRequest& request, const InputBatch& ask,
+                                   const RunsToCome& to_come = {});
 
 }  // namespace asperity

@@ -3,6 +3,7 @@
 // refusal with the place it names. The numbers are held in tests/statistics.
 #include <string>
 
+#include "engine/core/parallel.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::budget_test {
@@ -38,6 +39,79 @@ TEST_F(BudgetTest, HasAShareOfEachPartAndWhatHalvingItTakes) {
   EXPECT_TRUE(
       holds("tostring(b):find('part ', 1, true) ~= nil and tostring(b):find('solver: not estimated', 1, "
             "true) ~= nil"));
+}
+
+// Real area of a small face, with everything that a budget knows.
+constexpr const char* area_of_faces = R"(
+  asked = 0
+  function area(x)
+    asked = asked + 1
+    local face = lab.surface.self_affine{ cells=x.cells or 16, size="100 um", hurst=0.8, rms_height="0.5 um", short_wave="25 um",
+                                          seed=x.seed or 1, material=lab.material{ young=x.young or 7e10, poisson=0.3 } }
+    local pair = lab.contact{ lower=face, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" },
+                              accuracy={ tolerance=x.tolerance } }
+    return pair:press{ pressure=1e7 }.area_fraction
+  end
+  function budget(more)
+    local keys = { ask=area, replicate={ seed={ 1, 2, 3, 4, 5 } }, cells={ 16, 32 }, tolerance={ 1e-4, 1e-6 },
+                   inputs={ young={ value="70 GPa", u="5 %" } }, runs=16 }
+    for key, value in pairs(more or {}) do keys[key] = value end
+    return lab.budget(keys)
+  end)";
+
+TEST_F(BudgetTest, HeavyRunsAreSpreadWithTheSameBits) {
+  ASSERT_EQ(run(area_of_faces), "");
+  const int threads = thread_count();
+  set_thread_count(1);
+  EXPECT_EQ(run("one = budget()"), "");
+  set_thread_count(2);
+  EXPECT_EQ(run("two = budget()"), "");
+  set_thread_count(threads);
+  EXPECT_TRUE(holds("one.runs == 5 * 2 + 1 + 16")) << value("one.runs");
+  EXPECT_TRUE(holds("asked == 4")) << value("asked");  // the first replicate, twice on two grids
+  EXPECT_TRUE(holds("one.value == two.value and one.low == two.low and one.high == two.high"));
+  EXPECT_TRUE(holds("one.parts[1].share == two.parts[1].share and one.seconds > 0"));
+  EXPECT_TRUE(holds("one.low < one.value and one.value < one.high")) << value("one");
+  // A bench that the function reaches cannot be copied: the runs go one by one.
+  ASSERT_EQ(run("local bench = lab.contact{ lower=lab.surface.sine{ cells=8, size='1 mm', amplitude='1 um', "
+                "material=lab.material 'steel' }, upper=lab.rigid, boundary='periodic', "
+                "effects={ elasticity='half_space' } } asked = 0 "
+                "three = budget{ ask=function(x) assert(bench) return area(x) end }"),
+            "");
+  EXPECT_TRUE(holds("asked == three.runs and three.value == one.value"));
+}
+
+TEST_F(BudgetTest, MistakesOfASpreadRunAreThoseOfTheFirst) {
+  ASSERT_EQ(run(area_of_faces), "");
+  EXPECT_TRUE(
+      refuses("budget{ ask=function(x) local a = area(x) if x.seed >= 3 then error('seed ' .. x.seed) "
+              "end return a end }",
+              "seed=3"));
+  EXPECT_TRUE(
+      refuses("budget{ ask=function(x) local a = area(x) if x.seed >= 3 then return 'x' end return a end }",
+              "`ask` returned the string \"x\" for { cells=16, seed=3"));
+  EXPECT_TRUE(
+      refuses("budget{ ask=function(x) local a = area(x) if x.seed >= 3 then return 0/0 end return a end }",
+              "the answer of run 5 (replicate 3) is not finite"));
+}
+
+TEST_F(BudgetTest, TipAndNoiseAreAskedFor) {
+  ASSERT_EQ(run(R"(
+    tips, noises = {}, {}
+    b = lab.budget{ ask=function(x)
+      tips[x.tip] = true
+      if x.noise then noises[#noises + 1] = x.noise end
+      return 10 - 1e5 * x.tip + (x.noise or 0) * 0.1
+    end, tip={ "5 um", "2 um" }, noise={ 1, 2, 3 } }
+    parts = {} for _, p in ipairs(b.parts) do parts[p.name] = p end)"),
+            "");
+  EXPECT_TRUE(holds("tips[5e-6] and tips[2e-6] and #noises == 3"));
+  EXPECT_TRUE(holds("math.abs(parts.noise.u - 0.1) < 1e-9 and parts.tip.u > 0 and parts.tip.seconds == nil"));
+  EXPECT_TRUE(holds("parts.tip.halving:find('a tip of', 1, true) == 1")) << value("parts.tip.halving");
+  EXPECT_TRUE(refuses("lab.budget{ ask=print, tip={ '2 um', '5 um' } }", "blunt ones first"));
+  EXPECT_TRUE(refuses("lab.budget{ ask=print, tip={ '2 s', '5 um' } }", "tip"));
+  EXPECT_TRUE(refuses("lab.budget{ ask=print, noise={ 1, 1 } }", "`noise[2]` is 1 for the second time"));
+  EXPECT_TRUE(refuses("lab.budget{ ask=print, noise=3 }", "a list of seeds"));
 }
 
 TEST_F(BudgetTest, SaysWhatIsWrongAndWhere) {

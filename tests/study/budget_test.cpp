@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
@@ -289,6 +291,84 @@ TEST(Budget, WithoutAPolynomialTheInputsAreOneRow) {
   EXPECT_EQ(b.parts[0].name, "inputs");
   EXPECT_NEAR(b.uncertainty, 1, .1);
   EXPECT_FALSE(b.warnings.empty());
+}
+
+// A tip that takes 4 % an unit of its radius off, and a noise of 0.3.
+TEST(Budget, TipAndNoiseOfAnInstrumentAreParts) {
+  BudgetRequest r;
+  r.replicates = 6;
+  r.tips = {2, 1};
+  r.noises = 40;
+  const Stream s(3, "instrument");
+  const auto ask = [&](const BudgetSetting& run) {
+    double value = 10 + 0.2 * s.normal(run.replicate) - 0.4 * r.tips[run.tip];
+    if (run.noise) value += 0.3 * s.normal(100 + *run.noise);
+    return BudgetAnswer{value, 1};
+  };
+  const Budget b = budget_of(r, ask);
+  EXPECT_EQ(b.runs, 6u + 1 + 40);
+  const auto part = [&](const std::string& name) {
+    return *std::ranges::find(b.parts, name, &BudgetPart::name);
+  };
+  // 1/(2^p - 1) of p from 1 to 2 is 0.58 in the mean and scatters by 0.19.
+  EXPECT_NEAR(part("tip").uncertainty, 0.4 * 0.19, 0.01);
+  EXPECT_NEAR(part("noise").uncertainty, 0.3, 0.1);
+  EXPECT_NEAR(b.value, 10 - 0.4 + 0.58 * 0.4, 0.3);
+  EXPECT_LT(b.low, 10);
+  EXPECT_GT(b.high, 10);
+  EXPECT_FALSE(part("tip").halving_seconds || part("noise").halving_seconds);
+  EXPECT_EQ(part("noise").halving, "the mean of four measurements");
+  EXPECT_NE(part("tip").halving.find("a tip of"), std::string::npos);
+  r.noises = 1;
+  EXPECT_THROW(budget_of(r, ask), Error);
+  r.noises = 0;
+  r.tips = {1, 2};
+  EXPECT_THROW(budget_of(r, ask), Error);
+}
+
+TEST(Budget, RoughFitIsSaidOnce) {
+  BudgetRequest r;
+  r.inputs = {{"a", 0, 1, InputShape::uniform}};
+  r.runs = 12;
+  Budget b;
+  for (double wave = 0.1; wave < 0.5 && (!b.chaos || b.chaos->trust() == ChaosTrust::good); wave += 0.02)
+    b = budget_of(r, [&](const BudgetSetting& run) {
+      return BudgetAnswer{std::abs(run.inputs[0] - 0.2) + wave * elementary::sin(9 * run.inputs[0]), 0};
+    });
+  ASSERT_EQ(b.chaos->trust(), ChaosTrust::rough) << b.chaos->leave_one_out;
+  const std::string text = b.text(), sentence = b.chaos->text();
+  const std::size_t first = text.find(sentence);
+  ASSERT_NE(first, std::string::npos) << text;
+  EXPECT_EQ(text.find(sentence, first + 1), std::string::npos) << text;
+}
+
+// The first batch is for the time that all will take; the others hold all that can be known by then.
+TEST(Budget, RunsComeInBatches) {
+  BudgetRequest r;
+  r.replicates = 5;
+  r.cells = {32, 64};
+  r.inputs = {{"a", 0, 0.1, InputShape::uniform}, {"b", 0, 0.1, InputShape::uniform}};
+  std::vector<std::size_t> batches, numbers;
+  const BudgetBatch batch = [&](std::span<const BudgetSetting> runs) {
+    batches.push_back(runs.size());
+    std::vector<BudgetAnswer> answers;
+    for (const BudgetSetting& run : runs) {
+      numbers.push_back(run.number);
+      answers.push_back(
+          {1 + run.inputs[0] + 2 * run.inputs[1] + 0.01 * static_cast<double>(run.replicate), 1});
+    }
+    return answers;
+  };
+  const Budget b = budget_of_batches(r, batch);
+  EXPECT_EQ(batches, (std::vector<std::size_t>{2, 8, 32}));
+  std::vector<std::size_t> ascending(42);
+  std::iota(ascending.begin(), ascending.end(), std::size_t{1});
+  EXPECT_EQ(numbers, ascending);
+  r.at_most = 30;
+  EXPECT_THROW(budget_of_batches(r, batch), Error);
+  r.at_a_time = 2;
+  EXPECT_NO_THROW(budget_of_batches(r, batch));
+  EXPECT_EQ(b.runs, 42u);
 }
 
 TEST(Budget, RefusesWhatContradictsItself) {

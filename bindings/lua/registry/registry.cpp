@@ -162,6 +162,7 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
     return dry_call(call, function);
   LedgerScope scope = call.session().ledger_scope(call.function_name(), function.heavy);
   if (function.returns.starts_with("iterator")) scope.forget();  // its turns count
+  if (function.heavy) ++call.session().heavy_calls;
   Values results = function.body(call);
   check_results(function, results);
   if (function.heavy) {

@@ -83,10 +83,11 @@ class Session {
   std::shared_ptr<RunKnobs> knobs = std::make_shared<RunKnobs>();
   // What lab.knob.set does with a value that the knob takes; empty where nothing is run again.
   std::function<void(const std::string& name, const std::string& value)> move_knob;
-  ScriptSpelling script;       // as it was named; empty where there is none
-  std::string script_digest;   // of the text of the script and its arguments; may be empty
-  int ensembles = 0;           // that the script has begun
-  std::optional<Shard> shard;  // of a run that computes some of the cases only
+  ScriptSpelling script;         // as it was named; empty where there is none
+  std::string script_digest;     // of the text of the script and its arguments; may be empty
+  int ensembles = 0;             // that the script has begun
+  std::int64_t heavy_calls = 0;  // that this state has made; computed or found in the store, they count alike
+  std::optional<Shard> shard;    // of a run that computes some of the cases only
   // What a shard does where the script can go no further without the cases of others: ends the process.
   std::function<void(const std::string& sentence)> shard_end;
   // Called with the results of each heavy call; may be empty.

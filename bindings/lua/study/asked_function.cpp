@@ -9,6 +9,7 @@
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity::lua {
 
@@ -101,6 +102,23 @@ void read_input(const std::string& name, const std::string& path, const Argument
   keys.inputs.push_back(std::move(input));
 }
 
+// The share of a run that is done, of which it may speak several times over and which never falls.
+class ShareMonitor final : public Monitor {
+ public:
+  ShareMonitor(Monitor& outer, std::function<void(double)> tell) : outer_(outer), tell_(std::move(tell)) {}
+  void progress(std::string_view, double done) override {
+    if (done > furthest_) tell_(furthest_ = std::min(done, 1.0));
+  }
+  void warn(std::string_view sentence) override { outer_.warn(sentence); }
+  void inform(std::string_view sentence) override { outer_.inform(sentence); }
+  ResultStore* results() override { return outer_.results(); }
+
+ private:
+  Monitor& outer_;
+  std::function<void(double)> tell_;
+  double furthest_ = 0;
+};
+
 }  // namespace
 
 void AskedFunction::call(const Knobs& knobs) const {
@@ -142,10 +160,53 @@ void AskedFunction::try_once(const Knobs& knobs) const {
   if (!answer.is_number() && !answer.is_unknown()) no_number(answer, knobs);
 }
 
-PartMonitor RunProgress::of(const std::string& part, double before, double after) {
-  PartMonitor monitor(monitor_, title_, part, before, after, begun_);
-  monitor.begin();
-  return monitor;
+AskedRuns::AskedRuns(const Call& call, const Argument& ask)
+    : ask_(call, ask), session_(call.session()), batch_(call_batch(call, ask, "ask")) {}
+
+std::vector<AskedFunction::Answer> AskedRuns::operator()(const std::vector<Knobs>& runs,
+                                                         const std::function<void(double)>& done) {
+  std::vector<AskedFunction::Answer> found;
+  if (!heavy_) {
+    std::optional<SingleThreaded> alone;
+    if (batch_ != nullptr && !begun_) alone.emplace();
+    const std::int64_t before = session_.heavy_calls;
+    for (const Knobs& knobs : runs) {
+      ShareMonitor monitor(session_.monitor(),
+                           [&](double share) { done(static_cast<double>(found.size()) + share); });
+      found.push_back(ask_(knobs, monitor));
+      done(static_cast<double>(found.size()));
+    }
+    heavy_ = batch_ != nullptr && !begun_ && session_.heavy_calls > before;
+    begun_ = true;
+    return found;
+  }
+  std::vector<Values> arguments;
+  for (const Knobs& knobs : runs) {
+    Map x;
+    for (const Knob& knob : knobs)
+      std::visit([&](const auto& value) { x.items.emplace_back(knob.name, Value(value)); }, knob.value);
+    arguments.push_back({Value(std::move(x))});
+  }
+  QuietMonitor quiet(session_.monitor());
+  const Session::Reporting reporting(session_, quiet);
+  const std::vector<BatchedAnswer> answers =
+      batch_->answers(arguments, [&done](std::size_t count) { done(static_cast<double>(count)); });
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    const BatchedAnswer& answer = answers[k];
+    if (!answer.failure.empty())
+      throw Error(ErrorCode::bad_value,
+                  "`ask` failed for " + lua_source(runs[k]) + ": " + without_traceback(answer.failure));
+    if (!answer.number)
+      throw Error(ErrorCode::bad_value, "`ask` returned " + answer.other + " for " + lua_source(runs[k]),
+                  "return one number");
+    found.push_back({*answer.number, answer.seconds});
+  }
+  return found;
+}
+
+void RunProgress::report(const std::string& part, double share) {
+  const std::chrono::duration<double> since = PartMonitor::Clock::now() - begun_;
+  monitor_.progress_of_parts(title_, share, part, since.count());
 }
 
 void read_inputs(const Argument& value, const OptionInfo& info, InputKeys& keys, Problems& problems) {

@@ -1,18 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The function `ask` of a budget or a sensitivity: called with a table of the quantities and knobs of a run,
-// it gives one number. And the uncertain inputs that such calls take.
+// it gives one number; many runs go on side by side. And the uncertain inputs that such calls take.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "bindings/lua/registry/call_batch.hpp"
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/core/part_monitor.hpp"
 #include "engine/statistics/uncertain_input.hpp"
 #include "engine/study/study_setting.hpp"
 
 namespace asperity::lua {
+
+// Warnings of what a study calls are shown; their progress is not, for the study has its own.
+class QuietMonitor final : public Monitor {
+ public:
+  explicit QuietMonitor(Monitor& outer) : outer_(outer) {}
+  void progress(std::string_view, double) override {}
+  void warn(std::string_view sentence) override { outer_.warn(sentence); }
+  ResultStore* results() override { return outer_.results(); }
+
+ private:
+  Monitor& outer_;
+};
 
 // Valid while the function stays where it is on the stack.
 class AskedFunction {
@@ -36,12 +53,33 @@ class AskedFunction {
   Session& session_;
 };
 
-// Runs of unknown length that follow on each other, as one progress.
+// The same function for many runs. The first batch goes one by one in the script's own state; if it made a
+// heavy call, those behind it are spread over threads, where what one call changes is seen by no other. Each
+// call has one thread then, so that their times can be compared.
+class AskedRuns {
+ public:
+  AskedRuns(const Call& call, const Argument& ask);
+
+  // `done` is told how many there are of this batch, and of one that goes on by itself its share. Throws as
+  // AskedFunction does, for the first that fails.
+  std::vector<AskedFunction::Answer> operator()(const std::vector<Knobs>& runs,
+                                                const std::function<void(double)>& done);
+  // Calls that go on side by side where calls are heavy.
+  int at_a_time() const { return batch_ != nullptr ? thread_count() : 1; }
+
+ private:
+  AskedFunction ask_;
+  Session& session_;
+  std::unique_ptr<CallBatch> batch_;
+  bool begun_ = false, heavy_ = false;
+};
+
+// Runs of unknown length as one progress.
 class RunProgress {
  public:
   RunProgress(Monitor& monitor, std::string title) : monitor_(monitor), title_(std::move(title)) {}
-  // Of the run that takes the whole from `before` to `after`. `part` says which it is.
-  PartMonitor of(const std::string& part, double before, double after);
+  // That `share` of the whole is done; `part` says what goes on.
+  void report(const std::string& part, double share);
 
  private:
   Monitor& monitor_;

@@ -23,7 +23,8 @@ struct ReplicateKnob {
 
 struct BudgetKeys : InputKeys {
   std::vector<ReplicateKnob> replicate;  // lists of equal length, which go along together
-  std::vector<double> cells, tolerances;
+  std::vector<double> cells, tolerances, tips;
+  std::vector<std::int64_t> noise;
   double order_low = 1, order_high = 2;
   std::optional<std::int64_t> runs;
   double confidence = 0.95;
@@ -107,6 +108,26 @@ void read_cells(const Argument& value, const OptionInfo& info, BudgetKeys& keys,
     }
 }
 
+// Seeds of its draws.
+void read_noise(const Argument& value, const OptionInfo& info, BudgetKeys& keys, Problems& problems) {
+  if (!value.is_table() || value.length() == 0)
+    return detail::wrong_type(value, info, "a list of seeds such as { 1, 2, 3, 4, 5 }", problems);
+  for (std::int64_t k = 1; k <= value.length(); ++k)
+    value.element(k, [&](const Argument& item) {
+      const std::string place = info.name + "[" + std::to_string(k) + "]";
+      if (item.is_unknown()) {
+        keys.unknown = true;
+      } else if (const auto seed = item.is_number() ? item.integer() : std::nullopt; !seed || *seed < 0) {
+        problems.push_back(quoted(place) + " is " + item.describe() + "; give a seed, a whole number from 0");
+      } else if (std::ranges::find(keys.noise, *seed) != keys.noise.end()) {
+        problems.push_back(quoted(place) + " is " + std::to_string(*seed) +
+                           " for the second time; a run made twice says nothing of the scatter");
+      } else {
+        keys.noise.push_back(*seed);
+      }
+    });
+}
+
 void check_budget(BudgetKeys& keys, Problems& problems) {
   if (keys.unknown) return;
   for (const ReplicateKnob& knob : keys.replicate)
@@ -120,23 +141,39 @@ void check_budget(BudgetKeys& keys, Problems& problems) {
   for (const ReplicateKnob& knob : keys.replicate) names.push_back(knob.name);
   if (!keys.cells.empty()) names.emplace_back("cells");
   if (!keys.tolerances.empty()) names.emplace_back("tolerance");
+  if (!keys.tips.empty()) names.emplace_back("tip");
+  if (!keys.noise.empty()) names.emplace_back("noise");
   std::ranges::sort(names);
   if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
     problems.push_back(quoted(*twice) +
                        " is asked for in two ways; `ask` can get only one value by that name");
-  for (const char* taken : {"sampling", "cells", "solver", "inputs", "inputs together"})
+  for (const char* taken : {"sampling", "cells", "solver", "tip", "noise", "inputs", "inputs together"})
     for (const UncertainInput& input : keys.inputs)
       if (input.name == taken)
         problems.push_back("the input " + quoted(input.name) +
                            " has the name of a part of the budget; rename it");
 }
 
+Option<BudgetKeys> tip_option() {
+  Option<BudgetKeys> option = custom<BudgetKeys>(
+      "tip", "length|length[]",
+      "tip radii of a stylus, blunt to sharp, such as { \"5 um\", \"2 um\" }: `ask` gets one as x.tip "
+      "in m, the sharpest in all other runs; the change between the two sharpest bounds the error of "
+      "the sharpest, of order 1 to 2 of the radius",
+      read_numbers<&BudgetKeys::tips>);
+  option.info.dimension = dimension::length;
+  return option;
+}
+
 const Block<BudgetKeys>& budget_block() {
   using K = BudgetKeys;
   static const Block<K> block{
       "lab.budget",
-      {ask_option<K>("function(x) returning the number, for a table x of the inputs, and of `cells`, "
-                     "`tolerance` and the names in `replicate` where they are given"),
+      {ask_option<K>(
+           "function(x) returning the number, for a table x of the inputs, and of `cells`, "
+           "`tolerance`, `tip`, `noise` and the names in `replicate` where they are given. Where it "
+           "presses or makes surfaces, its calls are spread over threads, each in a fresh copy of "
+           "everything it uses"),
        inputs_option<K>(),
        custom<K>(
            "replicate", "table",
@@ -154,6 +191,13 @@ const Block<BudgetKeys>& budget_block() {
        custom<K>("tolerance", "number|number[]",
                  "of the solver, loose to tight: the change between the two tightest bounds its error",
                  read_numbers<&K::tolerances>),
+       tip_option(),
+       custom<K>(
+           "noise", "integer[]",
+           "seeds of draws of an instrument's noise: `ask` gets one as x.noise and adds that noise to what "
+           "is measured; x.noise is nil in all other runs. The scatter of the answers is the share of "
+           "noise, which is that of one measurement",
+           read_noise),
        integer("runs", &K::runs, between(3, 100000),
                "how often the inputs are varied; without it three for each term of degree 2 (64 for five "
                "inputs), doubled up to three times while the leave-one-out error is above 5 %"),
@@ -181,6 +225,8 @@ BudgetRequest request_of(const BudgetKeys& keys) {
   request.order_low = keys.order_low;
   request.order_high = keys.order_high;
   request.tolerances = keys.tolerances;
+  request.tips = keys.tips;
+  request.noises = keys.noise.size();
   request.runs = static_cast<std::size_t>(keys.runs.value_or(0));
   request.confidence = keys.confidence;
   request.interval = keys.interval;
@@ -196,6 +242,8 @@ Knobs knobs_of_run(const BudgetKeys& keys, const BudgetSetting& run) {
   for (const ReplicateKnob& knob : keys.replicate) knobs.push_back({knob.name, knob.values[run.replicate]});
   if (!keys.cells.empty()) knobs.push_back({"cells", static_cast<std::int64_t>(keys.cells[run.cells])});
   if (!keys.tolerances.empty()) knobs.push_back({"tolerance", keys.tolerances[run.tolerance]});
+  if (!keys.tips.empty()) knobs.push_back({"tip", keys.tips[run.tip]});
+  if (run.noise) knobs.push_back({"noise", keys.noise[*run.noise]});
   sort_knobs(knobs);
   return knobs;
 }
@@ -236,15 +284,27 @@ Values make_budget(Call& call) {
     throw Error(ErrorCode::not_permitted, "a case of an ensemble times nothing: other cases run beside it",
                 "make the budget outside the ensemble");
   return with_key(call.argument(1), "ask", [&](const Argument& function) -> Values {
-    const AskedFunction ask(call, function);
-    if (session.dry_run) return dry_budget(call, keys, ask);
+    if (session.dry_run) return dry_budget(call, keys, AskedFunction(call, function));
+    AskedRuns ask(call, function);
     RunProgress progress(session.monitor(), "budget");
-    Budget found = budget_of(request_of(keys), [&](const BudgetSetting& run) {
-      PartMonitor monitor =
-          progress.of("run " + std::to_string(run.number) + " of " + std::to_string(run.of) + ", " + run.part,
-                      run.done_before, run.done_after);
-      const AskedFunction::Answer answer = ask(knobs_of_run(keys, run), monitor);
-      return BudgetAnswer{answer.value, answer.seconds};
+    BudgetRequest request = request_of(keys);
+    request.at_a_time = ask.at_a_time();
+    Budget found = budget_of_batches(request, [&](std::span<const BudgetSetting> runs) {
+      std::vector<Knobs> knobs;
+      for (const BudgetSetting& run : runs) knobs.push_back(knobs_of_run(keys, run));
+      // Of the run that is the first of those that are not done.
+      const auto show = [&](double done) {
+        const auto k = std::min(static_cast<std::size_t>(done), runs.size() - 1);
+        const BudgetSetting& run = runs[k];
+        progress.report(
+            "run " + std::to_string(run.number) + " of " + std::to_string(run.of) + ", " + run.part,
+            run.done_before + (done - static_cast<double>(k)) * (run.done_after - run.done_before));
+      };
+      show(0);
+      std::vector<BudgetAnswer> answers;
+      for (const AskedFunction::Answer& answer : ask(knobs, show))
+        answers.push_back({answer.value, answer.seconds});
+      return answers;
     });
     for (const std::string& warning : found.warnings) session.monitor().warn(warning);
     record_budget(session, found);
@@ -259,7 +319,8 @@ const RecordType<BudgetPart>& part_type() {
       "part",
       "A part of the error of a number.",
       {{"name", &P::name,
-        "sampling, cells, solver, an input, or `inputs together`: what inputs do only together, and what "
+        "sampling, cells, solver, tip, noise, an input, or `inputs together`: what inputs do only together, "
+        "and what "
         "their polynomial leaves open"},
        {"u", &P::uncertainty, "standard uncertainty from this part, in the unit of the answer"},
        {"share", &P::share, "of the variance; all sum to 1"},

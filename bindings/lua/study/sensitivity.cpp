@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/study/sensitivity.hpp"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "bindings/lua/registry/record_type.hpp"
@@ -52,20 +54,35 @@ Values dry_sensitivity(Call& call, const SensitivityKeys& keys, const AskedFunct
 Values make_sensitivity(Call& call) {
   SensitivityKeys keys = call.options(sensitivity_block());
   return with_key(call.argument(1), "ask", [&](const Argument& function) -> Values {
-    const AskedFunction ask(call, function);
-    if (call.session().dry_run) return dry_sensitivity(call, keys, ask);
+    if (call.session().dry_run) return dry_sensitivity(call, keys, AskedFunction(call, function));
+    AskedRuns ask(call, function);
     ChaosRequest request{keys.inputs, static_cast<std::size_t>(keys.runs.value_or(0)), keys.seed};
     RunProgress progress(call.session().monitor(), "sensitivity");
-    std::size_t done = 0, total = 0;
-    Sensitivity found = sensitivity_of(
+    std::size_t finished = 0, total = 0;
+    const auto batch = [&](std::span<const std::vector<double>> points) {
+      std::vector<Knobs> knobs;
+      for (const std::vector<double>& values : points) knobs.push_back(knobs_of_inputs(keys.inputs, values));
+      const auto show = [&](double done) {
+        const double all = static_cast<double>(finished) + done;
+        progress.report("run " + std::to_string(std::min(static_cast<std::size_t>(all) + 1, total)) + " of " +
+                            std::to_string(total),
+                        all / static_cast<double>(total));
+      };
+      show(0);
+      std::vector<double> answers;
+      for (const AskedFunction::Answer& answer : ask(knobs, show)) answers.push_back(answer.value);
+      finished += answers.size();
+      return answers;
+    };
+    // The first run alone shows whether the others are to be spread.
+    Sensitivity found = sensitivity_of_batches(
         request,
-        [&](const std::vector<double>& values) {
-          PartMonitor monitor =
-              progress.of("run " + std::to_string(done + 1) + " of " + std::to_string(total),
-                          static_cast<double>(done) / static_cast<double>(total),
-                          static_cast<double>(done + 1) / static_cast<double>(total));
-          ++done;
-          return ask(knobs_of_inputs(keys.inputs, values), monitor).value;
+        [&](std::span<const std::vector<double>> points) {
+          if (finished > 0 || points.empty()) return batch(points);
+          std::vector<double> answers = batch(points.first(1));
+          const std::vector<double> others = batch(points.subspan(1));
+          answers.insert(answers.end(), others.begin(), others.end());
+          return answers;
         },
         [&](std::size_t more) { total += more; });
     if (const auto& run = call.session().run; run && !call.session().is_case) {

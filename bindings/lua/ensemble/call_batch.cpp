@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Calls of a function of the script as cases of an ensemble that nobody has written: the case holds the
+// arguments, and its row the answer.
+#include "bindings/lua/registry/call_batch.hpp"
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "bindings/lua/ensemble/ensemble_case.hpp"
+#include "bindings/lua/ensemble/stored_cases.hpp"
+#include "bindings/lua/ensemble/transfer.hpp"
+#include "bindings/lua/registry/argument.hpp"
+#include "bindings/lua/registry/guard.hpp"
+#include "bindings/lua/registry/registry.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/run/knob.hpp"
+#include "bindings/lua/runtime/state.hpp"
+#include "engine/core/arithmetic/random.hpp"
+#include "engine/core/error.hpp"
+#include "engine/run/run_directory.hpp"
+
+namespace asperity::lua {
+
+namespace {
+
+// `run` of the cases, made of the function.
+constexpr char run_of_calls[] =
+    "local call = ... return function(case) return { answer = call(case.a, case.b) } end";
+constexpr std::array<const char*, 2> names_of_arguments = {"a", "b"};
+constexpr int deepest_batch = 8;
+
+class BatchedCases final : public EnsembleCases {
+ public:
+  BatchedCases(std::vector<CaseSetup> setups, const StoredCases& kept)
+      : setups_(std::move(setups)), reasons_(setups_.size()), kept_(kept) {}
+
+  // Why a call failed.
+  const std::string& reason(std::size_t k) const { return reasons_[k]; }
+  std::size_t count() const override { return setups_.size(); }
+  std::string name(std::size_t k) const override { return "call " + std::to_string(k + 1); }
+  // A failure is told by who called, once; calls behind it are left out. Calls are taken in order, so that
+  // the first failure is the same for any number of threads.
+  Finished compute(std::size_t k) override {
+    auto found = std::make_unique<CaseResult>();
+    if (k > first_failed_) return found;
+    *found = run_case(setups_[k], states_);
+    if (found->failure.empty() || stop_flag().reason() != StopReason::none) return found;
+    std::size_t before = first_failed_;
+    while (k < before && !first_failed_.compare_exchange_weak(before, k)) {
+    }
+    reasons_[k] = std::exchange(found->failure, {});
+    return found;
+  }
+  void interrupt() override { states_.interrupt(); }
+  Finished failed(const std::string& why) const override {
+    auto result = std::make_unique<CaseResult>();
+    result->failure = why;
+    return result;
+  }
+  void fail(FinishedCase& found, const std::string& why) const override {
+    static_cast<CaseResult&>(found).row.reset();
+    found.failure = why;
+  }
+  Finished find_kept(std::size_t k, bool with_failures) const override {
+    std::optional<CaseResult> found = kept_.find(setups_[k], with_failures);
+    return found ? std::make_unique<CaseResult>(*std::move(found)) : nullptr;
+  }
+  void keep(std::size_t k, const FinishedCase& found, bool always) const override {
+    kept_.keep(setups_[k], static_cast<const CaseResult&>(found), always);
+  }
+  std::string bytes(std::size_t k, const FinishedCase& found) const override {
+    return case_bytes(static_cast<const CaseResult&>(found), setups_[k].values);
+  }
+  Finished from_bytes(std::size_t k, std::string_view bytes) const override {
+    return std::make_unique<CaseResult>(case_from_bytes(bytes, setups_[k].values));
+  }
+
+ private:
+  const std::vector<CaseSetup> setups_;
+  std::vector<std::string> reasons_;  // each written by the thread of its call
+  const StoredCases& kept_;
+  RunningStates states_;
+  std::atomic<std::size_t> first_failed_ = std::numeric_limits<std::size_t>::max();
+};
+
+// The progress of the scheduler as the number of calls that are done.
+class BatchMonitor final : public Monitor {
+ public:
+  BatchMonitor(Monitor& outer, std::size_t count, const std::function<void(std::size_t)>& done)
+      : outer_(outer), count_(count), done_(done) {}
+  void progress(std::string_view, double done) override {
+    done_(static_cast<std::size_t>(std::lround(done * static_cast<double>(count_))));
+  }
+  void warn(std::string_view sentence) override { outer_.warn(sentence); }
+  ResultStore* results() override { return outer_.results(); }
+
+ private:
+  Monitor& outer_;
+  std::size_t count_;
+  const std::function<void(std::size_t)>& done_;
+};
+
+class ScriptedBatch final : public CallBatch {
+ public:
+  ScriptedBatch(const Call& call, std::shared_ptr<const PackedValue> run)
+      : L(call.L), session_(call.session()), run_(std::move(run)), kept_(session_, *run_) {
+    ensemble_ = ++session_.ensembles;
+    if (session_.notes != nullptr) session_.notes->drew = true;  // its calls have seeds made of this one's
+  }
+
+  std::vector<BatchedAnswer> answers(const std::vector<Values>& arguments,
+                                     const std::function<void(std::size_t)>& done) override {
+    std::vector<CaseSetup> setups;
+    for (const Values& given : arguments) setups.push_back(setup_of(given));
+    BatchMonitor monitor(session_.monitor(), setups.size(), done);
+    BatchedCases cases(std::move(setups), kept_);
+    CaseSchedule schedule{monitor};
+    schedule.ensemble = ensemble_;
+    schedule.print = [this](std::string_view text) {
+      std::fwrite(text.data(), 1, text.size(), session_.output);
+    };
+    std::vector<BatchedAnswer> found;
+    for (const std::unique_ptr<FinishedCase>& one : run_cases(cases, schedule)) {
+      found.push_back(answer_of(static_cast<const CaseResult&>(*one)));
+      if (found.back().failure.empty()) found.back().failure = cases.reason(found.size() - 1);
+    }
+    note_knobs(session_);
+    done(found.size());
+    return found;
+  }
+
+ private:
+  CaseSetup setup_of(const Values& given) {
+    CaseSetup one;
+    one.run = run_;
+    one.trusted = session_.trusted;
+    one.depth = session_.depth + 1;
+    one.refinement = session_.refinement;
+    one.variation = session_.variation;
+    one.knobs = session_.knobs;
+    one.ledger = session_.ledger;
+    one.results = results_for_cases(session_);
+    one.watched = lua_gethook(L) != nullptr;
+    one.script = session_.script;
+    one.script_digest = session_.script_digest;
+    one.ensemble = ensemble_;
+    one.seed = Stream(session_.seed, "calls of a study").bits(calls_++);
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      const Argument::StackGuard guard(L);
+      auto push_value = [&](lua_State* s) {
+        push(s, given[k]);
+        return 1;
+      };
+      if (protect(L, 0, 1, push_value) != LUA_OK)
+        throw Error(ErrorCode::out_of_memory, "there is no memory for the arguments of a call");
+      one.values.push_back({names_of_arguments[k],
+                            pack(L, -1, Cargo::data, "the argument", "give numbers, strings and tables"),
+                            Argument(L, -1).describe()});
+    }
+    return one;
+  }
+
+  BatchedAnswer answer_of(const CaseResult& result) {
+    BatchedAnswer answer;
+    answer.seconds = result.seconds;
+    note(result);
+    answer.failure = result.failure;
+    if (result.row == nullptr) return answer;
+    const Argument::StackGuard guard(L);
+    auto push_row = [&result](lua_State* s) {
+      result.row->push(s);
+      return 1;
+    };
+    if (protect(L, 0, 1, push_row) != LUA_OK) throw Error(ErrorCode::out_of_memory, error_text(L, -1));
+    with_key(Argument(L, -1), "answer", [&](const Argument& value) {
+      answer.nil = value.is_nil();
+      if (value.is_number())
+        answer.number = value.number();
+      else
+        answer.other = value.describe();
+    });
+    return answer;
+  }
+
+  // What calls read, and the knobs they asked for, are of the run, or of the case that the study stands in.
+  void note(const CaseResult& result) {
+    for (const RunKnob& knob : result.knobs) {
+      session_.knobs->make(knob);  // a call that was kept has not
+      if (session_.notes != nullptr) session_.notes->knobs.push_back(knob);
+    }
+    for (const CaseInput& input : result.inputs)
+      if (session_.notes != nullptr)
+        session_.notes->inputs.push_back(input);
+      else if (session_.run != nullptr && !input.digest.empty())
+        session_.run->note_input(input.file, input.bytes, input.digest);
+  }
+
+  lua_State* L;
+  Session& session_;
+  std::shared_ptr<const PackedValue> run_;
+  const StoredCases kept_;
+  int ensemble_ = 0;
+  std::uint64_t calls_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<CallBatch> call_batch(const Call& call, const Argument& function, const std::string& name) {
+  lua_State* L = call.L;
+  if (call.session().depth >= deepest_batch || lua_checkstack(L, 8) == 0) return nullptr;
+  const Argument::StackGuard guard(L);
+  lua_pushvalue(L, function.index());
+  auto wrap = [](lua_State* s) {
+    if (luaL_loadbufferx(s, run_of_calls, sizeof run_of_calls - 1, "=asperity", "t") != LUA_OK)
+      return lua_error(s);
+    lua_insert(s, 1);
+    lua_call(s, 1, 1);
+    return 1;
+  };
+  if (protect(L, 1, 1, wrap) != LUA_OK) throw Error(ErrorCode::out_of_memory, error_text(L, -1));
+  try {
+    return std::make_unique<ScriptedBatch>(call, pack(L, -1, Cargo::functions, name, ""));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::not_permitted) throw;
+    return nullptr;
+  }
+}
+
+}  // namespace asperity::lua
