@@ -175,21 +175,22 @@ std::vector<bool> determined_parameters(const CalibrationTangent& at, std::size_
 
 class CalibrationWork {
  public:
-  CalibrationWork(const CalibrationRows& rows, const CalibrationModel& model,
+  CalibrationWork(const CalibrationRows& rows, const CalibrationBatch& model,
                   std::span<const CalibrationParameter> parameters, const CalibrationOptions& options,
                   Monitor& monitor)
-      : rows_(rows), options_(options), problem_(rows, model, parameters, options.scatter, monitor) {}
+      : rows_(rows), options_(options), problem_(rows, model, parameters, options, monitor) {}
 
   Calibration run() {
     const std::size_t p = problem_.parameters();
+    const auto of_profile = static_cast<std::int64_t>(options_.profile ? 2 * p : 0);
     problem_.expect(
-        static_cast<std::int64_t>(5 * (p + 1) + 2 * (2 * p + 1) + (options_.profile ? 4 * p : 0)));
+        static_cast<std::int64_t>(options_.sparing ? 2 * p + 4 : 5 * (p + 1) + 2 * (2 * p + 1)) + of_profile,
+        of_profile);
     std::vector<double> start;
     for (std::size_t k = 0; k < p; ++k) start.push_back(problem_.parameter(k).start);
     fit(start);
     for (int again = 0; options_.profile && scatter_known() && again < 3; ++again) {
       problem_.say("profile likelihood");
-      problem_.expect(static_cast<std::int64_t>(3 * p));
       profiles_.assign(p, {});
       const std::optional<std::vector<double>> lower = profile();
       if (!lower) break;
@@ -235,7 +236,7 @@ class CalibrationWork {
   }
 
   void settle(const std::vector<double>& start) {
-    at_ = problem_.minimum(start, at_.scales);
+    at_ = problem_.minimum(start, at_);
     iterations_ += at_.iterations;
     const std::vector<bool> none(problem_.parameters(), false);
     held_ = problem_.pushed(at_.place, at_.rows_jacobian, none);
@@ -266,6 +267,8 @@ class CalibrationWork {
     for (std::size_t p = 0; p < problem_.parameters(); ++p) {
       if (!determined_[p]) continue;
       problem_.say("profile likelihood of " + problem_.parameter(p).name);
+      const std::size_t after = problem_.parameters() - p - 1;
+      problem_.expect(static_cast<std::int64_t>(2 + 2 * after), static_cast<std::int64_t>(2 * after));
       std::vector<double> guide(problem_.parameters());
       double reach = 0;
       if (held_[p]) {
@@ -386,9 +389,8 @@ class CalibrationWork {
 
 }  // namespace
 
-Calibration calibrate(const CalibrationRows& rows, const CalibrationModel& model,
-                      std::span<const CalibrationParameter> parameters, const CalibrationOptions& options,
-                      Monitor& monitor) {
+void check_calibration(const CalibrationRows& rows, std::span<const CalibrationParameter> parameters,
+                       const CalibrationOptions& options) {
   check_rows(rows);
   check_parameters(parameters);
   if (!(options.confidence > 0 && options.confidence < 1))
@@ -403,6 +405,29 @@ Calibration calibrate(const CalibrationRows& rows, const CalibrationModel& model
   if (options.basis == CalibrationBasis::specimens && rows.specimens.empty())
     refuse_calibration("basis=\"specimens\" needs to know the specimen of each row",
                        "name the column that tells it, as in specimen=\"specimen\"");
+}
+
+Calibration calibrate(const CalibrationRows& rows, const CalibrationModel& model,
+                      std::span<const CalibrationParameter> parameters, const CalibrationOptions& options,
+                      Monitor& monitor) {
+  const CalibrationBatch in_turn = [&model](std::span<const CalibrationQuery> queries,
+                                            const std::function<void(std::size_t)>& done) {
+    std::vector<double> values;
+    for (const CalibrationQuery& query : queries) {
+      stop_flag().check();
+      values.push_back(model(query.parameters, query.row));
+      done(values.size());
+      if (!std::isfinite(values.back())) break;
+    }
+    return values;
+  };
+  return calibrate(rows, in_turn, parameters, options, monitor);
+}
+
+Calibration calibrate(const CalibrationRows& rows, const CalibrationBatch& model,
+                      std::span<const CalibrationParameter> parameters, const CalibrationOptions& options,
+                      Monitor& monitor) {
+  check_calibration(rows, parameters, options);
   return CalibrationWork(rows, model, parameters, options, monitor).run();
 }
 

@@ -24,6 +24,16 @@ namespace asperity {
 // The model of a row, counted from 0; not a number where there is none. May throw.
 using CalibrationModel = std::function<double(std::span<const double> parameters, std::size_t row)>;
 
+// A model that is asked for many rows and sets of parameters at once, and may compute them side by side.
+struct CalibrationQuery {
+  std::span<const double> parameters;
+  std::size_t row = 0;
+};
+// The values in the order of the queries, as far as the first that is not finite at least; `done` is told
+// now and then how many there are.
+using CalibrationBatch = std::function<std::vector<double>(std::span<const CalibrationQuery>,
+                                                           const std::function<void(std::size_t)>& done)>;
+
 struct CalibrationParameter {
   std::string name;
   double start = 0;
@@ -51,6 +61,11 @@ struct CalibrationOptions {
   CalibrationBasis basis = CalibrationBasis::automatic;
   double confidence = 0.95;
   bool profile = true;
+  // For a model that takes seconds a row and has a tolerance of its own: the fit ends where a further step
+  // would move the estimates by less than a few thousandths of their standard errors, steps of differences
+  // move the model by what the rows scatter, and derivatives are corrected from step to step
+  // (Broyden 1965) instead of being taken anew: some thirteen sets of two parameters in all.
+  bool sparing = false;
 };
 
 // (S - S_min)/s² with all other parameters at their best, where this one has this value.
@@ -106,14 +121,24 @@ struct Calibration {
   std::int64_t calls = 0;  // of the model
 };
 
+// What can be refused before the model is called. Throws Error{bad_value} as calibrate() does.
+void check_calibration(const CalibrationRows& rows, std::span<const CalibrationParameter> parameters,
+                       const CalibrationOptions& options);
+
 // Same inputs, same bits. The model is called row by row, in order, for each set of parameters: about 2p + 1
-// sets a step. Throws Error{bad_value} for lengths that differ, values that are not finite, an `u` that is
-// not above 0, fewer rows than parameters, bounds that do not hold the start, and a model that is no finite
-// number at the start or beside it, naming the row and the parameters; Error{infeasible} where specimens are
-// asked for and are no more than the parameters; Error{not_converged}; and what the model throws. A stop that
-// was asked for ends it between two rows.
+// sets a step, and with `sparing` one a step and p at the start and at the end. Throws Error{bad_value} for
+// lengths that differ, values that are not finite, an `u` that is not above 0, fewer rows than parameters,
+// bounds that do not hold the start, and a model that is no finite number at the start or beside it, naming
+// the row and the parameters; Error{infeasible} where specimens are asked for and are no more than the
+// parameters; Error{not_converged}; and what the model throws. A stop that was asked for ends it between two
+// rows.
 Calibration calibrate(const CalibrationRows& rows, const CalibrationModel& model,
                       std::span<const CalibrationParameter> parameters,
                       const CalibrationOptions& options = {}, Monitor& monitor = Monitor::silent());
+// The same, of a model that is asked in batches: a set of parameters at a time, and with `sparing` all sets
+// of a derivative.
+Calibration calibrate(const CalibrationRows& rows, const CalibrationBatch& model,
+                      std::span<const CalibrationParameter> parameters, const CalibrationOptions& options,
+                      Monitor& monitor);
 
 }  // namespace asperity

@@ -33,13 +33,14 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
 
 }  // namespace
 
-CalibrationProblem::CalibrationProblem(const CalibrationRows& rows, const CalibrationModel& model,
+CalibrationProblem::CalibrationProblem(const CalibrationRows& rows, const CalibrationBatch& model,
                                        std::span<const CalibrationParameter> parameters,
-                                       CalibrationScatter scatter, Monitor& monitor)
+                                       const CalibrationOptions& options, Monitor& monitor)
     : rows_(rows),
       model_(model),
       parameters_(parameters),
-      scatter_(scatter),
+      scatter_(options.scatter),
+      sparing_(options.sparing),
       monitor_(monitor),
       begun_(std::chrono::steady_clock::now()),
       reported_(begun_) {
@@ -52,31 +53,70 @@ CalibrationProblem::CalibrationProblem(const CalibrationRows& rows, const Calibr
   size_ = norm(weighted);
 }
 
-void CalibrationProblem::report() {
+// What is left is never less than what comes after the present part, so that a part which takes longer than
+// was foreseen slows the progress down and does not stop it.
+void CalibrationProblem::report(std::int64_t calls) {
   const auto now = std::chrono::steady_clock::now();
   if (seconds_between(reported_, now) < 0.1) return;
   reported_ = now;
-  if (calls_ >= expected_) expected_ = calls_ + calls_ / 4 + 1;
-  share_ = std::max(share_, static_cast<double>(calls_) / static_cast<double>(expected_));
-  monitor_.progress_of_parts("calibration", std::min(share_, 0.99),
-                             part_ + ", call " + std::to_string(calls_) + " of the model",
+  const auto set = static_cast<std::int64_t>(rows_.y.size());
+  const std::int64_t left = std::max({expected_ - calls, afterwards_, set});
+  share_ = std::max(share_, static_cast<double>(calls) / static_cast<double>(calls + left));
+  monitor_.progress_of_parts("calibration", share_,
+                             part_ + ", call " + std::to_string(calls) + " of the model",
                              seconds_between(begun_, now));
 }
 
-std::optional<std::vector<double>> CalibrationProblem::fitted(const std::vector<double>& q) {
-  std::vector<double> values;
-  values.reserve(rows_.y.size());
-  for (std::size_t k = 0; k < rows_.y.size(); ++k) {
-    stop_flag().check();
-    ++calls_;
-    values.push_back(model_(q, k));
-    report();
-    if (std::isfinite(values.back())) continue;
-    without_value_ = k;
-    without_value_at_ = q;
-    return {};
+// Of these sets of parameters, one after the other; fewer where the model has no value in a row.
+std::vector<double> CalibrationProblem::asked(const std::vector<std::vector<double>>& sets) {
+  std::vector<CalibrationQuery> queries;
+  for (const std::vector<double>& q : sets)
+    for (std::size_t k = 0; k < rows_.y.size(); ++k) queries.push_back({q, k});
+  stop_flag().check();
+  const std::int64_t before = calls_;
+  report(before);
+  std::vector<double> values =
+      model_(queries, [&](std::size_t done) { report(before + static_cast<std::int64_t>(done)); });
+  calls_ = before + static_cast<std::int64_t>(values.size());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (std::isfinite(values[k])) continue;
+    without_value_ = queries[k].row;
+    without_value_at_ = sets[k / rows_.y.size()];
+    break;
   }
   return values;
+}
+
+std::optional<std::vector<double>> CalibrationProblem::fitted(const std::vector<double>& q) {
+  return fitted_all({q}).front();
+}
+
+std::vector<std::optional<std::vector<double>>> CalibrationProblem::fitted_all(
+    const std::vector<std::vector<double>>& sets) {
+  std::vector<std::optional<std::vector<double>>> found(sets.size());
+  std::vector<std::vector<double>> unknown;
+  std::vector<std::size_t> places;
+  for (std::size_t j = 0; j < sets.size(); ++j) {
+    const auto known =
+        std::ranges::find(known_, sets[j], &std::pair<std::vector<double>, std::vector<double>>::first);
+    if (known != known_.end()) {
+      found[j] = known->second;
+    } else {
+      unknown.push_back(sets[j]);
+      places.push_back(j);
+    }
+  }
+  if (unknown.empty()) return found;
+  const std::size_t rows = rows_.y.size();
+  const std::vector<double> values = asked(unknown);
+  for (std::size_t j = 0; j < unknown.size() && (j + 1) * rows <= values.size(); ++j) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(j * rows);
+    std::vector<double> of_rows(first, first + static_cast<std::ptrdiff_t>(rows));
+    if (!std::ranges::all_of(of_rows, [](double value) { return std::isfinite(value); })) continue;
+    if (sparing_) known_.emplace_back(unknown[j], of_rows);
+    found[places[j]] = std::move(of_rows);
+  }
+  return found;
 }
 
 std::vector<double> CalibrationProblem::observed(const std::vector<double>& of_rows) const {
@@ -227,7 +267,7 @@ CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const
     double product = 0;
     for (std::size_t i = 0; i < at.residual.size(); ++i) product += found.svd.u[k][i] * at.residual[i];
     found.along.push_back(product);
-    if (!(found.svd.values[k] > unseen * found.svd.values[0])) continue;
+    if (!(found.svd.values[k] > (sparing_ ? sparing_unseen() : unseen) * found.svd.values[0])) continue;
     found.rank = k + 1;
     sum += product * product;
   }
@@ -250,22 +290,32 @@ std::vector<bool> CalibrationProblem::pushed(const CalibrationPlace& at, const T
   return all;
 }
 
+// The step of Levenberg and Marquardt from here, within the bounds.
+std::vector<double> CalibrationProblem::stepped(const CalibrationPlace& at, const CalibrationTangent& tangent,
+                                                double damping) const {
+  std::vector<double> step(tangent.parameters.size());
+  for (std::size_t k = 0; k < tangent.rank; ++k) {
+    const double s = tangent.svd.values[k], share = tangent.along[k] * s / (s * s + damping);
+    for (std::size_t i = 0; i < step.size(); ++i) step[i] += share * tangent.svd.v[k][i];
+  }
+  std::vector<double> q = at.q;
+  for (std::size_t i = 0; i < step.size(); ++i) {
+    const std::size_t p = tangent.parameters[i];
+    if (tangent.lengths[i] > 0) q[p] = inside(q[p] + step[i] / tangent.lengths[i], p);
+  }
+  return q;
+}
+
 // The first place on the way down that lies lower; nothing where none does.
 std::optional<CalibrationPlace> CalibrationProblem::better(const CalibrationPlace& at,
                                                            const CalibrationTangent& tangent,
                                                            const std::vector<double>* roots,
                                                            double& damping) {
-  for (; damping < 1e16; damping *= 10) {
-    std::vector<double> step(tangent.parameters.size());
-    for (std::size_t k = 0; k < tangent.rank; ++k) {
-      const double s = tangent.svd.values[k], share = tangent.along[k] * s / (s * s + damping);
-      for (std::size_t i = 0; i < step.size(); ++i) step[i] += share * tangent.svd.v[k][i];
-    }
-    std::vector<double> q = at.q;
-    for (std::size_t i = 0; i < step.size(); ++i) {
-      const std::size_t p = tangent.parameters[i];
-      if (tangent.lengths[i] > 0) q[p] = inside(q[p] + step[i] / tangent.lengths[i], p);
-    }
+  // A sparing fit gives up after five places.
+  const double most = sparing_ ? 1e4 : 1e16, harder = sparing_ ? 300 : 10;
+  if (sparing_) damping = std::min(damping, 1e-4);
+  for (; damping < most; damping *= harder) {
+    const std::vector<double> q = stepped(at, tangent, damping);
     if (q == at.q) return {};
     auto there = place(q, roots);
     if (there && there->sum < at.sum) return there;
@@ -287,31 +337,42 @@ std::vector<double> CalibrationProblem::natural_scales(const CalibrationPlace& a
       scales.push_back((*of.upper - *of.lower) / 4);
       continue;
     }
-    double found = 1;
     const double wanted = std::max(size_, std::numeric_limits<double>::min());
-    for (double scale = 1e6; scale > 1e-18; scale /= 10) {
+    const auto moves_no_further = [&](int power) {
       std::vector<double> q = at.q;
-      q[p] = of.upper ? -scale : scale;
+      q[p] = (of.upper ? -1 : 1) * std::pow(10, power);
       const auto there = fitted(q);
-      if (!there) continue;
+      if (!there) return false;
       std::vector<double> change(there->size());
       for (std::size_t k = 0; k < change.size(); ++k) change[k] = own_[k] * ((*there)[k] - at.fitted[k]);
-      if (norm(change) > wanted) continue;
-      found = scale;
-      break;
+      return norm(change) <= wanted;
+    };
+    constexpr int largest = 6, smallest = -17;
+    int power = largest;
+    if (sparing_) {
+      // A parameter that is moved further moves the model further: halves instead of one by one.
+      int low = smallest - 1, high = largest + 1;
+      while (high - low > 1) {
+        const int middle = low + (high - low) / 2;
+        (moves_no_further(middle) ? low : high) = middle;
+      }
+      power = low;
+    } else {
+      while (power >= smallest && !moves_no_further(power)) --power;
     }
-    scales.push_back(found);
+    scales.push_back(power >= smallest ? std::pow(10, power) : 1);
   }
   return scales;
 }
 
 CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
-                                               const std::vector<double>& scales) {
+                                               const CalibrationMinimum& before) {
+  if (sparing_) return sparing_minimum(start, before);
   auto begin = place(start, nullptr);
   if (!begin) refuse_place("at the start");
   CalibrationMinimum found;
   found.place = *std::move(begin);
-  const std::vector<double> natural = scales.empty() ? natural_scales(found.place) : scales;
+  const std::vector<double> natural = before.scales.empty() ? natural_scales(found.place) : before.scales;
   found.scales = natural;
   const std::vector<bool> none(parameters(), false);
   double damping = 1e-4;
@@ -367,18 +428,18 @@ CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
 
 std::optional<CalibrationPlace> CalibrationProblem::minimum_beside(const CalibrationPlace& start,
                                                                    std::size_t p,
-                                                                   const std::vector<double>& roots,
-                                                                   const std::vector<double>& scales,
+                                                                   const CalibrationMinimum& beside,
                                                                    double gain) {
+  if (sparing_) return sparing_beside(start, p, beside, gain);
   std::vector<bool> held(parameters(), false);
   held[p] = true;
   CalibrationPlace at = start;
   double damping = 1e-4;
   for (int step = 0; step < 30; ++step) {
-    const TableColumns slopes_here = jacobian(at, scales, held, false);
+    const TableColumns slopes_here = jacobian(at, beside.scales, held, false);
     const CalibrationTangent here = tangent(at, slopes_here, pushed(at, slopes_here, held));
     if (here.offset * here.offset <= gain) return at;
-    auto next = better(at, here, &roots, damping);
+    auto next = better(at, here, &beside.place.roots, damping);
     if (!next) return here.offset <= noise_of_model * norm(at.residual) ? std::optional(at) : std::nullopt;
     const bool little = at.sum - next->sum <= 0.1 * gain && here.offset * here.offset <= 4 * gain;
     at = *std::move(next);

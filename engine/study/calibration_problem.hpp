@@ -2,7 +2,8 @@
 // The least squares of a calibration: weighted residuals of rows or of means of specimens, their derivatives
 // by differences within bounds, and the least sum by Levenberg and Marquardt's method on the singular values
 // of the Jacobian. Differences go forward on the way and are central at the end; a parameter at a bound that
-// the rows push against is held there. Directions that no observation sees are left as they are.
+// the rows push against is held there. Directions that no observation sees are left as they are. A sparing
+// fit (calibration_sparing.cpp) takes differences at the start and at the end alone.
 #pragma once
 
 #include <chrono>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/monitor.hpp"
@@ -49,14 +51,15 @@ struct CalibrationMinimum {
   CalibrationPlace place;
   TableColumns rows_jacobian;  // df/dq of rows, central
   std::vector<double> scales;
+  std::vector<double> differenced_at;  // of a sparing fit: where the differences of rows_jacobian were taken
   int iterations = 0;
   bool noisy = false;  // the model's own noise ended it
 };
 
 class CalibrationProblem {
  public:
-  CalibrationProblem(const CalibrationRows& rows, const CalibrationModel& model,
-                     std::span<const CalibrationParameter> parameters, CalibrationScatter scatter,
+  CalibrationProblem(const CalibrationRows& rows, const CalibrationBatch& model,
+                     std::span<const CalibrationParameter> parameters, const CalibrationOptions& options,
                      Monitor& monitor);
 
   void observe(std::vector<CalibrationGroup> groups) { groups_ = std::move(groups); }
@@ -65,8 +68,13 @@ class CalibrationProblem {
   const CalibrationParameter& parameter(std::size_t p) const { return parameters_[p]; }
   const CalibrationRows& rows() const { return rows_; }
   std::int64_t calls() const { return calls_; }
-  // Sets of parameters that are still to be expected, for the progress.
-  void expect(std::int64_t sets) { expected_ = calls_ + sets * static_cast<std::int64_t>(rows_.y.size()); }
+  bool sparing() const { return sparing_; }
+  // Sets of parameters that are still to be expected, for the progress, and how many of them come after the
+  // part of the work that begins here.
+  void expect(std::int64_t sets, std::int64_t afterwards) {
+    expected_ = calls_ + sets * static_cast<std::int64_t>(rows_.y.size());
+    afterwards_ = afterwards * static_cast<std::int64_t>(rows_.y.size());
+  }
   void say(std::string part) { part_ = std::move(part); }
 
   // Nothing where the model has no value in a row; `roots`: none for those of the model there.
@@ -85,36 +93,67 @@ class CalibrationProblem {
   bool at_upper(double value, std::size_t p) const;
   double inside(double value, std::size_t p) const;
 
-  // `scales`: of the parameters, as an earlier minimum left them; empty where there was none.
-  CalibrationMinimum minimum(const std::vector<double>& start, const std::vector<double>& scales);
+  // `before`: an earlier minimum of the same rows, of which scales and derivatives are taken up; empty where
+  // there was none.
+  CalibrationMinimum minimum(const std::vector<double>& start, const CalibrationMinimum& before);
   // With parameter p held at its value in `start`, weights as they are and scales known, until what is left
-  // to gain of the sum is below `gain`. Nothing where it does not get there.
+  // to gain of the sum is below `gain`. `beside`: the least sum of all. Nothing where it does not get there.
   std::optional<CalibrationPlace> minimum_beside(const CalibrationPlace& start, std::size_t p,
-                                                 const std::vector<double>& roots,
-                                                 const std::vector<double>& scales, double gain);
+                                                 const CalibrationMinimum& beside, double gain);
   std::string parameters_text(const std::vector<double>& q) const;
   // Of the data as the weights there count them.
   double size_of(const CalibrationPlace& at) const;
 
  private:
   std::optional<std::vector<double>> fitted(const std::vector<double>& q);
+  std::vector<std::optional<std::vector<double>>> fitted_all(const std::vector<std::vector<double>>& sets);
+  std::vector<double> asked(const std::vector<std::vector<double>>& sets);
   std::vector<double> observed(const std::vector<double>& of_rows) const;
   std::vector<double> natural_scales(const CalibrationPlace& at);
   std::optional<std::vector<double>> slopes(const CalibrationPlace& at, std::size_t p, double step,
                                             bool central);
+  std::vector<double> stepped(const CalibrationPlace& at, const CalibrationTangent& tangent,
+                              double damping) const;
   std::optional<CalibrationPlace> better(const CalibrationPlace& at, const CalibrationTangent& tangent,
                                          const std::vector<double>* roots, double& damping);
-  void report();
+
+  // --- of a sparing fit
+  CalibrationMinimum sparing_minimum(const std::vector<double>& start, const CalibrationMinimum& before);
+  std::optional<CalibrationPlace> sparing_beside(const CalibrationPlace& start, std::size_t p,
+                                                 const CalibrationMinimum& beside, double gain);
+  double scatter_at(const CalibrationPlace& at, const CalibrationTangent& tangent) const;
+  std::vector<double> sparing_steps(const CalibrationPlace& at, const TableColumns& rows_jacobian,
+                                    const std::vector<double>& scales, double scatter) const;
+  TableColumns sparing_jacobian(const CalibrationPlace& at, const std::vector<double>& steps,
+                                const std::vector<bool>& held);
+  // Of the observations, as the derivatives foretell it between two places.
+  std::vector<double> foretold(const CalibrationPlace& at, const TableColumns& rows_jacobian,
+                               const std::vector<double>& from, const std::vector<double>& to) const;
+  CalibrationPlace foretold_place(const CalibrationMinimum& from, const std::vector<double>& q) const;
+  std::optional<CalibrationPlace> lower(CalibrationMinimum& from, double& damping, int& tries);
+  void see_noise(const CalibrationMinimum& from, const CalibrationTangent& tangent,
+                 const CalibrationPlace& to, double scatter);
+  // A singular value, relative to the largest, that errors of differences alone may make.
+  double sparing_unseen() const;
+  void correct(TableColumns& rows_jacobian, const CalibrationPlace& from, const CalibrationPlace& to,
+               const std::vector<double>& scales) const;
+
+  void report(std::int64_t calls);
 
   const CalibrationRows& rows_;
-  const CalibrationModel& model_;
+  const CalibrationBatch& model_;
   std::span<const CalibrationParameter> parameters_;
   CalibrationScatter scatter_;
+  bool sparing_;
   Monitor& monitor_;
   std::vector<CalibrationGroup> groups_;
   std::vector<double> own_;  // 1/u
   double size_ = 0;          // of the weighted y
-  std::int64_t calls_ = 0, expected_ = 1;
+  std::int64_t calls_ = 0, expected_ = 1, afterwards_ = 0;
+  // Of a sparing fit, so that no set of parameters is asked for twice.
+  std::vector<std::pair<std::vector<double>, std::vector<double>>> known_;
+  double noise_ = 0;        // of an observation of the model, as far as a sparing fit has seen
+  double differences_ = 0;  // by how much those of a sparing fit move the observations at least
   double share_ = 0;
   std::string part_ = "fit";
   std::size_t without_value_ = 0;  // row

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double straight_enough = 0.01;  // of the root of the cut
 constexpr double end_within = 0.003;      // of the root of the cut
+constexpr double sparing_within = 0.1;    // the same, of a fit to which each place is dear
 constexpr int most_places = 24;           // of an end
 
 // A place of the profile: distance from the estimate (not negative), root of S - S_min, the parameters.
@@ -47,7 +48,7 @@ class ProfileSide {
       }
       if (lower_sum_) return {};
       places_.push_back(*found);
-      if (std::abs(found->root - root_) <= end_within * root_)
+      if (std::abs(found->root - root_) <= (problem_.sparing() ? sparing_within : end_within) * root_)
         return ended(found->distance * (found->root > 0 ? root_ / found->root : 1));
       if (found->root > root_) {
         outer = *std::move(found);
@@ -102,12 +103,12 @@ class ProfileSide {
     auto there = problem_.place(q, &at_.place.roots);
     if (!there) return {};
     if (!(from.distance == 0 && straight(*there))) {
-      auto best = problem_.minimum_beside(*there, p_, at_.place.roots, at_.scales, 1e-3 * cut_);
+      auto best = problem_.minimum_beside(*there, p_, at_, (problem_.sparing() ? 1e-2 : 1e-3) * cut_);
       if (!best) return {};
       there = std::move(best);
     }
     const double above = there->sum - at_.place.sum;
-    if (above < -1e-3 * cut_) lower_sum_ = there->q;
+    if (above < (problem_.sparing() ? -1e-2 : -1e-3) * cut_) lower_sum_ = there->q;
     return ProfilePlace{distance, std::sqrt(std::max(above, 0.0)), std::move(there->q)};
   }
 

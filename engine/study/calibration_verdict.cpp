@@ -101,7 +101,7 @@ class VerdictWords {
       const std::size_t p = f_.tangent.parameters[i];
       alone = std::max(alone, std::abs((q[p] - f_.at.place.q[p]) * f_.tangent.lengths[i]));
     }
-    return std::sqrt(change) <= 1e-3 * alone;
+    return std::sqrt(change) <= (f_.problem.sparing() ? 1e-2 : 1e-3) * alone;
   }
 
   // The combination of two parameters that is the same along a direction in which they change by `da`, `db`.

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/parallel.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::calibrate_test {
@@ -188,6 +189,58 @@ TEST_F(CalibrateTest, PressesMayStandInTheModel) {
                        model=function(q, row) return q.factor * pair:press{ pressure=row.p }.mean_gap end })"),
             "");
   EXPECT_TRUE(holds("math.abs(f.values.factor - 1) < 0.01")) << value("f");
+}
+
+// Fourteen gaps under as many loads, each from a press of its own.
+constexpr const char* fourteen_presses = R"(
+  asked = 0
+  function gap(q, p)
+    asked = asked + 1
+    local face = lab.surface.sine{ cells=16, size="1 mm", amplitude=q.amplitude, material=lab.material{ young=q.young, poisson=0.3 } }
+    local pair = lab.contact{ lower=face, upper=lab.rigid, boundary="periodic", effects={ elasticity="half_space" } }
+    return pair:press{ pressure=p }.mean_gap
+  end
+  local rows = {}
+  for k = 1, 14 do rows[k] = { p=2e7 * k, gap=gap({ amplitude=1e-6, young=2e11 }, 2e7 * k) * (1 + 0.02 * ((k * 0.618) % 1 - 0.5)) } end
+  presses = lab.table.from(rows)
+  asked = 0
+  function fit_presses(more)
+    local keys = { data=presses, y="gap", scatter="relative", model=function(q, row) return gap(q, row.p) end,
+                   parameters={ amplitude={ start="1.2 um", lower="0.1 um" }, young={ start="150 GPa", lower="10 GPa" } } }
+    for key, value in pairs(more or {}) do keys[key] = value end
+    return lab.calibrate(keys)
+  end)";
+
+TEST_F(CalibrateTest, PressesAreFewAndSpreadOverThreads) {
+  ASSERT_EQ(run(fourteen_presses), "");
+  const int threads = thread_count();
+  set_thread_count(1);
+  EXPECT_EQ(run("one = fit_presses()"), "");
+  set_thread_count(2);
+  EXPECT_EQ(run("two = fit_presses()"), "");
+  set_thread_count(threads);
+  EXPECT_TRUE(holds("one.calls <= 14 * 16")) << value("one.calls");
+  EXPECT_TRUE(holds("asked == 4")) << value("asked");  // two of each fit in this state; the others in copies
+  EXPECT_TRUE(holds("one.values.young == two.values.young and tostring(one) == tostring(two)"));
+  EXPECT_TRUE(holds("math.abs(one.values.amplitude / 1e-6 - 1) < 0.02")) << value("one");
+  EXPECT_TRUE(holds("one.identifiable and one.parameters.young.profile_high > one.values.young"));
+}
+
+TEST_F(CalibrateTest, MistakesOfASpreadModelCarryTheRowAndTheParameters) {
+  ASSERT_EQ(run(fourteen_presses), "");
+  EXPECT_TRUE(
+      refuses("fit_presses{ model=function(q, row) local g = gap(q, row.p) if row.p > 1e8 then "
+              "return g.nothing end return g end }",
+              "failed in row 6 with amplitude = 1.2e-06 m, young = 1.5e+11 Pa: script.lua:1: attempt to "
+              "index a number value"));
+  EXPECT_TRUE(
+      refuses("fit_presses{ model=function(q, row) local g = gap(q, row.p) if row.p > 1e8 then "
+              "return 'steep' end return g end }",
+              "returned the string \"steep\" for row 6 with amplitude"));
+  EXPECT_TRUE(
+      refuses("fit_presses{ model=function(q, row) local g = gap(q, row.p) if row.p > 1e8 then "
+              "return nil end return g end }",
+              "no finite value for row 6 at the start"));
 }
 
 TEST_F(CalibrateTest, DryRunChecksTheKeysAndCallsNothing) {

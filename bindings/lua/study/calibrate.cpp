@@ -16,6 +16,7 @@
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/runtime/state.hpp"
+#include "bindings/lua/study/asked_function.hpp"
 #include "bindings/lua/study/calibration.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/statistics/number_columns.hpp"
@@ -278,33 +279,22 @@ CalibrationInput input_of(const CalibrateKeys& keys) {
 
 // --- the model
 
-// Warnings of the model's own calls are shown; their progress is not, for the calibration has its own.
-class CalibratedMonitor final : public Monitor {
- public:
-  explicit CalibratedMonitor(Monitor& outer) : outer_(outer) {}
-  void progress(std::string_view, double) override {}
-  void warn(std::string_view sentence) override { outer_.warn(sentence); }
-  ResultStore* results() override { return outer_.results(); }
-
- private:
-  Monitor& outer_;
-};
-
 // The function of the script with its tables on the stack: the list of rows, q, the names of the parameters.
 class CalibratedFunction {
  public:
-  CalibratedFunction(Session& session, const Argument& function, const Rows& rows,
+  CalibratedFunction(const Call& call, const Argument& function, const Rows& rows,
                      const std::vector<CalibrationParameter>& parameters,
                      const std::vector<std::size_t>& numbers)
-      : session_(session),
-        monitor_(session.monitor()),
+      : session_(call.session()),
+        monitor_(session_.monitor()),
         L(function.state()),
         function_(function.index()),
         parameters_(parameters),
         numbers_(numbers) {
     const auto count = static_cast<int>(parameters.size());
     if (lua_checkstack(L, count + 20) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
-    const Value list = rows_of_table(rows);
+    list_ = rows_of_table(rows);
+    const Value list = list_;
     auto fill = [&](lua_State* s) {
       luaL_checkstack(s, count + 20, nullptr);
       push(s, list);
@@ -320,6 +310,42 @@ class CalibratedFunction {
     if (protect(L, 0, 2 + count, fill) != LUA_OK)
       throw Error(ErrorCode::out_of_memory, "no memory for the rows of the calibration");
     rows_ = lua_gettop(L) - count - 1;
+    find_heavy(call, function);
+  }
+
+  // Whether the model makes heavy calls in each of its own: it is then to be called as seldom as may be.
+  bool heavy() const { return heavy_; }
+
+  std::vector<double> operator()(std::span<const CalibrationQuery> queries,
+                                 const std::function<void(std::size_t)>& done) {
+    std::vector<double> values;
+    if (batch_ == nullptr) {
+      for (const CalibrationQuery& query : queries) {
+        stop_flag().check();
+        const bool known = begun_ && query.row == 0 && std::ranges::equal(query.parameters, start());
+        values.push_back(known ? *std::exchange(begun_, {}) : (*this)(query.parameters, query.row));
+        done(values.size());
+        if (!std::isfinite(values.back())) break;
+      }
+      return values;
+    }
+    std::vector<Values> arguments;
+    for (const CalibrationQuery& query : queries) {
+      Map q;
+      for (std::size_t k = 0; k < parameters_.size(); ++k)
+        q.items.emplace_back(parameters_[k].name, Value(query.parameters[k]));
+      arguments.push_back({Value(std::move(q)), list_.items[query.row]});
+    }
+    const Session::Reporting reporting(session_, monitor_);
+    const std::vector<BatchedAnswer> answers = batch_->answers(arguments, done);
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+      if (!answers[k].failure.empty())
+        throw failure_in(queries[k].parameters, queries[k].row, without_traceback(answers[k].failure));
+      if (!answers[k].number && !answers[k].nil)
+        throw wrong_answer(queries[k].parameters, queries[k].row, answers[k].other);
+      values.push_back(answers[k].number.value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    return values;
   }
 
   double operator()(std::span<const double> q, std::size_t row) {
@@ -346,19 +372,47 @@ class CalibratedFunction {
     }
     if (status != LUA_OK) {
       stop_flag().check();
-      throw Error(ErrorCode::bad_value,
-                  "the function `model` failed in " + place(q, row) + ": " + error_text(L, -1));
+      throw failure_in(q, row, error_text(L, -1));
     }
     const Argument result(L, -1);
     if (result.is_nil()) return std::numeric_limits<double>::quiet_NaN();
-    if (!result.is_number())
-      throw Error(ErrorCode::bad_value,
-                  "the function `model` returned " + result.describe() + " for " + place(q, row),
-                  "return one number in the unit of y, or nil where there is none");
+    if (!result.is_number()) throw wrong_answer(q, row, result.describe());
     return result.number();
   }
 
  private:
+  // Called for the first row at the start and a little beside: a model that computes once and remembers is
+  // not heavy.
+  void find_heavy(const Call& call, const Argument& function) {
+    if (list_.items.empty() || parameters_.empty()) return;
+    std::int64_t before = session_.heavy_calls;
+    begun_ = (*this)(start(), 0);
+    if (session_.heavy_calls == before || !std::isfinite(*begun_)) return;
+    std::vector<double> beside = start();
+    const CalibrationParameter& first = parameters_.front();
+    const double step = 0.02 * (first.start != 0 ? std::abs(first.start) : 1);
+    beside[0] += first.upper && first.start + step > *first.upper ? -step : step;
+    if (first.lower && beside[0] < *first.lower) return;
+    before = session_.heavy_calls;
+    (*this)(beside, 0);
+    heavy_ = session_.heavy_calls > before;
+    if (heavy_) batch_ = call_batch(call, function, "model");
+  }
+
+  std::vector<double> start() const {
+    std::vector<double> q;
+    for (const CalibrationParameter& parameter : parameters_) q.push_back(parameter.start);
+    return q;
+  }
+
+  Error failure_in(std::span<const double> q, std::size_t row, const std::string& why) const {
+    return Error(ErrorCode::bad_value, "the function `model` failed in " + place(q, row) + ": " + why);
+  }
+  Error wrong_answer(std::span<const double> q, std::size_t row, const std::string& what) const {
+    return Error(ErrorCode::bad_value, "the function `model` returned " + what + " for " + place(q, row),
+                 "return one number in the unit of y, or nil where there is none");
+  }
+
   std::string place(std::span<const double> q, std::size_t row) const {
     std::string text = "row " + std::to_string(numbers_[row]) + " with ";
     for (std::size_t k = 0; k < q.size(); ++k)
@@ -368,7 +422,11 @@ class CalibratedFunction {
   }
 
   Session& session_;
-  CalibratedMonitor monitor_;
+  QuietMonitor monitor_;
+  std::unique_ptr<CallBatch> batch_;
+  List list_;                    // of the rows
+  std::optional<double> begun_;  // of the first row at the start
+  bool heavy_ = false;
   lua_State* L;
   int function_, rows_ = 0;
   const std::vector<CalibrationParameter>& parameters_;
@@ -403,11 +461,16 @@ Values run_calibration(Call& call) {
   return with_key(call.argument(1), "model", [&](const Argument& function) -> Values {
     const Argument::StackGuard guard(call.L);
     CalibrationReport report;
+    check_calibration(input.rows, keys.parameters, keys.options);
     {
-      CalibratedFunction model(session, function, input.used, keys.parameters, input.numbers);
-      report.found = calibrate(
-          input.rows, [&model](std::span<const double> q, std::size_t row) { return model(q, row); },
-          keys.parameters, keys.options, session.monitor());
+      CalibratedFunction model(call, function, input.used, keys.parameters, input.numbers);
+      CalibrationOptions options = keys.options;
+      options.sparing = model.heavy();
+      const CalibrationBatch batch = [&model](std::span<const CalibrationQuery> queries,
+                                              const std::function<void(std::size_t)>& done) {
+        return model(queries, done);
+      };
+      report.found = calibrate(input.rows, batch, keys.parameters, options, session.monitor());
     }
     report.rows = std::move(input.used);
     report.numbers = std::move(input.numbers);

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The least sum of squares of a model that is dear to call and has a tolerance of its own. Derivatives are
+// differences at the start; from step to step they are corrected by what the step has shown (Broyden 1965),
+// and taken anew once the end is near. What is left to go is counted in standard errors, offset/s with the
+// offset of the residuals from where no step lowers their sum and s their scatter: a step of a few
+// thousandths is not taken, nor one below the noise that the model shows beside its derivatives. Differences
+// are as wide as to move all observations together by the scatter of one: wide against noise, and narrow
+// against the interval over which the model is asked to be straight.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.hpp"
+#include "engine/study/calibration_problem.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr int most_sparing_steps = 60;
+constexpr double first_step = 0.02;        // of differences at the start, relative to the parameter
+constexpr double widest_step = 0.1;        // the same, of all others
+constexpr double moves_by = 1;             // of the scatter, by which differences move the observations
+constexpr double above_noise = 20;         // of the model, by which differences move them at least
+constexpr double little_to_go = 0.003;     // standard errors
+constexpr double end_is_near = 0.3;        // standard errors within which derivatives stay as they are
+constexpr double foretold_within = 0.1;    // standard errors: the last step
+constexpr double foretold_gains = 15;      // of what may be left to gain beside the least sum
+constexpr double full_steps_within = 1;    // standard errors, from which sums are not compared
+constexpr double hidden_within = 3;        // standard errors, in which noise may hide the least sum
+constexpr double comes_nearer_by = 0.5;    // a step, or it is the last
+constexpr double noise_is_seen = 0.1;      // standard errors: a step so short shows the model's noise
+constexpr double noise_tells = 0.1;        // standard errors, by which noise may move the estimates unsaid
+constexpr double sparing_rounding = 1e-9;  // of the residuals, relative to the data
+
+double length_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+// Of an observation of weight 1, as it would be at the least sum that the derivatives foretell.
+double CalibrationProblem::scatter_at(const CalibrationPlace& at, const CalibrationTangent& tangent) const {
+  const std::size_t observations = groups_.size();
+  const double least = sparing_rounding * size_of(at);
+  if (observations <= tangent.rank) return least;
+  const double sum = std::max(0.0, at.sum - tangent.offset * tangent.offset);
+  return std::max(least, std::sqrt(sum / static_cast<double>(observations - tangent.rank)));
+}
+
+// How far each parameter is moved for its difference; the first ones of a fit know no derivatives yet.
+std::vector<double> CalibrationProblem::sparing_steps(const CalibrationPlace& at,
+                                                      const TableColumns& rows_jacobian,
+                                                      const std::vector<double>& scales,
+                                                      double scatter) const {
+  std::vector<double> steps;
+  for (std::size_t p = 0; p < parameters(); ++p) {
+    const double least = parameters_[p].step * scales[p];
+    if (rows_jacobian.empty()) {
+      steps.push_back(std::max(least, first_step * scales[p]));
+      continue;
+    }
+    std::vector<double> of_rows(rows_.y.size());
+    for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * rows_jacobian[p][k];
+    const double length = length_of(observed(of_rows)),
+                 wanted = std::max(moves_by * scatter,
+                                   above_noise * noise_ * std::sqrt(static_cast<double>(groups_.size())));
+    const double widest = std::max(least, widest_step * scales[p]);
+    steps.push_back(length > 0 ? std::clamp(wanted / length, least, widest) : widest);
+  }
+  return steps;
+}
+
+double CalibrationProblem::sparing_unseen() const {
+  constexpr double least = 1e-3, most = 0.1;
+  if (!(differences_ > 0)) return least;
+  return std::clamp(2 * noise_ * std::sqrt(static_cast<double>(groups_.size())) / differences_, least, most);
+}
+
+// All sets of parameters at once; those beside which the model ends are asked for again, nearer.
+TableColumns CalibrationProblem::sparing_jacobian(const CalibrationPlace& at,
+                                                  const std::vector<double>& steps,
+                                                  const std::vector<bool>& held) {
+  TableColumns columns(parameters(), std::vector<double>(rows_.y.size()));
+  std::vector<std::vector<double>> sets;
+  std::vector<std::size_t> moved;
+  for (std::size_t p = 0; p < parameters(); ++p) {
+    if (held[p]) continue;
+    std::vector<double> q = at.q;
+    const double above = inside(at.q[p] + steps[p], p), below = inside(at.q[p] - steps[p], p);
+    q[p] = above - at.q[p] >= at.q[p] - below ? above : below;
+    sets.push_back(std::move(q));
+    moved.push_back(p);
+  }
+  const auto values = fitted_all(sets);
+  for (std::size_t j = 0; j < sets.size(); ++j) {
+    const std::size_t p = moved[j];
+    const double h = sets[j][p] - at.q[p];
+    if (values[j] && h != 0) {
+      for (std::size_t k = 0; k < columns[p].size(); ++k)
+        columns[p][k] = ((*values[j])[k] - at.fitted[k]) / h;
+      continue;
+    }
+    std::optional<std::vector<double>> column;
+    for (double step = steps[p]; !column && step > 1e-4 * steps[p]; step /= 30)
+      column = slopes(at, p, step, false);
+    if (!column) refuse_place("where its derivatives are taken");
+    columns[p] = *std::move(column);
+  }
+  return columns;
+}
+
+std::vector<double> CalibrationProblem::foretold(const CalibrationPlace& at,
+                                                 const TableColumns& rows_jacobian,
+                                                 const std::vector<double>& from,
+                                                 const std::vector<double>& to) const {
+  std::vector<double> of_rows(rows_.y.size());
+  for (std::size_t p = 0; p < parameters(); ++p)
+    for (std::size_t k = 0; k < of_rows.size(); ++k)
+      of_rows[k] += at.roots[k] * rows_jacobian[p][k] * (to[p] - from[p]);
+  return observed(of_rows);
+}
+
+// Along the step, the derivatives become what the step has shown; across it they stay (Broyden 1965).
+void CalibrationProblem::correct(TableColumns& rows_jacobian, const CalibrationPlace& from,
+                                 const CalibrationPlace& to, const std::vector<double>& scales) const {
+  double length = 0;
+  for (std::size_t p = 0; p < parameters(); ++p) {
+    const double share = (to.q[p] - from.q[p]) / scales[p];
+    length += share * share;
+  }
+  if (!(length > 0)) return;
+  for (std::size_t k = 0; k < rows_.y.size(); ++k) {
+    double lack = to.fitted[k] - from.fitted[k];
+    for (std::size_t p = 0; p < parameters(); ++p) lack -= rows_jacobian[p][k] * (to.q[p] - from.q[p]);
+    for (std::size_t p = 0; p < parameters(); ++p)
+      rows_jacobian[p][k] += lack * (to.q[p] - from.q[p]) / (scales[p] * scales[p] * length);
+  }
+}
+
+// What a short step shows beside what the derivatives foretold of it is noise.
+void CalibrationProblem::see_noise(const CalibrationMinimum& from, const CalibrationTangent& tangent,
+                                   const CalibrationPlace& to, double scatter) {
+  if (!(tangent.offset <= noise_is_seen * scatter)) return;
+  CalibrationPlace there = to;
+  weigh(there, &from.place.roots);
+  const std::vector<double> expected = foretold(from.place, from.rows_jacobian, from.place.q, to.q);
+  double lack = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const double d = from.place.residual[i] - there.residual[i] - expected[i];
+    lack += d * d / static_cast<double>(expected.size());
+  }
+  noise_ = std::sqrt(lack);
+}
+
+// What the derivatives say of a place nearby.
+CalibrationPlace CalibrationProblem::foretold_place(const CalibrationMinimum& from,
+                                                    const std::vector<double>& q) const {
+  CalibrationPlace there = from.place;
+  there.q = q;
+  for (std::size_t p = 0; p < parameters(); ++p)
+    for (std::size_t k = 0; k < there.fitted.size(); ++k)
+      there.fitted[k] += from.rows_jacobian[p][k] * (q[p] - from.place.q[p]);
+  weigh(there, nullptr);
+  return there;
+}
+
+// A place that lies lower. One that does not corrects the derivatives, so that the next begins wiser.
+std::optional<CalibrationPlace> CalibrationProblem::lower(CalibrationMinimum& from, double& damping,
+                                                          int& tries) {
+  const std::vector<bool> none(parameters(), false);
+  for (tries = 1; tries <= 6; ++tries) {
+    const CalibrationTangent at =
+        tangent(from.place, from.rows_jacobian, pushed(from.place, from.rows_jacobian, none));
+    const std::vector<double> q = stepped(from.place, at, damping);
+    if (q == from.place.q) return {};
+    auto there = place(q, &from.place.roots);
+    if (there && there->sum < from.place.sum) return there;
+    // A short step shows more of the noise than of the derivatives.
+    if (there && length_of(foretold(from.place, from.rows_jacobian, from.place.q, q)) >
+                     end_is_near * scatter_at(from.place, at))
+      correct(from.rows_jacobian, from.place, *there, from.scales);
+    damping = std::max(30 * damping, 3e-3);
+  }
+  return {};
+}
+
+CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>& start,
+                                                       const CalibrationMinimum& before) {
+  auto begin = place(start, nullptr);
+  if (!begin) refuse_place("at the start");
+  CalibrationMinimum found;
+  found.place = *std::move(begin);
+  found.scales = before.scales.empty() ? natural_scales(found.place) : before.scales;
+  const std::vector<bool> none(parameters(), false);
+  // Where the derivatives of an earlier fit were taken, if that fit began or ended here.
+  bool first = before.differenced_at.empty() || before.place.q != start;
+  if (first) {
+    found.rows_jacobian =
+        sparing_jacobian(found.place, sparing_steps(found.place, {}, found.scales, 0), none);
+    found.differenced_at = found.place.q;
+  } else {
+    found.rows_jacobian = before.rows_jacobian;
+    found.differenced_at = before.differenced_at;
+  }
+  double damping = 1e-6;
+  int steps = 0;  // since derivatives were taken
+  for (found.iterations = 0;; ++found.iterations) {
+    const CalibrationTangent at =
+        tangent(found.place, found.rows_jacobian, pushed(found.place, found.rows_jacobian, none));
+    const double scatter = scatter_at(found.place, at);
+    const double moved =
+        length_of(foretold(found.place, found.rows_jacobian, found.differenced_at, found.place.q));
+    const bool fresh = !first && moved <= end_is_near * scatter;
+    const double noise = noise_ * std::sqrt(static_cast<double>(std::max<std::size_t>(at.rank, 1)));
+    const auto take_anew = [&] {
+      found.rows_jacobian = sparing_jacobian(
+          found.place, sparing_steps(found.place, found.rows_jacobian, found.scales, scatter), none);
+      found.differenced_at = found.place.q;
+      differences_ = moves_by * scatter;
+      first = false;
+      damping = 1e-6;
+      steps = 0;
+    };
+    if (!fresh && at.offset <= end_is_near * scatter) {
+      take_anew();
+      continue;
+    }
+    if (at.offset <= std::max(little_to_go * scatter, std::min(noise, end_is_near * scatter))) {
+      found.noisy = noise > noise_tells * scatter;
+      return found;
+    }
+    if (found.iterations >= most_sparing_steps)
+      throw Error(ErrorCode::not_converged,
+                  "the calibration found no least sum of squares in " + std::to_string(most_sparing_steps) +
+                      " steps; it ended at " + parameters_text(found.place.q),
+                  "begin nearer to the answer, set `lower` and `upper`, or fit fewer parameters");
+    if (fresh && at.offset <= foretold_within * scatter) {
+      // Too short to be worth a set of parameters: the derivatives say where it leads.
+      found.place = foretold_place(found, stepped(found.place, at, 0));
+      found.noisy = noise > noise_tells * scatter;
+      return found;
+    }
+    if (fresh && at.offset <= full_steps_within * scatter) {
+      // So near the end the noise of the model hides which sum is lower; the offset it moves far less.
+      auto last = place(stepped(found.place, at, 0), nullptr);
+      if (!last) {
+        found.noisy = at.offset > noise_tells * scatter;
+        return found;
+      }
+      const CalibrationTangent there =
+          tangent(*last, found.rows_jacobian, pushed(*last, found.rows_jacobian, none));
+      see_noise(found, at, *last, scatter);
+      if (there.offset < at.offset) found.place = *std::move(last);
+      if (there.offset <= comes_nearer_by * at.offset) continue;
+      found.noisy = std::min(there.offset, at.offset) > noise_tells * scatter;
+      return found;
+    }
+    int tries = 0;
+    auto next = lower(found, damping, tries);
+    if (!next) {
+      if (!first && found.place.q == found.differenced_at) {
+        if (at.offset > hidden_within * scatter)
+          throw Error(
+              ErrorCode::not_converged,
+              "the calibration goes no lower from " + parameters_text(found.place.q) +
+                  ", which is no least sum of squares: the derivatives of the model do not hold there",
+              "let the differences be larger (`step` of a parameter) where the model has noise of its own, "
+              "or begin elsewhere");
+        found.noisy = true;
+        return found;
+      }
+      take_anew();
+      continue;
+    }
+    if (length_of(foretold(found.place, found.rows_jacobian, found.place.q, next->q)) > end_is_near * scatter)
+      correct(found.rows_jacobian, found.place, *next, found.scales);
+    found.place = *std::move(next);
+    weigh(found.place, nullptr);
+    damping *= 1e-2;
+    for (std::size_t p = 0; p < parameters(); ++p)
+      if (found.place.q[p] != 0 && before.scales.empty())
+        found.scales[p] = std::max(std::abs(found.place.q[p]), 1e-3 * found.scales[p]);
+    // Far from the end corrected derivatives grow old.
+    if (tries > 2 || ++steps > 5) take_anew();
+  }
+}
+
+std::optional<CalibrationPlace> CalibrationProblem::sparing_beside(const CalibrationPlace& start,
+                                                                   std::size_t p,
+                                                                   const CalibrationMinimum& beside,
+                                                                   double gain) {
+  std::vector<bool> held(parameters(), false);
+  held[p] = true;
+  CalibrationPlace at = start;
+  TableColumns slopes_here = beside.rows_jacobian;
+  correct(slopes_here, beside.place, at, beside.scales);
+  double damping = 1e-6;
+  for (int step = 0; step < 12; ++step) {
+    const CalibrationTangent here = tangent(at, slopes_here, pushed(at, slopes_here, held));
+    const double left = here.offset * here.offset;
+    if (left <= foretold_gains * gain) {
+      // The derivatives say how much there is still to gain.
+      at.q = stepped(at, here, 0);
+      at.sum -= left;
+      return at;
+    }
+    auto next = better(at, here, &beside.place.roots, damping);
+    if (!next) return {};
+    const bool little = at.sum - next->sum <= 0.1 * gain;
+    correct(slopes_here, at, *next, beside.scales);
+    at = *std::move(next);
+    if (little) return at;
+    damping = std::max(damping * 1e-3, 1e-12);
+  }
+  return {};
+}
+
+}  // namespace asperity

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Calibrations of models that are dear to call: how few sets of parameters they take, that estimates and
+// intervals are those of a fit that spares nothing, what a noise of the model does to them, and a progress
+// that moves to the end.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/arithmetic/random.hpp"
+#include "engine/core/sanitizers.hpp"
+#include "engine/study/calibration.hpp"
+
+namespace asperity::calibration_sparing_test {
+namespace {
+
+// Roughness under stress, Ra = first (1 - stress/(stress + hardness)), with scatter, as `rows` presses give
+// it.
+constexpr double true_first = 1.2, true_hardness = 0.9;
+double roughness_of(double first, double hardness, double stress) {
+  return first * hardness / (stress + hardness);
+}
+
+struct Presses {
+  CalibrationRows rows;
+  std::vector<double> stress;
+  double noise = 0;  // of the model: what its tolerance leaves open, the same for the same parameters
+  std::vector<std::vector<double>> asked;  // sets of parameters
+
+  double at(std::span<const double> q, std::size_t row) const {
+    const double exact = roughness_of(q[0], q[1], stress[row]);
+    const double place = 1e4 * (q[0] * 7 + q[1] * 13 + stress[row] * 17);
+    return exact * (1 + noise * elementary::sin(place));
+  }
+  CalibrationModel model() {
+    return [this](std::span<const double> q, std::size_t row) {
+      if (row == 0) asked.emplace_back(q.begin(), q.end());
+      return at(q, row);
+    };
+  }
+};
+
+Presses presses(std::uint64_t seed, double scatter = 0.03, std::size_t rows = 14) {
+  Presses made;
+  const Stream draws(seed, "presses of a calibration");
+  for (std::size_t k = 0; k < rows; ++k) {
+    made.stress.push_back(0.1 + 2.0 * static_cast<double>(k) / static_cast<double>(rows));
+    made.rows.y.push_back(roughness_of(true_first, true_hardness, made.stress[k]) *
+                          (1 + scatter * draws.normal(k)));
+  }
+  return made;
+}
+
+const std::vector<CalibrationParameter> begin = {{"first", 1, 0.01, {}}, {"hardness", 1.5, 0.01, {}}};
+const CalibrationOptions sparing = {.scatter = CalibrationScatter::relative, .sparing = true},
+                         unsparing = {.scatter = CalibrationScatter::relative};
+
+TEST(SparingCalibration, IsThatOfAFitWhichSparesNothing) {
+  std::size_t most = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Presses made = presses(seed), again = presses(seed);
+    made.noise = 1e-6;
+    const Calibration few = calibrate(made.rows, made.model(), begin, sparing),
+                      many = calibrate(again.rows, again.model(), begin, unsparing);
+    for (std::size_t p = 0; p < 2; ++p) {
+      const CalibratedParameter &of = few.parameters[p], &wanted = many.parameters[p];
+      EXPECT_NEAR(*of.value, *wanted.value, 0.02 * *wanted.standard_error) << seed;
+      EXPECT_NEAR(*of.standard_error / *wanted.standard_error, 1, 0.03) << seed;
+      EXPECT_NEAR(*of.profile_low, *wanted.profile_low, 0.1 * *wanted.standard_error) << seed;
+      EXPECT_NEAR(*of.profile_high, *wanted.profile_high, 0.1 * *wanted.standard_error) << seed;
+    }
+    EXPECT_FALSE(few.warnings.size() > many.warnings.size()) << few.warnings.back();
+    most = std::max(most, made.asked.size());
+    all += made.asked.size();
+    EXPECT_EQ(few.calls, static_cast<std::int64_t>(14 * made.asked.size()));
+    EXPECT_EQ(std::set(made.asked.begin(), made.asked.end()).size(), made.asked.size());  // none twice
+  }
+  EXPECT_LE(most, 16U);
+  EXPECT_LE(all, 20 * 14U);
+}
+
+// A noise of 1e-4 where rows scatter by 3 %.
+TEST(SparingCalibration, NoiseOfTheModelNeitherStopsNorMisleadsIt) {
+  std::size_t most = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Presses made = presses(seed), again = presses(seed);
+    made.noise = 1e-4;
+    const Calibration found = calibrate(made.rows, made.model(), begin, sparing),
+                      exact = calibrate(again.rows, again.model(), begin, unsparing);
+    for (std::size_t p = 0; p < 2; ++p) {
+      EXPECT_NEAR(*found.parameters[p].value, *exact.parameters[p].value,
+                  0.25 * *exact.parameters[p].standard_error)
+          << seed;
+      EXPECT_NEAR(*found.parameters[p].standard_error / *exact.parameters[p].standard_error, 1, 0.05) << seed;
+    }
+    most = std::max(most, made.asked.size());
+  }
+  EXPECT_LE(most, 20U);
+}
+
+TEST(SparingCalibration, NoiseThatHidesTheLeastSumIsSaid) {
+  int said = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Presses made = presses(seed);
+    made.noise = 5e-3;
+    const Calibration found = calibrate(made.rows, made.model(), begin, sparing);
+    said += std::ranges::any_of(found.warnings, [](const std::string& warning) {
+      return warning.find("noise of the model") != std::string::npos;
+    });
+  }
+  EXPECT_GE(said, 18);
+}
+
+TEST(SparingCalibration, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  const int sets = sanitized ? 40 : 600;
+  int linear = 0, profile = 0;
+  for (int k = 0; k < sets; ++k) {
+    Presses made = presses(1000 + static_cast<std::uint64_t>(k));
+    made.noise = 1e-5;
+    const Calibration found = calibrate(made.rows, made.model(), begin, sparing);
+    const CalibratedParameter &a = found.parameters[0], &b = found.parameters[1];
+    linear += *a.low <= true_first && true_first <= *a.high ? 1 : 0;
+    linear += *b.low <= true_hardness && true_hardness <= *b.high ? 1 : 0;
+    profile += *a.profile_low <= true_first && true_first <= *a.profile_high ? 1 : 0;
+    profile += *b.profile_low <= true_hardness && true_hardness <= *b.profile_high ? 1 : 0;
+  }
+  const double of_linear = linear / (2.0 * sets), of_profile = profile / (2.0 * sets);
+  EXPECT_GE(of_linear, sanitized ? 0.85 : 0.93) << of_linear;
+  EXPECT_LE(of_linear, sanitized ? 1 : 0.97) << of_linear;
+  EXPECT_GE(of_profile, sanitized ? 0.85 : 0.93) << of_profile;
+  EXPECT_LE(of_profile, sanitized ? 1 : 0.97) << of_profile;
+}
+
+TEST(SparingCalibration, WhatIsNotDeterminedIsGivenNoNumber) {
+  Presses made = presses(3);
+  const CalibrationModel product = [&](std::span<const double> q, std::size_t row) {
+    const std::vector<double> one = {q[0] * q[1], 0.9};
+    return made.at(one, row);
+  };
+  made.noise = 1e-5;
+  const Calibration found = calibrate(
+      made.rows, product, std::vector<CalibrationParameter>{{"a", 2, {}, {}}, {"b", 0.5, {}, {}}}, sparing);
+  EXPECT_FALSE(found.identifiable);
+  EXPECT_FALSE(found.parameters[0].value || found.parameters[1].value);
+  EXPECT_NE(found.verdict.find("the product a b"), std::string::npos) << found.verdict;
+}
+
+TEST(SparingCalibration, BoundsHoldAndAStartAtZeroIsFound) {
+  Presses made = presses(5);
+  for (const double start : {0.0, 0.5}) {
+    const std::vector<CalibrationParameter> bounded = {{"first", 1, 0.01, {}}, {"hardness", start, 0.0, 0.7}};
+    const Calibration found = calibrate(made.rows, made.model(), bounded, sparing);
+    EXPECT_TRUE(found.parameters[1].at_upper);
+    EXPECT_EQ(*found.parameters[1].value, 0.7);
+  }
+}
+
+TEST(SparingCalibration, DerivativesAreAskedForInOneBatch) {
+  Presses made = presses(7);
+  std::vector<std::size_t> batches;
+  const CalibrationBatch batch = [&](std::span<const CalibrationQuery> queries,
+                                     const std::function<void(std::size_t)>& done) {
+    batches.push_back(queries.size());
+    std::vector<double> values;
+    for (const CalibrationQuery& query : queries) values.push_back(made.at(query.parameters, query.row));
+    done(values.size());
+    return values;
+  };
+  const Calibration found = calibrate(made.rows, batch, begin, sparing, Monitor::silent());
+  EXPECT_EQ(std::ranges::count(batches, 28U),
+            2);  // two parameters of fourteen rows, at the start and the end
+  EXPECT_EQ(found.calls, static_cast<std::int64_t>(14 * (batches.size() + 2)));
+}
+
+class Shares final : public Monitor {
+ public:
+  void progress(std::string_view, double done) override { shares.push_back(done); }
+  void warn(std::string_view) override {}
+  std::vector<double> shares;
+};
+
+// A fit that takes far longer than was foreseen: the share that is done goes on rising, and leaves room for
+// the profile.
+TEST(SparingCalibration, ProgressMovesToTheEnd) {
+  Presses made = presses(9);
+  Shares shares;
+  const CalibrationModel slow = [&](std::span<const double> q, std::size_t row) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(6);
+    while (std::chrono::steady_clock::now() < until) {
+    }
+    return made.at(q, row);
+  };
+  const std::vector<CalibrationParameter> far = {{"first", 0.2, 0.01, {}}, {"hardness", 0.1, 0.01, {}}};
+  calibrate(made.rows, slow, far, sparing, shares);
+  ASSERT_GT(shares.shares.size(), 5U);
+  EXPECT_TRUE(std::ranges::is_sorted(shares.shares));
+  EXPECT_LT(shares.shares.front(), 0.3);
+  EXPECT_LT(shares.shares.back(), 1);
+  EXPECT_GT(shares.shares.back(), 0.85);
+  const auto standing = std::ranges::adjacent_find(shares.shares);
+  const auto again =
+      standing == shares.shares.end() ? standing : std::adjacent_find(standing + 1, shares.shares.end());
+  EXPECT_TRUE(again == shares.shares.end() || again - standing > 3) << "the share stood still";
+}
+
+}  // namespace
+}  // namespace asperity::calibration_sparing_test
