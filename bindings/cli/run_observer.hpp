@@ -25,6 +25,8 @@ class RunObserver {
   virtual bool looks_at_results() const { return false; }
   // A mistake that a check has gone past; the last that it found is the reason of its end.
   virtual void mistake(const std::string&) {}
+  // What a check that came to its end knows of the script's knobs, as RunKnobs::json() says it.
+  virtual void made_knobs(const Json&) {}
   // The end, with why the run failed, "" if it did not. It may be the last that the process does.
   virtual void ended(int status, StopReason stopped, const std::string& why) = 0;
 };

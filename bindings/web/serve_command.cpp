@@ -160,8 +160,10 @@ int serve_until_stopped(const ServeCommand& command) {
   const auto pages = shared_folder("page", "page");
   const PageFiles page(pages);
   RunQueue runs(std::move(queue));
-  handler.api = std::make_unique<Api>(
-      ApiSetup{limits, at_once, !command.classroom.empty(), barriers.made, scratch}, access, runs, page);
+  const bool room = !command.classroom.empty();
+  LiveSessions live({scratch, limits, barriers.made, at_once, room ? people.size() : 16, room ? 2U : 8U});
+  handler.api = std::make_unique<Api>(ApiSetup{limits, at_once, room, barriers.made, scratch}, access, runs,
+                                      live, page);
 
   std::thread answering([&] { server->serve(); });
   print_addresses(command, access, server->port());
@@ -181,6 +183,7 @@ int serve_until_stopped(const ServeCommand& command) {
   wait_for_end(signals);
   std::fprintf(stderr, "\nstopping\n");
   runs.close();
+  live.close();
   server->stop();
   answering.join();
   std::error_code ignored;

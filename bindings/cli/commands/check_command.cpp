@@ -50,6 +50,7 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   session.mistakes = std::make_shared<lua::Mistakes>();
   // Mistakes that were gone past, and what ended the dry run, if anything did.
   const auto end = [&](const std::string& reached, const std::string& failure) {
+    if (observer != nullptr) observer->made_knobs(session.knobs->json());
     std::vector<std::string> mistakes = session.mistakes->messages();
     if (mistakes.empty() && failure.empty()) return report(reached), done;
     if (!failure.empty()) mistakes.push_back(failure);

@@ -41,10 +41,11 @@ bool is_json(std::string type) {
 
 }  // namespace
 
-Api::Api(ApiSetup setup, const Access& access, RunQueue& runs, PageFiles page)
+Api::Api(ApiSetup setup, const Access& access, RunQueue& runs, LiveSessions& live, PageFiles page)
     : setup_(std::move(setup)),
       access_(access),
       runs_(runs),
+      live_(live),
       page_(std::move(page)),
       streams_(setup_.classroom ? 24 : 300, 600) {}
 
@@ -120,6 +121,8 @@ HttpResponse Api::route(const HttpRequest& request) {
   if (path == "predictions" && post && setup_.classroom) return predict(*person, request);
   if (path == "help" && post && setup_.classroom) return help(*person, request);
   if (path == "runs" && post) return begin_run(*person, request);
+  if (path == "live" && post) return begin_live(*person, request);
+  if (path.starts_with("live/") && !get) return of_live(*person, request, path.substr(5));
   if (path.starts_with("runs/")) {
     const auto [id, rest] = split(path.substr(5));
     const auto run = is_teacher(*person) ? runs_.find(id) : runs_.find(*person, id);
@@ -152,6 +155,40 @@ HttpResponse Api::check(std::size_t person, const HttpRequest& request) {
   const auto share = checks_.take(person, std::chrono::seconds(8));
   if (share == nullptr) return problem_answer(503, "other scripts are being checked", "try again");
   return json_answer(check_script(script, setup_.scratch, setup_.barriers));
+}
+
+// {script, tab, seed?}: a script that is run at each POST to its own address.
+HttpResponse Api::begin_live(std::size_t person, const HttpRequest& request) {
+  const Json body = body_of(request);
+  RunRequest asked;
+  asked.script = text_member(body, "script", longest_script);
+  asked.seed = whole_member(body, "seed", 1);
+  const std::string tab = text_member(body, "tab", longest_name);
+  return json_answer(Json::object({{"id", live_.begin(person, tab, asked)->id}}), 201);
+}
+
+// POST {knobs, view?}: what the script gives at these values, as frames that follow each other.
+HttpResponse Api::of_live(std::size_t person, const HttpRequest& request, const std::string& id) {
+  if (request.method == "DELETE") {
+    live_.end(person, id);
+    return json_answer(Json::object({{"id", id}}));
+  }
+  const auto session = live_.find(person, id);
+  if (session == nullptr) return problem_answer(404, "there is no such script that follows its knobs");
+  const Json body = body_of(request);
+  const GivenKnobs knobs = knobs_member(body, "knobs");
+  const std::string view = body.find("view") == nullptr ? "" : text_member(body, "view", longest_name);
+  const auto share = streams_.take(person, std::chrono::milliseconds(0));
+  if (share == nullptr)
+    return problem_answer(429, "as many answers are under way to this person as may be", "close other pages");
+  const std::int64_t move = live_.move(*session, knobs, view);
+  HttpResponse response;
+  response.type = "application/octet-stream";
+  response.headers = {{"Cache-Control", "no-store"}};
+  response.stream = [session, move, share](std::string& piece) {
+    return session->answer(move, piece, std::chrono::milliseconds(500));
+  };
+  return response;
 }
 
 HttpResponse Api::begin_run(std::size_t person, const HttpRequest& request) {

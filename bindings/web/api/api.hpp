@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The server's answers: the page's files to anybody who names it rightly, and under /api, to whoever has a
-// token: about, complete, check, runs with their events, files and views, and lessons. A problem is
-// {error: {message, hint?}}. A person finds their own runs only; another's are not there. The first person of
-// a room, its teacher, finds all: /api/room lists them, and /api/people whoever is in the room with their
-// predictions (put up by POST /api/predictions) and whether they ask for help (POST /api/help).
+// token: about, complete, check, runs with their events, files and views, scripts that follow their knobs
+// (live), and lessons. A problem is {error: {message, hint?}}. A person finds their own runs only; another's
+// are not there. The first person of a room, its teacher, finds all: /api/room lists them, and /api/people
+// whoever is in the room with their predictions (put up by POST /api/predictions) and whether they ask for
+// help (POST /api/help).
 #pragma once
 
 #include <memory>
@@ -14,6 +15,7 @@
 #include "bindings/web/api/page_files.hpp"
 #include "bindings/web/api/room_board.hpp"
 #include "bindings/web/http.hpp"
+#include "bindings/web/runs/live_sessions.hpp"
 #include "bindings/web/runs/run_queue.hpp"
 #include "bindings/web/runs/shares.hpp"
 
@@ -29,7 +31,7 @@ struct ApiSetup {
 
 class Api final : public HttpHandler {
  public:
-  Api(ApiSetup setup, const Access& access, RunQueue& runs, PageFiles page);
+  Api(ApiSetup setup, const Access& access, RunQueue& runs, LiveSessions& live, PageFiles page);
 
   std::optional<HttpResponse> refuse(const HttpRequest& head) override;
   HttpResponse answer(const HttpRequest& request) override;
@@ -42,6 +44,8 @@ class Api final : public HttpHandler {
   HttpResponse complete(const HttpRequest& request) const;
   HttpResponse check(std::size_t person, const HttpRequest& request);
   HttpResponse begin_run(std::size_t person, const HttpRequest& request);
+  HttpResponse begin_live(std::size_t person, const HttpRequest& request);
+  HttpResponse of_live(std::size_t person, const HttpRequest& request, const std::string& id);
   HttpResponse runs_of(std::size_t person) const;
   HttpResponse room() const;
   HttpResponse people() const;
@@ -55,6 +59,7 @@ class Api final : public HttpHandler {
   const ApiSetup setup_;
   const Access& access_;
   RunQueue& runs_;
+  LiveSessions& live_;
   const PageFiles page_;
   RoomBoard board_;
   Shares checks_{1, 4, 2};  // two for people whose scripts are checked quickly

@@ -66,6 +66,8 @@ Json check_script(const std::string& script, const std::filesystem::path& scratc
       if (type == nullptr) continue;
       if (type->string() == "error" && message != nullptr)
         marks.push_back(mark("error", message->string(), event.find("line")));
+      if (const Json* knobs = event.find("knobs"); knobs != nullptr && knobs->is_object())
+        answer.set("knobs", *knobs);
       if (type->string() != "ended" || why == nullptr) continue;
       ended = true;
       if (const auto reached = line_in(why->string())) answer.set("checked_to", *reached);

@@ -10,7 +10,8 @@
 
 namespace asperity::web {
 
-// {marks: [{line, severity, message}], checked_to?}. `scratch`: a folder in which one for this is made.
+// {marks: [{line, severity, message}], checked_to?, knobs?}; `knobs`, as in a manifest, are those that the
+// script made as far as it could be followed. `scratch`: a folder in which one for this is made.
 Json check_script(const std::string& script, const std::filesystem::path& scratch,
                   const std::vector<std::string>& barriers);
 

@@ -15,24 +15,19 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "views are little-endian, as this machine must be");
 
-Json field_json(const std::string& name, const std::string& unit, const Field& field, const Grid& grid) {
-  const ReducedField small = reduced(field);
-  const std::string_view bytes(reinterpret_cast<const char*>(small.values.data()),
-                               small.values.size() * sizeof(float));
-  return Json::object({{"name", name},
-                       {"unit", unit},
-                       {"nx", small.nx},
-                       {"ny", small.ny},
-                       {"size_x", grid.size_x},
-                       {"size_y", grid.size_y},
-                       {"from_nx", grid.nx},
-                       {"from_ny", grid.ny},
-                       {"reduction", reduction_text(small, grid.nx, grid.ny)},
-                       {"data", base64(bytes)}});
-}
-
-Json view_json(const std::string& title, std::int64_t event, Json::List fields) {
-  return Json::object({{"title", title}, {"event", event}, {"fields", std::move(fields)}});
+void add_field(View& view, const std::string& name, const std::string& unit, const Field& field,
+               const Grid& grid) {
+  ReducedField small = reduced(field);
+  view.fields.push_back(Json::object({{"name", name},
+                                      {"unit", unit},
+                                      {"nx", small.nx},
+                                      {"ny", small.ny},
+                                      {"size_x", grid.size_x},
+                                      {"size_y", grid.size_y},
+                                      {"from_nx", grid.nx},
+                                      {"from_ny", grid.ny},
+                                      {"reduction", reduction_text(small, grid.nx, grid.ny)}}));
+  view.values.push_back(std::move(small.values));
 }
 
 }  // namespace
@@ -92,28 +87,38 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-Json view_of(const Surface& surface, const std::string& title, std::int64_t event) {
-  Json field = field_json("height", "m", surface.measured_heights(), surface.grid());
+View view_of(const Surface& surface, const std::string& title, std::int64_t event) {
+  View view{title, event};
+  add_field(view, "height", "m", surface.measured_heights(), surface.grid());
   if (!surface.complete())
-    field.set("not_measured", static_cast<std::int64_t>(surface.grid().nodes() - surface.measured()));
-  return view_json(title, event, {std::move(field)});
+    view.fields[0].set("not_measured",
+                       static_cast<std::int64_t>(surface.grid().nodes() - surface.measured()));
+  return view;
 }
 
-Json view_of(const State& state, const std::string& title, std::int64_t event) {
-  Json::List fields;
+View view_of(const State& state, const std::string& title, std::int64_t event) {
+  View view{title, event};
   struct Shown {
     const char *name, *unit;
   };
   for (const Shown& shown :
        {Shown{"pressure", "Pa"}, Shown{"gap", "m"}, Shown{"contact", ""}, Shown{"plastic", "m"}}) {
     try {
-      fields.push_back(field_json(shown.name, shown.unit, *state.field(shown.name), state.grid()));
+      add_field(view, shown.name, shown.unit, *state.field(shown.name), state.grid());
     } catch (const Error& error) {
       // A contact without that effect has no such field.
       if (error.code() != ErrorCode::bad_state) throw;
     }
   }
-  return view_json(title, event, std::move(fields));
+  return view;
+}
+
+Json to_json(const View& view) {
+  Json::List fields = view.fields;
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    fields[k].set("data", base64({reinterpret_cast<const char*>(view.values[k].data()),
+                                  view.values[k].size() * sizeof(float)}));
+  return Json::object({{"title", view.title}, {"event", view.event}, {"fields", std::move(fields)}});
 }
 
 }  // namespace asperity::web

@@ -29,8 +29,17 @@ std::string reduction_text(const ReducedField& field, int from_nx, int from_ny);
 
 std::string base64(std::string_view bytes);
 
-Json view_of(const Surface& surface, const std::string& title, std::int64_t event);
+// A view whose numbers stand beside what is said of them.
+struct View {
+  std::string title;
+  std::int64_t event = 0;
+  Json::List fields{};                       // each without its member `data`
+  std::vector<std::vector<float>> values{};  // of each field
+};
+View view_of(const Surface& surface, const std::string& title, std::int64_t event);
 // Pressure, gap, contact, and what is plastic where that was asked for.
-Json view_of(const State& state, const std::string& title, std::int64_t event);
+View view_of(const State& state, const std::string& title, std::int64_t event);
+// With the numbers of each field as `data`, in base64.
+Json to_json(const View& view);
 
 }  // namespace asperity::web

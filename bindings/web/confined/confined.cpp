@@ -18,6 +18,7 @@
 #include "bindings/web/confined/confined_command.hpp"
 #include "bindings/web/confined/drawing.hpp"
 #include "bindings/web/confined/event_channel.hpp"
+#include "bindings/web/confined/live_script.hpp"
 #include "bindings/web/sandbox/system_calls.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
@@ -30,7 +31,7 @@ namespace asperity::web {
 namespace {
 
 constexpr int failed = 1, bad_usage = 2;
-constexpr std::array<const char*, 5> works{"run", "check", "draw", "probe", "command"};
+constexpr std::array<const char*, 6> works{"run", "check", "draw", "probe", "command", "live"};
 
 const Json& request_member(const Json& json, const char* name) {
   const Json* found = json.find(name);
@@ -182,7 +183,8 @@ int confined_main() {
       ::close(nothing);
     }
     load_system_call_filter();
-    if (request.work == Work::run || request.work == Work::command) prepare_run();
+    if (request.work == Work::run || request.work == Work::command || request.work == Work::live)
+      prepare_run();
     std::vector<std::string> missing;
     const std::vector<std::string> made = confine(request.confinement, missing);
     for (const std::string& barrier : request.barriers)
@@ -198,6 +200,8 @@ int confined_main() {
       case Work::run:
       case Work::check:
         return run_or_check(request);
+      case Work::live:
+        return run_as_knobs_move(request, drawing_descriptor);
       case Work::command:
         draw_by_server(drawing_descriptor);
         return carry_out(request.command, request.lock);

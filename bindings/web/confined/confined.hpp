@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `asperity --confined`: the program as the child of `asperity serve` or `asperity run --confined`. It reads
 // from standard input what it is to do, goes behind the barriers (sandbox/confinement.hpp), and only then
-// begins: a script is run or checked, a command line is carried out, a chart is drawn by gnuplot, or the
-// barriers are tried.
+// begins: a script is run, once or as its knobs move, or checked, a command line is carried out, a chart is
+// drawn by gnuplot, or the barriers are tried.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ namespace asperity::web {
 // Open in the child beside the standard streams.
 inline constexpr int events_descriptor = 3, drawing_descriptor = 4, lock_descriptor = 5;
 
-enum class Work { run, check, draw, probe, command };
+enum class Work { run, check, draw, probe, command, live };
 
 struct ConfinedRequest {
   Work work = Work::run;

@@ -9,7 +9,6 @@
 #include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/surface/surface.hpp"
-#include "bindings/web/api/views.hpp"
 #include "bindings/web/confined/frames.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
@@ -68,6 +67,39 @@ Json error_parts(const std::string& text) {
   return parts;
 }
 
+std::string Seen::title() const {
+  return surface ? call : call + " at " + format_quantity(state->pressure(), dimension::pressure);
+}
+
+View Seen::view() const {
+  return surface ? view_of(*surface, title(), line) : view_of(*state, title(), line);
+}
+
+std::vector<Seen> seen_in(const std::string& call, std::int64_t line, const lua::Values& results) {
+  std::vector<Seen> all;
+  for (const lua::Value& value : results) {
+    if (auto surface = as<Surface>(value))
+      all.push_back({std::move(surface), nullptr, call, line});
+    else if (auto state = as<asperity::State>(value))
+      all.push_back({nullptr, std::move(state), call, line});
+  }
+  return all;
+}
+
+std::optional<Json> told_of(std::string_view event, const Json& fields) {
+  if (event == "row") {
+    Json units = field_or_null(fields, "units");
+    return Json::object({{"type", "row"},
+                         {"notebook", field_or_null(fields, "notebook")},
+                         {"row", field_or_null(fields, "row")},
+                         {"units", units.is_null() ? Json::object() : std::move(units)}});
+  }
+  if (event != "expect") return {};
+  const Json label = field_or_null(fields, "label"), sentence = field_or_null(fields, "sentence");
+  const std::string text = (label.is_null() ? "" : label.string() + ": ") + sentence.string();
+  return Json::object({{"type", "expectation"}, {"text", text}, {"held", field_or_null(fields, "passed")}});
+}
+
 void EventChannel::send(const std::string& type, Json fields) {
   Json event = Json::object({{"type", type}});
   for (const auto& [name, value] : fields.members()) event.set(name, value);
@@ -85,25 +117,11 @@ void EventChannel::progress(std::string_view task, double done, double seconds_l
 }
 
 void EventChannel::recorded(std::string_view event, const Json& fields) {
-  if (event == "row") {
-    Json units = field_or_null(fields, "units");
-    send("row", Json::object({{"notebook", field_or_null(fields, "notebook")},
-                              {"row", field_or_null(fields, "row")},
-                              {"units", units.is_null() ? Json::object() : std::move(units)}}));
-  } else if (event == "expect") {
-    const Json label = field_or_null(fields, "label"), sentence = field_or_null(fields, "sentence");
-    const std::string text = (label.is_null() ? "" : label.string() + ": ") + sentence.string();
-    send("expectation", Json::object({{"text", text}, {"held", field_or_null(fields, "passed")}}));
-  }
+  if (const std::optional<Json> told = told_of(event, fields)) send(told->find("type")->string(), *told);
 }
 
 void EventChannel::found(const std::string& call, std::int64_t line, const lua::Values& results) {
-  for (const lua::Value& value : results) {
-    if (auto surface = as<Surface>(value))
-      see({std::move(surface), nullptr, call, line});
-    else if (auto state = as<asperity::State>(value))
-      see({nullptr, std::move(state), call, line});
-  }
+  for (Seen& seen : seen_in(call, line, results)) see(std::move(seen));
 }
 
 bool EventChannel::has_time_for_views() const {
@@ -124,24 +142,21 @@ void EventChannel::see(Seen seen) {
 
 void EventChannel::keep_view(const Seen& seen) {
   const Clock::time_point begun = Clock::now();
-  const std::string kind = seen.surface ? "surface" : "press";
+  const std::string kind = seen.kind();
   const std::string name = kind + "-" + std::to_string(++kept_[kind]);
   ++views_in_all_;
   try {
-    const Json view =
-        seen.surface
-            ? view_of(*seen.surface, seen.call, seen.line)
-            : view_of(*seen.state,
-                      seen.call + " at " + format_quantity(seen.state->pressure(), dimension::pressure),
-                      seen.line);
+    const Json view = to_json(seen.view());
     std::filesystem::create_directories(views_);
     write_atomically(std::filesystem::path(views_) / (name + ".json"), view.text());
-    send("view", Json::object({{"name", name}, {"title", field_or_null(view, "title")}}));
+    send("view", Json::object({{"name", name}, {"title", seen.title()}}));
   } catch (const std::exception&) {
     views_.clear();  // a full disk must not end the run
   }
   spent_ += Clock::now() - begun;
 }
+
+void EventChannel::made_knobs(const Json& knobs) { send("knobs", Json::object({{"knobs", knobs}})); }
 
 void EventChannel::mistake(const std::string& message) { send("error", error_parts(message)); }
 

@@ -8,13 +8,34 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "bindings/cli/run_observer.hpp"
+#include "bindings/web/api/views.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/surface/surface.hpp"
 
 namespace asperity::web {
+
+// What a view shows: a surface or a press.
+struct Seen {
+  std::shared_ptr<const Surface> surface;
+  std::shared_ptr<const State> state;
+  std::string call;
+  std::int64_t line = 0;
+
+  const char* kind() const { return surface ? "surface" : "press"; }
+  std::string title() const;
+  View view() const;
+};
+// The surfaces and states among the results of a call.
+std::vector<Seen> seen_in(const std::string& call, std::int64_t line, const lua::Values& results);
+
+// A line of the journal that the page is told of, with its type; none of others.
+std::optional<Json> told_of(std::string_view event, const Json& fields);
 
 class EventChannel final : public cli::RunObserver {
  public:
@@ -28,18 +49,11 @@ class EventChannel final : public cli::RunObserver {
   bool looks_at_results() const override { return !views_.empty(); }
   void found(const std::string& call, std::int64_t line, const lua::Values& results) override;
   void mistake(const std::string& message) override;
+  void made_knobs(const Json& knobs) override;
   void ended(int status, StopReason stopped, const std::string& why) override;
 
  private:
   using Clock = std::chrono::steady_clock;
-
-  // What a view shows: a surface or a press.
-  struct Seen {
-    std::shared_ptr<const Surface> surface;
-    std::shared_ptr<const State> state;
-    std::string call;
-    std::int64_t line = 0;
-  };
 
   bool has_time_for_views() const;
   void see(Seen seen);

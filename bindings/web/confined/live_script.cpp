@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings/web/confined/live_script.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "bindings/cli/commands/run_command.hpp"
+#include "bindings/cli/unlinked_files.hpp"
+#include "bindings/cli/watchdog.hpp"
+#include "bindings/lua/registry/refinement.hpp"
+#include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/state.hpp"
+#include "bindings/web/confined/event_channel.hpp"
+#include "bindings/web/confined/frames.hpp"
+#include "engine/core/digest.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/plot/gnuplot.hpp"
+#include "engine/run/result_memory.hpp"
+#include "engine/run/run_directory.hpp"
+
+namespace asperity::web {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t longest_question = std::size_t{1} << 20, most_printed = std::size_t{64} << 10;
+constexpr std::size_t most_live_events = 5000, most_live_views = 200;
+constexpr auto time_before_a_newer =
+    std::chrono::milliseconds(250);     // before a run makes way for a newer question
+constexpr double answered_soon = 0.05;  // s; what takes longer is answered on fewer cells first
+constexpr double least_factor = 1.0 / 16;
+
+double seconds_since(Clock::time_point begun) {
+  return std::chrono::duration<double>(Clock::now() - begun).count();
+}
+
+struct Question {
+  std::int64_t move = 0;
+  GivenKnobs knobs;
+  std::string view;
+};
+
+Question question_in(const std::string& text) {
+  const Json json = Json::parse(text, "a question");
+  const auto member = [&](const char* name) -> const Json& {
+    const Json* found = json.find(name);
+    if (found == nullptr) throw Error(ErrorCode::bad_file, std::string("a question has no `") + name + "`");
+    return *found;
+  };
+  Question question;
+  question.move = static_cast<std::int64_t>(member("move").number());
+  for (const auto& [name, value] : member("knobs").members())
+    add_given_knob(question.knobs, name + "=" + value.string());
+  question.view = member("view").string();
+  return question;
+}
+
+// The newest question, and the run that may have to make way for it.
+class Questions {
+ public:
+  explicit Questions(int socket) : socket_(socket), listener_([this] { listen(); }) { listener_.detach(); }
+
+  // Waits for one.
+  Question next() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return waiting_.has_value(); });
+    return *std::exchange(waiting_, std::nullopt);
+  }
+  bool newer() {
+    const std::lock_guard lock(mutex_);
+    return waiting_.has_value();
+  }
+
+  // While it lives a newer question ends the run of this state: at once, or once the run has had its time.
+  class Running {
+   public:
+    Running(Questions& questions, lua_State* L, Clock::time_point makes_way) : questions_(questions) {
+      questions_.watch(L, makes_way);
+    }
+    ~Running() { questions_.watch(nullptr, {}); }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+   private:
+    Questions& questions_;
+  };
+
+ private:
+  void listen() {
+    for (;;) {
+      pollfd watched{socket_, POLLIN, 0};
+      if (::poll(&watched, 1, pause()) > 0) {
+        const auto texts = receive_frame(socket_, longest_question);
+        if (!texts || texts->size() != 1) std::_Exit(0);  // nobody asks any more
+        try {
+          Question question = question_in(texts->front());
+          const std::lock_guard lock(mutex_);
+          waiting_ = std::move(question);
+          changed_.notify_one();
+        } catch (const Error&) {
+          std::_Exit(1);
+        }
+      }
+      const std::lock_guard lock(mutex_);
+      if (!waiting_ || state_ == nullptr || Clock::now() < makes_way_) continue;
+      stop_flag().raise(StopReason::interrupt);
+      lua::interrupt(state_);
+      state_ = nullptr;
+    }
+  }
+
+  // Milliseconds until the run that goes on makes way; -1 for ever.
+  int pause() {
+    const std::lock_guard lock(mutex_);
+    if (!waiting_ || state_ == nullptr) return -1;
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(makes_way_ - Clock::now());
+    return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 10000));
+  }
+
+  void watch(lua_State* L, Clock::time_point makes_way) {
+    const std::lock_guard lock(mutex_);
+    state_ = L;
+    makes_way_ = makes_way;
+  }
+
+  const int socket_;
+  std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  std::optional<Question> waiting_;
+  lua_State* state_ = nullptr;
+  Clock::time_point makes_way_;
+  std::thread listener_;
+};
+
+// Keeps the warnings of a run, each once.
+class LiveMonitor final : public Monitor {
+ public:
+  explicit LiveMonitor(ResultStore& results) : results_(results) {}
+  void progress(std::string_view, double) override {}
+  void warn(std::string_view sentence) override {
+    const std::lock_guard lock(mutex_);
+    if (warned_.emplace(sentence).second) text_ += "warning: " + std::string(sentence) + "\n";
+  }
+  ResultStore* results() override { return &results_; }
+  std::string text() {
+    const std::lock_guard lock(mutex_);
+    return text_;
+  }
+
+ private:
+  ResultStore& results_;
+  std::mutex mutex_;
+  std::set<std::string> warned_;
+  std::string text_;
+};
+
+// Standard output as a file, of which each run gets its own.
+class Printed {
+ public:
+  Printed() {
+    const int file = ::open("printed", O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_APPEND, 0600);
+    if (file < 0) return;
+    ::dup2(file, STDOUT_FILENO);
+    ::close(file);
+    std::setvbuf(stdout, nullptr, _IOFBF, std::size_t{1} << 14);
+  }
+  void begin() {
+    std::fflush(stdout);
+    std::clearerr(stdout);
+    (void)!::ftruncate(STDOUT_FILENO, 0);
+  }
+  std::string text() {
+    std::fflush(stdout);
+    std::string text(most_printed + 1, '\0');
+    const ssize_t got = ::pread(STDOUT_FILENO, text.data(), text.size(), 0);
+    text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+    if (text.size() > most_printed) {
+      text.resize(most_printed);
+      text += "\nit printed more than is shown while a knob moves\n";
+    }
+    return text;
+  }
+};
+
+Json output_event(const char* stream, const std::string& text) {
+  return Json::object({{"type", "output"}, {"stream", stream}, {"text", text}});
+}
+
+class LiveScript {
+ public:
+  LiveScript(const ConfinedRequest& request, int socket)
+      : request_(request),
+        socket_(socket),
+        memory_(std::min(std::int64_t{256} << 20, request.confinement.memory_bytes / 4)),
+        unlinked_(request.confinement.file_bytes),
+        questions_(socket) {
+    set_thread_count(request.threads);
+    cli::limit_memory(request.confinement.memory_bytes);
+    draw_pictures_by([](std::string_view, std::span<const GnuplotData>) {
+      return GnuplotResult{"not drawn while a knob moves", "", 0};
+    });
+  }
+
+  [[noreturn]] void answer_all() {
+    for (;;) answer(questions_.next());
+  }
+
+ private:
+  struct Pass {
+    double factor = 1;
+    Clock::time_point makes_way;
+  };
+  // What one pass through the script found.
+  struct Found {
+    Json::List events;
+    std::vector<Seen> seen;
+    std::size_t left_out = 0;
+    std::string failure;
+  };
+
+  void answer(const Question& question) {
+    const double factor = coarse_factor();
+    if (factor < 1) {
+      // A question that has come meanwhile is answered next, the whole of this one no more.
+      pass(question, {factor, Clock::now() + std::chrono::seconds(5)});
+      if (questions_.newer()) return say_outdated(question);
+      pass(question, {1, Clock::now()});
+    } else {
+      pass(question, {1, Clock::now() + time_before_a_newer});
+    }
+  }
+
+  // The cells on which a run of the whole, as long as the last one, would be answered soon: each halving of
+  // the sides takes a quarter of the time, about.
+  double coarse_factor() const {
+    double factor = 1, seconds = whole_seconds_;
+    for (; seconds > answered_soon && factor > least_factor; seconds /= 4) factor /= 2;
+    return factor;
+  }
+
+  void pass(const Question& question, const Pass& pass);
+  std::string run_script(const Question& question, const Pass& pass, LiveMonitor& monitor, Found& found,
+                         Json& knobs);
+  void say(const Question& question, const Pass& pass, Found found, Json answer);
+  void say_outdated(const Question& question) {
+    send(Json::object({{"move", question.move}, {"part", "outdated"}}), {});
+  }
+  void send(const Json& answer, const std::vector<std::vector<float>>& fields) {
+    const std::string text = answer.text();
+    std::vector<std::string_view> texts{text};
+    for (const auto& field : fields)
+      texts.emplace_back(reinterpret_cast<const char*>(field.data()), field.size() * sizeof(float));
+    if (!send_frame(socket_, texts)) std::_Exit(0);
+  }
+  std::string limit_text() const {
+    return "the time limit of " + format_quantity(request_.seconds, dimension::time) + " was reached";
+  }
+
+  const ConfinedRequest& request_;
+  const int socket_;
+  ResultMemory memory_;
+  Printed printed_;
+  cli::UnlinkedFilesBound unlinked_;
+  Questions questions_;
+  double whole_seconds_ = 0;  // of the last run on all cells that computed anything
+  bool first_ = true;
+};
+
+void LiveScript::pass(const Question& question, const Pass& pass) {
+  const Clock::time_point begun = Clock::now();
+  const ResultMemory::Counts before = memory_.counts();
+  LiveMonitor monitor(memory_);
+  Found found;
+  Json knobs;
+  stop_flag().clear();
+  memory::set_limit(request_.confinement.memory_bytes);
+  printed_.begin();
+  try {
+    found.failure = run_script(question, pass, monitor, found, knobs);
+  } catch (const std::exception& error) {
+    found.failure = error.what();
+  }
+  const StopReason stopped = stop_flag().reason();
+  stop_flag().clear();
+  const double seconds = seconds_since(begun);
+  // The first run makes what later ones take from memory, and one that computes nothing says nothing of them.
+  const ResultMemory::Counts now = memory_.counts();
+  if (pass.factor == 1 && (seconds > whole_seconds_ || now.missed > before.missed))
+    whole_seconds_ = std::exchange(first_, false) ? 0 : seconds;
+  if (stopped == StopReason::interrupt) return say_outdated(question);
+  if (stopped == StopReason::time_limit) found.failure = limit_text();
+
+  if (const std::string text = printed_.text(); !text.empty())
+    found.events.push_back(output_event("out", text));
+  if (const std::string text = monitor.text(); !text.empty())
+    found.events.push_back(output_event("err", text));
+  if (!found.failure.empty()) {
+    Json error = error_parts(found.failure);
+    error.set("type", "error");
+    found.events.push_back(std::move(error));
+  }
+  // On cells that the script does not name a mistake may be of the cells: the whole answer says.
+  if (pass.factor < 1 && !found.failure.empty()) return;
+  say(question, pass, std::move(found),
+      Json::object({{"move", question.move},
+                    {"part", pass.factor < 1 ? "coarse" : "whole"},
+                    {"factor", pass.factor},
+                    {"seconds", seconds},
+                    {"computed", now.missed - before.missed},
+                    {"recalled", now.found - before.found},
+                    {"knobs", std::move(knobs)}}));
+}
+
+// Why it failed; "" where it did not.
+std::string LiveScript::run_script(const Question& question, const Pass& pass, LiveMonitor& monitor,
+                                   Found& found, Json& knobs) {
+  std::error_code ignored;
+  fs::remove_all("run", ignored);
+  RunSetup setup;
+  setup.script_name = request_.name;
+  setup.script_text = request_.script;
+  setup.out = "run";
+  setup.scratch = true;
+  setup.seed = request_.seed;
+  setup.threads = thread_count();
+  if (!question.knobs.empty()) setup.knobs = given_knobs_json(question.knobs);
+
+  cli::RunCommand command;
+  command.script = request_.name;
+  command.seed = static_cast<std::uint64_t>(request_.seed);
+  command.knobs = question.knobs;
+  command.limit_time = request_.seconds;
+
+  lua::Session session(monitor);
+  session.run = std::make_shared<RunDirectory>(setup);
+  session.run->journal().watch([&found, &monitor](std::string_view event, const Json& fields) {
+    std::optional<Json> told = told_of(event, fields);
+    if (!told) return;
+    if (found.events.size() == most_live_events)
+      monitor.warn("rows and expectations past the first " + std::to_string(most_live_events) +
+                   " are not shown while a knob moves");
+    if (found.events.size() < most_live_events) found.events.push_back(*std::move(told));
+  });
+  session.onlooker = [&found](const std::string& call, const lua::Values& results) {
+    for (Seen& seen : seen_in(call, 0, results)) {
+      if (found.seen.size() < most_live_views)
+        found.seen.push_back(std::move(seen));
+      else
+        ++found.left_out;
+    }
+  };
+  session.exit_hook = [&](int code) {
+    // The process ends with the script; who moves a knob again starts another.
+    if (const std::string text = printed_.text(); !text.empty())
+      found.events.push_back(output_event("out", text));
+    say(question, pass, std::move(found),
+        Json::object({{"move", question.move},
+                      {"part", "whole"},
+                      {"factor", pass.factor},
+                      {"seconds", 0},
+                      {"computed", 0},
+                      {"recalled", 0},
+                      {"knobs", session.knobs->json()}}));
+    std::_Exit(code);
+  };
+  if (pass.factor < 1) {
+    session.refinement = std::make_shared<lua::Refinement>();
+    session.refinement->cells_factor = pass.factor;
+  }
+  Digester digest;
+  digest.add(request_.script).add(pass.factor);
+  if (!question.knobs.empty()) digest.add("knobs").add(RunKnobs(question.knobs).given_text());
+  session.script_digest = digest.hex();
+
+  cli::Watchdog watchdog(request_.seconds, [&](StopReason) {
+    send(Json::object({{"move", question.move}, {"part", "ended"}, {"why", limit_text()}}), {});
+  });
+  const lua::State state = cli::make_state(session, command);
+  const cli::Watchdog::Watching watching(watchdog, state.get());
+  const Questions::Running running(questions_, state.get(), pass.makes_way);
+  const bool good = cli::execute(state.get(), command, request_.script, 0) == LUA_OK;
+  knobs = session.knobs->json();
+  return good ? cli::unmade_knobs(session) : lua::placed_memory_error(lua::error_text(state.get(), -1));
+}
+
+void LiveScript::say(const Question& question, const Pass&, Found found, Json answer) {
+  Json::List views;
+  std::map<std::string, int> of_kind;
+  const Seen* looked_at = nullptr;
+  std::string name_of_it;
+  for (const Seen& seen : found.seen) {
+    const std::string kind = seen.kind();
+    const std::string name = kind + "-" + std::to_string(++of_kind[kind]);
+    views.push_back(Json::object({{"name", name}, {"title", seen.title()}}));
+    // The last one, unless the one that is looked at is there.
+    if (name_of_it != question.view || question.view.empty()) {
+      looked_at = &seen;
+      name_of_it = name;
+    }
+  }
+  View view;
+  if (looked_at != nullptr) view = looked_at->view();
+  if (found.left_out > 0)
+    found.events.push_back(Json::object({{"type", "views_left_out"}, {"count", found.left_out}}));
+  answer.set("events", std::move(found.events)).set("views", std::move(views));
+  if (looked_at != nullptr)
+    answer.set("view", Json::object({{"name", name_of_it}, {"title", view.title}, {"fields", view.fields}}));
+  send(answer, view.values);
+}
+
+}  // namespace
+
+int run_as_knobs_move(const ConfinedRequest& request, int socket) {
+  LiveScript script(request, socket);
+  script.answer_all();
+}
+
+}  // namespace asperity::web

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scripts that stay loaded while somebody moves their knobs (confined/live_script.hpp): for each tab of each
+// person one confined process at most, which ends with its tab, when another script takes its place, when no
+// knob has moved for a while, at a limit, or to make room for somebody who moves one. A move is answered when
+// its turn comes (shares.hpp); of the moves of a tab that wait, the newest alone.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bindings/web/runs/page_run.hpp"
+#include "bindings/web/runs/shares.hpp"
+#include "bindings/web/sandbox/confined_process.hpp"
+#include "engine/run/run_knobs.hpp"
+
+namespace asperity::web {
+
+struct LiveSetup {
+  std::filesystem::path folder;  // each session gets one in it, which goes with the session
+  RunLimits limits;              // seconds: of one move; all else of a session
+  std::vector<std::string> barriers;
+  int at_once = 2;  // moves that are answered together
+  std::size_t most = 16;
+  std::size_t most_of_one = 4;
+  std::chrono::milliseconds idle = std::chrono::minutes(2);
+};
+
+// One process. Thread-safe.
+class LiveSession {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  LiveSession(std::string id, std::size_t owner, std::string tab, const RunRequest& request,
+              const LiveSetup& setup);
+  // Ends the process, and waits for it.
+  ~LiveSession();
+  LiveSession(const LiveSession&) = delete;
+  LiveSession& operator=(const LiveSession&) = delete;
+
+  const std::string id;
+  const std::size_t owner;
+  const std::string tab;
+
+  // Asks; returns the number of the move. `share` is held until the newest move is answered.
+  std::int64_t move(const GivenKnobs& knobs, const std::string& view, std::shared_ptr<void> share);
+  // What comes next of the answer to a move, a frame or nothing yet; false after the last.
+  bool answer(std::int64_t move, std::string& piece, std::chrono::milliseconds patience);
+  // Whether a move waits for its answer, which holds a share.
+  bool busy() const;
+  bool over() const { return over_.load(); }
+  void end(const std::string& why);
+  Clock::time_point last_used() const;
+
+ private:
+  void work();
+  void follow();
+  void ask(int socket);
+  bool take_answer(int socket);
+  void finish(const std::string& why);
+
+  ConfinedRequest request_;
+  const std::filesystem::path folder_;
+  const LiveSetup& setup_;
+  Descriptor wake_;
+  std::atomic<bool> over_{false};
+
+  mutable std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  std::string why_;  // it ended, or is to end
+  std::string question_;
+  std::int64_t moves_ = 0, answered_ = 0;
+  struct Piece {
+    std::int64_t move;
+    std::string frame;
+    bool last;
+  };
+  std::deque<Piece> pieces_;
+  std::shared_ptr<void> share_;
+  Clock::time_point used_ = Clock::now();
+  std::thread thread_;
+};
+
+// Thread-safe.
+class LiveSessions {
+ public:
+  explicit LiveSessions(LiveSetup setup);
+  ~LiveSessions();
+  LiveSessions(const LiveSessions&) = delete;
+  LiveSessions& operator=(const LiveSessions&) = delete;
+
+  // Instead of the one that this tab had. Throws Error{bad_state} where all there may be are answering, or
+  // the server is being stopped.
+  std::shared_ptr<LiveSession> begin(std::size_t owner, const std::string& tab, const RunRequest& request);
+  // Null where that person has none of this name, or it has ended.
+  std::shared_ptr<LiveSession> find(std::size_t owner, const std::string& id) const;
+  // Waits for a turn. Throws Error{bad_state} where none came.
+  std::int64_t move(LiveSession& session, const GivenKnobs& knobs, const std::string& view);
+  void end(std::size_t owner, const std::string& id);
+  std::size_t count() const;
+  // Ends all.
+  void close();
+
+ private:
+  using Sessions = std::map<std::string, std::shared_ptr<LiveSession>>;
+  void take_out(const std::function<bool(const LiveSession&)>& which, const std::string& why,
+                std::vector<std::shared_ptr<LiveSession>>& gone);
+
+  const LiveSetup setup_;
+  Shares turns_;
+  mutable std::mutex mutex_;
+  Sessions sessions_;
+  std::int64_t last_id_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace asperity::web
