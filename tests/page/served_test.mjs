@@ -96,36 +96,139 @@ if p > 1.5e8 then error "more than the press can do" end
 print("area", c:press{ pressure=p }.area_fraction)
 `;
 
+const titled = (page, text) =>
+  on.until(
+    page,
+    (t) => document.querySelector('.relief').getAttribute('aria-label')?.startsWith(t),
+    `the picture should be ${text}`,
+    text,
+  );
+
+/** The confined processes of the server, which are children of its threads. */
+function processes() {
+  const found = [];
+  for (const task of readdirSync(`/proc/${server.pid}/task`)) {
+    try {
+      found.push(...readFileSync(`/proc/${server.pid}/task/${task}/children`, 'utf8').trim().split(' '));
+    } catch {
+      // The thread has ended meanwhile.
+    }
+  }
+  return found.filter(Boolean).sort();
+}
+
+test('Knob, ScriptFollowsItInAProcessThatStaysAlive', () =>
+  visit({}, async (page) => {
+    await on.write(page, pressed);
+    await on.until(
+      page,
+      () => document.querySelector('.knobs output')?.textContent === '20 MPa',
+      'a slider should come before the first run',
+    );
+    await page.click('#tab-picture');
+    const begun = [];
+    page.on('request', (r) => r.method() === 'POST' && begun.push(new URL(r.url()).pathname));
+    const before = processes();
+    await page.focus('.knobs input');
+    const whole = (counts) =>
+      on.until(
+        page,
+        (c) => {
+          const [status, pressure] = ['#status', '.knobs output'].map((s) => document.querySelector(s).textContent);
+          const title = document.querySelector('.relief').getAttribute('aria-label') ?? '';
+          return status.startsWith('Live in') && status.includes(c) && title.startsWith(`contact:press at ${pressure}:`);
+        },
+        `the whole answer should be there, ${counts}`,
+        counts,
+      );
+    // The first move makes the surface.
+    await page.keyboard.press('ArrowRight');
+    await whole('2 computed, 0 from memory');
+    const alive = processes().filter((p) => !before.includes(p))[0];
+    assert.ok(alive);
+    const times = [];
+    for (let k = 0; k < 9; ++k) {
+      await page.keyboard.press('ArrowRight');
+      await whole('1 computed, 1 from memory');
+      times.push(await page.evaluate(() => performance.getEntriesByName('asperity-live')[0]?.duration ?? NaN));
+    }
+    assert.ok(processes().includes(alive), 'its process should be the one it was');
+    assert.equal(begun.filter((path) => path === '/api/live').length, 1, 'no other was begun');
+    const sorted = times.filter((t) => !Number.isNaN(t)).sort((a, b) => a - b);
+    console.log(
+      `event to painted picture, a press on 256 x 256: median ${Math.round(sorted[sorted.length >> 1])} ms of ${sorted.map(Math.round).join(', ')}`,
+    );
+    // When it rests the values are run and recorded.
+    await on.finished(page);
+    assert.match(await on.text(page, '#results-of'), /run \d+/);
+    assert.equal(await page.$eval('#save', (e) => e.disabled), false);
+    await on.assertAccessible(page, 'after a knob was moved');
+  }));
+
+test('Knob, CoarseAnswerFirstWhereTheWholeTakesLonger', () =>
+  visit({}, async (page) => {
+    await on.write(page, pressed.replace('cells=256', 'cells=1024'));
+    await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    await page.evaluate(() => {
+      window.said = [];
+      new MutationObserver(() => window.said.push(document.querySelector('#status').textContent)).observe(
+        document.querySelector('#status'),
+        { childList: true, characterData: true, subtree: true },
+      );
+    });
+    await page.focus('.knobs input');
+    for (let k = 0; k < 3; ++k) {
+      await page.keyboard.press('ArrowRight');
+      await on.until(
+        page,
+        (n) => window.said.filter((s) => s.startsWith('Live in')).length > n,
+        'the whole should be answered',
+        k,
+      );
+    }
+    const coarse = await page.evaluate(() => window.said.find((s) => s.startsWith('Live, coarse')));
+    assert.match(coarse, /^Live, coarse: 1\/\d+ of the cells a side; the whole follows/);
+  }));
+
+test('Knob, ItsProcessGoesWithTheTab', async () => {
+  const before = processes();
+  await visit({}, async (page) => {
+    await on.write(page, 'local lab = require "asperity"\nprint(lab.knob{ name="n", from=1, to=2, value=1 })\n');
+    await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    await page.focus('.knobs input');
+    await page.keyboard.press('ArrowRight');
+    await on.until(page, () => document.querySelector('#status').textContent.startsWith('Live in'), 'it should follow');
+    await on.finished(page);
+    const alive = processes().filter((p) => !before.includes(p));
+    assert.equal(alive.length, 1);
+    await page.goto('about:blank');
+    for (let k = 0; k < 100 && processes().includes(alive[0]); ++k) await on.pause(50);
+    assert.ok(!processes().includes(alive[0]));
+    await page.goBack();
+    await on.until(page, () => document.querySelector('.lessons button'), 'the lessons should be listed');
+  });
+});
+
 test('Knob, MovesThePictureAndEndsInAnErrorAtOneValue', () =>
   visit({}, async (page) => {
     await on.run(page, pressed);
     await on.finished(page);
     await on.until(page, () => document.querySelector('.knobs output')?.textContent === '20 MPa', 'a slider should come');
     await page.click('#tab-picture');
-    const titled = (text) =>
-      on.until(
-        page,
-        (t) => document.querySelector('.relief').getAttribute('aria-label')?.startsWith(t),
-        `the picture should be ${text}`,
-        text,
-      );
-    await titled('contact:press at 20 MPa');
+    await titled(page, 'contact:press at 20 MPa');
     await page.focus('.knobs input');
-    const times = [];
-    for (let k = 0; k < 5; ++k) {
-      const begun = performance.now();
-      await page.keyboard.press('ArrowRight');
-      await titled(`contact:press at ${await on.text(page, '.knobs output')}`);
-      times.push(performance.now() - begun);
-    }
-    console.log(`the picture of a press on 256 x 256 follows a key after ${times.map((t) => `${Math.round(t)} ms`).join(', ')}`);
     await page.keyboard.press('End');
+    await on.until(
+      page,
+      () => document.querySelector('#status').textContent.startsWith('Live: line 6: more than'),
+      'the mistake should be told at once',
+    );
     await on.finished(page, 'Failed');
     await page.focus('.knobs input');
     await page.keyboard.press('Home');
     await on.finished(page);
     await page.click('#tab-picture');
-    await titled('contact:press at 1 MPa');
+    await titled(page, 'contact:press at 1 MPa');
   }));
 
 test('Lesson, OpenedEditedRunLookedAtAndSaved', async () => {

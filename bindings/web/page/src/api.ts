@@ -3,6 +3,8 @@
 // fragment, which a browser never sends; it is moved to the tab's session storage at once, so that it
 // is not read off a projector, and goes back only in the Authorization header.
 
+import { framesOf, type LiveFacts } from './live';
+
 export interface Mark {
   line: number;
   column?: number;
@@ -133,7 +135,7 @@ export class Api {
   about = (): Promise<About> => this.json('GET', '/api/about');
   lessons = (): Promise<LessonEntry[]> => this.json('GET', '/api/lessons');
   lesson = (name: string): Promise<Lesson> => this.json('GET', `/api/lessons/${encodeURIComponent(name)}`);
-  check = (script: string, signal?: AbortSignal): Promise<{ marks: Mark[]; checked_to?: number }> =>
+  check = (script: string, signal?: AbortSignal): Promise<{ marks: Mark[]; checked_to?: number; knobs?: unknown }> =>
     this.json('POST', '/api/check', { script }, signal);
   complete = (
     text: string,
@@ -151,6 +153,36 @@ export class Api {
   stop = (id: string): Promise<unknown> => this.json('DELETE', `/api/runs/${encodeURIComponent(id)}`);
   view = (id: string, name: string): Promise<View> =>
     this.json('GET', `/api/runs/${encodeURIComponent(id)}/views/${encodeURIComponent(name)}`);
+
+  startLive = (script: string, tab: string): Promise<{ id: string }> =>
+    this.json('POST', '/api/live', { script, tab });
+
+  /** What the script gives at these values, part by part as it comes. */
+  async moveLive(
+    id: string,
+    knobs: Record<string, string>,
+    view: string,
+    take: (facts: LiveFacts, numbers: Float32Array[]) => void,
+    signal: AbortSignal,
+  ): Promise<void> {
+    const answer = await this.request('POST', `/api/live/${encodeURIComponent(id)}`, { knobs, view }, signal);
+    const text = new TextDecoder();
+    await framesOf(answer.body!, (texts) =>
+      take(
+        JSON.parse(text.decode(texts[0])) as LiveFacts,
+        texts.slice(1).map((t) => new Float32Array(t.buffer)),
+      ),
+    );
+  }
+
+  /** Also while the page goes away. */
+  endLive(id: string): void {
+    void fetch(`/api/live/${encodeURIComponent(id)}`, {
+      method: 'DELETE',
+      keepalive: true,
+      headers: { Authorization: `Bearer ${this.token}` },
+    }).catch(() => undefined);
+  }
 
   async file(id: string, name: string): Promise<Blob> {
     const path = name.split('/').map(encodeURIComponent).join('/');

@@ -58,7 +58,9 @@ export function coloursOf(field: string, values: Float32Array, range: Range): Ui
       continue;
     }
     if (none && v <= 0) {
-      out.set(none, 3 * k);
+      out[3 * k] = none[0];
+      out[3 * k + 1] = none[1];
+      out[3 * k + 2] = none[2];
       continue;
     }
     const at = 3 * Math.min(255, Math.max(0, Math.round((v - range.low) * factor)));

@@ -110,11 +110,14 @@ export function drawFlat(canvas: HTMLCanvasElement, field: Field, colours: Uint8
   canvas.width = field.nx;
   canvas.height = field.ny;
   const pixels = new ImageData(field.nx, field.ny);
-  for (let j = 0; j < field.ny; ++j) {
-    for (let i = 0; i < field.nx; ++i) {
-      const from = 3 * (j * field.nx + i);
-      const to = 4 * ((field.ny - 1 - j) * field.nx + i);
-      pixels.data.set([colours[from], colours[from + 1], colours[from + 2], 255], to);
+  const { data } = pixels;
+  for (let j = 0, from = 0; j < field.ny; ++j) {
+    let to = 4 * (field.ny - 1 - j) * field.nx;
+    for (let i = 0; i < field.nx; ++i, from += 3, to += 4) {
+      data[to] = colours[from];
+      data[to + 1] = colours[from + 1];
+      data[to + 2] = colours[from + 2];
+      data[to + 3] = 255;
     }
   }
   canvas.getContext('2d')!.putImageData(pixels, 0, 0);

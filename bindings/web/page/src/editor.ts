@@ -165,6 +165,7 @@ const typingOver = EditorView.domEventHandlers({
 export interface EditorEvents {
   changed: (text: string) => void;
   checked: (marks: Mark[]) => void;
+  knobs: (script: string, knobs: unknown) => void; // of a script without mistakes
   failed: (error: unknown) => void;
 }
 
@@ -253,6 +254,8 @@ export class Editor {
       if (mine.signal.aborted || !this.view.state.doc.eq(doc)) return;
       this.marks = answer.marks;
       this.draw();
+      if ('knobs' in answer && !answer.marks.some((m) => m.severity === 'error'))
+        this.on.knobs(doc.toString(), answer.knobs);
     } catch (error) {
       if (!mine.signal.aborted) this.on.failed(error);
     }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sliders for the knobs of a run, above its results. A knob that is moved runs the script of that run again
-// with the new values, as a run of its own: what the sliders say when a hand rests is what is run, and a run
-// that goes on by then is stopped for it. Bounds and values are those that the run recorded in its manifest.
+// Sliders for the knobs of a script, above its results: of the script in the editor as soon as a check knows
+// them, of a run once its manifest tells. A script follows a knob that is moved (live.ts); what the sliders say
+// when a hand rests is run as a whole, a run of its own that is recorded, and a run that goes on by then is
+// stopped for it.
 
 import type { Api } from './api';
 import { h } from './dom';
+import type { Followed } from './live';
 import type { Run } from './run';
 import { numberText, withUnit } from './units';
 
@@ -19,6 +21,7 @@ export interface Knob {
 
 const steps = 400; // of a slider
 const rest = 250; // ms without a move after which the script is run
+const restAlive = 900; // the same where it followed the move
 
 /** The knobs of a manifest; a run that was cut off may know a value alone, which has no slider. */
 export function knobsIn(manifest: unknown): Knob[] {
@@ -54,8 +57,8 @@ export function knobText(knob: Knob, value = knob.value): string {
 }
 
 export class KnobsPane {
-  readonly element = h('div', { className: 'knobs', role: 'group', 'aria-label': 'Knobs of this run', hidden: true });
-  private run: Run | undefined; // whose knobs are shown
+  readonly element = h('div', { className: 'knobs', role: 'group', 'aria-label': 'Knobs of the script', hidden: true });
+  private of: Followed | undefined; // whose knobs are shown
   private asked: Run | undefined; // whose manifest was asked for
   private current: Run | undefined; // the last that was shown
   private knobs: Knob[] = [];
@@ -67,20 +70,37 @@ export class KnobsPane {
   constructor(
     private readonly api: Api,
     private readonly actions: {
-      again: (run: Run, values: Record<string, string>) => Promise<boolean>; // whether it was begun
+      again: (of: Followed, values: Record<string, string>) => Promise<boolean>; // whether it was begun
       stop: () => Promise<void>;
       failed: (error: unknown) => void;
+      keyOf: (run: Run) => string; // of the document that a run is of
+      touched: (of: Followed) => void; // a hand or the focus is on a slider
+      answering: () => boolean; // what follows is still on its way
+      follow: (of: Followed, values: Record<string, string>, began: number) => boolean; // whether it does
     },
   ) {}
 
   /** Called whenever a run is shown or has changed. */
   show(run: Run | undefined): void {
-    if (!run || (run.script !== this.run?.script && run !== this.asked)) this.clear();
+    const news = run !== this.current;
     this.current = run;
-    if (!run || run.active || run === this.asked) return;
+    if (!run || run.live) return;
+    if (news && run.script !== this.of?.script && run !== this.asked) this.clear();
+    if (run.active || run === this.asked) return;
     this.asked = run;
     if (this.waiting) this.go();
     else void this.fetch(run);
+  }
+
+  /** Those of a script that is written and was not run: values stay where knobs are the same. */
+  know(of: Followed, told: unknown): void {
+    const found = knobsIn({ knobs: told });
+    if (found.length === 0 || of.script === this.of?.script || this.timer || this.starting || this.waiting) return;
+    for (const knob of found) {
+      const had = this.knobs.find((k) => sameKnob(k, knob));
+      if (had) knob.value = had.value;
+    }
+    this.fill(of, found);
   }
 
   private async fetch(run: Run): Promise<void> {
@@ -90,7 +110,8 @@ export class KnobsPane {
       run.knobs = found.map((k) => ({ ...k }));
       if (this.asked !== run || this.timer || this.starting || this.waiting) return;
       // After a mistake early on, the sliders that were there stay, so that the value can be taken back.
-      if (found.length > 0 || run.script !== this.run?.script) this.fill(run, found);
+      if (found.length > 0 || run.script !== this.of?.script)
+        this.fill({ script: run.script, name: run.name, key: this.actions.keyOf(run) }, found);
     } catch {
       // A run that was stopped before it began has no record.
     }
@@ -100,19 +121,18 @@ export class KnobsPane {
     clearTimeout(this.timer);
     this.timer = 0;
     this.waiting = false;
-    this.run = undefined;
+    this.of = undefined;
     this.knobs = [];
     this.tell = [];
     this.element.hidden = true;
     this.element.replaceChildren();
   }
 
-  private fill(run: Run, knobs: Knob[]): void {
-    const same = JSON.stringify(knobs.map((k) => ({ ...k, value: 0 })));
-    const had = JSON.stringify(this.knobs.map((k) => ({ ...k, value: 0 })));
-    this.run = run;
+  private fill(of: Followed, knobs: Knob[]): void {
+    const same = knobs.length === this.knobs.length && knobs.every((k, n) => sameKnob(k, this.knobs[n]));
+    this.of = of;
     this.element.hidden = knobs.length === 0;
-    if (same === had && this.element.childElementCount > 0) {
+    if (same && this.element.childElementCount > 0) {
       // The slider that has the focus is not taken from under the hand.
       this.knobs.forEach((k, n) => (k.value = knobs[n].value));
       this.tell.forEach((tell) => tell());
@@ -126,16 +146,21 @@ export class KnobsPane {
   private slider(knob: Knob): HTMLElement {
     const text = (): string => knobText(knob);
     const value = h('output', { className: 'factor' });
+    const touched = (): void => {
+      if (this.of) this.actions.touched(this.of);
+    };
     const input = h('input', {
       type: 'range',
       min: '0',
       max: String(steps),
       step: '1',
       'aria-label': knob.name,
-      oninput: () => {
+      onpointerenter: touched,
+      onfocus: touched,
+      oninput: (event: Event) => {
         knob.value = valueAt(knob, Number(input.value));
         say();
-        this.moved();
+        this.moved(event.timeStamp);
       },
     });
     const say = (): void => {
@@ -150,12 +175,19 @@ export class KnobsPane {
     return h('label', { className: 'choice' }, h('span', {}, knob.name), input, value);
   }
 
-  private moved(): void {
+  private values(): Record<string, string> {
+    return Object.fromEntries(this.knobs.map((k) => [k.name, String(k.value)]));
+  }
+
+  private moved(began: number): void {
     clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => {
+    const follows = this.of !== undefined && this.actions.follow(this.of, this.values(), began);
+    const rests = (): void => {
       this.timer = 0;
-      this.go();
-    }, rest);
+      if (follows && this.actions.answering()) this.timer = window.setTimeout(rests, restAlive);
+      else this.go();
+    };
+    this.timer = window.setTimeout(rests, follows ? restAlive : rest);
   }
 
   private go(): void {
@@ -164,12 +196,11 @@ export class KnobsPane {
   }
 
   private async begin(): Promise<void> {
-    const run = this.run;
-    if (!run) return;
-    const values = Object.fromEntries(this.knobs.map((k) => [k.name, String(k.value)]));
+    const of = this.of;
+    if (!of) return;
     this.starting = true;
     try {
-      const begun = await this.actions.again(run, values);
+      const begun = await this.actions.again(of, this.values());
       if (begun && !this.waiting) return;
       // A run goes on whose values are not those of the sliders: its end begins one with what they say then.
       this.waiting = true;
@@ -183,4 +214,15 @@ export class KnobsPane {
     // It may have ended while it was being stopped.
     if (this.waiting && this.current?.active === false) this.go();
   }
+}
+
+/** But for its value. */
+function sameKnob(one: Knob, other: Knob): boolean {
+  return (
+    one.name === other.name &&
+    one.from === other.from &&
+    one.to === other.to &&
+    one.log === other.log &&
+    one.unit === other.unit
+  );
 }

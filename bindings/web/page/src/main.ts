@@ -11,6 +11,7 @@ import { chartsOf } from './first_chart';
 import { KnobsPane } from './knobs';
 import { divider, Filling, goRound, Tabs } from './layout';
 import { LessonsPane, type Opened } from './lessons_pane';
+import { Live, type Followed, type LivePicture } from './live';
 import { Messages } from './messages';
 import { OutputPane } from './output_pane';
 import { PicturePane } from './picture_pane';
@@ -61,6 +62,7 @@ let about: About | undefined;
 let run: Run | undefined;
 let runOf = ''; // the key of its script
 let listening: AbortController | undefined;
+let recording: Run | undefined; // of the values that knobs were moved to, shown once it has ended
 const openBefore = kept('open') ?? '';
 let opened: Opened = {
   key: 'own',
@@ -79,6 +81,7 @@ const editor = new Editor(byId('editor'), api, {
     showDocument();
   },
   checked: showProblems,
+  knobs: (script, told) => knobs.know({ script, name: opened.title, key: opened.key }, told),
   failed: (error) => failed(error),
 });
 const output = new OutputPane(byId('output'), (line) => editor.goTo(line));
@@ -86,7 +89,20 @@ const table = new TablePane(byId('table'));
 const charts = new ChartPane(byId('chart'), failed);
 const pictures = new PicturePane(byId('picture'), api, failed);
 const files = new FilesPane(byId('files'), api, failed);
-const knobs = new KnobsPane(api, { again, stop, failed });
+const live = new Live(api, { answered, changed: draw, failed, view: () => pictures.lookedAt });
+const knobs = new KnobsPane(api, {
+  again,
+  stop,
+  failed,
+  keyOf: () => runOf,
+  answering: () => live.busy,
+  touched: (of) => live.warm(of),
+  follow: (of, values, began) => {
+    leaveRecording();
+    live.move(of, values, began);
+    return !live.failed;
+  },
+});
 byId('tabs').after(knobs.element);
 const tabs = new Tabs(byId('tabs'), () => {
   draw();
@@ -189,8 +205,8 @@ function draw(): void {
 
 function showStatus(): void {
   runButton.disabled = !api.hasToken || run?.active === true;
-  stopButton.disabled = run?.active !== true;
-  saveButton.disabled = !run || run.active;
+  stopButton.disabled = run?.active !== true && !live.busy;
+  saveButton.disabled = !run || run.active || run.live !== undefined;
   bar.hidden = run?.active !== true;
   status.className = `status ${run?.status ?? ''}`;
   if (!run) {
@@ -200,7 +216,7 @@ function showStatus(): void {
   const p = run.active ? run.progress : undefined;
   if (p?.fraction === undefined) bar.removeAttribute('value');
   else bar.value = p.fraction;
-  const parts = [statusText(run, duration)];
+  const parts = [statusText(run, duration), run.live && recording ? 'being recorded' : ''];
   if (p) {
     parts.push(p.task || p.text || '');
     if (p.fraction !== undefined) parts.push(`${Math.floor(100 * p.fraction)} %`);
@@ -229,6 +245,7 @@ async function start(): Promise<void> {
     return;
   }
   const script = editor.text;
+  leaveRecording();
   editor.showRunMarks([]);
   runButton.disabled = true;
   try {
@@ -242,24 +259,48 @@ async function start(): Promise<void> {
   showStatus();
 }
 
-/** Runs the script of a run with other values of its knobs; false where a run goes on. */
-async function again(of: Run, values: Record<string, string>): Promise<boolean> {
+/** Runs a script with other values of its knobs, to record what it gives; false where a run goes on. */
+async function again(of: Followed, values: Record<string, string>): Promise<boolean> {
   if (run?.active) return false;
-  const { key } = JSON.parse(sessionStorage.getItem('asperity.run') ?? '{}') as { key?: string };
+  const quietly = run?.live !== undefined && run.script === of.script;
   const { id } = await api.start(of.script, of.name, values);
   messages.clear();
-  follow(new Run(id, of.name, of.script), key ?? 'own');
+  follow(new Run(id, of.name, of.script), of.key, quietly);
   return true;
 }
 
-function follow(next: Run, key: string): void {
+/** What a script gives at the values that a knob has now. */
+function answered(next: Run, of: Followed, picture: LivePicture | undefined, began: number): void {
+  if (run?.active) return;
+  run = next;
+  runOf = of.key;
+  pictures.succeed(next, picture, began);
+  draw();
+}
+
+/** The values that are being recorded are no longer those of the knobs. */
+function leaveRecording(): void {
+  if (!recording) return;
+  listening?.abort();
+  api.stop(recording.id).catch(failed);
+  recording = undefined;
+}
+
+/** `quietly`: what the script gave as the knob moved stays in sight until the run has ended. */
+function follow(next: Run, key: string, quietly = false): void {
   listening?.abort();
   const mine = (listening = new AbortController());
-  run = next;
-  runOf = key;
+  sessionStorage.setItem('asperity.run', JSON.stringify({ id: next.id, name: next.name, script: next.script, began: next.began, key }));
   announced = Date.now();
-  pictures.show(run);
-  sessionStorage.setItem('asperity.run', JSON.stringify({ id: run.id, name: run.name, script: run.script, began: run.began, key }));
+  if (quietly) {
+    recording = next;
+  } else {
+    recording = undefined;
+    live.forget();
+    run = next;
+    runOf = key;
+    pictures.show(run);
+  }
   draw();
   api
     .events(
@@ -267,6 +308,12 @@ function follow(next: Run, key: string): void {
       0,
       (event) => {
         next.take(event);
+        if (recording === next && event.type === 'finished') {
+          recording = undefined;
+          run = next;
+          runOf = key;
+          pictures.succeed(next);
+        }
         if (run !== next) return;
         if (event.type === 'error') markError();
         if (event.type === 'file') readStudy(next, event.name, api).then((read) => read && draw(), failed);
@@ -278,7 +325,8 @@ function follow(next: Run, key: string): void {
       mine.signal,
     )
     .catch((error) => {
-      if (mine.signal.aborted || run !== next) return;
+      if (mine.signal.aborted || (run !== next && recording !== next)) return;
+      recording = undefined;
       next.status = 'lost';
       failed(error);
       draw();
@@ -306,6 +354,10 @@ function ended(done: Run): void {
 }
 
 async function stop(): Promise<void> {
+  if (live.busy) {
+    live.end();
+    draw();
+  }
   if (!run?.active) return;
   stopButton.disabled = true;
   say('Stopping.');
@@ -318,7 +370,7 @@ async function stop(): Promise<void> {
 }
 
 async function save(): Promise<void> {
-  if (!run || run.active) return;
+  if (!run || run.active || run.live) return;
   saveButton.disabled = true;
   saveButton.textContent = 'Saving …';
   say('The run is being gathered.');
@@ -465,7 +517,7 @@ document.addEventListener(
       void start();
     } else if (event.key === 'Escape' && filling.on && !keys.open) {
       filling.set(false);
-    } else if (event.key === 'Escape' && run?.active && !keys.open && !editor.wantsEscape) {
+    } else if (event.key === 'Escape' && (run?.active || live.busy) && !keys.open && !editor.wantsEscape) {
       void stop();
     }
   },

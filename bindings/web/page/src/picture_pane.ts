@@ -24,11 +24,13 @@ import {
   type Attitude,
   type Field,
 } from './pictures';
+import type { LivePicture } from './live';
 import type { Run } from './run';
 import type { ReliefScene } from './scene';
 import { Scrubber } from './scrub';
 
 const fetched = 24; // views kept in memory
+const rested = 350; // ms after the last move's picture until a relief is drawn again
 
 export class PicturePane {
   private run: Run | undefined;
@@ -43,6 +45,8 @@ export class PicturePane {
   private scene: ReliefScene | undefined;
   private flat = false;
   private pending = false;
+  private kept = ''; // the view that was looked at in the run before
+  private began: number | undefined; // the event that a picture answers
   private readonly which = new Choice('Picture', (name) => {
     this.scrubber.pause();
     void this.choose(name);
@@ -62,11 +66,12 @@ export class PicturePane {
   });
   private readonly factor = h('output', { className: 'factor' });
   private readonly canvas = h('canvas', { tabIndex: 0, role: 'img', className: 'relief' });
+  private readonly map = h('canvas', { className: 'relief moving', hidden: true, 'aria-hidden': 'true' });
   private readonly labels = h('div', { className: 'labels', 'aria-hidden': 'true' });
   private readonly key = h('div', { className: 'key' });
   private readonly caption = h('p', { className: 'caption', id: 'picture-caption' });
   private readonly leftOut = h('p', { className: 'caption left-out', hidden: true });
-  private readonly stage = h('div', { className: 'stage' }, this.canvas, this.labels);
+  private readonly stage = h('div', { className: 'stage' }, this.canvas, this.map, this.labels);
   private readonly body: HTMLElement;
   private readonly empty = h('p', { className: 'empty' });
 
@@ -119,7 +124,8 @@ export class PicturePane {
     const more = run?.viewsLeftOut ?? 0;
     this.leftOut.hidden = more === 0;
     this.leftOut.textContent = `${more} more were made and not drawn, so as not to hold up the run.`;
-    const name = this.followed || !this.shown ? views[views.length - 1].name : this.shown;
+    const last = views[views.length - 1].name;
+    const name = this.followed ? last : this.shown || this.kept || last;
     this.which.choose(
       views.map((v) => ({ value: v.name, text: v.title })),
       name,
@@ -129,6 +135,39 @@ export class PicturePane {
       views.findIndex((v) => v.name === name),
     );
     if (name !== this.shown && this.visible) void this.look(name);
+  }
+
+  /** The view that is asked for by name; '' the last, whichever that is. */
+  get lookedAt(): string {
+    return this.followed ? '' : this.shown;
+  }
+
+  /** The same script at other values: what is seen stays until the new picture is there. */
+  succeed(run: Run, picture?: LivePicture, began?: number): void {
+    this.scrubber.pause();
+    this.run = run;
+    this.maps.clear();
+    if (picture) this.maps.set(picture.name, Promise.resolve(picture.fields));
+    this.kept = run.views.some((v) => v.name === this.shown) ? this.shown : '';
+    this.shown = '';
+    this.began = began;
+    this.rest();
+    if (began !== undefined) {
+      this.map.hidden = false;
+      this.resting = window.setTimeout(() => {
+        this.rest();
+        this.draw();
+      }, rested);
+    }
+    this.show(run);
+  }
+
+  private resting = 0;
+
+  /** No knob moves. While one does the map is drawn flat, for a relief takes its time. */
+  private rest(): void {
+    clearTimeout(this.resting);
+    this.map.hidden = true;
   }
 
   /** The pane came into view. */
@@ -144,7 +183,8 @@ export class PicturePane {
   private fetch(name: string): Promise<Field[]> {
     const known = this.maps.get(name);
     if (known) return known;
-    const coming = this.api.view(this.run!.id, name).then(fieldsOf);
+    const { id, live } = this.run!;
+    const coming = live ? live.fields(name) : this.api.view(id, name).then(fieldsOf);
     coming.catch(() => this.maps.delete(name));
     this.maps.set(name, coming);
     if (this.maps.size > fetched) this.maps.delete(this.maps.keys().next().value!);
@@ -233,6 +273,8 @@ export class PicturePane {
       if (this.rebuilt) this.build();
       this.rebuilt = false;
       this.render();
+      if (this.began !== undefined) this.painted(this.began);
+      this.began = undefined;
     });
   }
 
@@ -247,7 +289,9 @@ export class PicturePane {
     this.slider.setAttribute('aria-valuetext', factorText(factor));
     this.slider.setAttribute('aria-label', 'Exaggeration of heights');
     this.caption.textContent =
-      captionOf(colour, this.flat ? undefined : this.relief, factor) +
+      captionOf(colour, this.flat || !this.map.hidden ? undefined : this.relief, factor) +
+      (this.map.hidden ? '' : ' while the knob moves') +
+      (this.run?.live?.coarse ? ' · coarse, the whole follows' : '') +
       (this.flat ? ' · this browser has no WebGL, so nothing can be turned' : '');
     this.canvas.setAttribute(
       'aria-label',
@@ -256,8 +300,9 @@ export class PicturePane {
     const colours = coloursOf(colour.name, colour.values, range);
     const { width, height } = this.room();
     this.key.replaceChildren(legend(colour.name, colour.unit, range, Math.min(340, height), ink.text));
-    if (this.flat) {
-      drawFlat(this.canvas, colour, colours);
+    if (this.flat || !this.map.hidden) {
+      drawFlat(this.flat ? this.canvas : this.map, colour, colours);
+      this.labels.replaceChildren();
       return;
     }
     this.scene!.setInk(ink.muted);
@@ -277,7 +322,7 @@ export class PicturePane {
   }
 
   private render(): void {
-    if (!this.scene) return;
+    if (!this.scene || !this.map.hidden) return;
     this.scene.turnTo(this.attitude);
     this.scene.render();
     const { width, height } = this.room();
@@ -292,6 +337,16 @@ export class PicturePane {
         return element;
       }),
     );
+  }
+
+  /** After the frame that is being drawn: how long a move took to be seen. */
+  private painted(began: number): void {
+    const channel = new MessageChannel();
+    channel.port1.onmessage = () => {
+      performance.clearMeasures('asperity-live');
+      performance.measure('asperity-live', { start: began, end: performance.now() });
+    };
+    channel.port2.postMessage(0);
   }
 
   private title(): string {

@@ -20,18 +20,22 @@ export interface Field {
 }
 
 export function fieldsOf(view: View): Field[] {
-  return view.fields.map(fieldOf);
+  return view.fields.map((field) => fieldOf(field, numbersIn(field.data)));
 }
 
-function fieldOf(field: ViewField): Field {
-  const text = atob(field.data);
+function numbersIn(data: string): Float32Array {
+  const text = atob(data);
   const raw = new Uint8Array(text.length);
   for (let k = 0; k < text.length; ++k) raw[k] = text.charCodeAt(k);
-  const values = new Float32Array(field.nx * field.ny);
+  const values = new Float32Array(Math.floor(raw.length / 4));
   const view = new DataView(raw.buffer);
-  if (raw.length !== 4 * values.length)
-    throw new Error(`the map \`${field.name}\` has ${raw.length} bytes where ${4 * values.length} belong`);
   for (let k = 0; k < values.length; ++k) values[k] = view.getFloat32(4 * k, true);
+  return values;
+}
+
+export function fieldOf(field: Omit<ViewField, 'data'>, values: Float32Array | undefined): Field {
+  if (values?.length !== field.nx * field.ny)
+    throw new Error(`the map \`${field.name}\` has ${values?.length} numbers where ${field.nx * field.ny} belong`);
   return {
     name: field.name,
     unit: field.unit,

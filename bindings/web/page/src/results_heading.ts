@@ -10,6 +10,6 @@ export function showWhose(run: Run | undefined, key: string, opened: string): vo
   const elsewhere = run !== undefined && key !== opened;
   byId('results').classList.toggle('elsewhere', elsewhere);
   const time = run ? new Date(run.began).toLocaleTimeString('en-GB', { hour: '2-digit', minute: '2-digit' }) : '';
-  const words = run ? `${run.name} · run ${run.id} · ${time}${elsewhere ? ' · not of the open script' : ''}` : 'No run yet';
+  const words = run ? `${run.name} · ${run.live ? 'live' : `run ${run.id}`} · ${time}${elsewhere ? ' · not of the open script' : ''}` : 'No run yet';
   if (line.textContent !== words) line.textContent = words;
 }

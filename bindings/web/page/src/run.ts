@@ -5,6 +5,7 @@
 import type { Cell, RunEvent } from './api';
 import { chartedIn, keysIn, type Charted } from './charted';
 import type { Knob } from './knobs';
+import type { Field } from './pictures';
 
 export type Status = 'starting' | 'running' | 'done' | 'failed' | 'stopped' | 'limit' | 'lost';
 
@@ -27,6 +28,16 @@ export interface RunError {
   traceback?: string;
 }
 
+/** Of an answer to a move of a knob. */
+export interface LiveRun {
+  coarse: boolean; // the whole answer is on its way
+  factor: number; // of the cells that the script names
+  seconds: number;
+  computed: number; // heavy results
+  recalled: number; // taken from memory
+  fields: (view: string) => Promise<Field[]>;
+}
+
 /** Characters of output that are kept; a script may print more than a page can show. */
 export const outputKept = 400_000;
 
@@ -44,6 +55,7 @@ export class Run {
   viewsLeftOut = 0; // surfaces and presses that have no view, so that the run was not held up
   readonly expectations: { text: string; held: boolean }[] = [];
   knobs: Knob[] = []; // with the values it was made with, once that is known
+  live: LiveRun | undefined; // an answer to a move, not a run that was recorded
   readonly errors: RunError[] = [];
   readonly keys: string[]; // of its script's tables, columns among them, as first written
   readonly charted: Charted[]; // what its script charts, as far as the script's text tells
@@ -138,8 +150,16 @@ export class Run {
   }
 }
 
+function liveText(run: Run, live: LiveRun, seconds: (s: number) => string): string {
+  if (live.coarse) return `Live, coarse: 1/${Math.round(1 / live.factor)} of the cells a side; the whole follows`;
+  const first = run.errors[0];
+  if (first) return `Live: ${first.line === undefined ? '' : `line ${first.line}: `}${first.message}`;
+  return `Live in ${seconds(live.seconds)}, ${live.computed} computed, ${live.recalled} from memory`;
+}
+
 /** What became of a run, in words. */
 export function statusText(run: Run, seconds: (s: number) => string): string {
+  if (run.live) return liveText(run, run.live, seconds);
   const took = run.seconds === undefined ? '' : ` ${seconds(run.seconds)}`;
   switch (run.status) {
     case 'starting':

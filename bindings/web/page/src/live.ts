@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A script that follows its knobs: a process of this tab stays alive at the server, and each move is answered
+// with what the script gives at these values. Only the newest move is asked for: one that is made while an
+// answer is on its way waits for it, but not for long, and not once a coarse answer has come.
+
+import { ApiError, type Api, type RunEvent, type View } from './api';
+import { fieldOf, type Field } from './pictures';
+import { Run } from './run';
+
+/** Which script, by what name, and the key of the document it is. */
+export interface Followed {
+  script: string;
+  name: string;
+  key: string;
+}
+
+/** What comes of a move, beside the numbers of its view. */
+export interface LiveFacts {
+  part: 'coarse' | 'whole' | 'outdated' | 'ended';
+  why?: string;
+  factor?: number;
+  seconds?: number;
+  computed?: number;
+  recalled?: number;
+  events?: RunEvent[];
+  views?: { name: string; title: string }[];
+  view?: Omit<View, 'event'> & { name: string };
+}
+
+export interface LivePicture {
+  name: string;
+  fields: Field[];
+}
+
+interface Move {
+  of: Followed;
+  values: Record<string, string>;
+  began: number; // of the event that made it, as performance.now()
+}
+
+interface Under {
+  move: Move;
+  since: number;
+  stop: AbortController;
+  coarse: boolean; // a coarse answer has come
+}
+
+const patience = 250; // ms before an answer that is on its way makes way for a newer move
+
+export class Live {
+  /** It was tried, and there is no such thing at this server. */
+  failed = false;
+  private readonly tab = [...crypto.getRandomValues(new Uint32Array(2))].map((n) => n.toString(36)).join('');
+  private session: { script: string; id: Promise<string> } | undefined;
+  private wanted: Move | undefined;
+  private under: Under | undefined;
+  private timer = 0;
+  private going = false;
+
+  constructor(
+    private readonly api: Api,
+    private readonly on: {
+      answered: (run: Run, of: Followed, picture: LivePicture | undefined, began: number) => void;
+      changed: () => void;
+      failed: (error: unknown) => void;
+      view: () => string; // that is looked at; '' the last
+    },
+  ) {
+    addEventListener('pagehide', () => this.end());
+  }
+
+  /** Whether an answer is on its way. */
+  get busy(): boolean {
+    return this.going;
+  }
+
+  /** Somebody is about to move a knob of it. */
+  warm(of: Followed): void {
+    if (!this.failed) this.open(of.script).catch(() => undefined);
+  }
+
+  move(of: Followed, values: Record<string, string>, began: number): void {
+    if (this.failed) return;
+    this.wanted = { of, values, began };
+    if (this.going) this.hurry();
+    else void this.go();
+  }
+
+  /** What is on its way is not wanted any more. */
+  forget(): void {
+    this.wanted = undefined;
+    this.under?.stop.abort();
+  }
+
+  /** Ends the process too, which may be in the midst of something long. */
+  end(): void {
+    this.forget();
+    const session = this.session;
+    this.session = undefined;
+    session?.id.then((id) => this.api.endLive(id)).catch(() => undefined);
+  }
+
+  private hurry(): void {
+    clearTimeout(this.timer);
+    const under = this.under;
+    if (!under || !this.wanted) return;
+    const left = under.coarse ? 0 : under.since + patience - performance.now();
+    if (left <= 0) under.stop.abort();
+    else this.timer = window.setTimeout(() => this.hurry(), left);
+  }
+
+  private open(script: string): Promise<string> {
+    if (this.session?.script === script) return this.session.id;
+    const id = this.api.startLive(script, this.tab).then((answer) => answer.id);
+    const session = { script, id };
+    this.session = session;
+    id.catch(() => {
+      if (this.session === session) this.session = undefined;
+    });
+    return id;
+  }
+
+  private async go(): Promise<void> {
+    this.going = true;
+    this.on.changed();
+    try {
+      while (this.wanted) {
+        const move = this.wanted;
+        this.wanted = undefined;
+        await this.ask(move);
+      }
+    } catch (error) {
+      this.wanted = undefined;
+      // A server of before, or one that keeps no processes: the script is run as a whole when the knob rests.
+      if (error instanceof ApiError && error.failure === 'refused') this.failed = true;
+      else this.on.failed(error);
+    } finally {
+      this.going = false;
+      this.on.changed();
+    }
+  }
+
+  private async ask(move: Move, again = true): Promise<void> {
+    const under: Under = { move, since: performance.now(), stop: new AbortController(), coarse: false };
+    this.under = under;
+    const mine = this.session?.script === move.of.script;
+    try {
+      const id = await this.open(move.of.script);
+      under.since = performance.now();
+      let gone = false;
+      await this.api.moveLive(
+        id,
+        move.values,
+        this.on.view(),
+        (facts, numbers) => {
+          if (under.stop.signal.aborted) return;
+          if (facts.part === 'ended') gone = true;
+          if (facts.part !== 'coarse' && facts.part !== 'whole') return;
+          under.coarse ||= facts.part === 'coarse';
+          this.take(move, facts, numbers);
+          this.hurry();
+        },
+        under.stop.signal,
+      );
+      if (gone && !under.stop.signal.aborted) {
+        this.session = undefined;
+        if (again && mine) await this.ask(move, false);
+        else throw new ApiError('limit', 'The script that follows its knobs was ended.', 'Move the knob again, or run the script.');
+      }
+    } catch (error) {
+      if (under.stop.signal.aborted) return;
+      // Its process has ended, idle or for somebody else: another one is begun.
+      if (again && mine && error instanceof ApiError && error.failure === 'refused') {
+        this.session = undefined;
+        return this.ask(move, false);
+      }
+      throw error;
+    } finally {
+      clearTimeout(this.timer);
+      if (this.under === under) this.under = undefined;
+    }
+  }
+
+  private take(move: Move, facts: LiveFacts, numbers: Float32Array[]): void {
+    const { of } = move;
+    const run = new Run('', of.name, of.script);
+    run.live = {
+      coarse: facts.part === 'coarse',
+      factor: facts.factor ?? 1,
+      seconds: facts.seconds ?? 0,
+      computed: facts.computed ?? 0,
+      recalled: facts.recalled ?? 0,
+      fields: (name) => this.look(move, name),
+    };
+    run.status = 'done';
+    for (const event of facts.events ?? []) run.take(event);
+    if (run.errors.length > 0) run.status = 'failed';
+    for (const { name, title } of facts.views ?? []) run.take({ n: 0, type: 'view', name, title });
+    const picture = facts.view && { name: facts.view.name, fields: facts.view.fields.map((f, k) => fieldOf(f, numbers[k])) };
+    this.on.answered(run, of, picture, move.began);
+  }
+
+  /** Another view of an answer: all that it takes is in memory there. */
+  private async look(move: Move, name: string): Promise<Field[]> {
+    let found: Field[] = [];
+    const id = await this.open(move.of.script);
+    await this.api.moveLive(
+      id,
+      move.values,
+      name,
+      (facts, numbers) => {
+        if (facts.part === 'whole' && facts.view?.name === name) found = facts.view.fields.map((f, k) => fieldOf(f, numbers[k]));
+      },
+      new AbortController().signal,
+    );
+    return found;
+  }
+}
+
+/** Takes texts of bytes, how many and then each after its length, out of a stream as they become whole. */
+export async function framesOf(body: ReadableStream<Uint8Array>, take: (texts: Uint8Array[]) => void): Promise<void> {
+  const reader = body.getReader();
+  let bytes = new Uint8Array(1 << 20);
+  let filled = 0;
+  for (;;) {
+    const { value, done } = await reader.read();
+    if (done) return;
+    if (filled + value.length > bytes.length) {
+      const more = new Uint8Array(2 * (filled + value.length));
+      more.set(bytes.subarray(0, filled));
+      bytes = more;
+    }
+    bytes.set(value, filled);
+    filled += value.length;
+    for (let end; (end = whole(bytes, filled, take)) > 0; ) {
+      bytes.copyWithin(0, end, filled);
+      filled -= end;
+    }
+  }
+}
+
+/** The byte after the first whole frame, which is taken; 0 where there is none. */
+function whole(bytes: Uint8Array, filled: number, take: (texts: Uint8Array[]) => void): number {
+  const numbers = new DataView(bytes.buffer);
+  if (filled < 8) return 0;
+  const count = Number(numbers.getBigUint64(0, true));
+  const texts: Uint8Array[] = [];
+  let at = 8;
+  for (let k = 0; k < count; ++k) {
+    if (at + 8 > filled) return 0;
+    const length = Number(numbers.getBigUint64(at, true));
+    at += 8;
+    if (at + length > filled) return 0;
+    texts.push(bytes.slice(at, at + length));
+    at += length;
+  }
+  take(texts);
+  return at;
+}
