@@ -166,6 +166,10 @@ def test_check_marks_the_line():
         depends = 'local lab = require "asperity"\nlocal s = lab.surface.flat{ cells=8, size=1 }\n' \
                   'if s:roughness().Ra > 0 then print(1) end\n'
         assert server.ask("POST", "/api/check", {"script": depends}).json() == {"marks": [], "checked_to": 3}
+        knobs = depends.replace("size=1", 'size=lab.knob{ name="size", from="1 mm", to="2 m", value="1 m" }')
+        assert server.ask("POST", "/api/check", {"script": knobs}).json() == {
+            "marks": [], "checked_to": 3,
+            "knobs": {"size": {"value": 1, "from": 0.001, "to": 2, "log": False, "unit": "m"}}}
         bomb = server.ask("POST", "/api/check", {"script": "while true do end"}, timeout=30).json()
         assert bomb["marks"] and "stopped" in bomb["marks"][0]["message"], bomb
 

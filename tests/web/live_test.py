@@ -157,6 +157,16 @@ def test_long_moves_are_answered_on_fewer_cells_first():
         assert fine["view"]["fields"][0]["from_nx"] == 512
 
 
+def test_cells_that_a_script_does_not_take_are_not_tried_again():
+    with Server(runner.program) as server:
+        # At half of its cells the shortest wave would have fewer than two.
+        live = begin(server, pressed.replace("cells=64", "cells=512").replace("40 um", "4 um"))
+        for pressure in range(20, 25):
+            parts = move(server, live, pressure=f"{pressure} MPa")
+            assert [part["part"] for part in parts] == ["whole"], parts
+            assert not events(parts[0], "error"), parts
+
+
 def test_barriers_hold_while_a_knob_moves():
     with Server(runner.program) as server:
         live = begin(server, 'local f, why = io.open("/etc/passwd")\nprint(f, why)\nprint(pcall(os.execute, "true"))\n')

@@ -66,7 +66,7 @@ Json check_script(const std::string& script, const std::filesystem::path& scratc
       if (type == nullptr) continue;
       if (type->string() == "error" && message != nullptr)
         marks.push_back(mark("error", message->string(), event.find("line")));
-      if (const Json* knobs = event.find("knobs"); knobs != nullptr && knobs->is_object())
+      if (const Json* knobs = event.find("knobs"); knobs != nullptr && !knobs->members().empty())
         answer.set("knobs", *knobs);
       if (type->string() != "ended" || why == nullptr) continue;
       ended = true;

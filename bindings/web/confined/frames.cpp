@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"
 
 namespace asperity::web {
@@ -68,6 +69,32 @@ std::optional<std::vector<std::string>> receive_frame(int descriptor, std::size_
       if (!read_whole(descriptor, text.data() + had, text.size() - had)) return {};
     }
   }
+  return texts;
+}
+
+std::optional<std::vector<std::string>> take_frame(std::string& arrived, std::size_t most_bytes) {
+  std::size_t at = 0;
+  const auto number = [&]() -> std::optional<std::uint64_t> {
+    std::uint64_t value = 0;
+    if (arrived.size() - at < sizeof value) return {};
+    std::memcpy(&value, arrived.data() + at, sizeof value);
+    at += sizeof value;
+    return value;
+  };
+  const auto count = number();
+  if (!count) return {};
+  if (*count > most_texts) throw Error(ErrorCode::bad_file, "what came is no frame");
+  std::vector<std::string> texts;
+  for (std::uint64_t k = 0; k < *count; ++k) {
+    const auto bytes = number();
+    if (!bytes) return {};
+    if (*bytes > most_bytes) throw Error(ErrorCode::bad_file, "a frame is too long");
+    most_bytes -= static_cast<std::size_t>(*bytes);
+    if (arrived.size() - at < *bytes) return {};
+    texts.push_back(arrived.substr(at, static_cast<std::size_t>(*bytes)));
+    at += static_cast<std::size_t>(*bytes);
+  }
+  arrived.erase(0, at);
   return texts;
 }
 

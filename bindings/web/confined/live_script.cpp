@@ -47,6 +47,7 @@ constexpr std::size_t longest_question = std::size_t{1} << 20, most_printed = st
 constexpr std::size_t most_live_events = 5000, most_live_views = 200;
 constexpr auto time_before_a_newer =
     std::chrono::milliseconds(250);     // before a run makes way for a newer question
+constexpr double most_patience = 2;     // s, where runs take long
 constexpr double answered_soon = 0.05;  // s; what takes longer is answered on fewer cells first
 constexpr double least_factor = 1.0 / 16;
 
@@ -240,25 +241,33 @@ class LiveScript {
 
   void answer(const Question& question) {
     const double factor = coarse_factor();
+    bool answered = false;
     if (factor < 1) {
-      // A question that has come meanwhile is answered next, the whole of this one no more.
-      pass(question, {factor, Clock::now() + std::chrono::seconds(5)});
-      if (questions_.newer()) return say_outdated(question);
-      pass(question, {1, Clock::now()});
-    } else {
-      pass(question, {1, Clock::now() + time_before_a_newer});
+      answered = pass(question, {factor, Clock::now() + std::chrono::seconds(5)});
+      if (!answered) too_coarse_ = factor;
     }
+    // Where a coarse answer was given, a question that has come meanwhile is answered next, and the whole of
+    // this one no more. Else the run has the time that the last one took, or nothing would be answered as
+    // long as a knob moves.
+    if (answered && questions_.newer()) return say_outdated(question);
+    const auto usual = std::chrono::duration<double>(std::min(1.5 * whole_seconds_, most_patience));
+    pass(question, {1, Clock::now() + (answered ? Clock::duration(0)
+                                                : std::max<Clock::duration>(
+                                                      time_before_a_newer,
+                                                      std::chrono::duration_cast<Clock::duration>(usual)))});
   }
 
   // The cells on which a run of the whole, as long as the last one, would be answered soon: each halving of
   // the sides takes a quarter of the time, about.
   double coarse_factor() const {
     double factor = 1, seconds = whole_seconds_;
-    for (; seconds > answered_soon && factor > least_factor; seconds /= 4) factor /= 2;
+    for (; seconds > answered_soon && factor > least_factor && factor > 2 * too_coarse_; seconds /= 4)
+      factor /= 2;
     return factor;
   }
 
-  void pass(const Question& question, const Pass& pass);
+  // Whether anything was said of what it found.
+  bool pass(const Question& question, const Pass& pass);
   std::string run_script(const Question& question, const Pass& pass, LiveMonitor& monitor, Found& found,
                          Json& knobs);
   void say(const Question& question, const Pass& pass, Found found, Json answer);
@@ -284,9 +293,10 @@ class LiveScript {
   Questions questions_;
   double whole_seconds_ = 0;  // of the last run on all cells that computed anything
   bool first_ = true;
+  double too_coarse_ = 0;  // a factor at which the script failed, as one whose waves such cells do not carry
 };
 
-void LiveScript::pass(const Question& question, const Pass& pass) {
+bool LiveScript::pass(const Question& question, const Pass& pass) {
   const Clock::time_point begun = Clock::now();
   const ResultMemory::Counts before = memory_.counts();
   LiveMonitor monitor(memory_);
@@ -307,7 +317,10 @@ void LiveScript::pass(const Question& question, const Pass& pass) {
   const ResultMemory::Counts now = memory_.counts();
   if (pass.factor == 1 && (seconds > whole_seconds_ || now.missed > before.missed))
     whole_seconds_ = std::exchange(first_, false) ? 0 : seconds;
-  if (stopped == StopReason::interrupt) return say_outdated(question);
+  if (stopped == StopReason::interrupt) {
+    say_outdated(question);
+    return true;
+  }
   if (stopped == StopReason::time_limit) found.failure = limit_text();
 
   if (const std::string text = printed_.text(); !text.empty())
@@ -320,7 +333,7 @@ void LiveScript::pass(const Question& question, const Pass& pass) {
     found.events.push_back(std::move(error));
   }
   // On cells that the script does not name a mistake may be of the cells: the whole answer says.
-  if (pass.factor < 1 && !found.failure.empty()) return;
+  if (pass.factor < 1 && !found.failure.empty()) return false;
   say(question, pass, std::move(found),
       Json::object({{"move", question.move},
                     {"part", pass.factor < 1 ? "coarse" : "whole"},
@@ -329,6 +342,7 @@ void LiveScript::pass(const Question& question, const Pass& pass) {
                     {"computed", now.missed - before.missed},
                     {"recalled", now.found - before.found},
                     {"knobs", std::move(knobs)}}));
+  return true;
 }
 
 // Why it failed; "" where it did not.

@@ -150,9 +150,9 @@ void LiveSession::follow() {
   // Of this thread: the process dies with it.
   ConfinedProcess process(request_, folder_.string());
   const int socket = process.drawing.get();
-  // A process that has got loose does not keep this thread with half an answer.
-  const timeval most{5, 0};
-  ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most);
+  // A process that has got loose does not keep this thread by taking no questions.
+  const timeval most{1, 0};
+  ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &most, sizeof most);
   std::string last_words, why;
   Clock::time_point look_at{};
   while (why.empty()) {
@@ -166,7 +166,7 @@ void LiveSession::follow() {
       (void)!::read(wake_.get(), &count, sizeof count);
       ask(socket);
     }
-    const bool answers = watched[0].revents == 0 || take_answer(socket);
+    const bool answers = watched[0].revents == 0 || take_answers(socket);
     drain(process.output, nullptr);
     drain(process.error, &last_words);
     drain(process.events, nullptr);
@@ -195,36 +195,45 @@ void LiveSession::ask(int socket) {
     question = std::exchange(question_, {});
   }
   const std::string_view texts[] = {question};
-  // Where it takes no question any more, that it is gone is seen where its answers are read.
-  if (!question.empty()) send_frame(socket, texts);
+  if (!question.empty() && !send_frame(socket, texts)) end("the script's process took no question");
 }
 
-// False where the process is gone or says what is no answer.
-bool LiveSession::take_answer(int socket) {
-  const auto texts = receive_frame(socket, longest_answer);
-  if (!texts || texts->empty()) return false;
+// False where the process is gone or says what is no answer. Waits for nothing: half an answer is kept.
+bool LiveSession::take_answers(int socket) {
+  std::string piece(std::size_t{1} << 18, '\0');
+  for (int most = 16; most > 0; --most) {
+    const ssize_t got = ::recv(socket, piece.data(), piece.size(), MSG_DONTWAIT);
+    if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) return false;
+    if (got < 0) break;
+    arrived_.append(piece, 0, static_cast<std::size_t>(got));
+  }
   try {
-    const Json json = Json::parse(texts->front(), "an answer");
-    const Json *number = json.find("move"), *part = json.find("part");
-    if (number == nullptr || part == nullptr) return false;
-    const double told = number->number();
-    const bool last = part->string() != "coarse";
-    const std::vector<std::string_view> all(texts->begin(), texts->end());
-    const std::lock_guard lock(mutex_);
-    if (!(told > static_cast<double>(answered_) && told <= static_cast<double>(moves_))) return true;
-    const auto move = static_cast<std::int64_t>(told);
-    // Of moves before it nobody waits for more.
-    std::erase_if(pieces_, [&](const Piece& piece) { return piece.move < move && !piece.last; });
-    pieces_.push_back({move, frame(all), last});
-    while (pieces_.size() > 4) pieces_.pop_front();
-    if (last) answered_ = move;
-    if (answered_ == moves_) share_.reset();
-    used_ = Clock::now();
-    changed_.notify_all();
+    while (const auto texts = take_frame(arrived_, longest_answer)) take(*texts);
     return true;
   } catch (const Error&) {
     return false;
   }
+}
+
+// Throws Error{bad_file} for what is no answer.
+void LiveSession::take(const std::vector<std::string>& texts) {
+  const Json json = Json::parse(texts.empty() ? std::string() : texts.front(), "an answer");
+  const Json *number = json.find("move"), *part = json.find("part");
+  if (number == nullptr || part == nullptr) throw Error(ErrorCode::bad_file, "an answer says not of what");
+  const double told = number->number();
+  const bool last = part->string() != "coarse";
+  const std::vector<std::string_view> all(texts.begin(), texts.end());
+  const std::lock_guard lock(mutex_);
+  if (!(told > static_cast<double>(answered_) && told <= static_cast<double>(moves_))) return;
+  const auto move = static_cast<std::int64_t>(told);
+  // Of moves before it nobody waits for more.
+  std::erase_if(pieces_, [&](const Piece& piece) { return piece.move < move && !piece.last; });
+  pieces_.push_back({move, frame(all), last});
+  while (pieces_.size() > 4) pieces_.pop_front();
+  if (last) answered_ = move;
+  if (answered_ == moves_) share_.reset();
+  used_ = Clock::now();
+  changed_.notify_all();
 }
 
 void LiveSession::finish(const std::string& why) {

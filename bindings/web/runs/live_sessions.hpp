@@ -66,7 +66,8 @@ class LiveSession {
   void work();
   void follow();
   void ask(int socket);
-  bool take_answer(int socket);
+  bool take_answers(int socket);
+  void take(const std::vector<std::string>& texts);
   void finish(const std::string& why);
 
   ConfinedRequest request_;
@@ -74,6 +75,7 @@ class LiveSession {
   const LiveSetup& setup_;
   Descriptor wake_;
   std::atomic<bool> over_{false};
+  std::string arrived_;  // of an answer that is not whole yet
 
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;

@@ -250,12 +250,11 @@ export class Editor {
     const doc = this.view.state.doc;
     if (!this.api.hasToken) return;
     try {
-      const answer = doc.length ? await this.api.check(doc.toString(), mine.signal) : { marks: [] };
+      const answer = doc.length ? await this.api.check(doc.toString(), mine.signal) : { marks: [], knobs: {} };
       if (mine.signal.aborted || !this.view.state.doc.eq(doc)) return;
       this.marks = answer.marks;
       this.draw();
-      if ('knobs' in answer && !answer.marks.some((m) => m.severity === 'error'))
-        this.on.knobs(doc.toString(), answer.knobs);
+      if (!answer.marks.some((m) => m.severity === 'error')) this.on.knobs(doc.toString(), answer.knobs);
     } catch (error) {
       if (!mine.signal.aborted) this.on.failed(error);
     }

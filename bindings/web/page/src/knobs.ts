@@ -95,7 +95,12 @@ export class KnobsPane {
   /** Those of a script that is written and was not run: values stay where knobs are the same. */
   know(of: Followed, told: unknown): void {
     const found = knobsIn({ knobs: told });
-    if (found.length === 0 || of.script === this.of?.script || this.timer || this.starting || this.waiting) return;
+    if (of.script === this.of?.script || this.timer || this.starting || this.waiting) return;
+    if (found.length === 0) {
+      // Those of a run stand beside its results; those of a text that is no more are nobody's.
+      if (this.of && this.of.script !== this.current?.script) this.clear();
+      return;
+    }
     for (const knob of found) {
       const had = this.knobs.find((k) => sameKnob(k, knob));
       if (had) knob.value = had.value;

@@ -45,7 +45,9 @@ interface Under {
   coarse: boolean; // a coarse answer has come
 }
 
-const patience = 250; // ms before an answer that is on its way makes way for a newer move
+const patience = 250; // ms before an answer that is on its way makes way for a newer move,
+const mostPatience = 2000; // or as long as the last one took and half of that, at most
+const slow = 450; // ms after which a move that is not answered is worth a word
 
 export class Live {
   /** It was tried, and there is no such thing at this server. */
@@ -56,6 +58,7 @@ export class Live {
   private under: Under | undefined;
   private timer = 0;
   private going = false;
+  private took = 0; // ms, by the last whole answer
 
   constructor(
     private readonly api: Api,
@@ -72,6 +75,11 @@ export class Live {
   /** Whether an answer is on its way. */
   get busy(): boolean {
     return this.going;
+  }
+
+  /** Whether one has been for a while. */
+  get isSlow(): boolean {
+    return this.under !== undefined && performance.now() - this.under.since >= slow;
   }
 
   /** Somebody is about to move a knob of it. */
@@ -104,7 +112,8 @@ export class Live {
     clearTimeout(this.timer);
     const under = this.under;
     if (!under || !this.wanted) return;
-    const left = under.coarse ? 0 : under.since + patience - performance.now();
+    const time = Math.max(patience, Math.min(mostPatience, 1.5 * this.took));
+    const left = under.coarse ? 0 : under.since + time - performance.now();
     if (left <= 0) under.stop.abort();
     else this.timer = window.setTimeout(() => this.hurry(), left);
   }
@@ -143,6 +152,7 @@ export class Live {
   private async ask(move: Move, again = true): Promise<void> {
     const under: Under = { move, since: performance.now(), stop: new AbortController(), coarse: false };
     this.under = under;
+    setTimeout(() => this.on.changed(), slow + 10);
     const mine = this.session?.script === move.of.script;
     try {
       const id = await this.open(move.of.script);
@@ -183,6 +193,7 @@ export class Live {
 
   private take(move: Move, facts: LiveFacts, numbers: Float32Array[]): void {
     const { of } = move;
+    if (facts.part === 'whole') this.took = 1000 * (facts.seconds ?? 0);
     const run = new Run('', of.name, of.script);
     run.live = {
       coarse: facts.part === 'coarse',

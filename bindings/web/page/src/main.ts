@@ -209,6 +209,10 @@ function showStatus(): void {
   saveButton.disabled = !run || run.active || run.live !== undefined;
   bar.hidden = run?.active !== true;
   status.className = `status ${run?.status ?? ''}`;
+  if (live.isSlow && !run?.active && !run?.live?.coarse) {
+    status.textContent = 'Live, computing …';
+    return;
+  }
   if (!run) {
     status.textContent = api.hasToken ? 'Ready' : 'No token';
     return;
