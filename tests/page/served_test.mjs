@@ -224,6 +224,29 @@ test('Knob, ItsProcessGoesWithTheTab', async () => {
   });
 });
 
+test('Knob, AProcessThatHasEndedIsBegunAgain', () =>
+  visit({}, async (page) => {
+    await on.write(page, pressed.replace('cells=256', 'cells=64').replace('20 um', '80 um'));
+    await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    const before = processes();
+    const answered = () =>
+      on.until(
+        page,
+        () => document.querySelector('#status').textContent.includes('2 computed, 0 from memory'),
+        'a process should begin with nothing in memory',
+      );
+    await page.focus('.knobs input');
+    await page.keyboard.press('ArrowRight');
+    await answered();
+    await on.finished(page);
+    const [alive] = processes().filter((p) => !before.includes(p));
+    process.kill(Number(alive), 'SIGKILL');
+    for (let k = 0; k < 100 && processes().includes(alive); ++k) await on.pause(50);
+    await page.keyboard.press('ArrowRight');
+    await answered();
+    assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
+  }));
+
 test('Knob, MovesThePictureAndEndsInAnErrorAtOneValue', () =>
   visit({}, async (page) => {
     await on.run(page, pressed);
