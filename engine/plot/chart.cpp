@@ -281,15 +281,23 @@ double room_for_numbers(const AxisLayout& y) {
   return label_and_gaps + character * static_cast<double>(longest);
 }
 
-// Where the key of a panel stands: beside the plot, whose right rim all panels share.
-std::string key_command(const std::optional<double>& right_rim) {
+// Where the key stands: beside the plot, whose right rim all panels share; of a chart alone below the plot
+// where the longest name would take more than a third of the width.
+std::string key_command(const LineChart& chart, std::size_t longest_name,
+                        const std::optional<double>& right_rim) {
+  constexpr double sample = 70, character = 8.5, widest = 1.0 / 3;
+  const double beside = sample + character * static_cast<double>(longest_name);
+  if (!right_rim && beside > widest * chart.width)
+    return "set key below left horizontal Left reverse samplen 2.6 spacing 1.25 maxcols " +
+           std::string(2 * beside < chart.width ? "2" : "1") + "\n";
   if (!right_rim) return "set key outside right top Left reverse samplen 2.6 spacing 1.25\n";
   return "set key at screen " + gnuplot_number(*right_rim + 0.015) +
          ", graph 1 left top Left reverse samplen 2.6 spacing 1.25\n";
 }
 
-std::string look_commands(const LineChart& chart, const Axes& axes, bool keyed,
+std::string look_commands(const LineChart& chart, const Axes& axes, const Content& content,
                           const std::optional<double>& right_rim) {
+  const bool keyed = content.keyed;
   std::string script =
       "set border 3 linewidth 1.2 linecolor rgb '#404040'\n"
       "set grid xtics ytics mxtics mytics linetype 1 linewidth 0.7 linecolor rgb '#dcdcdc', "
@@ -297,7 +305,7 @@ std::string look_commands(const LineChart& chart, const Axes& axes, bool keyed,
   script += axis_command("x", axes.x, chart.x.logarithmic) + axis_command("y", axes.y, chart.y.logarithmic);
   if (!chart.title.empty()) script += "set title " + gnuplot_text(chart.title) + " font ',18'\n";
   if (chart.equal_axes) script += "set size ratio -1\n";
-  script += keyed ? key_command(right_rim) : "set key off\n";
+  script += keyed ? key_command(chart, content.longest_name, right_rim) : "set key off\n";
   if (keyed && !chart.key_title.empty())
     script += "set key title " + gnuplot_text(chart.key_title) + " left\n";
   for (const ChartLabel& label : chart.labels)
@@ -364,7 +372,7 @@ std::string body_of(const LineChart& chart, const Content& content, const Axes& 
     script += data_block(prefix + "cloud" + number, content.clouds[k], axes.x, axes.y, false);
   }
   script += reference_data(chart, axes, prefix) + bar_data(chart, axes, prefix);
-  script += look_commands(chart, axes, content.keyed, right_rim);
+  script += look_commands(chart, axes, content, right_rim);
 
   Layers layers;
   if (!chart.bars.empty())

@@ -209,6 +209,21 @@ TEST(Chart, UnequalEndsAreErrorBars) {
   EXPECT_NE(script.find("using 1:2:3:4 with yerrorbars"), std::string::npos);
 }
 
+TEST_F(ChartTest, LongNamesStandBelowThePlotAndLeaveItItsWidth) {
+  LineChart chart = simple();
+  chart.series[0].name = "one face, for itself";
+  EXPECT_NE(script_of(chart).find("set key outside right"), std::string::npos);
+  chart.series.push_back(chart.series[0]);
+  chart.series[1].name = "one face, for its kind (band: 68 % of faces)";
+  EXPECT_NE(script_of(chart).find("set key below left"), std::string::npos);
+  chart.width *= 2;
+  EXPECT_NE(script_of(chart).find("set key outside right"), std::string::npos);
+  chart.width /= 2;
+  std::vector<std::string> warnings;
+  EXPECT_EQ(run_gnuplot(chart_script(chart, PictureFormat::svg, warnings)).messages, "");
+  EXPECT_TRUE(warnings.empty());
+}
+
 TEST(Chart, LinesAcrossReachFromRimToRimAndAreNamedInTheKey) {
   LineChart chart = simple();
   chart.references = {{{}, 0.9, "measured"}, {2.5e6, {}, ""}};
