@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/core/cost.hpp"
 
+#include <time.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,6 +29,12 @@ void count_bytes(std::int64_t change) noexcept {
   thread_peak = std::max(thread_peak, thread_held);
 }
 double transforms() { return thread_transforms; }
+double processor_seconds() {
+  timespec spent{};
+  return ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent) == 0
+             ? static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec)
+             : 0;
+}
 }  // namespace cost
 
 Cost& Cost::operator+=(const Cost& other) {

@@ -23,6 +23,8 @@ void count_transforms(double weighted);
 void count_bytes(std::int64_t change) noexcept;
 // This thread's running totals; used by parallel_for.
 double transforms();
+// Of the processor, that this thread has spent; of threads that help it, nothing.
+double processor_seconds();
 }  // namespace cost
 
 // While it lives, this thread ends what it does by throwing Spent once it has counted more transforms

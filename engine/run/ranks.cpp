@@ -7,65 +7,11 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/byte_string.hpp"
+#include "engine/core/files/result_log.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
-
-namespace {
-
-std::string result_bytes(const std::string& key, const ResultFacts& facts, const KeptFields& fields) {
-  ByteWriter out;
-  out.text(key);
-  out.number(static_cast<std::uint64_t>(facts.numbers.size()));
-  for (const auto& [name, value] : facts.numbers) {
-    out.text(name);
-    out.number(value);
-  }
-  out.number(static_cast<std::uint64_t>(facts.texts.size()));
-  for (const auto& [name, text] : facts.texts) {
-    out.text(name);
-    out.text(text);
-  }
-  out.number(facts.cost.seconds);
-  out.number(facts.cost.transforms);
-  out.number(facts.cost.bytes);
-  out.number(static_cast<std::uint64_t>(fields.size()));
-  for (const auto& [name, field] : fields) {
-    out.text(name);
-    out.number(field->nx());
-    out.number(field->ny());
-    out.numbers(field->values());
-  }
-  return out.take();
-}
-
-FoundResult result_from(ByteReader& in) {
-  FoundResult found;
-  for (std::size_t left = in.count(); left > 0; --left) {
-    std::string name = in.text();
-    found.numbers.emplace_back(std::move(name), in.number<double>());
-  }
-  for (std::size_t left = in.count(); left > 0; --left) {
-    std::string name = in.text();
-    found.texts.emplace_back(std::move(name), in.text());
-  }
-  found.cost.seconds = in.number<double>();
-  found.cost.transforms = in.number<decltype(found.cost.transforms)>();
-  found.cost.bytes = in.number<decltype(found.cost.bytes)>();
-  for (std::size_t left = in.count(); left > 0; --left) {
-    std::string name = in.text();
-    const int nx = in.number<int>(), ny = in.number<int>();
-    const Array<double> values = in.numbers([](std::size_t length) { return Array<double>(length); });
-    Field field(nx, ny);
-    if (field.size() != values.size()) ByteReader::damaged();
-    std::ranges::copy(values, field.values().begin());
-    found.fields.emplace_back(std::move(name), std::move(field));
-  }
-  return found;
-}
-
-}  // namespace
 
 void Ranks::send(int to, Kind kind, const std::string& bytes) {
   send_bytes(to, std::string(1, static_cast<char>(kind)) + bytes);

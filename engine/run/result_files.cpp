@@ -43,23 +43,66 @@ Hdf5Array number_array(std::string_view group, std::string_view name, double val
   return owning_array(std::string(group) + std::string(name), {}, Array<double>(1, value), std::move(unit));
 }
 
+std::string not_kept(const Error& error) {
+  return "a result could not be kept and would be computed again if the run were resumed: " +
+         std::string(error.what());
+}
+
 [[noreturn]] void damaged(const fs::path& file, const std::string& what) {
   throw Error(ErrorCode::bad_file, quoted(file.string()) + " " + what);
 }
 
 }  // namespace
 
-ResultFiles::ResultFiles(ResultFilesSetup setup) : setup_(std::move(setup)) {
+ResultFiles::ResultFiles(ResultFilesSetup setup)
+    : setup_(std::move(setup)),
+      log_(setup_.folder / ResultLog::folder_name, [this](const std::string& file, std::string sentence) {
+        const std::lock_guard lock(mutex_);
+        note(file, std::move(sentence));
+      }) {
   // Others may be writing in a folder that is shared.
   sweep_parts(setup_.folder, Parts::abandoned);
+  for (const fs::path& folder : setup_.also)
+    other_logs_.emplace_back(folder / ResultLog::folder_name,
+                             [this](const std::string& file, std::string sentence) {
+                               const std::lock_guard lock(mutex_);
+                               note(file, std::move(sentence));
+                             });
 }
 
 std::string ResultFiles::name_of(const std::string& key) const {
-  return Digester().add(form).add(setup_.build).add(key).hex() + ".h5";
+  return Digester().add(form).add(setup_.build).add(key).hex();
+}
+
+// A log is gone through without the lock, for it may have something to tell.
+std::optional<FoundResult> ResultFiles::find_in_logs(const std::string& key, const std::string& name) {
+  std::optional<ResultLog::Found> record = log_.find(name);
+  const bool own = record.has_value();
+  for (std::size_t k = 0; !record && k < other_logs_.size(); ++k) record = other_logs_[k].find(name);
+  if (!record) return {};
+  std::optional<FoundResult> found;
+  try {
+    ByteReader in(record->bytes);
+    if (in.text() != key) return {};
+    found = result_from(in);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_file) throw;
+    return {};  // sound, and not of this form: of another key, if anything
+  }
+  if (!own) keep_in_log(name, record->bytes);
+  const std::lock_guard lock(mutex_);
+  if (own && used_.insert(record->file.lexically_relative(setup_.folder).string()).second) {
+    std::error_code problem;
+    fs::last_write_time(record->file, fs::file_time_type::clock::now(), problem);
+  }
+  ++counts_.found;
+  counts_.seconds_saved += found->cost.seconds;
+  return found;
 }
 
 std::optional<FoundResult> ResultFiles::find(const std::string& key) {
-  const std::string name = name_of(key);
+  const std::string stem = name_of(key), name = stem + ".h5";
+  if (std::optional<FoundResult> found = find_in_logs(key, stem)) return found;
   std::vector<fs::path> folders = {setup_.folder};
   folders.insert(folders.end(), setup_.also.begin(), setup_.also.end());
   for (const fs::path& folder : folders) {
@@ -137,8 +180,14 @@ void ResultFiles::bring_over(const fs::path& from, const std::string& name) {
 
 void ResultFiles::keep(const std::string& key, std::string_view call, const ResultFacts& facts,
                        const KeptFields& kept) {
-  if (facts.cost.seconds < std::max(setup_.least_seconds, facts.least_seconds) && !facts.however_cheap)
+  const double least = facts.one_of_many ? setup_.least_seconds_of_many : setup_.least_seconds;
+  if (std::min(facts.cost.seconds, facts.processor_seconds) < std::max(least, facts.least_seconds) &&
+      !facts.however_cheap)
     return;
+  if (facts.one_of_many) {
+    keep_in_log(name_of(key), result_bytes(key, facts, kept));
+    return;
+  }
   Hdf5Content content;
   content.texts = {{"form", std::string(form)}, {"call", std::string(call)}, {"key", key}};
   for (const auto& [name, text] : facts.texts) content.texts.emplace_back("text " + name, text);
@@ -157,39 +206,74 @@ void ResultFiles::keep(const std::string& key, std::string_view call, const Resu
   }
   sort_by_name(content);
   content.texts.emplace_back("digest", digest_of(key, content));
-  const std::string name = name_of(key);
+  const std::string name = name_of(key) + ".h5";
   const std::lock_guard lock(mutex_);
   try {
-    std::error_code problem;
-    fs::create_directories(setup_.folder, problem);
-    if (problem)
-      throw Error(ErrorCode::bad_file,
-                  "cannot make the folder " + quoted(setup_.folder.string()) + ": " + problem.message());
-    if (!make_room(bytes)) {
-      const bool shared = setup_.most_added - added_ < bytes;
-      note("room", "results of this run no longer fit the " +
-                       format_bytes(shared ? setup_.most_added : setup_.most_bytes) +
-                       (shared ? " that it may add to its store" : " of its store") +
-                       ": some would be computed again if it were resumed (" +
-                       (shared ? "--limit-disk" : "--store-limit") + ")");
-      return;
-    }
-    if (!needed_on_disk_)
-      for (const fs::path& file : setup_.needed) wait_for_disk(file);
-    needed_on_disk_ = true;
+    ready_folder();
+    if (!has_room(bytes)) return;
     write_hdf5(setup_.folder / name, content);
     wait_for_disk(setup_.folder);
     used_.insert(name);
     ++counts_.kept;
   } catch (const Error& error) {
-    note("write", "a result could not be kept and would be computed again if the run were resumed: " +
-                      std::string(error.what()));
+    note("write", not_kept(error));
   }
 }
 
+void ResultFiles::keep_in_log(const std::string& name, const std::string& bytes) {
+  try {
+    {
+      const std::lock_guard lock(mutex_);
+      ready_folder();
+      if (!has_room(static_cast<std::int64_t>(bytes.size()) + ResultLog::bytes_beside)) return;
+    }
+    const fs::path file = log_.keep(name, bytes);  // which waits for the disk at times: not under the lock
+    const std::lock_guard lock(mutex_);
+    used_.insert(file.lexically_relative(setup_.folder).string());
+    ++counts_.kept;
+  } catch (const Error& error) {
+    const std::lock_guard lock(mutex_);
+    note("write", not_kept(error));
+  }
+}
+
+void ResultFiles::bring_to_disk() {
+  try {
+    log_.wait_for_disk();
+  } catch (const Error& error) {
+    const std::lock_guard lock(mutex_);
+    note("write", not_kept(error));
+  }
+}
+
+void ResultFiles::ready_folder() {
+  std::error_code problem;
+  fs::create_directories(setup_.folder, problem);
+  if (problem)
+    throw Error(ErrorCode::bad_file,
+                "cannot make the folder " + quoted(setup_.folder.string()) + ": " + problem.message());
+  if (needed_on_disk_) return;
+  for (const fs::path& file : setup_.needed) wait_for_disk(file);
+  needed_on_disk_ = true;
+}
+
+bool ResultFiles::has_room(std::int64_t bytes) {
+  if (make_room(bytes)) return true;
+  const bool shared = setup_.most_added - added_ < bytes;
+  note("room", "results of this run no longer fit the " +
+                   format_bytes(shared ? setup_.most_added : setup_.most_bytes) +
+                   (shared ? " that it may add to its store" : " of its store") +
+                   ": some would be computed again if it were resumed (" +
+                   (shared ? "--limit-disk" : "--store-limit") + ")");
+  return false;
+}
+
+// The folder is gone through again once a quarter of its room was used, for others may write there too; where
+// it is full, a sixteenth is freed at once. A walk for each of n results would take the time of n² of them.
 bool ResultFiles::make_room(std::int64_t bytes) {
   if (bytes > setup_.most_bytes || bytes > setup_.most_added - added_) return false;
-  if (setup_.most_bytes == unlimited) {
+  if (setup_.most_bytes == unlimited || added_since_ + bytes <= room_ / 4) {
+    added_since_ += bytes;
     added_ += bytes;
     return true;
   }
@@ -200,23 +284,32 @@ bool ResultFiles::make_room(std::int64_t bytes) {
   };
   std::vector<Old> old;
   std::int64_t held = 0;
-  std::error_code problem;
-  for (fs::directory_iterator entry(setup_.folder, problem), end; !problem && entry != end;
-       entry.increment(problem)) {
-    std::error_code gone;  // another run may take it away meanwhile
-    const auto size = static_cast<std::int64_t>(entry->file_size(gone));
-    if (gone || entry->path().extension() != ".h5") continue;
-    held += size;
-    if (is_part(entry->path())) continue;  // of one who writes now
-    if (!used_.contains(entry->path().filename().string()))
-      old.push_back({entry->last_write_time(gone), entry->path(), size});
-  }
+  const auto go_through = [&](const fs::path& folder, std::string_view extension) {
+    std::error_code problem;
+    for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end;
+         entry.increment(problem)) {
+      std::error_code gone;  // another run may take it away meanwhile
+      if (entry->path().extension() != extension) continue;
+      const auto size = static_cast<std::int64_t>(entry->file_size(gone));
+      if (gone) continue;
+      held += size;
+      if (is_part(entry->path())) continue;  // of one who writes now
+      if (!used_.contains(entry->path().lexically_relative(setup_.folder).string()))
+        old.push_back({entry->last_write_time(gone), entry->path(), size});
+    }
+  };
+  go_through(setup_.folder, ".h5");
+  go_through(setup_.folder / ResultLog::folder_name, ".results");
   std::ranges::sort(old, {}, &Old::used);
+  const std::int64_t spare = held + bytes > setup_.most_bytes ? setup_.most_bytes / 16 : 0;
   for (const Old& file : old) {
-    if (held + bytes <= setup_.most_bytes) break;
+    if (held + bytes + spare <= setup_.most_bytes) break;
+    std::error_code problem;
     if (fs::remove(file.file, problem)) held -= file.bytes;
   }
   if (held + bytes > setup_.most_bytes) return false;
+  room_ = setup_.most_bytes - held;
+  added_since_ = bytes;
   added_ += bytes;
   return true;
 }

@@ -137,6 +137,10 @@ class RunDirectory {
   // In the place of those made since: what began again came to nothing. The files are as they were.
   void put_back(Findings findings);
 
+  // Called before a run that comes to its own end is written down as such: what else must be on the disk
+  // then. Set before others use the directory.
+  void before_its_end(std::function<void()> call) { before_end_ = std::move(call); }
+
   // A member of the manifest; `unhashed` for what may differ between equal runs. Written by finish().
   void note(std::string_view key, Json value);
   void note_unhashed(std::string_view key, Json value);
@@ -204,6 +208,7 @@ class RunDirectory {
   std::size_t inputs_on_disk_ = 0;  // how many of them the manifest tells of while the run goes on
   std::vector<std::shared_ptr<Notebook>> notebooks_;
   std::atomic<bool> finished_{false};
+  std::function<void()> before_end_;
 };
 
 }  // namespace asperity

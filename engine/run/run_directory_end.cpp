@@ -143,6 +143,7 @@ bool RunDirectory::finish(RunStatus status, std::string_view given_reason,
         if (!journal_->is_lost()) wait_for_disk(journal_->path());
       });
       attempt([&] { wait_for_outputs(files); });
+      if (before_end_) attempt(before_end_);
     }
     attempt([&] {
       note_end(status, reason, files);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/run/result_files.hpp"
 #include "engine/run/run_directory.hpp"
 #include "tests/support/run_fixture.hpp"
 
@@ -102,6 +103,32 @@ TEST_F(DurableEnd, F2EverythingListedIsOnTheDiskBeforeTheManifestSaysDone) {
   const std::string& part = trace().steps[static_cast<std::size_t>(said) - 1];
   EXPECT_LT(first("sync " + part.substr(5)), said) << part;
   EXPECT_GT(last("sync " + root), said);
+}
+
+// Small results share a file and a wait for the disk: what came since the last one is waited for at the end.
+TEST_F(DurableEnd, F2ResultsThatShareAFileAreOnTheDiskBeforeTheManifestSaysDone) {
+  RunSetup setup;
+  setup.script_name = "s.lua";
+  setup.out = folder / "one";
+  RunDirectory run(setup);
+  ResultFilesSetup kept;
+  kept.folder = run.store();
+  ResultFiles results(kept);
+  run.before_its_end([&results] { results.bring_to_disk(); });
+  ResultFacts facts;
+  facts.one_of_many = true;
+  facts.cost.seconds = 1;
+  trace().on = true;
+  const std::size_t cases = 200;
+  for (std::size_t k = 0; k < cases; ++k)
+    results.keep("case " + std::to_string(k), "lab.ensemble", facts, {});
+  const std::string log =
+      std::filesystem::directory_iterator(run.store() / ResultLog::folder_name)->path().string();
+  EXPECT_LT(static_cast<std::size_t>(std::ranges::count(trace().steps, "sync " + log)), cases / 10);
+  trace().steps.clear();
+  EXPECT_TRUE(run.finish(RunStatus::done));
+  trace().on = false;
+  EXPECT_LT(first("sync " + log), last("to " + run.path().string() + "/manifest.json"));
 }
 
 // What it takes to go on after a cut is there before the script begins.

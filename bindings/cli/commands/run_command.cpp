@@ -256,6 +256,7 @@ int in_run_directory(const RunCommand& command, const std::function<std::string(
   monitor.keep_warnings_in(run.get());
   if (command.terminal) monitor.show_as_on_terminal();
   ResultFiles results(std::move(kept));
+  run->before_its_end([&results] { results.bring_to_disk(); });
   UntilLine until(results, run->journal(), command.afresh_from.value_or(0));
   ResultStore* store = command.afresh_from ? static_cast<ResultStore*>(&until) : &results;
   if (command.store_limit == 0) store = nullptr;

@@ -18,6 +18,7 @@ namespace asperity::lua {
 namespace {
 
 constexpr std::string_view case_form = "asperity case 3";
+constexpr std::size_t most_bytes_of_many = 16384;
 constexpr std::size_t bytes_a_number = 6;  // whole numbers that a double holds exactly
 
 // Bytes in a field of a kept result.
@@ -192,6 +193,7 @@ void StoredCases::keep(const CaseSetup& setup, const CaseResult& result, bool al
   facts.cost.seconds = result.seconds;
   facts.cost.transforms = result.transforms;
   facts.however_cheap = always;
+  facts.one_of_many = bytes.size() <= most_bytes_of_many;
   facts.numbers = {{"bytes", static_cast<double>(bytes.size())}};
   facts.texts = {{"lines", content_.lines}, {"names lines", names_a_line(bytes) ? "yes" : "no"}};
   const Field field = packed(bytes);

@@ -20,6 +20,10 @@ std::span<const EmbeddedScript> embedded_scripts();
 std::span<const EmbeddedScript> embedded_lessons();
 // Empty if there is none of this name.
 std::string_view embedded_script(std::string_view name);
+// As luaL_loadbufferx, of a text that lives as long as the program, under the name `chunk` ("=sandbox"): it
+// is compiled once, and every further state of this thread or another loads what came of it. Raises on an
+// error.
+void load_embedded_text(lua_State* L, std::string_view text, const char* chunk);
 // Makes `require "asperity.NAME"` find every embedded script. Raises on lack of memory.
 void preload_embedded_scripts(lua_State* L);
 

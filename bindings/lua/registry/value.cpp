@@ -88,7 +88,7 @@ struct Pusher {
   void operator()(Script v) const {
     const std::string_view text = embedded_script(v.name);
     lua_pushfstring(L, "=asperity.%s", v.name);
-    if (luaL_loadbufferx(L, text.data(), text.size(), lua_tostring(L, -1), "t") != LUA_OK) lua_error(L);
+    load_embedded_text(L, text, lua_tostring(L, -1));
     lua_remove(L, -2);
     lua_call(L, 0, 1);
   }

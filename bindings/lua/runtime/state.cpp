@@ -221,6 +221,8 @@ struct Setup {
 int set_up(lua_State* L) {
   const auto& setup = *static_cast<const Setup*>(lua_touserdata(L, 1));
   Session& session = *setup.session;
+  // What is made here stays: collecting meanwhile finds nothing.
+  lua_gc(L, LUA_GCSTOP);
   luaL_openlibs(L);
   Session::attach(L, session);
   if (session.dry_run) open_dry_run_library(L);
@@ -244,7 +246,7 @@ int set_up(lua_State* L) {
   }
 
   const std::string_view sandbox = embedded_script("sandbox");
-  if (luaL_loadbufferx(L, sandbox.data(), sandbox.size(), "=sandbox", "t") != LUA_OK) return lua_error(L);
+  load_embedded_text(L, sandbox, "=sandbox");
   lua_createtable(L, 0, 4);
   lua_pushboolean(L, session.dry_run ? 1 : 0);
   lua_setfield(L, -2, "dry");
@@ -260,6 +262,7 @@ int set_up(lua_State* L) {
   lua_setfield(L, -2, "mistaken");
   lua_pushboolean(L, session.trusted ? 1 : 0);
   lua_call(L, 2, 0);
+  lua_gc(L, LUA_GCRESTART);
   return 0;
 }
 

@@ -6,6 +6,7 @@
 // the same either way.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,7 +25,11 @@ struct ResultFacts {
   std::vector<std::pair<std::string, std::string>> texts;
   Cost cost;
   bool however_cheap = false;  // to be kept even if it would be quicker computed again
+  bool one_of_many = false;    // small, and one of thousands: they share a file, and a wait for the disk
   double least_seconds = 0;    // not worth a file if it cost less, whatever the store thinks
+  // What the calling thread itself spent, where that is known: on a machine that others use as well, a cheap
+  // result that took long is still cheap.
+  double processor_seconds = std::numeric_limits<double>::infinity();
 };
 
 struct FoundResult : ResultFacts {
@@ -78,11 +83,13 @@ Costed<Result> recall_or(Monitor& monitor, const ResultForm<Result>& form, Key k
     }
   }
   const CostScope scope;
+  const double before = cost::processor_seconds();
   Costed<Result> fresh{compute(), {}};
   fresh.cost = scope.so_far();
   if (store != nullptr) {
     ResultFacts facts;
     facts.cost = fresh.cost;
+    facts.processor_seconds = cost::processor_seconds() - before;
     KeptFields fields;
     form.write(fresh.result, facts, fields);
     store->keep(name, form.call, facts, fields);

@@ -101,7 +101,8 @@ sed -i 's/"status": "done"/"status": "running"/' torn/manifest.json
 head -c -40 whole/journal.jsonl > torn/journal.jsonl
 head -n 1 whole/events.csv > torn/events.csv
 # Whole cases of the ensemble would be taken without a look at the presses inside them.
-grep -l "lab.ensemble" torn/store/*.h5 | xargs rm -f
+[ -n "$(ls torn/store/small)" ] || fail "no case was kept"
+rm -rf torn/store/small
 first=$(ls torn/store/*.h5 | head -n 1)
 last=$(ls torn/store/*.h5 | tail -n 1)
 head -c 1000 "whole/store/${first##*/}" > "$first.new" && mv "$first.new" "$first"

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/core/files/result_log.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <random>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "engine/core/digest.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/files/disk.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view mark = "ASR1", ending = ".results";
+constexpr std::size_t digits = 32;  // of a digest, and of a name
+constexpr std::size_t head = mark.size() + sizeof(std::uint32_t) + 2 * digits;
+static_assert(head == ResultLog::bytes_beside);
+constexpr std::size_t longest = std::size_t{8} << 20;  // fits into what is read at once
+constexpr auto sync_every = std::chrono::seconds(1);
+
+std::string digest_of(std::string_view name, std::string_view bytes) {
+  return Digester().add(mark).add(name).add(bytes).hex();
+}
+
+struct Descriptor {
+  int number;
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+};
+
+// As many of `length` bytes as there are.
+std::string bytes_at(const fs::path& path, std::int64_t offset, std::size_t length) {
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
+  std::string bytes(file.number < 0 ? 0 : length, '\0');
+  std::size_t got = 0;
+  while (got < bytes.size()) {
+    const ssize_t more = ::pread(file.number, bytes.data() + got, bytes.size() - got,
+                                 static_cast<off_t>(offset + static_cast<std::int64_t>(got)));
+    if (more < 0 && errno == EINTR) continue;
+    if (more <= 0) break;
+    got += static_cast<std::size_t>(more);
+  }
+  bytes.resize(got);
+  return bytes;
+}
+
+// Of a record that begins here: what its bytes are, none where it is not whole yet.
+struct Record {
+  std::string_view digest, name, bytes;
+  bool sound() const { return digest == digest_of(name, bytes); }
+};
+std::size_t length_in(std::string_view text) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, text.data() + mark.size(), sizeof length);
+  return length;
+}
+std::optional<Record> record_in(std::string_view text) {
+  if (text.size() < head || text.size() - head < length_in(text)) return {};
+  const std::string_view after = text.substr(mark.size() + sizeof(std::uint32_t));
+  return Record{after.substr(0, digits), after.substr(digits, digits),
+                after.substr(2 * digits, length_in(text))};
+}
+
+}  // namespace
+
+std::string result_bytes(const std::string& key, const ResultFacts& facts, const KeptFields& fields) {
+  ByteWriter out;
+  out.text(key);
+  out.number(static_cast<std::uint64_t>(facts.numbers.size()));
+  for (const auto& [name, value] : facts.numbers) {
+    out.text(name);
+    out.number(value);
+  }
+  out.number(static_cast<std::uint64_t>(facts.texts.size()));
+  for (const auto& [name, text] : facts.texts) {
+    out.text(name);
+    out.text(text);
+  }
+  out.number(facts.cost.seconds);
+  out.number(facts.cost.transforms);
+  out.number(facts.cost.bytes);
+  out.number(static_cast<std::uint64_t>(fields.size()));
+  for (const auto& [name, field] : fields) {
+    out.text(name);
+    out.number(field->nx());
+    out.number(field->ny());
+    out.numbers(field->values());
+  }
+  return out.take();
+}
+
+FoundResult result_from(ByteReader& in) {
+  FoundResult found;
+  for (std::size_t left = in.count(); left > 0; --left) {
+    std::string name = in.text();
+    found.numbers.emplace_back(std::move(name), in.number<double>());
+  }
+  for (std::size_t left = in.count(); left > 0; --left) {
+    std::string name = in.text();
+    found.texts.emplace_back(std::move(name), in.text());
+  }
+  found.cost.seconds = in.number<double>();
+  found.cost.transforms = in.number<decltype(found.cost.transforms)>();
+  found.cost.bytes = in.number<decltype(found.cost.bytes)>();
+  for (std::size_t left = in.count(); left > 0; --left) {
+    std::string name = in.text();
+    const int nx = in.number<int>(), ny = in.number<int>();
+    const Array<double> values = in.numbers([](std::size_t length) { return Array<double>(length); });
+    Field field(nx, ny);
+    if (field.size() != values.size()) ByteReader::damaged();
+    std::ranges::copy(values, field.values().begin());
+    found.fields.emplace_back(std::move(name), std::move(field));
+  }
+  return found;
+}
+
+ResultLog::~ResultLog() { leave_file(); }
+
+std::optional<ResultLog::Found> ResultLog::find(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  for (int tries = 0; tries < 2; ++tries) {
+    if (const auto at = places_.find(name); at != places_.end()) {
+      const Place place = at->second;
+      if (std::optional<std::string> bytes = record_at(place, name))
+        return Found{*std::move(bytes), files_[static_cast<std::size_t>(place.file)].path};
+      places_.erase(at);  // its file was taken away, or altered
+    }
+    look();
+  }
+  return {};
+}
+
+// What others have made or appended since the last look. The folder's time tells of new files, but for those
+// made within the clock's own step of the last look: names are read until the time is a second old.
+void ResultLog::look() {
+  std::error_code missing;
+  const fs::file_time_type changed = fs::last_write_time(folder_, missing);
+  if (missing) return;
+  if (!listed_once_ || !settled_ || changed != listed_) {
+    settled_ = fs::file_time_type::clock::now() - changed > std::chrono::seconds(1);
+    listed_ = changed;
+    listed_once_ = true;
+    for (fs::directory_iterator entry(folder_, missing), end; !missing && entry != end;
+         entry.increment(missing)) {
+      std::string name = entry->path().filename().string();
+      if (!name.ends_with(ending) || known_.contains(name)) continue;
+      known_.emplace(std::move(name), static_cast<int>(files_.size()));
+      files_.push_back({entry->path()});
+    }
+  }
+  for (std::size_t k = 0; k < files_.size(); ++k)
+    if (!files_[k].own && !files_[k].damaged) go_through(static_cast<int>(k));
+}
+
+void ResultLog::go_through(int number) {
+  File& file = files_[static_cast<std::size_t>(number)];
+  struct ::stat facts {};
+  if (::lstat(file.path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode) || facts.st_size <= file.read)
+    return;
+  constexpr std::int64_t most_at_once = std::int64_t{16} << 20;
+  for (;;) {
+    const std::string text =
+        bytes_at(file.path, file.read,
+                 static_cast<std::size_t>(std::min<std::int64_t>(facts.st_size - file.read, most_at_once)));
+    std::string_view rest = text;
+    const auto damaged = [&](const std::string& what) {
+      note_(file.path.string(),
+            quoted(file.path.string()) + " is damaged " + what + "; it was computed again");
+    };
+    while (rest.size() >= head) {
+      if (!rest.starts_with(mark) || length_in(rest) > longest) {
+        damaged("from byte " + std::to_string(file.read) + " on");
+        file.damaged = true;
+        return;
+      }
+      const std::optional<Record> record = record_in(rest);
+      if (!record) break;
+      const std::size_t length = head + record->bytes.size();
+      if (record->sound())
+        places_[std::string(record->name)] = {number, file.read, static_cast<std::int64_t>(length)};
+      else
+        damaged("at byte " + std::to_string(file.read));
+      file.read += static_cast<std::int64_t>(length);
+      rest.remove_prefix(length);
+    }
+    // A record that is longer than what is read at once, or that its writer has not written yet.
+    if (rest.size() == text.size() || file.read >= facts.st_size) return;
+  }
+}
+
+std::optional<std::string> ResultLog::record_at(const Place& place, std::string_view name) {
+  const std::string text = bytes_at(files_[static_cast<std::size_t>(place.file)].path, place.offset,
+                                    static_cast<std::size_t>(place.length));
+  if (text.size() != static_cast<std::size_t>(place.length) || !text.starts_with(mark)) return {};
+  const std::optional<Record> record = record_in(text);
+  if (!record || !record->sound() || record->name != name) return {};
+  return std::string(record->bytes);
+}
+
+fs::path ResultLog::keep(const std::string& name, std::string_view bytes) {
+  if (name.size() != digits || bytes.size() > longest)
+    throw Error(ErrorCode::internal, "a result of this name or length cannot stand in a log");
+  const std::string digest = digest_of(name, bytes);
+  const auto length = static_cast<std::uint32_t>(bytes.size());
+  std::string record(mark);
+  record.reserve(head + bytes.size());
+  record.append(reinterpret_cast<const char*>(&length), sizeof length).append(digest).append(name);
+  record.append(bytes);
+
+  std::unique_lock lock(mutex_);
+  if (own_ >= 0 && files_[static_cast<std::size_t>(own_)].read >= longest_file) {
+    lock.unlock();
+    wait_for_disk();
+    lock.lock();
+    leave_file();
+  }
+  if (descriptor_ < 0) begin_file();
+  File& own = files_[static_cast<std::size_t>(own_)];
+  append_whole(descriptor_, record, own.path);
+  places_[name] = {own_, own.read, static_cast<std::int64_t>(record.size())};
+  own.read += static_cast<std::int64_t>(record.size());
+  ++written_;
+  fs::path path = own.path;
+  if (std::chrono::steady_clock::now() >= next_sync_ && !syncing_) {
+    syncing_ = true;
+    lock.unlock();
+    wait_for_disk();
+  }
+  return path;
+}
+
+void ResultLog::wait_for_disk() {
+  std::unique_lock lock(mutex_);
+  if (descriptor_ < 0 || synced_ == written_) {
+    syncing_ = false;
+    return;
+  }
+  const std::int64_t written = written_;
+  const Descriptor file{::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0)};
+  const fs::path path = files_[static_cast<std::size_t>(own_)].path;
+  lock.unlock();
+  const int reason = file.number < 0 || (::fsync(file.number) != 0 && errno != EINVAL) ? errno : 0;
+  struct ::stat facts {};
+  const bool gone = reason == 0 && ::fstat(file.number, &facts) == 0 && facts.st_nlink == 0;
+  lock.lock();
+  syncing_ = false;
+  next_sync_ = std::chrono::steady_clock::now() + sync_every;
+  if (reason != 0) throw_file_error("write", path, reason);
+  synced_ = std::max(synced_, written);
+  // Others may take the file away to make room: what comes goes into another one.
+  if (gone && own_ >= 0 && files_[static_cast<std::size_t>(own_)].path == path) leave_file();
+}
+
+// A name that was never there before: others may have gone through a file that is gone.
+void ResultLog::begin_file() {
+  std::error_code problem;
+  fs::create_directories(folder_, problem);
+  if (problem) throw_file_error("make the folder", folder_, problem.value());
+  std::random_device random;
+  std::array<char, 17> digits_of_name{};
+  std::snprintf(digits_of_name.data(), digits_of_name.size(), "%08x%08x", random(), random());
+  std::string name = digits_of_name.data() + std::string(ending);
+  const fs::path path = folder_ / name;
+  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) throw_file_error("write", path, errno);
+  own_ = static_cast<int>(files_.size());
+  known_[std::move(name)] = own_;
+  files_.push_back({path, 0, false, true});
+  // Its name, and that of the folder.
+  asperity::wait_for_disk(folder_);
+  asperity::wait_for_disk(folder_.parent_path());
+}
+
+void ResultLog::leave_file() {
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  own_ = -1;
+  synced_ = written_;
+}
+
+}  // namespace asperity
