@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 
@@ -340,7 +341,7 @@ std::vector<double> CalibrationProblem::natural_scales(const CalibrationPlace& a
     const double wanted = std::max(size_, std::numeric_limits<double>::min());
     const auto moves_no_further = [&](int power) {
       std::vector<double> q = at.q;
-      q[p] = (of.upper ? -1 : 1) * std::pow(10, power);
+      q[p] = (of.upper ? -1 : 1) * elementary::pow(10, power);
       const auto there = fitted(q);
       if (!there) return false;
       std::vector<double> change(there->size());
@@ -360,7 +361,7 @@ std::vector<double> CalibrationProblem::natural_scales(const CalibrationPlace& a
     } else {
       while (power >= smallest && !moves_no_further(power)) --power;
     }
-    scales.push_back(power >= smallest ? std::pow(10, power) : 1);
+    scales.push_back(power >= smallest ? elementary::pow(10, power) : 1);
   }
   return scales;
 }

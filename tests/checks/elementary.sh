@@ -4,7 +4,7 @@
 # no file of engine/ calls one but the file that tells C libraries apart, nor a function of the standard library
 # built on one, nor a random distribution (the names of unfinished files alone are drawn by the system); they are in
 # engine/core/arithmetic/elementary_functions.hpp. And Eigen is asked in two files alone: for products in one, which fixes what
-# Eigen chooses, and for singular values in another, where it has no vectors to choose.
+# Eigen chooses, and for decompositions in another, where it has no vectors to choose and blocks of one size.
 # usage: elementary.sh [the project's folder]
 set -eu
 cd "${1:-$(dirname -- "$0")/../..}"
