@@ -2,6 +2,7 @@
 #include "engine/core/files/result_log.hpp"
 
 #include <fcntl.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,7 +11,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <random>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -272,9 +272,12 @@ void ResultLog::begin_file() {
   std::error_code problem;
   fs::create_directories(folder_, problem);
   if (problem) throw_file_error("make the folder", folder_, problem.value());
-  std::random_device random;
+  std::uint64_t random = 0;
+  if (::getrandom(&random, sizeof random, 0) != static_cast<ssize_t>(sizeof random))
+    random = static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
   std::array<char, 17> digits_of_name{};
-  std::snprintf(digits_of_name.data(), digits_of_name.size(), "%08x%08x", random(), random());
+  std::snprintf(digits_of_name.data(), digits_of_name.size(), "%016llx",
+                static_cast<unsigned long long>(random));
   std::string name = digits_of_name.data() + std::string(ending);
   const fs::path path = folder_ / name;
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_APPEND | O_CLOEXEC, 0666);
