@@ -106,6 +106,12 @@ function viewOf(name) {
 const chart =
   '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 200"><style>path{stroke:#0b4f7d}</style><rect width="400" height="200" fill="white"/><path d="M20 180L380 20" fill="none"/><text x="30" y="40">Ra against N</text></svg>';
 
+// One pixel.
+const pixel = Buffer.from(
+  'iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==',
+  'base64',
+);
+
 // The rows of a study of work and precision, as its file has them: a setting that failed has no error.
 const study = `way,cells,end,error,seconds [s],reason
 finer grid,16,measured,0.0054,0.0005,
@@ -131,7 +137,7 @@ function knobIn(line, given) {
 }
 
 /** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`,
-    `mock.file NAME`, `mock.waits N`, `mock.views N`, `mock.knob NAME FROM TO VALUE UNIT`. */
+    `mock.file NAME`, `mock.names N`, `mock.waits N`, `mock.views N`, `mock.knob NAME FROM TO VALUE UNIT`. */
 function* eventsOf(script, knobs = {}) {
   const lines = script.split('\n');
   const waits = Number(/mock\.waits (\d+)/.exec(script)?.[1] ?? 0);
@@ -174,8 +180,16 @@ function* eventsOf(script, knobs = {}) {
       yield { type: 'row', notebook: 'big', row: { level: 0.3 + i * 1e-14, i, v: i * i * 1e-6 }, units: { v: 'm' } };
     const views = Number(/mock\.views (\d+)/.exec(line)?.[1] ?? 0);
     for (let v = 1; v <= views; ++v) yield { type: 'view', name: `state-${v}`, title: `contact:press at ${v} MPa` };
-    const named = /mock\.file (\S+)/.exec(line);
-    if (named) yield { type: 'file', name: named[1], bytes: chart.length, kind: 'chart' };
+    for (const [, name] of line.matchAll(/mock\.file (\S+)/g))
+      yield { type: 'file', name, bytes: chart.length, kind: 'chart' };
+    const names = Number(/mock\.names (\d+)/.exec(line)?.[1] ?? 0);
+    for (let i = 0; i < names; ++i)
+      for (const rule of ['elastic', 'yielding'])
+        yield {
+          type: 'row',
+          notebook: 'shares',
+          row: { part: `part ${i + 1} of what the error is made of`, rule, share: (i + 1) / names + (rule === 'elastic' ? 0.1 : 0) },
+        };
     if (/mock\.limit/.test(line)) {
       yield { type: 'finished', status: 'limit', exit: 1, seconds: 30, reason: 'the run took longer than 30 s' };
       return;
@@ -393,6 +407,8 @@ export async function startMock(folder, { token = 'testtoken', port = 0, most = 
       if (part === 'files')
         return rest[0].endsWith('.svg')
           ? send(200, chart, 'image/svg+xml')
+          : rest[0].endsWith('.png')
+            ? send(200, pixel, 'image/png')
           : rest[0] === 'work_precision.csv'
             ? send(200, study, 'text/csv')
           : send(200, 'N,Ra [m]\n1,2.8e-06\n', 'text/csv');

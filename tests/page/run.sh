@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs one group of the page's tests, or a file that is given by its path; skipped (exit status 77) where npm, the packages
 # or Chromium are missing.
-# usage: run.sh types|mock|teaching|served|FILE BUILD_FOLDER PROGRAM
+# usage: run.sh types|mock|teaching|saved|served|FILE BUILD_FOLDER PROGRAM
 set -eu
 group=$1
 ASPERITY_PAGE_BUILD=$2

@@ -36,7 +36,9 @@ const book = (rows, chart) => `local book = lab.notebook "big" -- mock.rows ${ro
 
 /** Runs a script and shows its first chart, whose caption says that it has so many points. */
 async function charted(page, script, points) {
+  const before = await page.evaluate(() => sessionStorage.getItem('asperity.run'));
   await on.run(page, script);
+  await on.until(page, (b) => sessionStorage.getItem('asperity.run') !== b, 'it should begin', before);
   await on.until(page, () => /^(Done|Failed)/.test(document.querySelector('#status').textContent), 'it should end');
   await page.click('#tab-chart');
   await on.until(
@@ -97,6 +99,124 @@ test('Chart, EachOfTheScriptCanBeChosen', () =>
     assert.equal(await on.text(page, '#tab-chart .count'), '2');
     await which.select('big: Second');
     assert.match(await on.text(page, '.charts .caption'), /^level against i: 2 points/);
+  }));
+
+test('Chart, OfNamesAlongXWritesThemApart', () =>
+  visit({}, async (page) => {
+    const script = (n) => `local book = lab.notebook "shares" -- mock.names ${n}\nbook:chart{ x="part", y="share", one_line_per="rule" }\n`;
+    for (const [width, height] of [
+      [1920, 1080],
+      [1280, 720],
+      [960, 540],
+    ]) {
+      await page.setViewport({ width, height });
+      for (const n of [2, 5, 60]) {
+        await charted(page, script(n), 2 * n);
+        await on.pause(250); // a window of another size is drawn anew
+        const labels = await ticks(page, 'x');
+        assert.ok(labels.length >= 2 && labels.length <= n, `${width}: ${labels.length} of ${n} names`);
+        if (n <= 5) assert.equal(labels.length, n, `${width}: every one of ${n} names`);
+        assert.match(labels[0].text, /^part 1/);
+        labels.forEach((a, k) =>
+          labels.slice(k + 1).forEach((b) =>
+            assert.ok(a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top, `${width}: ${a.text} and ${b.text}`),
+          ),
+        );
+        const chart = await (await page.$('.chart svg')).boundingBox();
+        const titled = await page.$$eval('.chart .text text', (all) =>
+          all.map((e) => ({ text: e.textContent, top: e.getBoundingClientRect().top })).find((e) => e.text === 'part'),
+        );
+        labels.forEach((l) => assert.ok(l.left >= chart.x && l.bottom <= titled.top + 1, `${width}: ${JSON.stringify([l, titled, chart])}`));
+        // Two dots a name, over one place along.
+        const across = await page.$$eval('.chart .dot circle, .chart .dot path', (all) => all.filter((c) => c.querySelector('title')).map((c) => c.getBoundingClientRect()).map((b) => Math.round(b.left + b.width / 2)));
+        assert.equal(new Set(across).size, n);
+        assert.equal((await page.$$('.chart .line path')).length, 0, 'no line goes from name to name');
+      }
+    }
+    assert.match(await on.text(page, '.charts .caption'), /^share against part: 120 points, 2 lines, one per rule/);
+    await page.click('.axes summary');
+    const [logX] = await page.$$eval('.charts input[type=checkbox]', (boxes) => boxes.map((b) => b.disabled));
+    assert.equal(logX, true, 'names have no logarithm');
+    await on.assertAccessible(page, 'a chart of names');
+  }));
+
+test('Chart, OfColumnsThatAVariableNames', () =>
+  visit({}, async (page) => {
+    const titles = async (script) => {
+      await charted(page, `local book = lab.notebook "big" -- mock.rows 9\n${script}`, 9);
+      return page.$$eval('.charts select', ([which]) => [...which.options].map((o) => o.text));
+    };
+    assert.deepEqual(await titles('for _, q in ipairs{ "v", "level" } do book:chart{ x="i", y=q, file=q .. ".svg" } end\n'), [
+      'v against i',
+      'level against i',
+    ]);
+    assert.deepEqual(await titles('local all, up = 2, "i"\nlocal up = "level"\nbook:chart{ x="v", y=up }\n'), ['level against v']);
+    assert.deepEqual(await titles('local all = { "v", "i" }\nfor _, q in ipairs(all) do book:chart{ x="level", y=q } end\n'), [
+      'v against level',
+      'i against level',
+    ]);
+    // What no text tells, the names of the files do.
+    assert.deepEqual(
+      await titles('local function draw(q) book:chart{ x="i", y=q } end -- mock.file big-v-i.svg mock.file big-level-i.svg\ndraw "v"\n'),
+      ['big', 'level against i'],
+    );
+  }));
+
+// T10
+for (const [width, height] of [
+  [1280, 720],
+  [960, 540],
+])
+  test(`Files, DrawingsAreAsLargeAsTheirLettersNeedAt${width}x${height}`, () =>
+    visit({ width, height }, async (page) => {
+      await on.run(page, '-- mock.file big-v-i.svg\n');
+      await on.finished(page);
+      await page.click('#tab-files');
+      await on.until(page, () => [...document.querySelectorAll('.previews img.drawn')].some((i) => i.complete), 'it should come');
+      const seen = await page.evaluate(() => ({
+        letters: (16 / 960) * document.querySelector('.previews img.drawn').clientWidth, // gnuplot's
+        pane: document.querySelector('#files').scrollWidth <= document.querySelector('#files').clientWidth,
+        scrolls: getComputedStyle(document.querySelector('.previews figure')).overflowX,
+      }));
+      assert.ok(seen.letters >= 13, `letters of ${seen.letters} px`);
+      assert.deepEqual([seen.pane, seen.scrolls], [true, 'auto'], 'the drawing scrolls, not the pane');
+      // By keys it is seen whole.
+      await page.focus('.previews button');
+      await page.keyboard.press('Enter');
+      const whole = await (await page.$('.enlarged img')).boundingBox();
+      assert.ok(whole.x >= 0 && whole.x + whole.width <= width && whole.y + whole.height <= height);
+      await page.keyboard.press('Escape');
+      await on.until(page, () => !document.querySelector('.enlarged'), 'it should close');
+      await on.assertAccessible(page, 'drawings among the files');
+    }));
+
+test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
+  visit({}, async (page) => {
+    const selected = () => page.$eval('#tabs [aria-selected=true]', (e) => e.id);
+    const ran = async (script) => {
+      const before = await page.evaluate(() => sessionStorage.getItem('asperity.run'));
+      await on.run(page, script);
+      await on.until(page, (b) => sessionStorage.getItem('asperity.run') !== b, 'it should begin', before);
+      await on.until(page, () => /^(Done|Failed)/.test(document.querySelector('#status').textContent), 'it should end');
+      return selected();
+    };
+    const made = book(9, 'x="v", y="i"');
+    assert.equal(await ran('print "a"\n'), 'tab-output');
+    assert.equal(await ran(`${made}print "beside a chart"\n`), 'tab-chart');
+    assert.match(await on.focused(page), /^Script in Lua/, 'the focus stays where it was');
+    assert.equal(await ran('-- mock.file map.png\n'), 'tab-files');
+    assert.equal(await ran('-- mock.views 2\n'), 'tab-picture');
+    assert.equal(await ran('-- mock.views 2\nprint "a"\n'), 'tab-output');
+    assert.equal(await ran(`${made}error "at the end"\n`), 'tab-output');
+    // A tab that was chosen stays, until another script is opened.
+    await page.click('#tab-table');
+    assert.equal(await ran(made), 'tab-table');
+    await page.click('.lessons button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    assert.equal(await ran(made), 'tab-chart');
+    await page.focus('#tab-chart');
+    await page.keyboard.press('ArrowLeft');
+    assert.equal(await ran(`${made}\n`), 'tab-table');
   }));
 
 // T10

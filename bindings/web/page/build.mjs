@@ -4,6 +4,7 @@
 // package without a licence that may be given on under the GPL stops the build.
 
 import { build } from 'esbuild';
+import { createHash } from 'node:crypto';
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -16,6 +17,24 @@ const allowed = new Set(['MIT', 'ISC', 'BSD-2-Clause', 'BSD-3-Clause', '0BSD', '
 rmSync(output, { recursive: true, force: true });
 mkdirSync(output, { recursive: true });
 
+// The script of a saved run goes into its file as text, and its digest into that file's content policy. The digest is
+// taken here: a page that comes over plain HTTP from another machine has no digests.
+const player = await build({
+  absWorkingDir: here,
+  entryPoints: ['src/saved/player.ts'],
+  bundle: true,
+  format: 'iife',
+  target: 'es2022',
+  minify: true,
+  legalComments: 'none',
+  charset: 'utf8',
+  write: false,
+  logLevel: 'warning',
+});
+const playerText = player.outputFiles[0].text.trim();
+if (/<\/script|<!--/i.test(playerText)) throw new Error('the script of a saved run would end its own element');
+const playerDigest = `sha256-${createHash('sha256').update(playerText, 'utf8').digest('base64')}`;
+
 const result = await build({
   absWorkingDir: here,
   entryPoints: { page: 'src/main.ts' },
@@ -27,6 +46,7 @@ const result = await build({
   minify: true,
   legalComments: 'none',
   metafile: true,
+  define: { SAVED_PLAYER: JSON.stringify({ text: playerText, digest: playerDigest }) },
   charset: 'utf8',
   logLevel: 'warning',
 });

@@ -4,12 +4,12 @@
 // own charts do. Colours are attributes, so the drawing needs no style sheet.
 
 import { axisX, axisY, dot, gridY, line, plot, rectY, ruleX, ruleY, text, type Markish } from '@observablehq/plot';
-import { linesOf, type ChartChoice, type Line, type Point } from './chart_choice';
+import { linesOf, namesAlong, type ChartChoice, type Line, type Point } from './chart_choice';
 import { svg } from './dom';
 import type { Ink } from './ink';
 import { crowded, marksFor, radii, share, type Marks, type Place } from './marks';
 import type { Notebook } from './run';
-import { axisFor, type Axis } from './ticks';
+import { axisFor, axisOfNames, type Axis } from './ticks';
 import { label, numberText, scaleFor, type Scale } from './units';
 
 const fontSize = 15; // px
@@ -24,7 +24,10 @@ export interface Drawn {
   left: number;
 }
 
-export function drawChart(notebook: Notebook, choice: ChartChoice, width: number, height: number, ink: Ink): Drawn {
+export function drawChart(notebook: Notebook, asked: ChartChoice, width: number, height: number, ink: Ink): Drawn {
+  const names = namesAlong(notebook, asked);
+  const named = names.length > 0;
+  const choice = named ? { ...asked, logX: false } : asked;
   const { lines, left } = linesOf(notebook, choice);
   const all = lines.flatMap((l) => l.points);
   const name = `${choice.y.join(', ')} against ${choice.x}`;
@@ -35,7 +38,9 @@ export function drawChart(notebook: Notebook, choice: ChartChoice, width: number
   const scaleX = scaleFor(notebook.units[choice.x], greatest(all.map((p) => p.x)));
   const scaleY = scaleFor(notebook.units[choice.y[0]], greatest(all.map((p) => p.y)));
   const legend = legendRows(lines.length > 1 ? lines : [], width - 90);
-  const margin = { left: 0, right: 24, top: 14 + legend.length * lineHeight, bottom: 56 };
+  const turned = named && !fitAside(names, width - 130);
+  const tall = turned ? Math.min(height / 3, Math.max(...names.map((n) => widthOf(shortened(n))))) : 0;
+  const margin = { left: 0, right: 24, top: 14 + legend.length * lineHeight, bottom: 56 + Math.max(0, tall - fontSize) };
   const ends = choice.spread ? lines.flatMap((l) => l.means.flatMap((m) => barOf(m, choice.logY))) : [];
   const y = axisFor(
     [...all.map((p) => p.y), ...ends].map((v) => v / scaleY.factor),
@@ -44,11 +49,16 @@ export function drawChart(notebook: Notebook, choice: ChartChoice, width: number
   );
   margin.left = Math.max(58, 46 + Math.max(...y.labels.map(widthOf)));
   const inside = width - margin.left - margin.right;
-  const x = axisFor(
-    all.map((p) => p.x / scaleX.factor),
-    choice.logX,
-    apartBy((text) => widthOf(text) + 16, inside),
-  );
+  const x = named
+    ? axisOfNames(
+        names.map((n) => (turned ? shortened(n, tall) : n)),
+        turned ? apartBy(() => 1.2 * fontSize, inside) : () => true,
+      )
+    : axisFor(
+        all.map((p) => p.x / scaleX.factor),
+        choice.logX,
+        apartBy((text) => widthOf(text) + 16, inside),
+      );
 
   const scaled = (p: Point): Point => ({ x: p.x / scaleX.factor, y: p.y / scaleY.factor });
   const place = (p: Point): Place => ({
@@ -57,7 +67,7 @@ export function drawChart(notebook: Notebook, choice: ChartChoice, width: number
   });
   const places = lines.map((l) => l.points.map(place));
   const kinds = lines.map((l, k): Marks =>
-    choice.points === false ? 'none' : marksFor(places[k], l.means.length === l.points.length),
+    choice.points === false && !named ? 'none' : marksFor(places[k], !named && l.means.length === l.points.length),
   );
   const drawn = lines.flatMap((l, k): Markish[] => {
     const stroke = ink.series[k % ink.series.length];
@@ -72,8 +82,9 @@ export function drawChart(notebook: Notebook, choice: ChartChoice, width: number
         stroke,
         strokeWidth: 1.5,
       }),
-      line(l.means.map(scaled), { x: 'x', y: 'y', stroke, strokeWidth: 2 }),
-      ...dotsOf(l, places[k], kind, k, ink, scaled, (p) => pointText(l, p, choice, scaleX, scaleY)),
+      // What lies between two names is nothing.
+      ...(named ? [] : [line(l.means.map(scaled), { x: 'x', y: 'y', stroke, strokeWidth: 2 })]),
+      ...dotsOf(l, places[k], kind, k, ink, scaled, (p) => pointText(l, p, choice, scaleX, scaleY, names)),
     ];
   });
   const words = { fontSize, fill: ink.text };
@@ -90,9 +101,16 @@ export function drawChart(notebook: Notebook, choice: ChartChoice, width: number
     marks: [
       gridY(y.ticks, { stroke: ink.grid, strokeOpacity: 1 }),
       axisY(y.ticks, { ...words, fill: ink.muted, tickSize: 0, tickPadding: 8, text: labelOf(y), label: null }),
-      axisX(x.ticks, { ...words, fill: ink.muted, stroke: ink.muted, text: labelOf(x), label: null }),
+      axisX(x.ticks, {
+        ...words,
+        fill: ink.muted,
+        stroke: ink.muted,
+        text: labelOf(x),
+        label: null,
+        ...(turned ? { tickRotate: -90 } : {}),
+      }),
       ruleY([y.domain[0]], { stroke: ink.muted }),
-      text([label(choice.x, scaleX)], { ...words, frameAnchor: 'bottom', dy: 48 }),
+      text([label(choice.x, scaleX)], { ...words, frameAnchor: 'bottom', dy: margin.bottom - 8 }),
       text([yLabel(choice, scaleY)], { ...words, frameAnchor: 'left', rotate: -90, dx: 16 - margin.left }),
       ...drawn,
       ...legendMarks(legend, margin.top, ink),
@@ -101,6 +119,7 @@ export function drawChart(notebook: Notebook, choice: ChartChoice, width: number
   const summary =
     `${yLabel(choice, scaleY)} against ${label(choice.x, scaleX)}: ${count(all.length, 'point')}` +
     (lines.length > 1 ? `, ${count(lines.length, 'line')}${choice.per ? `, one per ${choice.per}` : ''}` : '') +
+    (x.ticks.length < names.length ? `, ${x.ticks.length} of ${names.length} names written` : '') +
     (kinds.includes('none') && choice.points !== false ? ', too close together to be marked one by one' : '');
   return { element: asPicture(element, summary, ink), summary, left };
 }
@@ -223,6 +242,19 @@ function apartBy(size: (text: string) => number, length: number) {
     labels.every((text, k) => k === 0 || length * (shares[k] - shares[k - 1]) >= (size(text) + size(labels[k - 1])) / 2);
 }
 
+/** Whether names fit beside each other, each on its own part of the axis. */
+function fitAside(names: string[], length: number): boolean {
+  return names.every((name) => widthOf(name) + 12 <= length / names.length);
+}
+
+/** As much of a name as has room, 220 px at most; the whole of it is in the title of its point. */
+function shortened(name: string, room = 220): string {
+  if (widthOf(name) <= room) return name;
+  let text = [...name];
+  while (text.length > 1 && widthOf(`${text.join('').trimEnd()}…`) > room) text = text.slice(0, -1);
+  return `${text.join('').trimEnd()}…`;
+}
+
 const ruler = document.createElement('canvas').getContext('2d');
 
 function widthOf(text: string): number {
@@ -239,11 +271,12 @@ function yLabel(choice: ChartChoice, scale: Scale): string {
   return label(choice.y.join(', '), scale);
 }
 
-function pointText(l: Line, p: Point, choice: ChartChoice, x: Scale, y: Scale): string {
+function pointText(l: Line, p: Point, choice: ChartChoice, x: Scale, y: Scale, names: string[]): string {
   const number = (value: number, scale: Scale): string =>
     numberText(value / scale.factor) + (scale.unit && ' ' + scale.unit);
   const part = choice.per ? `${l.name}\n` : '';
-  return `${part}${choice.x} = ${number(p.x, x)}\n${l.column} = ${number(p.y, y)}`;
+  const along = names[p.x] ?? number(p.x, x);
+  return `${part}${choice.x} = ${along}\n${l.column} = ${number(p.y, y)}`;
 }
 
 interface Entry {

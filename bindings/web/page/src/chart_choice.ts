@@ -3,11 +3,11 @@
 // each for every value of a column that parts them.
 
 import type { Cell } from './api';
-import type { Notebook } from './run';
+import { namesIn, numericColumns, type Notebook } from './run';
 import { numberText } from './units';
 
 export interface ChartChoice {
-  x: string;
+  x: string; // a column of numbers, or of names
   y: string[]; // columns of one unit
   per: string; // a line for each value of this column; empty for one line
   logX: boolean;
@@ -33,18 +33,31 @@ export interface Line {
   means: Mean[];
 }
 
-/** The lines, and how many rows have no point in any: no number, or none that a logarithmic axis can show. */
+/** The names along x, in the order of their rows; none where x is a column of numbers. */
+export function namesAlong(notebook: Notebook, choice: ChartChoice): string[] {
+  if (numericColumns(notebook).includes(choice.x)) return [];
+  return namesIn({ ...notebook, rows: rowsOf(notebook, choice) }, choice.x);
+}
+
+function rowsOf(notebook: Notebook, choice: ChartChoice): Notebook['rows'] {
+  const wanted = Object.entries(choice.where ?? {});
+  return notebook.rows.filter((row) => wanted.every(([column, values]) => values.includes(row[column])));
+}
+
+/** The lines, and how many rows have no point in any: no number, or none that a logarithmic axis can show. Where names
+    stand along x, the x of a point is the place of its name, from 0. */
 export function linesOf(notebook: Notebook, choice: ChartChoice): { lines: Line[]; left: number } {
   const groups = new Map<string, { column: string; points: Point[] }>();
   let left = 0;
-  const wanted = Object.entries(choice.where ?? {});
-  const rows = notebook.rows.filter((row) => wanted.every(([column, values]) => values.includes(row[column])));
-  for (const row of rows) {
-    const x = row[choice.x];
+  const names = namesAlong(notebook, choice);
+  for (const row of rowsOf(notebook, choice)) {
+    const given = row[choice.x];
+    const place = typeof given === 'string' ? names.indexOf(given) : -1;
+    const x = names.length === 0 ? given : place < 0 ? null : place;
     let drawn = false;
     for (const column of choice.y) {
       const y = row[column];
-      if (!shown(x, choice.logX) || !shown(y, choice.logY)) continue;
+      if (!shown(x, choice.logX && names.length === 0) || !shown(y, choice.logY)) continue;
       drawn = true;
       const key = nameOf(row, column, choice, notebook);
       const group = groups.get(key);

@@ -7,7 +7,7 @@ import type { ChartChoice } from './chart_choice';
 import { Choice, h, saveAs } from './dom';
 import { chartsOf, columnsLike, type RunChart } from './first_chart';
 import { inkNow, lightInk } from './ink';
-import { numericColumns, type Run } from './run';
+import { columnsAlong, numericColumns, type Run } from './run';
 
 type Drawing = typeof import('./chart');
 
@@ -87,7 +87,7 @@ export class ChartPane {
     return chartsOf(run).map((chart) => {
       const known = this.choices.get(chart.name);
       const columns = numericColumns(chart.notebook);
-      if (!known || !columns.includes(known.x) || !known.y.every((y) => columns.includes(y))) return chart;
+      if (!known || !columnsAlong(chart.notebook).includes(known.x) || !known.y.every((y) => columns.includes(y))) return chart;
       const per = chart.notebook.columns.includes(known.per) ? known.per : '';
       return { ...chart, choice: { ...known, per } };
     });
@@ -121,7 +121,7 @@ export class ChartPane {
       charts.map((c) => ({ value: c.name, text: c.title })),
       shown.name,
     );
-    this.x.choose(options(columns), choice.x);
+    this.x.choose(options(columnsAlong(notebook)), choice.x);
     const together = choice.y.length > 1 ? [{ value: several, text: choice.y.join(', ') }] : [];
     this.y.choose([...together, ...options(columns)], choice.y.length > 1 ? several : choice.y[0]);
     const more = columnsLike(notebook, choice.y[0]).filter((c) => c !== choice.x && !choice.y.includes(c));
@@ -134,7 +134,8 @@ export class ChartPane {
       ],
       choice.per,
     );
-    this.logX.checked = choice.logX;
+    this.logX.disabled = !columns.includes(choice.x); // names have no logarithm
+    this.logX.checked = choice.logX && !this.logX.disabled;
     this.logY.checked = choice.logY;
     if (!this.drawing) {
       this.library().then(() => this.draw(), this.failed);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The charts that a script asks for, read from its text: `book:chart{ x="N", y="Ra", log_x=true }`, and
-// `study:chart "cost.svg"`, which is error against seconds. Only what is written out is known; a column named by
-// a variable is not, and such a call is passed over. And the order in which it names its columns, which a row
-// does not keep.
+// `study:chart "cost.svg"`, which is error against seconds. Only what is written out is known: a column may be named
+// by a variable that is given a text or a list of texts, or that a loop gives one text after the other; a call with
+// any other name is passed over. And the order in which it names its columns, which a row does not keep.
 
 import type { Cell } from './api';
 
@@ -33,6 +33,7 @@ export function chartedIn(script: string): Charted[] {
   const tokens = tokensOf(script);
   const books = new Map<string, string>(); // names of notebooks by the variables that hold them
   const studies = studiesIn(script);
+  const variables = variablesIn(tokens);
   const found: Charted[] = [];
   const is = (at: number, value: string): boolean => tokens[at]?.kind !== 'text' && tokens[at]?.value === value;
   tokens.forEach((token, at) => {
@@ -48,20 +49,21 @@ export function chartedIn(script: string): Charted[] {
       const notebook = studies.get(holder)!;
       found.push({ ...study, notebook, title: `${notebook}: error against time` });
     } else if (is(past, '{')) {
-      const { x, y, one_line_per: per, log_x, log_y, title, where, points, spread } = fieldsOf(tokens, past);
-      if (typeof x !== 'string' || (typeof y !== 'string' && !Array.isArray(y))) return;
-      found.push({
-        notebook: books.get(holder) ?? '',
-        x,
-        y: [y].flat() as string[],
-        per: typeof per === 'string' ? per : '',
-        logX: log_x === true,
-        logY: log_y === true,
-        title: typeof title === 'string' ? title : '',
-        where: typeof where === 'object' && !Array.isArray(where) ? where : {},
-        points: points !== false,
-        spread: spread === true,
-      });
+      const { one_line_per: per, log_x, log_y, title, where, points, spread } = fieldsOf(tokens, past);
+      const all = columnsOf(tokens, past, variables);
+      for (const { x, y } of all)
+        found.push({
+          notebook: books.get(holder) ?? '',
+          x,
+          y,
+          per: typeof per === 'string' ? per : '',
+          logX: log_x === true,
+          logY: log_y === true,
+          title: typeof title === 'string' && all.length === 1 ? title : '',
+          where: typeof where === 'object' && !Array.isArray(where) ? where : {},
+          points: points !== false,
+          spread: spread === true,
+        });
     }
   });
   return found;
@@ -94,6 +96,79 @@ export function keysIn(script: string): string[] {
     if (bracketed || (kind === 'word' && open[open.length - 1] === '{')) keys.add(value.replace(/ *\[.*\]$/, ''));
   });
   return [...keys];
+}
+
+/** What a variable may hold at a call that follows: one of some texts, or of some lists of them. */
+interface Variable {
+  at: number; // the token that names it
+  values: (string | string[])[];
+}
+
+/** `q = "a"`, `q = { "a", "b" }`, `for _, q in ipairs{ "a", "b" } do`, `ipairs(q)`; a name that is given anything
+    else, or is the parameter of a function, has no values from there on. */
+function variablesIn(tokens: Token[]): Map<string, Variable[]> {
+  const variables = new Map<string, Variable[]>();
+  const put = (name: string, at: number, values: Variable['values']): void => {
+    variables.set(name, [...(variables.get(name) ?? []), { at, values }]);
+  };
+  const word = (at: number): string => (tokens[at]?.kind === 'word' ? tokens[at].value : '');
+  const sign = (at: number): string => (tokens[at]?.kind === 'sign' ? tokens[at].value : '');
+  let depth = 0; // of brackets: `=` in a table is no assignment
+  tokens.forEach(({ kind, value }, at) => {
+    if (kind === 'sign' && '([{'.includes(value)) ++depth;
+    if (kind === 'sign' && ')]}'.includes(value)) --depth;
+    if (kind === 'sign' && value === '=' && depth === 0 && word(at - 1) && sign(at - 2) !== '.') {
+      const next = tokens[at + 1];
+      const single = sign(at - 2) !== ',' && sign(at + 2) !== '..' && sign(at + 2) !== ',';
+      const list = sign(at + 1) === '{' ? textsOf(tokens, at + 2) : undefined;
+      put(word(at - 1), at, !single ? [] : next?.kind === 'text' ? [next.value] : list ? [list] : []);
+    }
+    if (word(at) === 'for' && sign(at + 2) === ',' && word(at + 4) === 'in' && word(at + 5) === 'ipairs') {
+      const past = sign(at + 6) === '(' ? at + 7 : at + 6;
+      const list = sign(past) === '{' ? textsOf(tokens, past + 1) : valuesAt(variables, word(past), past)[0];
+      put(word(at + 3), at, Array.isArray(list) ? list : []);
+    } else if (word(at) === 'for') {
+      for (let k = at + 1; word(k) && word(k) !== 'in'; k += 2) put(word(k), at, []);
+    }
+    if (word(at) === 'function') {
+      let k = at + 1;
+      while (k < tokens.length && sign(k) !== '(') ++k;
+      for (++k; word(k); k += 2) put(word(k), at, []);
+    }
+  });
+  return variables;
+}
+
+function valuesAt(variables: Map<string, Variable[]>, name: string, at: number): Variable['values'] {
+  return (variables.get(name) ?? []).filter((v) => v.at < at).at(-1)?.values ?? [];
+}
+
+/** The columns of each chart that the call with the table at `at` may draw. */
+function columnsOf(tokens: Token[], at: number, variables: Map<string, Variable[]>): { x: string; y: string[] }[] {
+  const plain = fieldsOf(tokens, at);
+  const values = (key: string): Variable['values'] => {
+    const given = plain[key];
+    if (typeof given === 'string') return [given];
+    if (Array.isArray(given)) return [given];
+    return valuesAt(variables, variableIn(tokens, at, key), at);
+  };
+  return values('x').flatMap((across) =>
+    typeof across === 'string' ? values('y').map((up) => ({ x: across, y: [up].flat() })) : [],
+  );
+}
+
+/** The variable alone that a field of the table at `at` is given: `y=q`, not `y=q.name` or `y=name(q)`. */
+function variableIn(tokens: Token[], at: number, key: string): string {
+  let depth = 0;
+  for (let k = at; k < tokens.length; ++k) {
+    const { kind, value } = tokens[k];
+    if (kind === 'sign' && '([{'.includes(value)) ++depth;
+    if (kind === 'sign' && ')]}'.includes(value) && --depth === 0) return '';
+    if (depth !== 1 || kind !== 'word' || value !== key || tokens[k + 1]?.value !== '=') continue;
+    const alone = tokens[k + 3]?.kind === 'sign' && [',', ';', '}'].includes(tokens[k + 3].value);
+    return alone && tokens[k + 2].kind === 'word' ? tokens[k + 2].value : '';
+  }
+  return '';
 }
 
 /** Comments and spaces are left out. */

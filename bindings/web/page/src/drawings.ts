@@ -31,12 +31,12 @@ export interface Drawing {
 const [width, height] = [720, 480];
 const above: Attitude = { turn: 0, tilt: 89.9, zoom: 1 };
 
-/** `stepOf` may say how much a relief is exaggerated; otherwise it is as fits. */
+/** `steps` says how much the reliefs of a name are exaggerated; where it does not, the first is as fits, and kept. */
 export async function drawingsOf(
   views: { name: string; title: string }[],
   fieldsOf: (name: string) => Promise<Field[]>,
   attitude: Attitude,
-  stepOf: (relief: Field) => number | undefined,
+  steps: Map<string, number>,
 ): Promise<Drawing[]> {
   const canvas = document.createElement('canvas');
   const scene = await sceneOn(canvas);
@@ -48,10 +48,12 @@ export async function drawingsOf(
     await new Promise((r) => setTimeout(r)); // the page goes on answering
     const found = reliefFields(fields).find((f) => f.name === 'height') ?? reliefFields(fields)[0];
     const relief = scene && found && found.nx === field.nx && found.ny === field.ny ? found : undefined;
-    const step = relief
-      ? (stepOf(relief) ?? fittingExaggeration(spanOf(relief.values), Math.max(relief.sizeX, relief.sizeY)))
-      : 0;
-    const exaggeration = exaggerations[step];
+    if (relief && !steps.has(relief.name))
+      steps.set(
+        relief.name,
+        fittingExaggeration(spanOf(relief.values), Math.max(relief.sizeX, relief.sizeY)),
+      );
+    const exaggeration = exaggerations[relief ? steps.get(relief.name)! : 0];
     const range = rangeOf(field.name, field.values);
     const colours = coloursOf(field.name, field.values, range);
     if (scene) {

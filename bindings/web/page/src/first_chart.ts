@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The charts of a run: what the script itself charts, by its text or by the names of the files it drew, and of
-// every other notebook one of the columns that vary and that it writes first.
+// every other notebook one of the columns that vary and that it writes first. Along x there are numbers or names.
 
 import type { ChartChoice } from './chart_choice';
 import type { Charted } from './charted';
-import { numericColumns, type Notebook, type Run } from './run';
+import { columnsAlong, numericColumns, type Notebook, type Run } from './run';
 import { sameToRounding, scaleFor } from './units';
 
 /** One chart of a run. */
@@ -13,25 +13,38 @@ export interface RunChart {
   title: string;
   notebook: Notebook;
   choice: ChartChoice;
+  asked: boolean; // by the script
 }
 
 /** All that can be drawn now, those of the script first. */
 export function chartsOf(run: Run): RunChart[] {
   const found: RunChart[] = [];
-  const drawable = [...run.notebooks.values()].filter((n) => numericColumns(n).length >= 2);
+  const drawable = [...run.notebooks.values()].filter(
+    (n) => numericColumns(n).length >= 1 && columnsAlong(n).length >= 2,
+  );
   for (const charted of run.charted) {
     for (const notebook of drawable) {
       const choice = asCharted(charted, notebook);
       if (!choice) continue;
       const title = charted.title || `${choice.y.join(', ')} against ${choice.x}`;
       if (found.some((c) => c.name === `${notebook.name}: ${title}`)) break;
-      found.push({ name: `${notebook.name}: ${title}`, title, notebook, choice });
+      found.push({ name: `${notebook.name}: ${title}`, title, notebook, choice, asked: true });
       break;
     }
   }
   for (const notebook of drawable) {
-    if (found.some((c) => c.notebook === notebook)) continue;
-    found.push({ name: notebook.name, title: notebook.name, notebook, choice: firstChoice(run, notebook) });
+    const known = found.filter((c) => c.notebook === notebook).map((c) => c.choice);
+    const drawn = byFiles(run, notebook).filter((f) => !known.some((k) => k.x === f.x && k.y.includes(f.y)));
+    const per = known.length > 0 ? known[0].per : partedBy(notebook);
+    drawn.forEach(({ x, y }, k) => {
+      const first = k === 0 && known.length === 0;
+      const title = first ? notebook.name : `${y} against ${x}`;
+      const name = first ? notebook.name : `${notebook.name}: ${title}`;
+      const choice = { x, y: [y], per: per === x ? '' : per, logX: false, logY: false };
+      found.push({ name, title, notebook, choice, asked: true });
+    });
+    if (known.length + drawn.length > 0) continue;
+    found.push({ name: notebook.name, title: notebook.name, notebook, choice: firstChoice(run, notebook), asked: false });
   }
   return found;
 }
@@ -49,22 +62,30 @@ function firstChoice(run: Run, notebook: Notebook): ChartChoice {
     return at < 0 ? run.keys.length : at;
   };
   const varied = columns.filter((c) => varies(notebook, c)).sort((a, b) => written(a) - written(b));
-  const per =
-    notebook.columns.find((c) => {
-      const values = columns.includes(c) ? 0 : distinct(notebook, c);
-      return values > 1 && values <= 8;
-    }) ?? '';
-  const drawn = byFile(run, notebook, columns);
-  if (drawn) return { x: drawn.x, y: [drawn.y], per, logX: false, logY: false };
+  const per = partedBy(notebook);
+  if (columns.length < 2) {
+    const x = columnsAlong(notebook).find((c) => c !== columns[0])!;
+    return { x, y: [columns[0]], per: per === x ? '' : per, logX: false, logY: false };
+  }
   const x = varied[0] ?? columns[0];
   const y = varied[1] ?? columns.find((c) => c !== x)!;
   return { x, y: [y], per, logX: false, logY: false };
 }
 
+/** The first column of texts that parts the rows into a few; empty where there is none. */
+function partedBy(notebook: Notebook): string {
+  const columns = numericColumns(notebook);
+  const parts = notebook.columns.find((c) => {
+    const values = columns.includes(c) ? 0 : distinct(notebook, c);
+    return values > 1 && values <= 8;
+  });
+  return parts ?? '';
+}
+
 function asCharted(charted: Charted, notebook: Notebook): ChartChoice | undefined {
   const columns = numericColumns(notebook);
   if (charted.notebook && charted.notebook !== notebook.name) return undefined;
-  if (!columns.includes(charted.x)) return undefined;
+  if (!columnsAlong(notebook).includes(charted.x)) return undefined;
   const known = charted.y.filter((c) => columns.includes(c));
   if (known.length === 0) return undefined;
   const alike = columnsLike(notebook, known[0]);
@@ -74,16 +95,21 @@ function asCharted(charted: Charted, notebook: Notebook): ChartChoice | undefine
 }
 
 /** A chart without a name of its own is in the file <notebook>-<y>-<x>.svg, with any further y between. */
-function byFile(run: Run, notebook: Notebook, columns: string[]): { x: string; y: string } | undefined {
+function byFiles(run: Run, notebook: Notebook): { x: string; y: string }[] {
+  const columns = numericColumns(notebook);
+  const along = columnsAlong(notebook);
+  const found: { x: string; y: string }[] = [];
   for (const file of run.files.keys()) {
     for (const y of columns) {
       const begin = `${fileName(`${notebook.name}-${y}`)}-`;
       if (!file.startsWith(begin)) continue;
-      const x = columns.find((c) => c !== y && `-${file.slice(begin.length)}`.endsWith(`-${fileName(c)}.svg`));
-      if (x !== undefined) return { x, y };
+      const x = along.find((c) => c !== y && `-${file.slice(begin.length)}`.endsWith(`-${fileName(c)}.svg`));
+      if (x === undefined) continue;
+      found.push({ x, y });
+      break;
     }
   }
-  return undefined;
+  return found;
 }
 
 /** A text as the program makes it safe as a file's name. */

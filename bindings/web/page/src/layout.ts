@@ -5,6 +5,7 @@ import { keep, kept } from './storage';
 
 export class Tabs {
   private readonly tabs: HTMLButtonElement[];
+  private byHand = false;
 
   constructor(
     list: HTMLElement,
@@ -12,11 +13,15 @@ export class Tabs {
   ) {
     this.tabs = [...list.querySelectorAll<HTMLButtonElement>('[role=tab]')];
     this.tabs.forEach((tab, k) => {
-      tab.addEventListener('click', () => this.select(this.name(tab)));
+      tab.addEventListener('click', () => {
+        this.byHand = true;
+        this.select(this.name(tab));
+      });
       tab.addEventListener('keydown', (event) => {
         const to = { ArrowRight: k + 1, ArrowLeft: k - 1, Home: 0, End: this.tabs.length - 1 }[event.key];
         if (to === undefined) return;
         event.preventDefault();
+        this.byHand = true;
         const next = this.tabs[(to + this.tabs.length) % this.tabs.length];
         this.select(this.name(next));
         next.focus();
@@ -32,6 +37,18 @@ export class Tabs {
       document.getElementById(tab.getAttribute('aria-controls')!)!.hidden = !on;
     }
     this.changed(name);
+  }
+
+  /** Selects unless a person chose a tab, or has the focus in what a tab shows; false where the choice stays. */
+  offer(name: string): boolean {
+    if (this.byHand || document.activeElement?.closest('[role=tabpanel]')) return false;
+    if (this.selected !== name) this.select(name);
+    return true;
+  }
+
+  /** From here on tabs are offered again. */
+  forgetChoice(): void {
+    this.byHand = false;
   }
 
   get selected(): string {

@@ -20,6 +20,7 @@ import { showWhose } from './results_heading';
 import { HelpButton, Room } from './room';
 import { Run, statusText } from './run';
 import { savedRun } from './save';
+import { RecordedRuns } from './saved/recorded';
 import { keep, keepScript, kept, keptScript, whenWrittenElsewhere } from './storage';
 import { readStudy } from './studies';
 import { TablePane } from './table_pane';
@@ -70,6 +71,7 @@ let opened: Opened = {
   script: keptScript('own') ?? newcomer,
   original: newcomer,
 };
+const recorded = new RecordedRuns();
 
 // Panes ------------------------------------------------------------------------------------------
 
@@ -122,6 +124,7 @@ const lessons = new LessonsPane(
 );
 
 function open(document: Opened): void {
+  if (document.key !== opened.key) tabs.forgetChoice();
   opened = document;
   keep('open', document.key);
   editor.open(document.script);
@@ -349,12 +352,24 @@ function markError(): void {
 function ended(done: Run): void {
   if (waitsForEnd) messages.clear();
   waitsForEnd = false;
+  recorded.add(done);
+  if (tabs.selected === 'output') output.show(done); // whole, before another tab is shown
   if (done.errors.length > 0 || (done.status === 'limit' && done.notebooks.size === 0)) tabs.select('output');
+  else if (done.status === 'done') tabs.offer(madeBy(done));
   const first = done.errors[0];
   if (runOf === opened.key) showResults();
   say(
     `${statusText(done, duration)}${done.reason ? `: ${done.reason}` : ''}.${first ? ` ${first.line === undefined ? '' : `Line ${first.line}: `}${first.message}` : ''}`,
   );
+}
+
+/** The tab of what a run made: the charts its script asks for, then its pictures, before what it printed. */
+function madeBy(done: Run): string {
+  if (chartsOf(done).some((c) => c.asked)) return 'chart';
+  if ([...done.files.keys()].some((name) => name.endsWith('.png'))) return 'files';
+  if (done.output.length > 0) return 'output';
+  if (done.views.length > 0) return 'picture';
+  return done.notebooks.size > 0 ? 'table' : 'output';
 }
 
 async function stop(): Promise<void> {
@@ -386,6 +401,7 @@ async function save(): Promise<void> {
       pictures,
       version: about?.version ?? '',
       title: run.name,
+      recorded: await recorded.beside(run, api),
       prediction: runOf === opened.key && lesson ? kept(`prediction.${lesson}`) : null,
     });
     const name =

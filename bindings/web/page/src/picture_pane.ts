@@ -401,14 +401,13 @@ export class PicturePane {
     });
   }
 
-  /** The last views of the run as drawings, seen as the pane sees them now where it shows that run. */
-  drawings(run: Run, most: number): Promise<Drawing[]> {
-    const mine = run === this.run;
-    const step = (relief: Field): number | undefined =>
-      mine && relief.name === this.relief?.name ? this.step : undefined;
+  /** The last views of a run as drawings, seen as the pane sees them now. `steps` is how much the reliefs of each
+      name are exaggerated: one step for all that are given the same map, so that they compare. */
+  drawings(run: Run, most: number, steps: Map<string, number>): Promise<Drawing[]> {
+    if (this.relief) steps.set(this.relief.name, this.step);
     const fields = (name: string): Promise<Field[]> =>
-      mine ? this.fetch(name) : this.api.view(run.id, name).then(fieldsOf);
-    return drawingsOf(run.views.slice(-most), fields, mine ? this.attitude : resting, step);
+      run === this.run ? this.fetch(name) : this.api.view(run.id, name).then(fieldsOf);
+    return drawingsOf(run.views.slice(-most), fields, this.attitude, steps);
   }
 }
 

@@ -141,10 +141,15 @@ export class Run {
   private write(name: string, row: Record<string, Cell>, units: Record<string, string>): void {
     let notebook = this.notebooks.get(name);
     if (!notebook) this.notebooks.set(name, (notebook = { name, columns: [], units: {}, rows: [] }));
-    // A row names its columns in the order of the notebook's CSV.
     for (const column of Object.keys(row)) {
       if (!notebook.columns.includes(column)) notebook.columns.push(column);
     }
+    // In the order in which the script writes them, which a row does not keep.
+    const written = (column: string): number => {
+      const at = this.keys.indexOf(column);
+      return at < 0 ? this.keys.length : at;
+    };
+    if (notebook.rows.length === 0) notebook.columns.sort((a, b) => written(a) - written(b));
     Object.assign(notebook.units, units);
     notebook.rows.push(row);
   }
@@ -177,6 +182,28 @@ export function statusText(run: Run, seconds: (s: number) => string): string {
     case 'lost':
       return 'Lost: the server forgot this run';
   }
+}
+
+const mostNames = 60; // along an axis
+
+/** The names in a column of texts, in the order of their first rows; none where it holds anything else, or where an
+    axis has no room for so many, which the engine's charts refuse too. */
+export function namesIn(notebook: Notebook, column: string): string[] {
+  const names = new Set<string>();
+  for (const row of notebook.rows) {
+    const value = row[column];
+    if (value === undefined || value === null || value === '') continue;
+    if (typeof value !== 'string') return [];
+    names.add(value);
+  }
+  return names.size > mostNames ? [] : [...names];
+}
+
+/** What can stand along x: columns of numbers, and of names. */
+export function columnsAlong(notebook: Notebook): string[] {
+  return notebook.columns.filter(
+    (c) => notebook.rows.some((r) => typeof r[c] === 'number') || namesIn(notebook, c).length > 0,
+  );
 }
 
 export function numericColumns(notebook: Notebook): string[] {

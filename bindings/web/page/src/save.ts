@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run as one HTML file that opens anywhere: script, output, numbers, charts and pictures, all inside,
-// nothing loaded from elsewhere and nothing executed (its own content policy forbids both). It is built as
-// a document and serialised, so every text is escaped by the browser.
+// A run as one HTML file that opens anywhere: script, output, numbers, charts and pictures, all inside, and
+// nothing loaded from elsewhere. Its pictures can be gone through, and where the script was run at several values
+// of its knobs, all of these runs. One script is in it, which does only that (`saved/player.ts`): the file's content
+// policy names its digest and forbids any other. The file is built as a document and serialised, so every text is
+// escaped by the browser.
 
 import type { Api } from './api';
 import type { ChartPane } from './chart_pane';
@@ -11,11 +13,17 @@ import { lightInk } from './ink';
 import { knobText } from './knobs';
 import type { PicturePane } from './picture_pane';
 import { statusText, type Run } from './run';
+import { sequencesOf } from './saved/sequences';
 import { csvOf, tableOf } from './table_pane';
 import { duration } from './units';
 
+/** The bundled `saved/player.ts` and its digest, as build.mjs puts them in. */
+declare const SAVED_PLAYER: { text: string; digest: string };
+
+const drawn = 60; // surfaces and contacts in one file
+
 const style = `
-:root { color-scheme: light; }
+:root { color-scheme: light; scroll-padding-top: 4rem; }
 body { font: 17px/1.5 system-ui, sans-serif; color: #1c2126; background: #fff; max-width: 62rem; margin: 2rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.7rem; margin: 0; } h2 { font-size: 1.25rem; margin: 2.2rem 0 .6rem; border-bottom: 1px solid #cfd5da; padding-bottom: .2rem; }
 .about { color: #4d5963; margin-top: .2rem; }
@@ -28,7 +36,11 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: .95e
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; } caption { text-align: left; color: #4d5963; padding: .3rem 0; }
 th, td { padding: .2rem .8rem; border-bottom: 1px solid #dfe3e6; text-align: left; } .number, .index { text-align: right; } .index { color: #5f6b75; }
 .scroll { overflow-x: auto; } figure { margin: 1rem 0; } figure svg, figure img { max-width: 100%; height: auto; } figure img.drawn { width: 100%; } figcaption { color: #4d5963; }
-@media print { body { margin: 0; max-width: none; } figure, tr { break-inside: avoid; } }
+.scrubber, .sliders { display: flex; flex-wrap: wrap; gap: .3rem 1rem; align-items: center; } .scrubber .scrub { flex: 1; min-width: 12rem; } .choice { display: inline-flex; gap: .5rem; align-items: center; flex: 1 1 20rem; } .choice input { flex: 1; }
+.sliders { position: sticky; top: 0; background: #fff; padding: .5rem 0; border-bottom: 1px solid #cfd5da; z-index: 1; } .sliders:empty { display: none; } .factor { min-width: 6em; font-variant-numeric: tabular-nums; }
+button { font: inherit; min-width: 5em; padding: .2rem .8rem; } :focus-visible { outline: 3px solid #0b6fb8; outline-offset: 1px; } .frames figcaption b { display: block; color: #1c2126; }
+@media screen { .away { display: none; } }
+@media print { .scrubber, .sliders { display: none; } body { margin: 0; max-width: none; } figure, tr { break-inside: avoid; } }
 `;
 
 export interface Sources {
@@ -38,43 +50,90 @@ export interface Sources {
   version: string;
   title: string;
   prediction: string | null;
+  recorded: Run[]; // this run, and those beside it at other values of the knobs
 }
 
 /** The file's text, and what could not be put in. */
 export async function savedRun(run: Run, from: Sources): Promise<{ html: string; missing: string[] }> {
   const missing: string[] = [];
   const page = document.implementation.createHTMLDocument(`${from.title} – Asperity`);
-  const body = page.body;
+  const body = h('main');
+  page.body.append(body);
   page.documentElement.lang = 'en';
   page.head.prepend(
     h('meta', { charset: 'utf-8' }),
     h('meta', {
       'http-equiv': 'Content-Security-Policy',
-      content: "default-src 'none'; style-src 'unsafe-inline'; img-src data:",
+      content: `default-src 'none'; script-src '${SAVED_PLAYER.digest}'; style-src 'unsafe-inline'; img-src data:`,
     }),
     h('meta', { name: 'viewport', content: 'width=device-width, initial-scale=1' }),
     h('meta', { name: 'generator', content: `Asperity ${from.version}` }),
   );
 
-  const reason = run.reason ? `: ${run.reason}` : '';
-  body.append(
-    h('h1', {}, from.title),
-    h(
-      'p',
-      { className: 'about' },
-      `Asperity ${from.version} · ${new Date(run.began).toLocaleString('en-GB')} · ${statusText(run, duration)}${reason}`,
-    ),
-  );
+  body.append(h('h1', {}, from.title), aboutOf(run, `Asperity ${from.version} · `));
   if (from.prediction) body.append(h('h2', {}, 'Prediction'), h('p', {}, from.prediction));
-  if (run.knobs.length > 0)
-    body.append(
-      h('h2', {}, 'Knobs'),
-      h(
-        'ul',
-        {},
-        ...run.knobs.map((k) => h('li', {}, `${k.name}: ${knobText(k)} (${knobText(k, k.from)} to ${knobText(k, k.to)})`)),
-      ),
+  if (run.knobs.length > 0) body.append(...knobsOf(run, from.recorded));
+  body.append(h('h2', {}, 'Script'), scriptOf(run));
+  const most = Math.max(2, Math.floor(drawn / from.recorded.length));
+  const steps = new Map<string, number>();
+  for (const one of from.recorded) {
+    const several = from.recorded.length > 1;
+    const results = h('section', { className: 'results' });
+    results.dataset.at = JSON.stringify(
+      Object.fromEntries(one.knobs.map((k) => [k.name, { value: k.value, text: knobText(k) }])),
     );
+    if (one === run) results.dataset.first = '';
+    if (several) results.append(h('h2', {}, `Recorded at ${valuesText(one)}`), aboutOf(one, ''));
+    const lacking: string[] = [];
+    await addResults(results, one, from, lacking, most, steps);
+    missing.push(...lacking.map((m) => (several ? `${m} (${valuesText(one)})` : m)));
+    body.append(results);
+  }
+  if (missing.length > 0)
+    body.append(h('h2', {}, 'Not in this file'), h('ul', {}, ...missing.map((m) => h('li', {}, m))));
+  // Sheet and script go in as text: even in a document that nobody sees the policy of this page forbids them.
+  const html = page.documentElement.outerHTML
+    .replace('</head>', () => `<style>${style}</style></head>`)
+    .replace(/<\/body>(?![^]*<\/body>)/, () => `<script>${SAVED_PLAYER.text}</script></body>`);
+  return { html: `<!DOCTYPE html>\n${html}\n`, missing };
+}
+
+function aboutOf(run: Run, lead: string): HTMLElement {
+  const reason = run.reason ? `: ${run.reason}` : '';
+  const began = new Date(run.began).toLocaleString('en-GB');
+  return h('p', { className: 'about' }, `${lead}${began} · ${statusText(run, duration)}${reason}`);
+}
+
+function valuesText(run: Run): string {
+  return run.knobs.map((k) => `${k.name} ${knobText(k)}`).join(', ');
+}
+
+function knobsOf(run: Run, recorded: Run[]): HTMLElement[] {
+  const fixed = recorded.length < 2;
+  const how = fixed
+    ? 'The values this run was made with. They are fixed here: it was recorded at no others.'
+    : `${recorded.length} runs were recorded and are all in this file; it was saved at these values.`;
+  return [
+    h('h2', {}, 'Knobs'),
+    h(
+      'ul',
+      {},
+      ...run.knobs.map((k) => h('li', {}, `${k.name}: ${knobText(k)} (${knobText(k, k.from)} to ${knobText(k, k.to)})`)),
+    ),
+    h('p', { className: 'about' }, how),
+    ...(fixed ? [] : [h('div', { className: 'sliders', role: 'group', 'aria-label': 'Recorded values of the knobs' })]),
+  ];
+}
+
+/** What one run gave: errors, output, expectations, notebooks and their charts, pictures. */
+async function addResults(
+  body: HTMLElement,
+  run: Run,
+  from: Sources,
+  missing: string[],
+  most: number,
+  steps: Map<string, number>,
+): Promise<void> {
   for (const e of run.errors) {
     body.append(
       h(
@@ -86,7 +145,6 @@ export async function savedRun(run: Run, from: Sources): Promise<{ html: string;
       ),
     );
   }
-  body.append(h('h2', {}, 'Script'), scriptOf(run));
   if (run.output.length > 0) {
     body.append(
       h('h2', {}, 'Output'),
@@ -140,12 +198,8 @@ export async function savedRun(run: Run, from: Sources): Promise<{ html: string;
       ),
     );
   }
-  await addPictures(body, run, from, missing);
-  if (missing.length > 0)
-    body.append(h('h2', {}, 'Not in this file'), h('ul', {}, ...missing.map((m) => h('li', {}, m))));
-  // The sheet goes in as text: even in a document that nobody sees the policy of this page forbids it.
-  const html = page.documentElement.outerHTML.replace('</head>', () => `<style>${style}</style></head>`);
-  return { html: `<!DOCTYPE html>\n${html}\n`, missing };
+  await addFiles(body, run, from, missing);
+  await addViews(body, run, from, missing, most, steps);
 }
 
 function scriptOf(run: Run): HTMLElement {
@@ -160,39 +214,62 @@ function scriptOf(run: Run): HTMLElement {
   );
 }
 
-async function addPictures(body: HTMLElement, run: Run, from: Sources, missing: string[]): Promise<void> {
-  const files = [...run.files.values()].filter((f) => pictureType(f.name));
-  if (files.length > 0) body.append(h('h2', {}, 'Charts and pictures of the script'));
-  for (const f of files) {
-    try {
-      const blob = new Blob([await from.api.file(run.id, f.name)], { type: pictureType(f.name) });
-      body.append(
-        h(
-          'figure',
-          {},
-          h('img', { src: await dataAddress(blob), alt: f.name, className: pictureClass(f.name) }),
-          h('figcaption', {}, f.name),
-        ),
-      );
-    } catch {
-      missing.push(`the file ${f.name}, which the server did not give`);
+/** Charts and pictures that the script drew; those of one name but for a number can be gone through. */
+async function addFiles(body: HTMLElement, run: Run, from: Sources, missing: string[]): Promise<void> {
+  const names = [...run.files.keys()].filter((name) => pictureType(name));
+  if (names.length > 0) body.append(h('h2', {}, 'Charts and pictures of the script'));
+  for (const sequence of sequencesOf(names)) {
+    const figures: HTMLElement[] = [];
+    for (const name of sequence) {
+      try {
+        const blob = new Blob([await from.api.file(run.id, name)], { type: pictureType(name) });
+        const image = h('img', { src: await dataAddress(blob), alt: name, className: pictureClass(name) });
+        figures.push(titled(name, h('figure', {}, image, h('figcaption', {}, name))));
+      } catch {
+        missing.push(`the file ${name}, which the server did not give`);
+      }
     }
+    body.append(...framed(figures, `Picture of ${sequence.length}, ${sequence[0]} to ${sequence[sequence.length - 1]}`));
   }
+}
+
+async function addViews(
+  body: HTMLElement,
+  run: Run,
+  from: Sources,
+  missing: string[],
+  most: number,
+  steps: Map<string, number>,
+): Promise<void> {
   if (run.views.length === 0) return;
-  const most = 16;
   if (run.views.length > most)
     missing.push(`the first ${run.views.length - most} of ${run.views.length} surfaces and contacts`);
   try {
-    const drawings = await from.pictures.drawings(run, most);
-    let last = '';
-    for (const d of drawings) {
-      if (d.title !== last) body.append(h('h2', {}, d.title));
-      last = d.title;
-      body.append(h('figure', {}, d.element, h('figcaption', {}, `${d.text}. ${d.caption}.`)));
-    }
+    const drawings = await from.pictures.drawings(run, most, steps);
+    const figures = drawings.map((d) =>
+      titled(d.title, h('figure', {}, d.element, h('figcaption', {}, h('b', {}, d.title), ` ${d.text}. ${d.caption}.`))),
+    );
+    body.append(h('h2', {}, 'Surfaces and contacts'), ...framed(figures, 'Picture of the run'));
+    if (run.viewsLeftOut > 0)
+      body.append(
+        h('p', { className: 'about' }, `${run.viewsLeftOut} more were made and not drawn, so as not to hold up the run.`),
+      );
   } catch {
     missing.push('surfaces and contacts, which the server did not give');
   }
+}
+
+function titled(title: string, figure: HTMLElement): HTMLElement {
+  figure.dataset.title = title;
+  return figure;
+}
+
+/** Several pictures are one thing to go through; one stands by itself. */
+function framed(figures: HTMLElement[], name: string): HTMLElement[] {
+  if (figures.length < 2) return figures;
+  const frames = h('div', { className: 'frames' }, ...figures);
+  frames.dataset.name = name;
+  return [frames];
 }
 
 function dataAddress(blob: Blob): Promise<string> {

@@ -29,7 +29,10 @@ export class Scrubber {
   private readonly place = h('output', { className: 'factor' });
 
   /** `go` shows the picture of that place, and is done once it is drawn or was refused. */
-  constructor(private readonly go: (place: number) => Promise<void>) {
+  constructor(
+    private readonly go: (place: number) => Promise<void>,
+    private readonly label = 'Picture of the run',
+  ) {
     this.element = h('div', { className: 'scrubber', hidden: true }, this.button, this.slider, this.place);
   }
 
@@ -85,7 +88,7 @@ export class Scrubber {
     this.at = at;
     const where = `${at + 1} of ${this.titles.length}`;
     this.slider.value = String(at);
-    this.slider.setAttribute('aria-label', 'Picture of the run');
+    this.slider.setAttribute('aria-label', this.label);
     this.slider.setAttribute('aria-valuetext', `${where}: ${this.titles[at] ?? ''}`);
     this.place.textContent = where;
   }

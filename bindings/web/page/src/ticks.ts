@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The axis of a chart: how far it runs, and where its ticks stand. Labels of ticks never touch: of the sets of
+// The axis of a chart, of numbers or of names: how far it runs, and where its ticks stand. Labels of ticks never touch: of the sets of
 // ticks from many to few the first is taken whose labels stand apart. An axis of whole numbers has whole ticks. A
 // logarithmic axis ends where its data end, and writes all of its ticks in one way.
 
@@ -33,6 +33,16 @@ export function axisFor(values: number[], log: boolean, apart: Apart): Axis {
   }
   const last = sets[sets.length - 1].slice(0, 1);
   return { domain, ticks: last, labels: log ? labelsOfPowers(last) : labelsOf(last) };
+}
+
+/** An axis with the same room for each of some names; where not all can be written, every second one is, or third. */
+export function axisOfNames(names: string[], apart: Apart): Axis {
+  const domain: [number, number] = [-0.5, names.length - 0.5];
+  for (let every = 1; ; ++every) {
+    const ticks = names.flatMap((_, k) => (k % every === 0 ? [k] : []));
+    const labels = ticks.map((t) => names[t]);
+    if (ticks.length < 2 || apart(labels, ticks.map((t) => (t + 0.5) / names.length))) return { domain, ticks, labels };
+  }
 }
 
 function spare(value: number): number {
