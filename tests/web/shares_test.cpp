@@ -50,12 +50,13 @@ TEST(Shares, S7AreGivenInTheOrderOfComing) {
   std::vector<std::thread> waiting;
   for (int k = 1; k <= 4; ++k) {
     waiting.emplace_back([&, k] {
-      const auto share = shares.take(static_cast<std::size_t>(k), milliseconds(20000));
+      const auto share = shares.take(static_cast<std::size_t>(k), std::chrono::minutes(10));
       EXPECT_NE(share, nullptr);
       const std::lock_guard lock(mutex);
       order.push_back(k);
     });
-    std::this_thread::sleep_for(milliseconds(30));
+    // A thread may begin late on a busy machine: the next one comes when this one waits.
+    while (shares.waiting() < static_cast<std::size_t>(k)) std::this_thread::sleep_for(milliseconds(1));
   }
   held.reset();
   for (std::thread& thread : waiting) thread.join();

@@ -50,6 +50,12 @@ class Shares {
             }};
   }
 
+  // How many wait for one now.
+  std::size_t waiting() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->waiting.size();
+  }
+
  private:
   using Clock = std::chrono::steady_clock;
   struct Person {
