@@ -10,7 +10,7 @@ _asperity() {
   case $command in
     run) options="--help --seed --limit-time --out --threads --limit-memory --knob --trust --resume --reuse --store-limit --store --shard --confined --read --without-barriers --limit-disk" ;;
     replay) options="--help --from --set --out --threads --limit-memory --trust --confined --read --without-barriers --limit-disk --limit-time" ;;
-    accuracy) options="--help --seed --limit-time --out --threads --limit-memory --trust --at-most --repeats --truth" ;;
+    accuracy) options="--help --seed --limit-time --out --threads --limit-memory --knob --trust --at-most --repeats --truth" ;;
     serve) options="--help --port --open --out --runs --limit-time --limit-memory --classroom --students --names" ;;
     check) options="--help --seed --limit-time --knob" ;;
     explain) options="--help --seed --limit-time --knob --json" ;;
@@ -28,7 +28,7 @@ _asperity() {
     *:--out | *:--resume | *:--reuse | *:--store | replay:replay)
       mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     serve:--names) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
-    run:--seed|run:--limit-time|run:--out|run:--threads|run:--limit-memory|run:--knob|run:--resume|run:--reuse|run:--store-limit|run:--store|run:--shard|run:--read|run:--without-barriers|run:--limit-disk|replay:--from|replay:--set|replay:--out|replay:--threads|replay:--limit-memory|replay:--read|replay:--without-barriers|replay:--limit-disk|replay:--limit-time|accuracy:--seed|accuracy:--limit-time|accuracy:--out|accuracy:--threads|accuracy:--limit-memory|accuracy:--at-most|accuracy:--repeats|accuracy:--truth|serve:--port|serve:--out|serve:--runs|serve:--limit-time|serve:--limit-memory|serve:--classroom|serve:--students|serve:--names|check:--seed|check:--limit-time|check:--knob|explain:--seed|explain:--limit-time|explain:--knob|repl:--out|repl:--threads|repl:--limit-memory|repl:--seed|repl:--limit-time|lesson:--out|lesson:--threads|lesson:--limit-memory) ;;
+    run:--seed|run:--limit-time|run:--out|run:--threads|run:--limit-memory|run:--knob|run:--resume|run:--reuse|run:--store-limit|run:--store|run:--shard|run:--read|run:--without-barriers|run:--limit-disk|replay:--from|replay:--set|replay:--out|replay:--threads|replay:--limit-memory|replay:--read|replay:--without-barriers|replay:--limit-disk|replay:--limit-time|accuracy:--seed|accuracy:--limit-time|accuracy:--out|accuracy:--threads|accuracy:--limit-memory|accuracy:--knob|accuracy:--at-most|accuracy:--repeats|accuracy:--truth|serve:--port|serve:--out|serve:--runs|serve:--limit-time|serve:--limit-memory|serve:--classroom|serve:--students|serve:--names|check:--seed|check:--limit-time|check:--knob|explain:--seed|explain:--limit-time|explain:--knob|repl:--out|repl:--threads|repl:--limit-memory|repl:--seed|repl:--limit-time|lesson:--out|lesson:--threads|lesson:--limit-memory) ;;
     lesson:*) mapfile -t COMPREPLY < <(compgen -W "roughness fractal_dimension boxes_and_half_space real_area turning tilt accuracy press_log same_numbers" -- "$word") ;;
     run:* | check:* | explain:* | accuracy:*)
       mapfile -t COMPREPLY < <(compgen -f -X '!*.lua' -- "$word"; compgen -d -- "$word") ;;

@@ -101,7 +101,7 @@ GivenKnobs knobs_of(const std::vector<std::string>& texts) {
   return knobs;
 }
 
-std::optional<std::int64_t> bytes_of(const std::string& text) {
+std::optional<std::int64_t> bytes_of(const std::string& text, const std::string& what) {
   if (text.empty()) return {};
   std::size_t used = 0;
   double value = -1;
@@ -120,7 +120,7 @@ std::optional<std::int64_t> bytes_of(const std::string& text) {
                   : unit == "T"                ? 0x1p40
                                                : 0;
   if (used == 0 || factor == 0 || !(value * factor >= 1 && value * factor < 0x1p62))
-    throw Error(ErrorCode::bad_value, "a memory limit is " + asperity::quoted(text),
+    throw Error(ErrorCode::bad_value, what + " is " + asperity::quoted(text),
                 "give bytes such as 512M or 4G");
   return static_cast<std::int64_t>(value * factor);
 }

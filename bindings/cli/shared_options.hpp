@@ -40,7 +40,7 @@ void check_confinement(const RunCommand& run);
 std::optional<double> seconds_of(const std::string& text);
 // "pressure=50 MPa" each. Throws Error{bad_value}.
 GivenKnobs knobs_of(const std::vector<std::string>& texts);
-// "4G", "512M", "64KiB", "1000000"; none of "". Throws Error{bad_value}.
-std::optional<std::int64_t> bytes_of(const std::string& text);
+// "4G", "512M", "64KiB", "1000000"; none of "". Throws Error{bad_value} in which `what` names the limit.
+std::optional<std::int64_t> bytes_of(const std::string& text, const std::string& what = "a memory limit");
 
 }  // namespace asperity::cli

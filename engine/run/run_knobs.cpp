@@ -108,6 +108,7 @@ double RunKnobs::value_for(const RunKnob& knob, const Given& given) const {
 }
 
 double RunKnobs::make(const RunKnob& knob) {
+  met(knob.name);  // also where it is refused: that it was not made then is no mistake of its own
   require_knob(knob);
   const std::lock_guard lock(mutex_);
   for (const Made& made : made_) {

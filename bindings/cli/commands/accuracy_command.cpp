@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -34,8 +33,8 @@ namespace {
 
 constexpr const char* study_name = "accuracy";
 constexpr const char* wanted =
-    "`asperity accuracy` studies a script that returns one number: end it with one, as in "
-    "`return st.area_fraction`";
+    "`asperity accuracy` studies a script that returns one number: end it with one, as in `return "
+    "st.area_fraction`";
 
 // Where a repeated run writes; gone, with all in it, afterwards.
 class ScratchFolder {
@@ -80,11 +79,13 @@ class ScriptRun {
 
   StudyAnswer result(Monitor& monitor) {
     const lua::Session::Reporting reporting(session_, monitor);
-    lua_State* L = state_.get();
+    lua_State* const L = state_.get();
     if (execute(L, context_.command, context_.text, 2) != LUA_OK) {
       stop_flag().check();
       return {{}, lua::error_text(L, -1)};
     }
+    if (const std::string unmade = unmade_knobs(session_); !unmade.empty())
+      throw Error(ErrorCode::unknown_name, unmade);
     const lua::Argument value(L, -2), message(L, -1);
     if (value.is_number()) return {value.number(), ""};
     if (value.is_nil()) return {{}, message.is_text() ? std::string(message.text()) : std::string()};
@@ -165,8 +166,7 @@ StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor
   const bool grids = first.used->grids > 0, contacts = first.used->contacts > 0;
   if (!grids && !contacts)
     throw Error(ErrorCode::bad_value,
-                "the script makes no surface from `cells` and no contact, so that nothing can "
-                "be made finer",
+                "the script makes no surface from `cells` and no contact, so that nothing can be made finer",
                 "write a study of its own with lab.work_precision");
   StudyRequest request;
   request.repeats = command.repeats;
@@ -191,8 +191,8 @@ StudyRequest plan(const AccuracyCommand& command, const FirstRun& first, Monitor
                       .settings.front();
   if (grids && finest == 1)
     monitor.inform(
-        "a grid twice as fine would take more than half of the time there is: the truth is the grid that "
-        "the script gives");
+        "a grid twice as fine would take more than half of the time there is: the truth is the grid that the "
+        "script gives");
   return request;
 }
 
@@ -209,11 +209,13 @@ CommandReader declare_accuracy(CLI::App& options) {
   struct Given {
     AccuracyCommand accuracy;
     std::string time, memory, at_most, truth;
+    std::vector<std::string> knobs;
   };
   const auto given = std::make_shared<Given>();
   RunCommand& run = given->accuracy.run;
   add_script_options(options, run, given->time);
   add_run_options(options, run, given->memory);
+  add_knobs(options, given->knobs);
   add_trust(options, run.trust);
   options.add_option("--at-most", given->at_most,
                      "time for all runs together (default 5 min); quoted first and kept");
@@ -233,6 +235,7 @@ CommandReader declare_accuracy(CLI::App& options) {
     asked.at_most = seconds_of(given->at_most).value_or(asked.at_most);
     if (!given->truth.empty()) asked.truth = exact_value(given->truth);
     asked.run.limit_memory = bytes_of(given->memory);
+    asked.run.knobs = knobs_of(given->knobs);
     return [given] { return cli::accuracy(given->accuracy); };
   };
 }
@@ -240,17 +243,16 @@ CommandReader declare_accuracy(CLI::App& options) {
 }  // namespace
 
 Command accuracy_command() {
-  return {
-      .name = "accuracy",
-      .sentence =
-          "what accuracy costs a script that returns a number: it is run again on coarser and finer grids "
-          "(every `cells` times 1/4, 1/2, 1, 2, rounded) and with looser and tighter contacts, and each is "
-          "timed",
-      .overview =
-          "asperity accuracy SCRIPT [options]              what accuracy costs a script that returns a "
-          "number\n",
-      .prints = Prints::of_script,
-      .declare = declare_accuracy};
+  return {.name = "accuracy",
+          .sentence =
+              "what accuracy costs a script that returns a number: it is run again on coarser and finer "
+              "grids (every `cells` times 1/4, 1/2, 1, 2, rounded) and with looser and tighter contacts, and "
+              "each is timed",
+          .overview =
+              "asperity accuracy SCRIPT [options]             what accuracy costs a script that returns a "
+              "number\n",
+          .prints = Prints::of_script,
+          .declare = declare_accuracy};
 }
 
 int accuracy(const AccuracyCommand& command) {

@@ -209,24 +209,23 @@ CommandReader declare_replay(CLI::App& options, BehindBarriers<ReplayCommand> ba
                      "compute from there on");
   options
       .add_option("--set", asked.settings,
-                  "key=value or call.key=value: another value where calls give this key (from --from "
-                  "on), e.g. --set press.pressure=\"200 MPa\"; may be given again")
+                  "key=value or call.key=value: another value where calls give this key (from --from on), "
+                  "e.g. --set press.pressure=\"200 MPa\"; may be given again")
       ->allow_extra_args(false);
   add_run_options(options, asked.run, given->memory);
   add_trust(options, asked.run.trust);
   add_confinement(options, asked.run, given->disk);
   options.add_option("--limit-time", given->time, "end it after this long, e.g. 60s or \"2 min\"");
   options.footer(
-      "Every call, row, expectation and file is compared by its digest; times and dates are not. "
-      "Of a run by an earlier version the laws that changed since are listed, and it is compared within "
-      "them: numbers to 1e-05, digests of what has other last digits not at all. "
-      "Exit status 1 where anything differs that no changed law explains. What the script prints is "
-      "dropped.");
+      "Every call, row, expectation and file is compared by its digest; times and dates are not. Of a run by "
+      "an earlier version the laws that changed since are listed, and it is compared within them: numbers to "
+      "1e-05, digests of what has other last digits not at all. Exit status 1 where anything differs that no "
+      "changed law explains. What the script prints is dropped.");
 
   return [given, barriers]() -> CommandWork {
     RunCommand& run = given->replay.run;
     run.limit_time = seconds_of(given->time);
-    run.limit_disk = bytes_of(given->disk);
+    run.limit_disk = bytes_of(given->disk, "the limit of the disk");
     run.confined = barriers.wanted(given->replay);
     check_confinement(run);
     run.limit_memory = bytes_of(given->memory);

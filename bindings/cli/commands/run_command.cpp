@@ -5,12 +5,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <sstream>
 
 #include "bindings/cli/exit_status.hpp"
@@ -67,10 +65,10 @@ std::string reason_text(StopReason reason, const RunCommand& command) {
 }
 
 void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, std::string& shard) {
-  CLI::Option* resume = options.add_option(
-      "--resume", run.resume,
-      "go on with the run in this directory where it was cut off; its script, arguments and seed are its own "
-      "(a directory that is not there yet is begun)");
+  CLI::Option* resume =
+      options.add_option("--resume", run.resume,
+                         "go on with the run in this directory where it was cut off; its script, arguments "
+                         "and seed are its own (a directory that is not there yet is begun)");
   resume->excludes(options.get_option("--out"));
   options
       .add_option("--reuse", run.reuse,
@@ -80,13 +78,13 @@ void add_store_options(CLI::App& options, RunCommand& run, std::string& limit, s
                      "most bytes of results to keep for this, e.g. 20G (default 8G); 0 keeps none");
   options.add_option(
       "--store", run.store,
-      "keep results in this folder and find them there, instead of RUN/store; several runs, on "
-      "several machines, may share it at the same time (no limit unless --store-limit is given)");
+      "keep results in this folder and find them there, instead of RUN/store; several runs, on several "
+      "machines, may share it at the same time (no limit unless --store-limit is given)");
   options
       .add_option(
           "--shard", shard,
-          "i/n: compute the cases i, i+n, i+2n, ... of every ensemble and keep them in the folder given "
-          "by --store; slurm: i and n are those of this task of a job array. The script goes on past an "
+          "i/n: compute the cases i, i+n, i+2n, ... of every ensemble and keep them in the folder given by "
+          "--store; slurm: i and n are those of this task of a job array. The script goes on past an "
           "ensemble once all its cases are there, and else ends. A run without --shard puts all together")
       ->needs(options.get_option("--store"))
       ->excludes(options.get_option("--trust"));
@@ -112,7 +110,7 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
     run.limit_time = seconds_of(given->time);
     run.limit_memory = bytes_of(given->memory);
     run.knobs = knobs_of(given->knobs);
-    run.store_limit = given->store_limit == "0" ? 0 : bytes_of(given->store_limit);
+    run.store_limit = given->store_limit == "0" ? 0 : bytes_of(given->store_limit, "the limit of the store");
     if (!given->shard.empty()) run.shard = parse_shard(given->shard);
     if (run.shard && run.store_limit == 0)
       throw Error(ErrorCode::bad_value, "`--shard` keeps its cases, and `--store-limit 0` keeps nothing",
@@ -120,7 +118,7 @@ CommandReader declare_run(CLI::App& options, BehindBarriers<RunCommand> barriers
     if (run.script.empty() && !run.resume)
       throw Error(ErrorCode::bad_value, "no script was named",
                   "give one, as in asperity run examples/quick_start.lua, or --resume RUN");
-    run.limit_disk = bytes_of(given->disk);
+    run.limit_disk = bytes_of(given->disk, "the limit of the disk");
     run.confined = barriers.wanted(run);
     check_confinement(run);
     return [given, barriers] {

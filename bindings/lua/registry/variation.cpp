@@ -52,6 +52,10 @@ void Variation::set(const std::string& text) {
 bool Variation::replaces(lua_State* L, std::string_view caller, std::string_view key, bool given) {
   if (!in_force()) return false;
   const std::lock_guard lock(mutex_);
+  if (caller == "lab.knob") {
+    if (given) keys_of_knobs_.emplace(key);
+    return false;
+  }
   if (given) keys_[std::string(key)].emplace(caller);
   for (Setting& setting : settings_) {
     if (setting.key != key || !is_of(caller, setting.caller)) continue;
@@ -79,6 +83,11 @@ void Variation::check_all_met() const {
     throw Error(ErrorCode::bad_value, refused_, "give a value as the script would write it");
   for (const Setting& setting : settings_) {
     if (setting.met) continue;
+    if (keys_of_knobs_.contains(setting.key) && !keys_.contains(setting.key))
+      throw Error(ErrorCode::bad_value,
+                  "`--set` is of the key " + quoted(setting.key) +
+                      ", which only a knob gives, and a replay takes knobs as recorded",
+                  "run its script with --knob NAME=VALUE");
     // The keys of the calls that are meant, or of all where there is none.
     std::vector<std::string> meant, all;
     for (const auto& [key, callers] : keys_) {

@@ -5,7 +5,6 @@
 // alone, and gives them the key where the script leaves it out.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -29,7 +28,8 @@ class Variation {
   std::function<bool()> in_force = [] { return true; };
 
   // Called where the options of a call are read: whether `key` is to be set anew, given by the script or not;
-  // the new value is then on the stack of `L`, which must have room for it. Raises no Lua error.
+  // the new value is then on the stack of `L`, which must have room for it. Not the keys of a knob, whose
+  // value is the recorded one. Raises no Lua error.
   bool replaces(lua_State* L, std::string_view caller, std::string_view key, bool given);
   // Called where a value that was set anew is none that the key takes: what happened then is no difference
   // between two runs.
@@ -51,6 +51,7 @@ class Variation {
   mutable std::mutex mutex_;  // of what was met
   std::map<std::string, std::set<std::string>, std::less<>>
       keys_;  // that were given, and the calls that gave them
+  std::set<std::string, std::less<>> keys_of_knobs_;
 };
 
 // That of the state's session; null where there is none.

@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -200,6 +201,12 @@ TEST_F(CommandLine, EveryCommandStandsInTheOverviewAndExplainsItself) {
        overview >> program >> command && program == "asperity" && std::getline(overview, rest);)
     told += command + " ";
   EXPECT_EQ(told, "run run replay check explain accuracy repl serve lesson help materials version ");
+  // What each does begins in one column.
+  std::istringstream lines(call({"help"}).output);
+  std::set<std::size_t> columns;
+  for (std::string line; std::getline(lines, line) && line.starts_with("asperity ");)
+    columns.insert(line.find_first_not_of(' ', line.find("   ")));
+  EXPECT_EQ(columns.size(), 1U) << testing::PrintToString(columns);
 
   const std::string refusal = call({"nocommand"}).error, before = "the commands are ";
   ASSERT_NE(refusal.find(before), std::string::npos) << refusal;

@@ -57,12 +57,21 @@ ends 2 'is given twice' "$program" run knobs.lua --out r5 --knob factor=2 --knob
 # A dry run knows the values, and explains with them.
 ends 0 'no problem found' "$program" check knobs.lua --knob pressure="50 MPa"
 ends 1 'out of its bounds' "$program" check knobs.lua --knob pressure="500 MPa"
+if grep -q 'made such a knob' output; then fail "a value that is refused is complained of twice"; fi
 ends 1 'no line of the script made such a knob' "$program" check knobs.lua --knob load="5 N"
 ends 0 'together: 1 press' "$program" explain knobs.lua --knob pressure="50 MPa"
 ends 1 'out of its bounds' "$program" explain knobs.lua --knob pressure="500 MPa"
 
 # A variation does not move a knob that was recorded.
 ends 2 'takes knobs as recorded' "$program" replay given --out r6 --set knob.value="30 MPa"
+ends 1 'of the key `value`, which only a knob gives' "$program" replay given --out r7 --set value="30 MPa"
+
+# What accuracy costs, at the values that are given.
+sed 's/^print.*/return c:press{ pressure=p }.area_fraction/; /lab.ensemble/,/^end }/d; /^book:write/,/^book:expect/d' knobs.lua > number.lua
+ends 0 'cells_factor' "$program" accuracy number.lua --out a1 --repeats 1 --knob pressure="50 MPa"
+grep -A5 '"pressure"' a1/manifest.json | grep -q '"value": 50000000.0' || fail "accuracy took another value"
+ends 1 'did you mean `pressure`' "$program" accuracy number.lua --out a2 --knob presure="50 MPa"
+ends 2 'the limit of the store is `x`' "$program" run number.lua --out a3 --store-limit x
 
 # Confined, values go along.
 if "$program" run knobs.lua --out confined --confined --knob pressure="60 MPa" > printed 2> errors; then
