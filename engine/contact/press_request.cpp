@@ -71,6 +71,14 @@ void check(const PressRequest& request, bool attracts) {
                 "bodies are drawn back from a greater value");
 }
 
+void check_fraction(const PressRequest& request, double peak_to_valley) {
+  if ((request.by == PressBy::indentation || request.by == PressBy::flatten) && !(peak_to_valley > 0))
+    throw Error(ErrorCode::bad_value,
+                quoted(name(request.by)) +
+                    " is a fraction of a peak-to-valley that is zero: all combined heights are equal",
+                "give `pressure`, `load` or `approach`");
+}
+
 std::vector<double> turns_before(std::span<const double> visited, double value) {
   std::vector<double> turns;
   for (bool highest = true; !visited.empty(); highest = !highest) {

@@ -35,6 +35,8 @@ void check_numbers(const PressRequest& request);
 // Throws as check_numbers; also for a negative value and for `preload` where nothing attracts the bodies, for
 // `flatten` where something does, and for a single `preload` below the value.
 void check(const PressRequest& request, bool attracts = false);
+// Throws Error{bad_value} for `indentation` and `flatten` of heights that are all equal.
+void check_fraction(const PressRequest& request, double peak_to_valley);
 
 // The preload of a press to `value` after presses to `visited`, in their order: the greatest value, the least
 // after it, the greatest after that, … A press past an earlier reversal wipes it out, because the branches of

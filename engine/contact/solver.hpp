@@ -25,9 +25,17 @@ class Solver {
   // best there is.
   virtual State press(const PressRequest& request, Monitor& monitor) const = 0;
   State press(const PressRequest& request) const { return press(request, Monitor::silent()); }
-  virtual const ContactGeometry& geometry() const = 0;
+  const ContactGeometry& geometry() const { return *geometry_; }
   // What making it ready cost, once for all presses.
-  virtual const StateCost& preparation() const = 0;
+  const StateCost& preparation() const { return preparation_; }
+
+ protected:
+  Solver(const Plan& plan, std::shared_ptr<const ContactGeometry> geometry)
+      : plan_(plan), geometry_(std::move(geometry)) {}
+
+  Plan plan_;
+  std::shared_ptr<const ContactGeometry> geometry_;
+  StateCost preparation_;  // the constructor of a solver sets it
 };
 
 // Does what is done once for all loads (for box elements: the sort, O(n)).

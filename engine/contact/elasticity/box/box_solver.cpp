@@ -16,21 +16,12 @@ struct BoxSolver::Ready {
   std::shared_ptr<const ContactGeometry> geometry;
   BoxOperator box;
   SortedDrops drops;
-  StateCost cost;
 
   Ready(std::shared_ptr<const ContactGeometry> g, const BoxOperator& b)
       : geometry(std::move(g)),
         box(b),
         drops(geometry->overhangs() ? SortedDrops(geometry->facing_heights())
                                     : SortedDrops(geometry->combined().values())) {}
-
-  static std::shared_ptr<const Ready> make(std::shared_ptr<const ContactGeometry> geometry,
-                                           const BoxOperator& box) {
-    const CostScope scope;
-    auto ready = std::make_shared<Ready>(std::move(geometry), box);
-    ready->cost = elasticity_alone(scope.so_far());
-    return ready;
-  }
 };
 
 class BoxSolver::UnderLoad final : public Solution {
@@ -214,10 +205,11 @@ Field BoxSolver::UnderLoad::upper_under_load() const {
 
 BoxSolver::BoxSolver(const Plan& plan, const BoxOperator& box,
                      std::shared_ptr<const ContactGeometry> geometry)
-    : plan_(plan), ready_(Ready::make(std::move(geometry), box)) {}
-
-const ContactGeometry& BoxSolver::geometry() const { return *ready_->geometry; }
-const StateCost& BoxSolver::preparation() const { return ready_->cost; }
+    : Solver(plan, std::move(geometry)) {
+  const CostScope scope;
+  ready_ = std::make_shared<const Ready>(geometry_, box);
+  preparation_ = elasticity_alone(scope.so_far());
+}
 
 BoxSolver::Load BoxSolver::resolve(const PressRequest& request) const {
   const double k = ready_->box.stiffness;
@@ -230,12 +222,7 @@ BoxSolver::Load BoxSolver::resolve(const PressRequest& request) const {
 
   Load result{};
   if (by_depth) {
-    if (request.by != PressBy::approach && !(drops.peak_to_valley() > 0))
-      throw Error(ErrorCode::bad_value,
-                  quoted(name(request.by)) +
-                      " is a fraction of a peak-to-valley that is zero: all combined heights "
-                      "are equal",
-                  "give `pressure`, `load` or `approach`");
+    check_fraction(request, drops.peak_to_valley());
     result.approach =
         request.by == PressBy::approach ? request.value : request.value * drops.peak_to_valley();
     result.pressure = k * (drops.shortening(result.approach) / nodes);

@@ -24,8 +24,6 @@ class BoxSolver final : public Solver {
   // modulus, one whose approach or peak leaves the range of a double, and `indentation` or `flatten`
   // of heights that are all equal.
   State press(const PressRequest& request, Monitor& monitor) const override;
-  const ContactGeometry& geometry() const override;
-  const StateCost& preparation() const override;
 
  private:
   class UnderLoad;  // the Solution
@@ -35,7 +33,6 @@ class BoxSolver final : public Solver {
   };
   Load resolve(const PressRequest& request) const;
 
-  Plan plan_;
   std::shared_ptr<const Ready> ready_;
 };
 

@@ -30,7 +30,6 @@ struct YieldingBoxSolver::Ready {
   MetMemory hardness;  // empty unless events have left fields of it
   SortedDrops drops;
   YieldingElements alike;  // of one yield pressure
-  StateCost cost;
 
   Ready(std::shared_ptr<const ContactGeometry> g, const BoxOperator& b, const PlannedYield& y)
       : geometry(std::move(g)),
@@ -40,14 +39,6 @@ struct YieldingBoxSolver::Ready {
         drops(geometry->overhangs() ? SortedDrops(geometry->facing_heights())
                                     : SortedDrops(geometry->combined().values())),
         alike({b.stiffness, y.hardens() ? y.hardening : 0}, drops.drops(), y.hardness()) {}
-
-  static std::shared_ptr<const Ready> make(std::shared_ptr<const ContactGeometry> geometry,
-                                           const BoxOperator& box, const PlannedYield& yield) {
-    const CostScope scope;
-    auto ready = std::make_shared<Ready>(std::move(geometry), box, yield);
-    ready->cost = elasticity_alone(scope.so_far());
-    return ready;
-  }
 
   std::shared_ptr<const YieldingElements> elements(const YieldLaw& law) const {
     if (!law.yield) return std::make_shared<const YieldingElements>(alike, law.cap);
@@ -286,10 +277,11 @@ SolutionError YieldingBoxSolver::UnderLoad::error() const {
 
 YieldingBoxSolver::YieldingBoxSolver(const Plan& plan, const BoxOperator& box,
                                      std::shared_ptr<const ContactGeometry> geometry)
-    : plan_(plan), ready_(Ready::make(std::move(geometry), box, *plan.yield)) {}
-
-const ContactGeometry& YieldingBoxSolver::geometry() const { return *ready_->geometry; }
-const StateCost& YieldingBoxSolver::preparation() const { return ready_->cost; }
+    : Solver(plan, std::move(geometry)) {
+  const CostScope scope;
+  ready_ = std::make_shared<const Ready>(geometry_, box, *plan.yield);
+  preparation_ = elasticity_alone(scope.so_far());
+}
 
 State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
   check(request);
@@ -301,11 +293,7 @@ State YieldingBoxSolver::press(const PressRequest& request, Monitor&) const {
   const auto elements = ready_->elements(law);
   const std::string asked = quoted(name(request.by)) + " is " + format_short(request.value);
   const bool by_load = request.by == PressBy::pressure || request.by == PressBy::load;
-  if ((request.by == PressBy::indentation || request.by == PressBy::flatten) && !(height > 0))
-    throw Error(ErrorCode::bad_value,
-                quoted(name(request.by)) +
-                    " is a fraction of a peak-to-valley that is zero: all combined heights are equal",
-                "give `pressure`, `load` or `approach`");
+  check_fraction(request, height);
 
   RestingPlane plane{-std::numeric_limits<double>::denorm_min(), -std::numeric_limits<double>::denorm_min(),
                      1};

@@ -24,14 +24,11 @@ class YieldingBoxSolver final : public Solver {
   // hardens (Error{infeasible}); a pressure above zero but below 1e-280 of the hardness, or one whose depth
   // or energy leaves the range of a double; `indentation` or `flatten` of heights that are all equal.
   State press(const PressRequest& request, Monitor& monitor) const override;
-  const ContactGeometry& geometry() const override;
-  const StateCost& preparation() const override;
 
  private:
   class UnderLoad;  // the Solution
   struct Ready;     // what all presses share
 
-  Plan plan_;
   std::shared_ptr<const Ready> ready_;
 };
 

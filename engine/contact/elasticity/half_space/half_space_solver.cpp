@@ -172,11 +172,9 @@ struct HalfSpaceSolver::Ready {
   std::optional<PlannedYield> yield;
   MetMemory hardness;  // empty unless events have left fields of it
   HalfSpaceProblem problem;
-  StateCost cost;
 
   static std::shared_ptr<const Ready> make(const Plan& plan, const HalfSpaceOperator& half_space,
                                            std::shared_ptr<const ContactGeometry> geometry) {
-    const CostScope scope;
     auto ready = std::make_shared<Ready>();
     ready->geometry = std::move(geometry);
     ready->half_space = half_space;
@@ -195,7 +193,6 @@ struct HalfSpaceSolver::Ready {
     problem.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
     if (ready->yield && ready->yield->hardens())
       ready->hardness = local_hardness(*ready->geometry, *ready->yield);
-    ready->cost = elasticity_alone(scope.so_far());
     return ready;
   }
 };
@@ -284,19 +281,16 @@ std::optional<PlasticChange> HalfSpaceSolver::UnderLoad::plastic_change() const 
 
 HalfSpaceSolver::HalfSpaceSolver(const Plan& plan, const HalfSpaceOperator& half_space,
                                  std::shared_ptr<const ContactGeometry> geometry)
-    : plan_(plan), ready_(Ready::make(plan, half_space, std::move(geometry))) {}
-
-const ContactGeometry& HalfSpaceSolver::geometry() const { return *ready_->geometry; }
-const StateCost& HalfSpaceSolver::preparation() const { return ready_->cost; }
+    : Solver(plan, std::move(geometry)) {
+  const CostScope scope;
+  ready_ = Ready::make(plan, half_space, geometry_);
+  preparation_ = elasticity_alone(scope.so_far());
+}
 
 State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) const {
   check(request);
   const double height = geometry().peak_to_valley();
-  if ((request.by == PressBy::indentation || request.by == PressBy::flatten) && !(height > 0))
-    throw Error(ErrorCode::bad_value,
-                quoted(name(request.by)) +
-                    " is a fraction of a peak-to-valley that is zero: all combined heights are equal",
-                "give `pressure`, `load` or `approach`");
+  check_fraction(request, height);
 
   const double factor = ready_->yield ? ready_->yield->softened(request.dwell) : 1.0;
   HalfSpaceProblem problem = ready_->problem;

@@ -25,14 +25,11 @@ class HalfSpaceSolver final : public Solver {
   // Besides what check(PressRequest) refuses: what solve_at_pressure and solve_at_approach refuse, and
   // `indentation` or `flatten` of heights that are all equal.
   State press(const PressRequest& request, Monitor& monitor) const override;
-  const ContactGeometry& geometry() const override;
-  const StateCost& preparation() const override;
 
  private:
   class UnderLoad;  // the Solution
   struct Ready;     // what all presses share
 
-  Plan plan_;
   std::shared_ptr<const Ready> ready_;
 };
 

@@ -35,7 +35,6 @@ struct AdhesiveSolver::Ready {
   std::shared_ptr<const ContactGeometry> geometry;
   HalfSpaceOperator half_space;
   AdhesiveProblem problem;
-  StateCost cost;
 
   // The preload of the last press.
   struct Turn {
@@ -101,10 +100,10 @@ class AdhesiveSolver::UnderLoad final : public HalfSpaceSolution {
 
 AdhesiveSolver::AdhesiveSolver(const Plan& plan, const HalfSpaceOperator& half_space,
                                std::shared_ptr<const ContactGeometry> geometry)
-    : plan_(plan) {
+    : Solver(plan, std::move(geometry)) {
   const CostScope scope;
   auto ready = std::make_shared<Ready>();
-  ready->geometry = std::move(geometry);
+  ready->geometry = geometry_;
   ready->half_space = half_space;
   HalfSpaceProblem& contact = ready->problem.contact;
   contact.grid = ready->geometry->grid();
@@ -118,22 +117,15 @@ AdhesiveSolver::AdhesiveSolver(const Plan& plan, const HalfSpaceOperator& half_s
   contact.best_effort = plan.accuracy.on_failure == Accuracy::OnFailure::best;
   for (const GapTerm& term : plan.attraction)
     if (term.work > 0) ready->problem.attraction.push_back(term);
-  ready->cost = {scope.so_far(), {{"elasticity", scope.so_far()}}};
+  preparation_ = elasticity_alone(scope.so_far());
   ready_ = std::move(ready);
 }
-
-const ContactGeometry& AdhesiveSolver::geometry() const { return *ready_->geometry; }
-const StateCost& AdhesiveSolver::preparation() const { return ready_->cost; }
 
 State AdhesiveSolver::press(const PressRequest& request, Monitor& monitor) const {
   check(request, true);
   const AdhesiveProblem& problem = ready_->problem;
   const double height = geometry().peak_to_valley();
-  if (request.by == PressBy::indentation && !(height > 0))
-    throw Error(
-        ErrorCode::bad_value,
-        "`indentation` is a fraction of a peak-to-valley that is zero: all combined heights are equal",
-        "give `pressure`, `load` or `approach`");
+  check_fraction(request, height);
   const bool by_load = request.by == PressBy::load || request.by == PressBy::pressure;
   const double unit = request.by == PressBy::load          ? 1 / problem.contact.grid.area()
                       : request.by == PressBy::indentation ? height

@@ -24,15 +24,12 @@ class AdhesiveSolver final : public Solver {
   // Besides what check(PressRequest) refuses: Error{infeasible} where a pull separates the bodies, and where
   // an approach is past full contact of a periodic tile.
   State press(const PressRequest& request, Monitor& monitor) const override;
-  const ContactGeometry& geometry() const override;
-  const StateCost& preparation() const override;
 
  private:
   class UnderLoad;  // the Solution
   struct Ready;     // what all presses share
   StateCost parted(const Cost& whole, const Cost& contacts, const AdhesiveAnswer& answer) const;
 
-  Plan plan_;
   std::shared_ptr<const Ready> ready_;
 };
 
