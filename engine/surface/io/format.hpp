@@ -45,7 +45,8 @@ struct Format {
   // Throws Error{bad_file} for whatever is not as the format wants it. Allocates no more than a
   // fixed multiple of the file's size.
   HeightMap (*read)(const SourceFile& file, Monitor& monitor);
-  // The same of the map called `channel`, of a format whose files hold several; null for the others.
+  // Instead of it in a format whose files hold several maps: reads the map called `channel`, or the one that
+  // the format's account names where that is empty; null for the others.
   HeightMap (*read_channel)(const SourceFile& file, const std::string& channel, Monitor& monitor) = nullptr;
 };
 

@@ -152,11 +152,11 @@ void warn_of_proportions(const HeightMap& map, const SourceFile& file, double hx
 }
 
 HeightMap read_map(const SourceFile& file, const std::string& forced, const std::string& channel,
-                   Monitor& monitor, const Format** chosen = nullptr) {
+                   Monitor& monitor, const Format** chosen) {
   const Format& format = choose_format(file, forced);
-  if (chosen != nullptr) *chosen = &format;
-  if (channel.empty()) return format.read(file, monitor);
+  *chosen = &format;
   if (format.read_channel != nullptr) return format.read_channel(file, channel, monitor);
+  if (channel.empty()) return format.read(file, monitor);
   std::vector<std::string> several;
   for (const Format* other : formats())
     if (other->read_channel != nullptr) several.emplace_back(other->name);
