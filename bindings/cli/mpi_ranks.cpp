@@ -42,15 +42,15 @@ std::optional<int> whole(const std::optional<std::string>& text) {
 
 }  // namespace
 
-std::optional<LaunchedRank> launched_rank(const Environment& environment) {
+std::optional<LaunchedRank> launched_rank() {
   using Names = std::array<const char*, 3>;
   for (const Names& names :
        {Names{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_LOCAL_SIZE"},
         Names{"PMI_SIZE", "PMI_RANK", "MPI_LOCALNRANKS"}}) {
-    const auto size = whole(environment(names[0])), rank = whole(environment(names[1]));
+    const auto size = whole(environment_variable(names[0])), rank = whole(environment_variable(names[1]));
     if (!size || !rank) continue;
     if (*size < 2) return {};
-    return LaunchedRank{*rank, *size, std::max(1, whole(environment(names[2])).value_or(1))};
+    return LaunchedRank{*rank, *size, std::max(1, whole(environment_variable(names[2])).value_or(1))};
   }
   return {};
 }

@@ -3,7 +3,6 @@
 // environment says that this process is one of several that mpirun started.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +19,7 @@ struct LaunchedRank {
   int rank = 0, size = 1;
   int on_this_machine = 1;
 };
-std::optional<LaunchedRank> launched_rank(const Environment& environment = environment_variable);
+std::optional<LaunchedRank> launched_rank();
 // Threads of each rank where none are asked for: the processors it may use, shared by the ranks of a machine.
 int threads_of(const LaunchedRank& launched);
 

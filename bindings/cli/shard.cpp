@@ -18,9 +18,9 @@ std::optional<long> whole_number(std::string_view text) {
   return value;
 }
 
-Shard from_slurm(const Environment& environment) {
+Shard from_slurm() {
   const auto read = [&](const char* name) -> long {
-    const std::optional<std::string> text = environment(name);
+    const std::optional<std::string> text = environment_variable(name);
     if (!text)
       throw Error(
           ErrorCode::bad_value,
@@ -33,7 +33,7 @@ Shard from_slurm(const Environment& environment) {
     return *value;
   };
   const long id = read("SLURM_ARRAY_TASK_ID"), count = read("SLURM_ARRAY_TASK_COUNT");
-  const long first = environment("SLURM_ARRAY_TASK_MIN") ? read("SLURM_ARRAY_TASK_MIN") : 1;
+  const long first = environment_variable("SLURM_ARRAY_TASK_MIN") ? read("SLURM_ARRAY_TASK_MIN") : 1;
   const long index = id - first + 1;
   if (count < 1 || count > 1'000'000 || index < 1 || index > count)
     throw Error(ErrorCode::bad_value,
@@ -52,8 +52,8 @@ std::optional<std::string> environment_variable(const char* name) {
   return std::string(value);
 }
 
-Shard parse_shard(const std::string& text, const Environment& environment) {
-  if (text == "slurm") return from_slurm(environment);
+Shard parse_shard(const std::string& text) {
+  if (text == "slurm") return from_slurm();
   const std::size_t slash = text.find('/');
   const auto index = whole_number(std::string_view(text).substr(0, slash));
   const auto count =

@@ -2,7 +2,6 @@
 // `--shard 2/3` and `--shard slurm`: which of several processes that share the cases of ensembles this is.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -10,11 +9,10 @@
 
 namespace asperity::cli {
 
-using Environment = std::function<std::optional<std::string>(const char* name)>;
 std::optional<std::string> environment_variable(const char* name);
 
 // "2/3" is the second of three; "slurm" what SLURM_ARRAY_TASK_ID, _MIN and _COUNT say, for job arrays whose
 // numbers follow each other. Throws Error{bad_value}.
-Shard parse_shard(const std::string& text, const Environment& environment = environment_variable);
+Shard parse_shard(const std::string& text);
 
 }  // namespace asperity::cli
