@@ -8,6 +8,7 @@
 #include "bindings/lua/contact/discretisation_error.hpp"
 #include "bindings/lua/contact/state_error.hpp"
 #include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/surface.hpp"
@@ -23,12 +24,6 @@ namespace asperity::lua {
 namespace {
 
 using Contacting = asperity::State;
-
-// A field of a state that is one member function.
-template <auto member>
-Values read_state_number(Call& call) {
-  return {Value((call.self<Contacting>().*member)())};
-}
 
 // A field is asked for by its own name.
 Values quantity_value(Call& call) {
@@ -145,10 +140,6 @@ std::string describe_state(const void* self) { return described(*static_cast<con
 std::size_t state_bytes(const void* self) {
   return static_cast<std::size_t>(bytes_held_with_other_grids(*static_cast<const Contacting*>(self)));
 }
-std::string digest_of_state(const void* self) { return static_cast<const Contacting*>(self)->digest(); }
-bool equal_states(const void* a, const void* b) {
-  return static_cast<const Contacting*>(a)->digest() == static_cast<const Contacting*>(b)->digest();
-}
 
 }  // namespace
 
@@ -174,71 +165,44 @@ const Class& class_of<asperity::State>() {
         "A contact under load: an immutable value whose fields are computed when they are first read.";
     c.describe = describe_state;
     c.native_bytes = state_bytes;
-    c.digest = digest_of_state;
+    c.digest = text_of<&Contacting::digest>;
     c.enter = [](const void* self, Ledger& ledger) {
       ledger.add_effects(static_cast<const Contacting*>(self)->cost().by_effect);
     };
-    c.equal = equal_states;
+    c.equal = have_one_digest<Contacting>;
     for (const StateQuantity& quantity : state_quantities())
       c.fields.push_back({std::string(quantity.name), quantity.count ? "integer" : "number",
                           std::string(quantity.sentence) +
                               (quantity.effect.empty() ? "" : "; needs " + std::string(quantity.effect)),
                           quantity.dimension, quantity_value});
     const std::vector<Getter> others = {
-        {"preload",
-         "number[]",
-         "the branch of bodies that attract each other: values of the prescribed quantity gone to in turn "
-         "before this one; empty where they were brought together from apart",
-         {},
-         [](Call& call) -> Values { return {state_numbers(call.self<S>().preload())}; }},
-        {"iterations",
-         "integer",
-         "of the solver; 0 for a closed form",
-         {},
-         read_state_number<&S::iterations>},
-        {"residual", "number", "greatest entry of the certificate", {}, read_state_number<&S::residual>},
-        {"certificate",
-         "Certificate",
-         "how far the contact conditions are from being met, each relative; where the bodies attract each "
-         "other these bound tractions and not lengths: gaps and approaches may be off by more",
-         {},
-         [](Call& call) -> Values { return {certificate_type()(call.self<S>().certificate())}; }},
-        {"converged",
-         "boolean",
-         "whether every entry of the certificate is within the tolerance",
-         {},
-         read_state_number<&S::converged>},
-        {"solver",
-         "string",
-         "what found the solution",
-         {},
-         [](Call& call) -> Values { return {std::string(call.self<S>().solver())}; }},
-        {"effects_run",
-         "string[]",
-         "effects that were computed",
-         {},
-         [](Call& call) -> Values { return {text_list(call.self<S>().effects_run())}; }},
-        {"effects_off",
-         "string[]",
-         "effects that the scene does not name",
-         {},
-         [](Call& call) -> Values { return {text_list(call.self<S>().effects_off())}; }},
-        {"error",
-         "StateError",
-         "how far these numbers are from exact",
-         {},
-         [](Call& call) -> Values { return {object(StateError{call.self<S>()})}; }},
-        {"chosen",
-         "ChosenAccuracy?",
-         "cells and tolerance that were chosen for accuracy={ error= }, and why; nil otherwise",
-         {},
-         [](Call& call) -> Values { return {chosen_record(call.self<S>())}; }},
-        {"cost",
-         "StateCost",
-         "seconds, transforms, bytes, and by effect",
-         {},
-         [](Call& call) -> Values { return {state_cost_type()(call.self<S>().cost())}; }},
-        {"digest", "string", "of pressures and approach", {}, read_state_number<&S::digest>},
+        getter<S>("preload", "number[]",
+                  "the branch of bodies that attract each other: values of the prescribed quantity gone to "
+                  "in turn before this one; empty where they were brought together from apart",
+                  [](const S& of) { return state_numbers(of.preload()); }),
+        getter<&S::iterations>("iterations", "integer", "of the solver; 0 for a closed form"),
+        getter<&S::residual>("residual", "number", "greatest entry of the certificate"),
+        getter<S>(
+            "certificate", "Certificate",
+            "how far the contact conditions are from being met, each relative; where the bodies attract each "
+            "other these bound tractions and not lengths: gaps and approaches may be off by more",
+            [](const S& of) { return certificate_type()(of.certificate()); }),
+        getter<&S::converged>("converged", "boolean",
+                              "whether every entry of the certificate is within the tolerance"),
+        getter<S>("solver", "string", "what found the solution",
+                  [](const S& of) { return std::string(of.solver()); }),
+        getter<S>("effects_run", "string[]", "effects that were computed",
+                  [](const S& of) { return text_list(of.effects_run()); }),
+        getter<S>("effects_off", "string[]", "effects that the scene does not name",
+                  [](const S& of) { return text_list(of.effects_off()); }),
+        getter<S>("error", "StateError", "how far these numbers are from exact",
+                  [](const S& of) { return object(StateError{of}); }),
+        getter<S>("chosen", "ChosenAccuracy?",
+                  "cells and tolerance that were chosen for accuracy={ error= }, and why; nil otherwise",
+                  [](const S& of) { return chosen_record(of); }),
+        getter<S>("cost", "StateCost", "seconds, transforms, bytes, and by effect",
+                  [](const S& of) { return state_cost_type()(of.cost()); }),
+        getter<&S::digest>("digest", "string", "of pressures and approach"),
     };
     c.fields.insert(c.fields.end(), others.begin(), others.end());
     c.methods = {
@@ -263,9 +227,8 @@ const Class& class_of<asperity::State>() {
          .example = "local flattened = st:deformed \"lower\""},
         {.name = "write",
          .body = write_state,
-         .sentence =
-             "Writes the fields as maps of shape (ny, nx) into one HDF5 file, with load, approach, area, "
-             "certificate and digest as its attributes, and an .xdmf beside it for ParaView.",
+         .sentence = "Writes the fields as maps of shape (ny, nx) into one HDF5 file, with load, approach, "
+                     "area, certificate and digest as its attributes, and an .xdmf beside it for ParaView.",
          .parameters = {{"path", "string", "an .h5 under the run directory"}},
          .options = &state_file_block(),
          .options_optional = true,

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bindings/lua/contact/discretisation_error.hpp"
 #include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/quantities.hpp"
 #include "engine/core/error.hpp"
@@ -21,7 +21,7 @@ namespace asperity::lua {
 
 namespace {
 
-const AlgebraicError& bounds(Call& call) { return call.self<StateBounds>().state.algebraic_error(); }
+const AlgebraicError& bounds(const StateBounds& of) { return of.state.algebraic_error(); }
 
 // A field is asked for by its own name.
 Values bound(Call& call) {
@@ -38,7 +38,7 @@ Values bound(Call& call) {
 }
 
 const NodeBracket& yielded(Call& call) {
-  const auto& found = bounds(call).yielded_bracket;
+  const auto& found = bounds(call.self<StateBounds>()).yielded_bracket;
   if (!found) refuse_without(quoted(call.function_name()), quoted(find_quantity("plastic_fraction")->effect));
   return *found;
 }
@@ -82,60 +82,48 @@ const Class& class_of<StateBounds>() {
     c.article_name = "an algebraic error";
     c.sentence =
         "Bounds on how far the numbers of a state are from the exact solution on the same grid, in the units "
-        "of "
-        "the quantities; math.huge where nothing can be said, as of bodies that attract each other. What "
-        "they cost to find is no part of the cost "
-        "of "
-        "the state.";
+        "of the quantities; math.huge where nothing can be said, as of bodies that attract each other. What "
+        "they cost to find is no part of the cost of the state.";
     c.describe = describe_bounds;
     for (const StateQuantity& quantity : state_quantities())
       if (quantity.bound != nullptr)
         c.fields.push_back(
             {std::string(quantity.name), "number", bound_sentence(quantity), quantity.dimension, bound});
     const std::vector<Getter> brackets = {
-        {"contacts_low",
-         "integer",
-         "nodes that are surely in contact",
-         {},
-         [](Call& call) -> Values { return {bounds(call).contact_bracket.low}; }},
-        {"contacts_high",
-         "integer",
-         "those and the nodes that may be",
-         {},
-         [](Call& call) -> Values { return {bounds(call).contact_bracket.high}; }},
-        {"area_low", "number", "area surely in contact", dimension::area,
-         [](Call& call) -> Values {
-           return {static_cast<double>(bounds(call).contact_bracket.low) * bounds(call).node_area};
-         }},
-        {"area_high", "number", "that and what may be", dimension::area,
-         [](Call& call) -> Values {
-           return {static_cast<double>(bounds(call).contact_bracket.high) * bounds(call).node_area};
-         }},
-        {"area_fraction_low",
-         "number",
-         "share of the nodes surely in contact",
-         {},
-         [](Call& call) -> Values { return {share(bounds(call), bounds(call).contact_bracket.low)}; }},
-        {"area_fraction_high",
-         "number",
-         "that and the share that may be",
-         {},
-         [](Call& call) -> Values { return {share(bounds(call), bounds(call).contact_bracket.high)}; }},
+        getter<StateBounds>("contacts_low", "integer", "nodes that are surely in contact",
+                            [](const StateBounds& of) { return bounds(of).contact_bracket.low; }),
+        getter<StateBounds>("contacts_high", "integer", "those and the nodes that may be",
+                            [](const StateBounds& of) { return bounds(of).contact_bracket.high; }),
+        getter<StateBounds>(
+            "area_low", "number", "area surely in contact",
+            [](const StateBounds& of) {
+              return static_cast<double>(bounds(of).contact_bracket.low) * bounds(of).node_area;
+            },
+            dimension::area),
+        getter<StateBounds>(
+            "area_high", "number", "that and what may be",
+            [](const StateBounds& of) {
+              return static_cast<double>(bounds(of).contact_bracket.high) * bounds(of).node_area;
+            },
+            dimension::area),
+        getter<StateBounds>(
+            "area_fraction_low", "number", "share of the nodes surely in contact",
+            [](const StateBounds& of) { return share(bounds(of), bounds(of).contact_bracket.low); }),
+        getter<StateBounds>(
+            "area_fraction_high", "number", "that and the share that may be",
+            [](const StateBounds& of) { return share(bounds(of), bounds(of).contact_bracket.high); }),
         {"plastic_fraction_low",
          "number",
          "share of the nodes surely at the cap; needs plasticity",
          {},
-         [](Call& call) -> Values { return {share(bounds(call), yielded(call).low)}; }},
+         [](Call& call) -> Values { return {share(bounds(call.self<StateBounds>()), yielded(call).low)}; }},
         {"plastic_fraction_high",
          "number",
          "that and the share that may be; needs plasticity",
          {},
-         [](Call& call) -> Values { return {share(bounds(call), yielded(call).high)}; }},
-        {"cost",
-         "Cost",
-         "seconds, transforms and bytes of finding these bounds",
-         {},
-         [](Call& call) -> Values { return {cost_type()(bounds(call).cost)}; }},
+         [](Call& call) -> Values { return {share(bounds(call.self<StateBounds>()), yielded(call).high)}; }},
+        getter<StateBounds>("cost", "Cost", "seconds, transforms and bytes of finding these bounds",
+                            [](const StateBounds& of) { return cost_type()(bounds(of).cost); }),
     };
     c.fields.insert(c.fields.end(), brackets.begin(), brackets.end());
     return c;
@@ -162,11 +150,10 @@ const Class& class_of<StateError>() {
            found.state.algebraic_error();  // now, and not after the contact was closed
            return {object(std::move(found))};
          }},
-        {"discretisation",
-         "DiscretisationError",
-         "estimates against an ever finer grid; needs accuracy={ estimate=true } or { error= }",
-         {},
-         [](Call& call) -> Values { return {object(DiscretisationError{call.self<StateError>().state})}; }},
+        getter<StateError>(
+            "discretisation", "DiscretisationError",
+            "estimates against an ever finer grid; needs accuracy={ estimate=true } or { error= }",
+            [](const StateError& of) { return object(DiscretisationError{of.state}); }),
     };
     return c;
   }();

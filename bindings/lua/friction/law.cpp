@@ -70,8 +70,6 @@ Values law_on(Call& call) {
   return {friction_type()(r)};
 }
 
-std::string describe_law(const void* self) { return static_cast<const JunctionLaw*>(self)->text(); }
-
 }  // namespace
 
 Function friction_function() {
@@ -92,17 +90,12 @@ const Class& class_of<JunctionLaw>() {
     c.name = "Law";
     c.article_name = "a law";
     c.sentence = "A friction law of junctions.";
-    c.describe = describe_law;
+    c.describe = text_of<&JunctionLaw::text>;
     c.fields = {
-        {"tau0", "number", "adhesive strength", dimension::pressure,
-         [](Call& call) -> Values { return {call.self<JunctionLaw>().tau0()}; }},
-        {"alpha",
-         "number",
-         "growth with pressure",
-         {},
-         [](Call& call) -> Values { return {call.self<JunctionLaw>().alpha()}; }},
-        {"tau_max", "number", "greatest strength; nil without a cap", dimension::pressure,
-         [](Call& call) -> Values { return {Value(call.self<JunctionLaw>().tau_max())}; }},
+        getter<&JunctionLaw::tau0>("tau0", "number", "adhesive strength", dimension::pressure),
+        getter<&JunctionLaw::alpha>("alpha", "number", "growth with pressure"),
+        getter<&JunctionLaw::tau_max>("tau_max", "number", "greatest strength; nil without a cap",
+                                      dimension::pressure),
     };
     c.methods = {{.name = "on",
                   .body = law_on,

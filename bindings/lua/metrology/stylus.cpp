@@ -95,11 +95,6 @@ std::string describe_stylus(const void* self) {
          (s.speed() ? ", at " + format_quantity(*s.speed(), dimension::speed) : "");
 }
 
-bool equal_styluses(const void* a, const void* b) {
-  return static_cast<const Stylus*>(a)->digest() == static_cast<const Stylus*>(b)->digest();
-}
-std::string digest_of_stylus(const void* self) { return static_cast<const Stylus*>(self)->digest(); }
-
 }  // namespace
 
 Function stylus_function() {
@@ -122,29 +117,19 @@ const Class& class_of<Stylus>() {
     c.article_name = "a stylus";
     c.sentence = "A stylus profiler; an immutable value.";
     c.describe = describe_stylus;
-    c.equal = equal_styluses;
-    c.digest = digest_of_stylus;
+    c.equal = have_one_digest<Stylus>;
+    c.digest = text_of<&Stylus::digest>;
     c.fields = {
-        {"tip", "number", "radius of the tip", dimension::length,
-         [](Call& call) -> Values { return {call.self<Stylus>().tip()}; }},
-        {"spacing", "number", "distance between samples", dimension::length,
-         [](Call& call) -> Values { return {call.self<Stylus>().spacing()}; }},
-        {"length", "number", "of a trace", dimension::length,
-         [](Call& call) -> Values { return {call.self<Stylus>().length()}; }},
-        {"samples",
-         "integer",
-         "number of samples of a trace: the whole spacings in its length",
-         {},
-         [](Call& call) -> Values { return {call.self<Stylus>().samples()}; }},
-        {"speed", "number", "of the tip; nil where only the spacing is known", dimension::speed,
-         [](Call& call) -> Values { return {Value(call.self<Stylus>().speed())}; }},
-        {"rate", "number", "of the samples; nil where only the spacing is known", dimension::frequency,
-         [](Call& call) -> Values { return {Value(call.self<Stylus>().rate())}; }},
-        {"digest",
-         "string",
-         "equal styluses have equal digests",
-         {},
-         [](Call& call) -> Values { return {call.self<Stylus>().digest()}; }},
+        getter<&Stylus::tip>("tip", "number", "radius of the tip", dimension::length),
+        getter<&Stylus::spacing>("spacing", "number", "distance between samples", dimension::length),
+        getter<&Stylus::length>("length", "number", "of a trace", dimension::length),
+        getter<&Stylus::samples>("samples", "integer",
+                                 "number of samples of a trace: the whole spacings in its length"),
+        getter<&Stylus::speed>("speed", "number", "of the tip; nil where only the spacing is known",
+                               dimension::speed),
+        getter<&Stylus::rate>("rate", "number", "of the samples; nil where only the spacing is known",
+                              dimension::frequency),
+        getter<&Stylus::digest>("digest", "string", "equal styluses have equal digests"),
     };
     c.methods = {
         {.name = "scan",

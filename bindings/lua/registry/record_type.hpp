@@ -64,6 +64,8 @@ Value value_of_held(const V& held) {
     return Value(static_cast<std::int64_t>(held));
   else if constexpr (std::convertible_to<V, std::string_view>)
     return Value(std::string(held));
+  else if constexpr (std::constructible_from<Value, const V&>)
+    return Value(held);
   else if constexpr (std::same_as<typename V::value_type, double>)
     return Value::Numbers(std::make_shared<const Array<double>>(held.begin(), held.end()));
   else {
@@ -73,7 +75,35 @@ Value value_of_held(const V& held) {
   }
 }
 
+template <class T, class V>
+T class_of_member(V T::*);
+
 }  // namespace detail
+
+// What a class tells of its values where these tell it themselves: their description or digest, and whether
+// two of them have one digest.
+template <auto read, class T = decltype(detail::class_of_member(read))>
+std::string text_of(const void* self) {
+  return std::invoke(read, *static_cast<const T*>(self));
+}
+template <class T>
+bool have_one_digest(const void* a, const void* b) {
+  return static_cast<const T*>(a)->digest() == static_cast<const T*>(b)->digest();
+}
+
+// A field of a native value of type T: `read` is a member of T or a member function without arguments.
+template <auto read, class T = decltype(detail::class_of_member(read))>
+Getter getter(std::string name, std::string type, std::string sentence, Dimension dimension = {}) {
+  return {std::move(name), std::move(type), std::move(sentence), dimension, [](Call& call) -> Values {
+            return {detail::value_of_held(std::invoke(read, std::as_const(call.self<T>())))};
+          }};
+}
+// As above; `read` is a lambda of a T without captures.
+template <class T, std::invocable<const T&> Read>
+Getter getter(std::string name, std::string type, std::string sentence, Read, Dimension dimension = {}) {
+  return {std::move(name), std::move(type), std::move(sentence), dimension,
+          [](Call& call) -> Values { return {detail::value_of_held(Read{}(call.self<T>()))}; }};
+}
 
 // A field of a record made from a T. `read` is a member of T, a member function or a function of a T; the
 // type of the field follows from what it gives: numbers, texts, optional ones (nil where there is none) and

@@ -2,6 +2,7 @@
 #include "bindings/lua/run/ledger.hpp"
 
 #include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 
 namespace asperity::lua {
@@ -35,39 +36,21 @@ const Class& class_of<LedgerReport>() {
     c.name = "Ledger";
     c.article_name = "a ledger";
     c.sentence = "What a run has done so far and what it cost; print() shows all of it.";
-    c.fields = {{"seconds", "number", "of the run so far", dimension::time,
-                 [](Call& call) -> Values { return {call.self<R>().seconds}; }},
-                {"unaccounted", "number",
-                 "seconds that are in no line: the script itself, and calls too short for one",
-                 dimension::time, [](Call& call) -> Values { return {call.self<R>().unaccounted()}; }},
-                {"transforms",
-                 "number",
-                 "Fourier transforms, each in equivalents of its contact's finest grid",
-                 {},
-                 [](Call& call) -> Values { return {call.self<R>().transforms}; }},
-                {"bytes",
-                 "integer",
-                 "greatest memory of one call",
-                 {},
-                 [](Call& call) -> Values { return {call.self<R>().bytes}; }},
-                {"calls",
-                 "LedgerLine[]",
-                 "a line for each function that was called",
-                 {},
-                 [](Call& call) -> Values { return {ledger_line_type().list(call.self<R>().lines)}; }},
-                {"by_effect",
-                 "table<string, Cost>",
-                 "what the pressed contacts cost, effect by effect",
-                 {},
-                 [](Call& call) -> Values { return {cost_by_effect(call.self<R>().by_effect)}; }},
-                {"effects_off",
-                 "string[]",
-                 "effects that no contact named, for which nothing was done",
-                 {},
-                 [](Call& call) -> Values { return {text_list(call.self<R>().effects_off)}; }},
-                {"json", "string", "all of it, as JSON", {}, [](Call& call) -> Values {
-                   return {call.self<R>().json().text(2)};
-                 }}};
+    c.fields = {
+        getter<&R::seconds>("seconds", "number", "of the run so far", dimension::time),
+        getter<&R::unaccounted>("unaccounted", "number",
+                                "seconds that are in no line: the script itself, and calls too short for one",
+                                dimension::time),
+        getter<&R::transforms>("transforms", "number",
+                               "Fourier transforms, each in equivalents of its contact's finest grid"),
+        getter<&R::bytes>("bytes", "integer", "greatest memory of one call"),
+        getter<R>("calls", "LedgerLine[]", "a line for each function that was called",
+                  [](const R& of) { return ledger_line_type().list(of.lines); }),
+        getter<R>("by_effect", "table<string, Cost>", "what the pressed contacts cost, effect by effect",
+                  [](const R& of) { return cost_by_effect(of.by_effect); }),
+        getter<R>("effects_off", "string[]", "effects that no contact named, for which nothing was done",
+                  [](const R& of) { return text_list(of.effects_off); }),
+        getter<R>("json", "string", "all of it, as JSON", [](const R& of) { return of.json().text(2); })};
     c.results = {&ledger_line_type(), &cost_type()};
     c.describe = [](const void* self) {
       std::string text = static_cast<const R*>(self)->text();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_analysis.hpp"
@@ -108,10 +109,9 @@ const Block<Expectation>& expect_block() {
   static const Block<E> block{
       "expect",
       {where_key(&E::where),
-       bound_key(
-           "near", &E::near,
-           "the value wanted, with `within` or `rel`: a number in the column's unit, or a quantity such as "
-           "\"10 MPa\", which is converted to it"),
+       bound_key("near", &E::near,
+                 "the value wanted, with `within` or `rel`: a number in the column's unit, or a quantity "
+                 "such as \"10 MPa\", which is converted to it"),
        bound_key("within", &E::within, "greatest distance from `near`"),
        number("rel", &E::relative, at_least(0), "greatest distance from `near`, relative to it"),
        bound_key("at_least", &E::at_least, "lowest value accepted"),
@@ -179,16 +179,9 @@ const Class& class_of<Notebook>() {
     c.shareable = false;
     c.describe = describe_notebook;
     c.fields = {
-        {"name",
-         "string",
-         "of the notebook",
-         {},
-         [](Call& call) -> Values { return {call.self<Notebook>().name()}; }},
-        {"file",
-         "string",
-         "where its rows are kept",
-         {},
-         [](Call& call) -> Values { return {call.self<Notebook>().csv().string()}; }},
+        getter<&Notebook::name>("name", "string", "of the notebook"),
+        getter<Notebook>("file", "string", "where its rows are kept",
+                         [](const Notebook& of) { return of.csv().string(); }),
     };
     c.methods = {
         {.name = "write",
@@ -215,8 +208,7 @@ const Class& class_of<Notebook>() {
         {.name = "expect",
          .body = expect,
          .sentence = "States what a column should show; returns whether it does. A failed expectation makes "
-                     "the run exit 1 after "
-                     "everything is recorded.",
+                     "the run exit 1 after everything is recorded.",
          .parameters = {{"column", "string", "the column"}},
          .options = &expect_block(),
          .returns = "boolean",

@@ -2,6 +2,7 @@
 // The fields of a table, and its methods; those that notebooks have too are in table_methods().
 #include <limits>
 
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_analysis.hpp"
@@ -113,32 +114,29 @@ std::vector<Function> table_methods() {
       {.name = "where",
        .body = rows_where,
        .sentence =
-           "The rows in which these columns hold these values, as a table: numbers, strings, booleans, "
-           "or lists of them, any of which may stand there. A quantity is counted in the unit of its "
-           "column.",
+           "The rows in which these columns hold these values, as a table: numbers, strings, booleans, or "
+           "lists of them, any of which may stand there. A quantity is counted in the unit of its column.",
        .parameters = {{"filter", "table", "values by the names of their columns"}},
        .returns = "Table",
        .example = "print(#book:where{ N={ 1, 2 } })",
        .unknown_when_dry = true},
       {.name = "column",
        .body = cells_of_column,
-       .sentence =
-           "The cells of a column as a list: numbers, nan where a cell is empty; or texts, \"\" where "
-           "one is.",
+       .sentence = "The cells of a column as a list: numbers, nan where a cell is empty; or texts, \"\" "
+                   "where one is.",
        .parameters = {{"column", "string", "its name"}},
        .returns = "any[]",
        .example = "local mu = book:column \"mu\"",
        .unknown_when_dry = true},
       {.name = "joined",
        .body = join_tables,
-       .sentence =
-           "Each row beside the rows of another table, or notebook, that are equal to it in the columns "
-           "`by`: as measured numbers stand beside computed ones.",
+       .sentence = "Each row beside the rows of another table, or notebook, that are equal to it in the "
+                   "columns `by`: as measured numbers stand beside computed ones.",
        .parameters = {{"other", "Table|Notebook", "the other table"}},
        .options = &join_block(),
        .returns = "Table",
-       .example = "print(book:joined(lab.table.from{ { N=1, measured=0.42 } }, { by=\"N\", "
-                  "unmatched=\"leave out\" }))",
+       .example = "print(book:joined(lab.table.from{ { N=1, measured=0.42 } }, { by=\"N\", unmatched=\"leave "
+                  "out\" }))",
        .unknown_when_dry = true},
   };
 }
@@ -152,8 +150,7 @@ const Class& class_of<asperity::Table>() {
     c.sentence =
         "Rows under named columns with units, read from a file, made of rows or taken from a notebook; an "
         "immutable value whose methods return new ones. Its numbers are in SI; those of a notebook stay in "
-        "the "
-        "units of its columns.";
+        "the units of its columns.";
     c.describe = [](const void* self) { return table_text(*static_cast<const Rows*>(self)); };
     c.native_bytes = [](const void* self) {
       const auto& table = *static_cast<const Rows*>(self);
@@ -162,31 +159,16 @@ const Class& class_of<asperity::Table>() {
     c.length = [](const void* self) {
       return static_cast<std::int64_t>(static_cast<const Rows*>(self)->rows());
     };
-    c.equal = [](const void* a, const void* b) {
-      return static_cast<const Rows*>(a)->digest() == static_cast<const Rows*>(b)->digest();
-    };
-    c.digest = [](const void* self) { return static_cast<const Rows*>(self)->digest(); };
+    c.equal = have_one_digest<Rows>;
+    c.digest = text_of<&Rows::digest>;
     c.fields = {
-        {"columns",
-         "string[]",
-         "the names of its columns, in order",
-         {},
-         [](Call& call) -> Values { return {text_list(call.self<Rows>().column_names())}; }},
-        {"units",
-         "table<string, string>",
-         "the unit of each column that has one",
-         {},
-         [](Call& call) -> Values { return {units_of(call.self<Rows>())}; }},
-        {"name",
-         "string",
-         "where it came from, as errors call it",
-         {},
-         [](Call& call) -> Values { return {call.self<Rows>().name()}; }},
-        {"digest",
-         "string",
-         "of columns, units and cells: equal tables have equal digests",
-         {},
-         [](Call& call) -> Values { return {call.self<Rows>().digest()}; }},
+        getter<Rows>("columns", "string[]", "the names of its columns, in order",
+                     [](const Rows& of) { return text_list(of.column_names()); }),
+        getter<Rows>("units", "table<string, string>", "the unit of each column that has one",
+                     [](const Rows& of) { return units_of(of); }),
+        getter<&Rows::name>("name", "string", "where it came from, as errors call it"),
+        getter<&Rows::digest>("digest", "string",
+                              "of columns, units and cells: equal tables have equal digests"),
     };
     c.methods = {
         {.name = "rows",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/specimen/protocol.hpp"
 
-#include <cmath>
 #include <optional>
 
 #include "bindings/lua/registry/record_type.hpp"
@@ -233,8 +232,6 @@ std::string describe_protocol(const void* self) {
   const auto& protocol = *static_cast<const Protocol*>(self);
   return protocol.text() + (protocol.recording() ? "\n" + protocol.recording()->text() : "");
 }
-std::string digest_of_protocol(const void* self) { return static_cast<const Protocol*>(self)->digest(); }
-bool equal_protocols(const void* a, const void* b) { return digest_of_protocol(a) == digest_of_protocol(b); }
 std::int64_t length(const void* self) {
   return static_cast<std::int64_t>(static_cast<const Protocol*>(self)->count());
 }
@@ -256,36 +253,25 @@ const Class& class_of<Protocol>() {
     c.length = length;
     c.describe = describe_protocol;
     c.native_bytes = bytes_of_protocol;
-    c.equal = equal_protocols;
-    c.digest = digest_of_protocol;
-    c.fields = {
-        {"count",
-         "integer",
-         "number of events",
-         {},
-         [](Call& call) -> Values { return {length(&call.self<Protocol>())}; }},
-        {"presses",
-         "integer",
-         "number of presses among them",
-         {},
-         [](Call& call) -> Values { return {static_cast<std::int64_t>(call.self<Protocol>().presses())}; }},
-        {"recording",
-         "Recording?",
-         "what was found in the recording that it was detected in, and by which thresholds; nil if there is "
-         "none",
-         {},
-         recording},
-        {"digest", "string", "equal protocols have equal digests", {}, [](Call& call) -> Values {
-           return {digest_of_protocol(&call.self<Protocol>())};
-         }}};
+    c.equal = have_one_digest<Protocol>;
+    c.digest = text_of<&Protocol::digest>;
+    c.fields = {getter<Protocol>("count", "integer", "number of events",
+                                 [](const Protocol& of) { return length(&of); }),
+                getter<&Protocol::presses>("presses", "integer", "number of presses among them"),
+                {"recording",
+                 "Recording?",
+                 "what was found in the recording that it was detected in, and by which thresholds; nil if "
+                 "there is none",
+                 {},
+                 recording},
+                getter<&Protocol::digest>("digest", "string", "equal protocols have equal digests")};
     c.methods = {
         {.name = "on",
          .body = on,
          .sentence =
              "Does one event after another to a contact, one a turn of a for loop, which is given the event "
-             "and the state of a press, nil after any other. An event that fails "
-             "raises an error, and leaves the contact as it was before that event; a loop that is broken off "
-             "leaves the rest undone.",
+             "and the state of a press, nil after any other. An event that fails raises an error, and leaves "
+             "the contact as it was before that event; a loop that is broken off leaves the rest undone.",
          .parameters = {{"contact", "Contact", "what it is done to"}},
          .returns = "iterator<ProtocolEvent and State?>",
          .example =
@@ -301,8 +287,8 @@ const Class& class_of<Protocol>() {
          .sentence = "The same events several times over, without recorded times.",
          .options = &repeated_block(),
          .returns = "Protocol",
-         .example = "local eight = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, "
-                    "{ rotate=\"90 deg\" } }:repeated{ times=8 }"},
+         .example = "local eight = lab.protocol{ { press={ pressure=\"152.78 MPa\" } }, { release=true }, { "
+                    "rotate=\"90 deg\" } }:repeated{ times=8 }"},
         {.name = "plus",
          .body = plus,
          .sentence = "One protocol after another, without recorded times.",
@@ -311,10 +297,9 @@ const Class& class_of<Protocol>() {
          .example = "local both = protocol:plus(protocol:repeated{ times=2 })"},
         {.name = "chart",
          .body = chart_protocol,
-         .sentence =
-             "Draws load over time with rises, holds, peaks, releases and turns marked and labelled, over "
-             "what was recorded if it was detected in a recording; without recorded times over the time "
-             "its dwells add up to, or event by event. Returns the file.",
+         .sentence = "Draws load over time with rises, holds, peaks, releases and turns marked and labelled, "
+                     "over what was recorded if it was detected in a recording; without recorded times over "
+                     "the time its dwells add up to, or event by event. Returns the file.",
          .parameters = {{"path", "string", "an .svg, .png or .pdf under the run directory"}},
          .options = &chart_block(),
          .options_optional = true,
@@ -324,8 +309,7 @@ const Class& class_of<Protocol>() {
         {.name = "write",
          .body = write_protocol,
          .sentence = "Writes a press log, which lab.protocol.read reads back as this protocol: rows of turn, "
-                     "pressure "
-                     "or load, and dwell. Shifts, and presses to anything else, are an error.",
+                     "pressure or load, and dwell. Shifts, and presses to anything else, are an error.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",
          .example = "protocol:write \"press_log.csv\"",
@@ -343,15 +327,14 @@ const Module& protocol_module() {
     m.path = "lab.protocol";
     m.sentence = "Loading protocols: what is done to a contact, event by event, from tables or press logs.";
     m.functions = {protocol_read_function()};
-    m.call = Function{
-        .name = "protocol",
-        .body = make_protocol,
-        .sentence = "A protocol from a list of events: tables with one key each.",
-        .options = &protocol_keys(),
-        .returns = "Protocol",
-        .example =
-            "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 min\" } }, "
-            "{ release=true }, { place={ seed=1 } } }"};
+    m.call = Function{.name = "protocol",
+                      .body = make_protocol,
+                      .sentence = "A protocol from a list of events: tables with one key each.",
+                      .options = &protocol_keys(),
+                      .returns = "Protocol",
+                      .example =
+                          "local protocol = lab.protocol{ { press={ pressure=\"152.78 MPa\", dwell=\"10 "
+                          "min\" } }, { release=true }, { place={ seed=1 } } }"};
     return m;
   }();
   return module;

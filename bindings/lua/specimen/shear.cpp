@@ -4,6 +4,7 @@
 #include "bindings/lua/contact/state_error.hpp"
 #include "bindings/lua/friction/law.hpp"
 #include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 
@@ -61,12 +62,6 @@ Values shear(Call& call) {
   return {object(std::move(slip))};
 }
 
-// A field of the result that is one member function.
-template <auto member>
-Values read_slip_number(Call& call) {
-  return {Value((call.self<PartialSlip>().*member)())};
-}
-
 Values slip_field(Call& call) {
   const auto& slip = call.self<PartialSlip>();
   const std::string name = call.text(1, "name");
@@ -75,7 +70,6 @@ Values slip_field(Call& call) {
                             name == "shear" ? dimension::pressure : dimension::number})};
 }
 
-std::string describe_slip(const void* self) { return static_cast<const PartialSlip*>(self)->text(); }
 std::string digest_of_slip(const void* self) {
   const auto& slip = *static_cast<const PartialSlip*>(self);
   return slip.normal().digest() + "+" + format_exact(slip.friction()) + "+" + format_exact(slip.ratio());
@@ -104,36 +98,25 @@ const Class& class_of<PartialSlip>() {
     c.name = "Shear";
     c.article_name = "a shear";
     c.sentence = "A contact under load that is pulled sideways: part of it sticks, the rest slips.";
-    c.describe = describe_slip;
+    c.describe = text_of<&PartialSlip::text>;
     c.digest = digest_of_slip;
     c.fields = {
-        {"load", "number", "force that presses the whole tile", dimension::force, read_slip_number<&S::load>},
-        {"force", "number", "force that pulls the whole tile sideways", dimension::force,
-         read_slip_number<&S::force>},
-        {"ratio", "number", "of that force over the one that slides", {}, read_slip_number<&S::ratio>},
-        {"friction", "number", "Coulomb's coefficient", {}, read_slip_number<&S::friction>},
-        {"slides", "boolean", "whether all of the contact slips", {}, read_slip_number<&S::slides>},
-        {"stick_area", "number", "area that sticks", dimension::area, read_slip_number<&S::stick_area>},
-        {"stick_fraction",
-         "number",
-         "of the contact area that sticks",
-         {},
-         read_slip_number<&S::stick_fraction>},
-        {"slip_fraction",
-         "number",
-         "of the contact area that slips",
-         {},
-         read_slip_number<&S::slip_fraction>},
-        {"displacement", "number", "of the bodies over each other, along the force", dimension::length,
-         read_slip_number<&S::displacement>},
-        {"stiffness", "number",
-         "d shear stress / d displacement at this force, over the nominal area; 0 where all slips",
-         dimension::stiffness, read_slip_number<&S::stiffness>},
-        {"cost",
-         "Cost",
-         "seconds, transforms and bytes of the second normal solve",
-         {},
-         [](Call& call) -> Values { return {cost_type()(call.self<S>().cost().total)}; }},
+        getter<&S::load>("load", "number", "force that presses the whole tile", dimension::force),
+        getter<&S::force>("force", "number", "force that pulls the whole tile sideways", dimension::force),
+        getter<&S::ratio>("ratio", "number", "of that force over the one that slides"),
+        getter<&S::friction>("friction", "number", "Coulomb's coefficient"),
+        getter<&S::slides>("slides", "boolean", "whether all of the contact slips"),
+        getter<&S::stick_area>("stick_area", "number", "area that sticks", dimension::area),
+        getter<&S::stick_fraction>("stick_fraction", "number", "of the contact area that sticks"),
+        getter<&S::slip_fraction>("slip_fraction", "number", "of the contact area that slips"),
+        getter<&S::displacement>("displacement", "number", "of the bodies over each other, along the force",
+                                 dimension::length),
+        getter<&S::stiffness>(
+            "stiffness", "number",
+            "d shear stress / d displacement at this force, over the nominal area; 0 where all slips",
+            dimension::stiffness),
+        getter<S>("cost", "Cost", "seconds, transforms and bytes of the second normal solve",
+                  [](const S& of) { return cost_type()(of.cost().total); }),
     };
     c.methods = {
         {.name = "field",

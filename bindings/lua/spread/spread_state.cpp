@@ -4,6 +4,7 @@
 
 #include "bindings/lua/contact/state_class.hpp"
 #include "bindings/lua/registry/record.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/spread/spread.hpp"
@@ -13,14 +14,15 @@ namespace asperity::lua {
 
 namespace {
 
-const SlabContactAnswer& answer(const Call& call) { return *call.self<SpreadState>().answer; }
+const SlabContactAnswer& answer(const SpreadState& of) { return *of.answer; }
 
 template <auto member>
-Values spread_state_read(Call& call) {
-  return {Value(answer(call).*member)};
+Getter answered(const char* name, const char* type, const char* sentence, Dimension dimension = {}) {
+  return getter<SpreadState>(
+      name, type, sentence, [](const SpreadState& of) { return answer(of).*member; }, dimension);
 }
 
-double nodes(const Call& call) { return call.self<SpreadState>().surface.slab.all_nodes(); }
+double nodes(const SpreadState& of) { return of.surface.slab.all_nodes(); }
 
 void require_plasticity(const Call& call, const char* name) {
   if (!call.self<SpreadState>().plastic)
@@ -74,7 +76,6 @@ std::size_t spread_state_bytes(const void* self) {
   const SlabContactAnswer& a = *static_cast<const SpreadState*>(self)->answer;
   return (a.pressure.size() + a.gap.size()) * sizeof(double);
 }
-std::string state_digest(const void* self) { return static_cast<const SpreadState*>(self)->digest; }
 
 }  // namespace
 
@@ -90,89 +91,65 @@ const Class& class_of<SpreadState>() {
     c.shareable = false;
     c.describe = describe_spread_state;
     c.native_bytes = spread_state_bytes;
-    c.digest = state_digest;
+    c.digest = text_of<&SpreadState::digest>;
     c.fields = {
-        {"load", "number", "force on the whole tile", dimension::force,
-         [](Call& call) -> Values {
-           return {answer(call).mean_pressure * call.self<SpreadState>().surface.grid.area()};
-         }},
-        {"pressure", "number", "load over the nominal area", dimension::pressure,
-         spread_state_read<&A::mean_pressure>},
-        {"approach", "number", "from first touch", dimension::length, spread_state_read<&A::approach>},
-        {"area", "number", "real contact area", dimension::area,
-         [](Call& call) -> Values {
-           return {static_cast<double>(answer(call).contacts) *
-                   call.self<SpreadState>().surface.grid.cell_area()};
-         }},
-        {"area_fraction",
-         "number",
-         "nodes in contact over all nodes",
-         {},
-         [](Call& call) -> Values { return {static_cast<double>(answer(call).contacts) / nodes(call)}; }},
-        {"contacts", "integer", "nodes in contact", {}, spread_state_read<&A::contacts>},
-        {"peak_pressure", "number", "greatest pressure", dimension::pressure,
-         spread_state_read<&A::peak_pressure>},
-        {"mean_gap", "number", "mean over the tile of the gap where it is open", dimension::length,
-         spread_state_read<&A::mean_gap>},
-        {"energy", "number", "elastic energy in the tile", dimension::energy, spread_state_read<&A::energy>},
+        getter<SpreadState>(
+            "load", "number", "force on the whole tile",
+            [](const SpreadState& of) { return answer(of).mean_pressure * of.surface.grid.area(); },
+            dimension::force),
+        answered<&A::mean_pressure>("pressure", "number", "load over the nominal area", dimension::pressure),
+        answered<&A::approach>("approach", "number", "from first touch", dimension::length),
+        getter<SpreadState>(
+            "area", "number", "real contact area",
+            [](const SpreadState& of) {
+              return static_cast<double>(answer(of).contacts) * of.surface.grid.cell_area();
+            },
+            dimension::area),
+        getter<SpreadState>(
+            "area_fraction", "number", "nodes in contact over all nodes",
+            [](const SpreadState& of) { return static_cast<double>(answer(of).contacts) / nodes(of); }),
+        answered<&A::contacts>("contacts", "integer", "nodes in contact"),
+        answered<&A::peak_pressure>("peak_pressure", "number", "greatest pressure", dimension::pressure),
+        answered<&A::mean_gap>("mean_gap", "number", "mean over the tile of the gap where it is open",
+                               dimension::length),
+        answered<&A::energy>("energy", "number", "elastic energy in the tile", dimension::energy),
         {"plastic_fraction",
          "number",
          "share of the tile at the cap; needs plasticity",
          {},
          [](Call& call) -> Values {
            require_plasticity(call, "plastic_fraction");
-           return {static_cast<double>(answer(call).yielded) / nodes(call)};
+           return {static_cast<double>(answer(call.self<SpreadState>()).yielded) /
+                   nodes(call.self<SpreadState>())};
          }},
         {"plastic_volume", "number", "volume by which the bodies overlap at the cap; needs plasticity",
          dimension::volume,
          [](Call& call) -> Values {
            require_plasticity(call, "plastic_volume");
-           return {answer(call).plastic_volume};
+           return {answer(call.self<SpreadState>()).plastic_volume};
          }},
-        {"certificate",
-         "SpreadCertificate",
-         "how far the contact conditions are from being met, each relative",
-         {},
-         [](Call& call) -> Values { return {spread_certificate_type()(answer(call).certificate)}; }},
-        {"residual",
-         "number",
-         "greatest entry of the certificate",
-         {},
-         [](Call& call) -> Values { return {answer(call).certificate.worst()}; }},
-        {"converged",
-         "boolean",
-         "whether every entry of the certificate is within the tolerance",
-         {},
-         spread_state_read<&A::converged>},
-        {"iterations",
-         "integer",
-         "applications of the half-space on the finest grid",
-         {},
-         [](Call& call) -> Values { return {std::int64_t{answer(call).iterations}}; }},
-        {"solver", "string", "what found the solution", {}, spread_state_read<&A::solver>},
-        {"ranks",
-         "integer",
-         "over which it is spread",
-         {},
-         [](Call& call) -> Values { return {std::int64_t{call.self<SpreadState>().ranks}}; }},
-        {"cost",
-         "Cost",
-         "seconds and transforms; bytes is the most memory that any rank held at once for this press, its "
-         "heights "
-         "included",
-         {},
-         [](Call& call) -> Values { return {cost_type()(call.self<SpreadState>().cost)}; }},
-        {"digest",
-         "string",
-         "of the surface and the numbers found",
-         {},
-         [](Call& call) -> Values { return {call.self<SpreadState>().digest}; }},
+        getter<SpreadState>(
+            "certificate", "SpreadCertificate",
+            "how far the contact conditions are from being met, each relative",
+            [](const SpreadState& of) { return spread_certificate_type()(answer(of).certificate); }),
+        getter<SpreadState>("residual", "number", "greatest entry of the certificate",
+                            [](const SpreadState& of) { return answer(of).certificate.worst(); }),
+        answered<&A::converged>("converged", "boolean",
+                                "whether every entry of the certificate is within the tolerance"),
+        getter<SpreadState>("iterations", "integer", "applications of the half-space on the finest grid",
+                            [](const SpreadState& of) { return answer(of).iterations; }),
+        answered<&A::solver>("solver", "string", "what found the solution"),
+        getter<&SpreadState::ranks>("ranks", "integer", "over which it is spread"),
+        getter<SpreadState>("cost", "Cost",
+                            "seconds and transforms; bytes is the most memory that any rank held at once for "
+                            "this press, its heights included",
+                            [](const SpreadState& of) { return cost_type()(of.cost); }),
+        getter<&SpreadState::digest>("digest", "string", "of the surface and the numbers found"),
     };
     c.methods = {{.name = "write",
                   .body = spread_state_write,
-                  .sentence =
-                      "Writes a field as one NPY file of shape (ny, nx), rank after rank: pressure in Pa, "
-                      "gap in metres (0 in contact) or contact (1 where it touches).",
+                  .sentence = "Writes a field as one NPY file of shape (ny, nx), rank after rank: pressure "
+                              "in Pa, gap in metres (0 in contact) or contact (1 where it touches).",
                   .parameters = {{"name", "\"pressure\"|\"gap\"|\"contact\"", "which"},
                                  {"path", "string", "a .npy under the run directory"}},
                   .returns = "string",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // lab.spread: one contact that does not fit one process, over the ranks of mpirun. Here its surfaces.
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/spread/spread.hpp"
@@ -123,17 +124,11 @@ std::string spread_describe(const void* self) {
 std::size_t bytes(const void* self) {
   return static_cast<const SlabSurface*>(self)->heights->size() * sizeof(double);
 }
-std::string spread_digest(const void* self) { return static_cast<const SlabSurface*>(self)->digest; }
 
 List pair_of(const Value& x, const Value& y) {
   List list;
   list.items = {x, y};
   return list;
-}
-
-template <auto member>
-Values spread_read(Call& call) {
-  return {Value(call.self<SlabSurface>().*member)};
 }
 
 }  // namespace
@@ -158,10 +153,8 @@ const Module& spread_module() {
     m.path = "lab.spread";
     m.sentence =
         "One contact that does not fit one process: surfaces, the half-space and its states in slabs over "
-        "the "
-        "ranks of `mpirun -n K asperity run`, none of which holds the whole grid. In a process alone the "
-        "same "
-        "with one slab. Over several ranks last digits hang on the processor and the C library.";
+        "the ranks of `mpirun -n K asperity run`, none of which holds the whole grid. In a process alone the "
+        "same with one slab. Over several ranks last digits hang on the processor and the C library.";
     auto add = [&](const char* name, Body body, const char* sentence, const BlockInfo& block,
                    const char* example) {
       m.functions.push_back({.name = name,
@@ -185,13 +178,11 @@ const Module& spread_module() {
         "Heights from a function of x and y, which each rank calls for its own rows.",
         spread_from_function_block(),
         "local s = lab.spread.from_function{ cells=64, size=1e-3, height=function(x, y) return 1e-6 * x / "
-        "1e-3 "
-        "end }");
+        "1e-3 end }");
     m.functions.push_back(
         {.name = "read",
          .body = spread_read_body,
-         .sentence = "A surface from a NPY file of shape (ny, nx), of which each rank reads "
-                     "its own rows.",
+         .sentence = "A surface from a NPY file of shape (ny, nx), of which each rank reads its own rows.",
          .parameters = {{"path", "string", "the file, which every rank must be able to read"}},
          .options = &spread_read_block(),
          .returns = "SpreadSurface",
@@ -215,7 +206,7 @@ const Class& class_of<SlabSurface>() {
     c.shareable = false;
     c.describe = spread_describe;
     c.native_bytes = bytes;
-    c.digest = spread_digest;
+    c.digest = text_of<&SlabSurface::digest>;
     c.fields = {
         {"cells",
          "integer[]",
@@ -230,17 +221,12 @@ const Class& class_of<SlabSurface>() {
            const Grid& grid = call.self<S>().grid;
            return {pair_of(grid.size_x, grid.size_y)};
          }},
-        {"rms_height", "number", "root mean square height about the mean", dimension::length,
-         spread_read<&S::rms>},
-        {"mean", "number", "mean height", dimension::length, spread_read<&S::mean>},
-        {"peak", "number", "greatest height", dimension::length, spread_read<&S::peak>},
-        {"valley", "number", "least height", dimension::length, spread_read<&S::valley>},
-        {"ranks",
-         "integer",
-         "over which it is spread",
-         {},
-         [](Call& call) -> Values { return {std::int64_t{call.self<S>().slab.ranks}}; }},
-        {"digest", "string", "of its heights and how they are spread", {}, spread_read<&S::digest>},
+        getter<&S::rms>("rms_height", "number", "root mean square height about the mean", dimension::length),
+        getter<&S::mean>("mean", "number", "mean height", dimension::length),
+        getter<&S::peak>("peak", "number", "greatest height", dimension::length),
+        getter<&S::valley>("valley", "number", "least height", dimension::length),
+        getter<S>("ranks", "integer", "over which it is spread", [](const S& of) { return of.slab.ranks; }),
+        getter<&S::digest>("digest", "string", "of its heights and how they are spread"),
     };
     c.methods = {
         {.name = "write",

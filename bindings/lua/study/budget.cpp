@@ -348,11 +348,6 @@ const RecordType<BudgetPlan>& plan_type() {
   return type;
 }
 
-template <auto read>
-Values of_budget(Call& call) {
-  return {Value(read(call.self<Budget>()))};
-}
-
 std::string describe_budget(const void* self) {
   std::string text = static_cast<const Budget*>(self)->text();
   text.pop_back();
@@ -392,62 +387,27 @@ const Class& class_of<Budget>() {
     c.sentence = "A number with its whole error. print() shows the table of its parts.";
     c.describe = describe_budget;
     c.fields = {
-        {"value",
-         "number",
-         "the number, corrected for the error of the cells",
-         {},
-         of_budget<[](const Budget& b) { return b.value; }>},
-        {"low", "number", "lower end of its interval", {}, of_budget<[](const Budget& b) { return b.low; }>},
-        {"high",
-         "number",
-         "upper end of its interval",
-         {},
-         of_budget<[](const Budget& b) { return b.high; }>},
-        {"confidence",
-         "number",
-         "of the interval",
-         {},
-         of_budget<[](const Budget& b) { return b.confidence; }>},
-        {"u",
-         "number",
-         "its standard uncertainty",
-         {},
-         of_budget<[](const Budget& b) { return b.uncertainty; }>},
-        {"n",
-         "integer",
-         "replicates; 0 where there is nothing to sample",
-         {},
-         of_budget<[](const Budget& b) { return static_cast<std::int64_t>(b.replicates); }>},
-        {"skewness",
-         "number?",
-         "of the answers over the replicates",
-         {},
-         of_budget<[](const Budget& b) { return b.sample ? b.sample->skewness : std::nullopt; }>},
-        {"leave_one_out",
-         "number?",
-         "error of the polynomial of the inputs over their variance: shares are rough from 5 %, and refused "
-         "from 20 % on",
-         {},
-         of_budget<[](const Budget& b) {
-           return b.chaos ? std::optional(b.chaos->leave_one_out) : std::nullopt;
-         }>},
-        {"order_observed",
-         "number?",
-         "order of the error of the cells over the three finest grids",
-         {},
-         of_budget<[](const Budget& b) { return b.order_observed; }>},
-        {"runs",
-         "integer",
-         "how often `ask` was called",
-         {},
-         of_budget<[](const Budget& b) { return static_cast<std::int64_t>(b.runs); }>},
-        {"seconds", "number", "time inside `ask`", dimension::time,
-         of_budget<[](const Budget& b) { return b.seconds; }>},
-        {"parts",
-         "BudgetPart[]",
-         "the parts of its error, greatest share first",
-         {},
-         [](Call& call) -> Values { return {part_type().list(call.self<Budget>().parts)}; }},
+        getter<&Budget::value>("value", "number", "the number, corrected for the error of the cells"),
+        getter<&Budget::low>("low", "number", "lower end of its interval"),
+        getter<&Budget::high>("high", "number", "upper end of its interval"),
+        getter<&Budget::confidence>("confidence", "number", "of the interval"),
+        getter<&Budget::uncertainty>("u", "number", "its standard uncertainty"),
+        getter<&Budget::replicates>("n", "integer", "replicates; 0 where there is nothing to sample"),
+        getter<Budget>("skewness", "number?", "of the answers over the replicates",
+                       [](const Budget& of) { return of.sample ? of.sample->skewness : std::nullopt; }),
+        getter<Budget>("leave_one_out", "number?",
+                       "error of the polynomial of the inputs over their variance: shares are rough from 5 "
+                       "%, and refused "
+                       "from 20 % on",
+                       [](const Budget& of) {
+                         return of.chaos ? std::optional(of.chaos->leave_one_out) : std::nullopt;
+                       }),
+        getter<&Budget::order_observed>("order_observed", "number?",
+                                        "order of the error of the cells over the three finest grids"),
+        getter<&Budget::runs>("runs", "integer", "how often `ask` was called"),
+        getter<&Budget::seconds>("seconds", "number", "time inside `ask`", dimension::time),
+        getter<Budget>("parts", "BudgetPart[]", "the parts of its error, greatest share first",
+                       [](const Budget& of) { return part_type().list(of.parts); }),
         {"plan",
          "BudgetPlan?",
          "the cheapest way to `half_width`; nil where none was asked for or computing cannot reach it",
@@ -456,11 +416,8 @@ const Class& class_of<Budget>() {
            const auto& plan = call.self<Budget>().plan;
            return {plan ? Value(plan_type()(*plan)) : Value()};
          }},
-        {"warnings",
-         "string[]",
-         "what to be wary of: few replicates, skewed ones, a rough fit",
-         {},
-         [](Call& call) -> Values { return {text_list(call.self<Budget>().warnings)}; }},
+        getter<Budget>("warnings", "string[]", "what to be wary of: few replicates, skewed ones, a rough fit",
+                       [](const Budget& of) { return text_list(of.warnings); }),
     };
     c.results = {&part_type(), &plan_type()};
     return c;

@@ -131,11 +131,6 @@ std::vector<SharedInput> shared_inputs(const Sensitivity& of) {
   return list;
 }
 
-template <auto read>
-Values of_sensitivity(Call& call) {
-  return {Value(read(call.self<Sensitivity>()))};
-}
-
 std::string describe_sensitivity(const void* self) {
   std::string text = static_cast<const Sensitivity*>(self)->text();
   text.pop_back();
@@ -172,49 +167,29 @@ const Class& class_of<Sensitivity>() {
     c.sentence = "Which uncertain input an answer hangs on. print() shows the table of shares.";
     c.describe = describe_sensitivity;
     c.fields = {
-        {"mean",
-         "number",
-         "of the answer over the inputs",
-         {},
-         of_sensitivity<[](const Sensitivity& s) { return s.chaos.mean; }>},
-        {"deviation",
-         "number",
-         "standard deviation of the answer over the inputs",
-         {},
-         of_sensitivity<[](const Sensitivity& s) { return s.deviation; }>},
-        {"runs",
-         "integer",
-         "how often `ask` was called",
-         {},
-         of_sensitivity<[](const Sensitivity& s) { return static_cast<std::int64_t>(s.chaos.runs); }>},
-        {"degree",
-         "integer",
-         "of the polynomial; 0 of an answer that is always the same",
-         {},
-         of_sensitivity<[](const Sensitivity& s) { return s.chaos.degree; }>},
-        {"leave_one_out",
-         "number",
-         "what the fit of the other runs misses each by: mean square over the variance",
-         {},
-         of_sensitivity<[](const Sensitivity& s) { return s.chaos.leave_one_out; }>},
-        {"approximate",
-         "boolean",
-         "whether that is above 5 %, so that the shares are known nearly and no better",
-         {},
-         of_sensitivity<[](const Sensitivity& s) { return s.chaos.trust() != ChaosTrust::good; }>},
-        {"measure_next",
-         "string?",
-         "the input whose better measurement narrows the answer most; nil where the answer hangs on none",
-         {},
-         of_sensitivity<[](const Sensitivity& s) {
-           return (s.chaos.variance != 0) ? std::optional(s.chaos.shares[s.order.front()].name)
-                                          : std::nullopt;
-         }>},
-        {"inputs",
-         "InputShare[]",
-         "the shares, greatest first order first",
-         {},
-         [](Call& call) -> Values { return {share_type().list(shared_inputs(call.self<Sensitivity>()))}; }},
+        getter<Sensitivity>("mean", "number", "of the answer over the inputs",
+                            [](const Sensitivity& of) { return of.chaos.mean; }),
+        getter<&Sensitivity::deviation>("deviation", "number",
+                                        "standard deviation of the answer over the inputs"),
+        getter<Sensitivity>("runs", "integer", "how often `ask` was called",
+                            [](const Sensitivity& of) { return of.chaos.runs; }),
+        getter<Sensitivity>("degree", "integer", "of the polynomial; 0 of an answer that is always the same",
+                            [](const Sensitivity& of) { return of.chaos.degree; }),
+        getter<Sensitivity>("leave_one_out", "number",
+                            "what the fit of the other runs misses each by: mean square over the variance",
+                            [](const Sensitivity& of) { return of.chaos.leave_one_out; }),
+        getter<Sensitivity>("approximate", "boolean",
+                            "whether that is above 5 %, so that the shares are known nearly and no better",
+                            [](const Sensitivity& of) { return of.chaos.trust() != ChaosTrust::good; }),
+        getter<Sensitivity>(
+            "measure_next", "string?",
+            "the input whose better measurement narrows the answer most; nil where the answer hangs on none",
+            [](const Sensitivity& of) {
+              return (of.chaos.variance != 0) ? std::optional(of.chaos.shares[of.order.front()].name)
+                                              : std::nullopt;
+            }),
+        getter<Sensitivity>("inputs", "InputShare[]", "the shares, greatest first order first",
+                            [](const Sensitivity& of) { return share_type().list(shared_inputs(of)); }),
     };
     c.results = {&share_type()};
     return c;

@@ -2,9 +2,11 @@
 #include "bindings/lua/study/study.hpp"
 
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "bindings/lua/registry/options.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "engine/core/files/atomic_file.hpp"
@@ -97,12 +99,14 @@ std::string describe_choice(const void* self) {
 
 // A field of the study's result, and one of the row that was chosen.
 template <auto read>
-Values of_study(Call& call) {
-  return {Value(read(call.self<Study>().result))};
+Getter of_study(const char* name, const char* type, const char* sentence, Dimension dimension = {}) {
+  return getter<Study>(
+      name, type, sentence, [](const Study& of) { return std::invoke(read, of.result); }, dimension);
 }
 template <auto read>
-Values of_row(Call& call) {
-  return {Value(read(call.self<StudyChoice>().found()))};
+Getter of_row(const char* name, const char* type, const char* sentence, Dimension dimension = {}) {
+  return getter<StudyChoice>(
+      name, type, sentence, [](const StudyChoice& of) { return std::invoke(read, of.found()); }, dimension);
 }
 
 }  // namespace
@@ -153,30 +157,17 @@ const Class& class_of<Study>() {
         "0.1 %.";
     c.describe = describe_study;
     c.fields = {
-        {"truth",
-         "number",
-         "the value that errors are measured against",
-         {},
-         of_study<[](const StudyResult& r) { return r.truth; }>},
-        {"truth_seconds", "number", "what that value took; 0 if it was given", dimension::time,
-         of_study<[](const StudyResult& r) { return r.truth_seconds; }>},
-        {"relative",
-         "boolean",
-         "whether `error` is relative to the truth; it is absolute where the truth is 0",
-         {},
-         of_study<[](const StudyResult& r) { return r.relative(); }>},
-        {"calls",
-         "integer",
-         "how often `ask` was called",
-         {},
-         of_study<[](const StudyResult& r) { return r.calls; }>},
-        {"seconds", "number", "time inside `ask`, over all calls", dimension::time,
-         of_study<[](const StudyResult& r) { return r.asked_seconds; }>},
-        {"overhead",
-         "number",
-         "time of the study itself, over that inside `ask`",
-         {},
-         of_study<[](const StudyResult& r) { return r.overhead(); }>},
+        of_study<&StudyResult::truth>("truth", "number", "the value that errors are measured against"),
+        of_study<&StudyResult::truth_seconds>("truth_seconds", "number",
+                                              "what that value took; 0 if it was given", dimension::time),
+        of_study<&StudyResult::relative>(
+            "relative", "boolean",
+            "whether `error` is relative to the truth; it is absolute where the truth is 0"),
+        of_study<&StudyResult::calls>("calls", "integer", "how often `ask` was called"),
+        of_study<&StudyResult::asked_seconds>("seconds", "number", "time inside `ask`, over all calls",
+                                              dimension::time),
+        of_study<&StudyResult::overhead>("overhead", "number",
+                                         "time of the study itself, over that inside `ask`"),
     };
     c.methods = {
         {.name = "rows",
@@ -250,29 +241,14 @@ const Class& class_of<StudyChoice>() {
            const auto& choice = call.self<StudyChoice>();
            return {choice.study->result.way_of(choice.found()).name};
          }},
-        {"seconds", "number", "median of its runs", dimension::time,
-         of_row<[](const StudyRow& r) { return r.seconds; }>},
-        {"value", "number", "its answer", {}, of_row<[](const StudyRow& r) { return r.value; }>},
-        {"error",
-         "number",
-         "its error, relative to the truth",
-         {},
-         of_row<[](const StudyRow& r) { return r.error; }>},
-        {"absolute_error",
-         "number",
-         "its distance from the truth",
-         {},
-         of_row<[](const StudyRow& r) { return r.absolute_error; }>},
-        {"held_error",
-         "number",
-         "greatest error among it and the finer settings of its way",
-         {},
-         of_row<[](const StudyRow& r) { return r.held_error; }>},
-        {"confirmed",
-         "integer",
-         "how many finer settings of its way were measured",
-         {},
-         of_row<[](const StudyRow& r) { return static_cast<std::int64_t>(r.confirmed); }>},
+        of_row<&StudyRow::seconds>("seconds", "number", "median of its runs", dimension::time),
+        of_row<&StudyRow::value>("value", "number", "its answer"),
+        of_row<&StudyRow::error>("error", "number", "its error, relative to the truth"),
+        of_row<&StudyRow::absolute_error>("absolute_error", "number", "its distance from the truth"),
+        of_row<&StudyRow::held_error>("held_error", "number",
+                                      "greatest error among it and the finer settings of its way"),
+        of_row<&StudyRow::confirmed>("confirmed", "integer",
+                                     "how many finer settings of its way were measured"),
     };
     return c;
   }();

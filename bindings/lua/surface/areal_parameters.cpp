@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/record_type.hpp"
@@ -296,15 +295,15 @@ struct TipCutOffs {
 };
 const RecordType<TipCutOffs>& reliability_type() {
   using T = TipCutOffs;
-  static const RecordType<T> type{"Reliability",
-                                  "reliability",
-                                  "From which scale on a tip of this radius can have measured what stands in "
-                                  "the map: shorter stencils have, somewhere, "
-                                  "hollows sharper than the tip. 0: all scales; half the map: none.",
-                                  {{"x", &T::x, dimension::length, "of stencils along x"},
-                                   {"y", &T::y, dimension::length, "of stencils along y"},
-                                   {"cut_off", [](const T& t) { return std::max(t.x, t.y); },
-                                    dimension::length, "the greater of the two"}}};
+  static const RecordType<T> type{
+      "Reliability",
+      "reliability",
+      "From which scale on a tip of this radius can have measured what stands in the map: shorter stencils "
+      "have, somewhere, hollows sharper than the tip. 0: all scales; half the map: none.",
+      {{"x", &T::x, dimension::length, "of stencils along x"},
+       {"y", &T::y, dimension::length, "of stencils along y"},
+       {"cut_off", [](const T& t) { return std::max(t.x, t.y); }, dimension::length,
+        "the greater of the two"}}};
   return type;
 }
 Values reliability_of(Call& call) {
@@ -357,9 +356,8 @@ std::vector<Function> parameter_methods() {
   return {
       {.name = "areal_parameters",
        .body = areal_parameters_of,
-       .sentence =
-           "The areal parameters of ISO 25178-2, of the map as it is or after F-operation, S- and L-filter. "
-           "Each group is computed when a field of it is first read.",
+       .sentence = "The areal parameters of ISO 25178-2, of the map as it is or after F-operation, S- and "
+                   "L-filter. Each group is computed when a field of it is first read.",
        .options = &areal_block(),
        .options_optional = true,
        .returns = "ArealParameters",
@@ -373,8 +371,7 @@ std::vector<Function> parameter_methods() {
       {.name = "autocorrelation",
        .body = autocorrelation_of,
        .sentence = "The autocorrelation of the heights about their mean, by pairs of measured points, "
-                   "nothing wrapped, to "
-                   "lags of half the map.",
+                   "nothing wrapped, to lags of half the map.",
        .returns = "Autocorrelation",
        .example = "print(s:autocorrelation():at(3, 0))"},
       {.name = "scale_dependence",
@@ -405,26 +402,19 @@ const Class& class_of<ArealParameters>() {
     c.article_name = "areal parameters";
     c.sentence =
         "The areal parameters of a map (ISO 25178-2), of the points that were measured. One that the map "
-        "does not "
-        "define is nil: why_not says why.";
+        "does not define is nil: why_not says why.";
     c.describe = describe_parameters;
     c.native_bytes = [](const void* self) {
       return static_cast<const Parameters*>(self)->prepared().measured_heights().size() * sizeof(double);
     };
-    c.digest = [](const void* self) { return static_cast<const Parameters*>(self)->digest(); };
+    c.digest = text_of<&Parameters::digest>;
     for (const ArealRow& row : areal_rows())
       c.fields.push_back({row.name, "number?", row.sentence, row.dimension, areal_number});
-    c.fields.push_back({"measured", "integer", "points that were measured", {}, [](Call& call) -> Values {
-                          return {static_cast<std::int64_t>(call.self<Parameters>().prepared().measured())};
-                        }});
-    c.fields.push_back(
-        {"prepared", "Surface", "the map after F-operation, S- and L-filter", {}, [](Call& call) -> Values {
-           return {object(call.self<Parameters>().prepared())};
-         }});
-    c.fields.push_back(
-        {"how", "string", "what was done to the map first, in words", {}, [](Call& call) -> Values {
-           return {call.self<Parameters>().how()};
-         }});
+    c.fields.push_back(getter<Parameters>("measured", "integer", "points that were measured",
+                                          [](const Parameters& of) { return of.prepared().measured(); }));
+    c.fields.push_back(getter<Parameters>("prepared", "Surface", "the map after F-operation, S- and L-filter",
+                                          [](const Parameters& of) { return object(of.prepared()); }));
+    c.fields.push_back(getter<&Parameters::how>("how", "string", "what was done to the map first, in words"));
     c.methods = {{.name = "why_not",
                   .body = why_not,
                   .sentence = "Why a parameter is not defined on this map; nil where it is.",
@@ -446,15 +436,10 @@ const Class& class_of<MaterialRatioCurve>() {
         "Which share of the points lies above each height; heights count from the mean, ratios from 0 to 1.";
     c.describe = describe_curve;
     c.native_bytes = bytes_of_curve;
-    c.fields = {{"measured",
-                 "integer",
-                 "points that were measured",
-                 {},
-                 [](Call& call) -> Values {
-                   return {static_cast<std::int64_t>(call.self<MaterialRatioCurve>().measured())};
-                 }},
-                {"mean", "number", "of the heights, from which those of the curve count", dimension::length,
-                 [](Call& call) -> Values { return {call.self<MaterialRatioCurve>().mean()}; }}};
+    c.fields = {
+        getter<&MaterialRatioCurve::measured>("measured", "integer", "points that were measured"),
+        getter<&MaterialRatioCurve::mean>(
+            "mean", "number", "of the heights, from which those of the curve count", dimension::length)};
     c.methods = {{.name = "height",
                   .body = curve_height,
                   .sentence = "The height above which a share of the points lies, Smc(ratio).",

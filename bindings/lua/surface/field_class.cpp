@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/surface/field_class.hpp"
 
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/picture.hpp"
@@ -55,27 +56,15 @@ const Class& class_of<NamedField>() {
     c.describe = describe_field;
     c.native_bytes = field_bytes;
     c.fields = {
-        {"name", "string", "what it is", {}, [](Call& call) -> Values { return {call.self<F>().name}; }},
-        {"unit",
-         "string",
-         "SI unit of its values",
-         {},
-         [](Call& call) -> Values { return {si_unit(call.self<F>().dimension)}; }},
-        {"min",
-         "number",
-         "least value",
-         {},
-         [](Call& call) -> Values { return {known_range(call.self<F>().values->values()).min}; }},
-        {"max",
-         "number",
-         "greatest value",
-         {},
-         [](Call& call) -> Values { return {known_range(call.self<F>().values->values()).max}; }},
-        {"mean",
-         "number",
-         "mean over all nodes that have a value",
-         {},
-         [](Call& call) -> Values { return {known_mean(call.self<F>().values->values())}; }},
+        getter<&F::name>("name", "string", "what it is"),
+        getter<F>("unit", "string", "SI unit of its values",
+                  [](const F& of) { return si_unit(of.dimension); }),
+        getter<F>("min", "number", "least value",
+                  [](const F& of) { return known_range(of.values->values()).min; }),
+        getter<F>("max", "number", "greatest value",
+                  [](const F& of) { return known_range(of.values->values()).max; }),
+        getter<F>("mean", "number", "mean over all nodes that have a value",
+                  [](const F& of) { return known_mean(of.values->values()); }),
     };
     c.methods = {
         {.name = "value",

@@ -2,6 +2,7 @@
 // lab.material: a named material, or a table of properties.
 #include "bindings/lua/surface/material.hpp"
 
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/surface/grid_keys.hpp"
 
 namespace asperity::lua {
@@ -32,11 +33,6 @@ Values make_material(Call& call) {
   if (material.name.empty()) material.name = "unnamed";
   check(material);
   return {object(std::move(material))};
-}
-
-template <std::optional<double> Material::*member>
-Values property(Call& call) {
-  return {Value(call.self<Material>().*member)};
 }
 
 std::string describe_material(const void* self) {
@@ -90,11 +86,11 @@ const Class& class_of<Material>() {
                   "what it is called",
                   {},
                   [](Call& c) -> Values { return {c.self<Material>().name}; }},
-                 {"young", "number", "Young's modulus", dimension::pressure, property<&Material::young>},
-                 {"poisson", "number", "Poisson's ratio", {}, property<&Material::poisson>},
-                 {"hardness", "number", "indentation hardness", dimension::pressure,
-                  property<&Material::hardness>},
-                 {"density", "number", "mass per volume", dimension::density, property<&Material::density>},
+                 getter<&Material::young>("young", "number", "Young's modulus", dimension::pressure),
+                 getter<&Material::poisson>("poisson", "number", "Poisson's ratio"),
+                 getter<&Material::hardness>("hardness", "number", "indentation hardness",
+                                             dimension::pressure),
+                 getter<&Material::density>("density", "number", "mass per volume", dimension::density),
                  {"source",
                   "string",
                   "where the numbers come from",

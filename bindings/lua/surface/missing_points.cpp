@@ -8,6 +8,7 @@
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/options.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/surface/field_class.hpp"
 #include "bindings/lua/surface/surface.hpp"
@@ -34,16 +35,14 @@ const Block<OutlierKeys>& outliers_block() {
   using K = OutlierKeys;
   static const Block<K> block{
       "outliers",
-      {choice(
-           "rule", &K::rule, {{"mad", K::Rule::mad}},
-           "\"mad\": a point is an outlier if its height less the median of the measured ones around it lies "
-           "farther from the median of all such residuals than factor times 1.4826 times their median "
-           "absolute deviation, which of Gaussian residuals is their standard deviation"),
+      {choice("rule", &K::rule, {{"mad", K::Rule::mad}},
+              "\"mad\": a point is an outlier if its height less the median of the measured ones around it "
+              "lies farther from the median of all such residuals than factor times 1.4826 times their "
+              "median absolute deviation, which of Gaussian residuals is their standard deviation"),
        number("factor", &OutlierRule::factor, above(0), "in standard deviations of Gaussian residuals"),
-       integer(
-           "window", &OutlierRule::window, between(3, 31),
-           "odd number of points a side of the square (of a profile: of the stretch) around a point whose "
-           "median is taken")},
+       integer("window", &OutlierRule::window, between(3, 31),
+               "odd number of points a side of the square (of a profile: of the stretch) around a point "
+               "whose median is taken")},
       [](K& keys, Problems& problems) {
         if (keys.window % 2 == 0)
           problems.push_back("`window` is " + std::to_string(keys.window) +
@@ -134,23 +133,24 @@ Option<MaskKeys> where_key(const char* wanted, const char* sentence) {
 }
 
 Option<MaskKeys> outliers_key() {
-  auto option = custom<MaskKeys>(
-      "outliers", "\"mad\"|table",
-      "outliers by this rule, as s:outliers finds them, count as not measured; their number is told in a "
-      "warning: the rule, or a table with its keys",
-      [](const Argument& value, const OptionInfo& info, MaskKeys& keys, Problems& problems) {
-        if (value.is_text()) {
-          if (detail::read_word(value, info, {"mad"}, problems)) keys.outliers = OutlierKeys{};
-          return;
-        }
-        if (!value.is_table())
-          return detail::wrong_type(value, info, "\"mad\" or a table of its keys", problems);
-        try {
-          keys.outliers = outliers_block().read(value, quoted(info.name));
-        } catch (const Error& error) {
-          problems.push_back(error.what());
-        }
-      });
+  auto option =
+      custom<MaskKeys>("outliers", "\"mad\"|table",
+                       "outliers by this rule, as s:outliers finds them, count as not measured; their number "
+                       "is told in a warning: the rule, or a table with its keys",
+                       [](const Argument& value, const OptionInfo& info, MaskKeys& keys, Problems& problems) {
+                         if (value.is_text()) {
+                           if (detail::read_word(value, info, {"mad"}, problems))
+                             keys.outliers = OutlierKeys{};
+                           return;
+                         }
+                         if (!value.is_table())
+                           return detail::wrong_type(value, info, "\"mad\" or a table of its keys", problems);
+                         try {
+                           keys.outliers = outliers_block().read(value, quoted(info.name));
+                         } catch (const Error& error) {
+                           problems.push_back(error.what());
+                         }
+                       });
   option.info.inner = &outliers_block();
   return std::move(option).shown_by([](const MaskKeys& keys) -> std::string {
     if (!keys.outliers) return "";
@@ -169,10 +169,9 @@ void one_of_three(MaskKeys& keys, Problems& problems) {
 const Block<MaskKeys>& mask_surface_block() {
   static const Block<MaskKeys> block{
       "masked",
-      {where_key(
-           "a function(x, y, z)",
-           "function(x, y, z) that answers true where a measured point is to count as not measured; all "
-           "in metres"),
+      {where_key("a function(x, y, z)",
+                 "function(x, y, z) that answers true where a measured point is to count as not measured; "
+                 "all in metres"),
        outliers_key(),
        native<NamedField>("mask", &MaskKeys::mask, "Field", "a field such as another surface's mask",
                           "points where this field of the same cells is 0 or nan count as not measured")},
@@ -258,13 +257,13 @@ const Block<FillKeys>& fill_block() {
   using K = FillKeys;
   static const Block<K> block{
       "filled",
-      {custom<K>(
-           "by", "\"interpolate\"",
-           "\"interpolate\": the harmonic continuation of the heights around, which never leaves their range "
-           "and is smoother than they are; filled ground lowers slopes",
-           [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-             if (detail::read_word(value, info, {"interpolate"}, problems)) keys.by = K::By::interpolate;
-           })
+      {custom<K>("by", "\"interpolate\"",
+                 "\"interpolate\": the harmonic continuation of the heights around, which never leaves their "
+                 "range and is smoother than they are; filled ground lowers slopes",
+                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+                   if (detail::read_word(value, info, {"interpolate"}, problems))
+                     keys.by = K::By::interpolate;
+                 })
            .shown_by([](const K& keys) -> std::string {
              return keys.by == K::By::interpolate ? "\"interpolate\"" : "";
            }),
@@ -291,9 +290,9 @@ Function outliers_function(Body body, bool surface) {
   return {
       .name = "outliers",
       .body = body,
-      .sentence = std::string("Which measured points a rule takes for outliers, and how many; none is "
-                              "removed: ") +
-                  (surface ? "s" : "p") + ":masked{ outliers= } or mask= does that.",
+      .sentence =
+          std::string("Which measured points a rule takes for outliers, and how many; none is removed: ") +
+          (surface ? "s" : "p") + ":masked{ outliers= } or mask= does that.",
       .options = &outliers_block(),
       .options_optional = true,
       .returns = surface ? "Outliers" : "ProfileOutliers",
@@ -311,28 +310,21 @@ std::string missing_text(std::size_t measured, std::size_t points) {
 }
 
 std::vector<Getter> missing_point_fields_of_surface() {
-  return {{"measured",
-           "integer",
-           "how many points were measured; all of them where the surface has no holes",
-           {},
-           [](Call& call) -> Values { return {static_cast<std::int64_t>(call.self<Surface>().measured())}; }},
-          {"mask", "Field", "1 where a point was measured, 0 where not", {}, [](Call& call) -> Values {
-             const Surface& s = call.self<Surface>();
-             return {mask_field(s.grid(), mask_of(s))};
-           }}};
+  return {
+      getter<&Surface::measured>("measured", "integer",
+                                 "how many points were measured; all of them where the surface has no holes"),
+      {"mask", "Field", "1 where a point was measured, 0 where not", {}, [](Call& call) -> Values {
+         const Surface& s = call.self<Surface>();
+         return {mask_field(s.grid(), mask_of(s))};
+       }}};
 }
 
 std::vector<Getter> missing_point_fields_of_profile() {
-  return {{"measured",
-           "integer",
-           "how many samples were measured; all of them where the profile has no holes",
-           {},
-           [](Call& call) -> Values { return {static_cast<std::int64_t>(call.self<Profile>().measured())}; }},
-          {"mask",
-           "number[]",
-           "1 for a sample that was measured, 0 for one that was not",
-           {},
-           [](Call& call) -> Values { return {mask_numbers(mask_of(call.self<Profile>()))}; }}};
+  return {getter<&Profile::measured>(
+              "measured", "integer",
+              "how many samples were measured; all of them where the profile has no holes"),
+          getter<Profile>("mask", "number[]", "1 for a sample that was measured, 0 for one that was not",
+                          [](const Profile& of) { return mask_numbers(mask_of(of)); })};
 }
 
 std::vector<Function> missing_point_methods_of_surface() {
@@ -365,9 +357,8 @@ std::vector<Function> missing_point_methods_of_profile() {
            .heavy = true},
           {.name = "filled",
            .body = fill_profile,
-           .sentence =
-               "The profile with a height at every sample that was not measured; by=\"interpolate\" is the "
-               "straight line across a gap, and the last height at an end.",
+           .sentence = "The profile with a height at every sample that was not measured; by=\"interpolate\" "
+                       "is the straight line across a gap, and the last height at an end.",
            .options = &fill_block(),
            .returns = "Profile",
            .example = "p:masked{ where=function(x, z) return x > 1e-4 and x < 2e-4 end }:filled{ value=0 }",

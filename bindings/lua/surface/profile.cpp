@@ -2,6 +2,7 @@
 // Profiles: lab.profile and the methods of a profile.
 #include <numbers>
 
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/measure.hpp"
@@ -122,10 +123,6 @@ std::string describe_profile(const void* self) {
 std::size_t bytes_of_profile(const void* self) {
   return static_cast<const Profile*>(self)->measured_heights().size_bytes();
 }
-bool equal_profiles(const void* a, const void* b) {
-  return static_cast<const Profile*>(a)->digest() == static_cast<const Profile*>(b)->digest();
-}
-std::string digest_of_profile(const void* self) { return static_cast<const Profile*>(self)->digest(); }
 
 }  // namespace
 
@@ -139,25 +136,16 @@ const Class& class_of<Profile>() {
         "Heights at equal spacing along a line, or once around a closed outline; an immutable value.";
     c.describe = describe_profile;
     c.native_bytes = bytes_of_profile;
-    c.equal = equal_profiles;
-    c.digest = digest_of_profile;
+    c.equal = have_one_digest<Profile>;
+    c.digest = text_of<&Profile::digest>;
     c.fields = {
-        {"points",
-         "integer",
-         "number of samples",
-         {},
-         [](Call& call) -> Values { return {call.self<Profile>().size()}; }},
-        {"spacing", "number", "distance between samples", dimension::length,
-         [](Call& call) -> Values { return {call.self<Profile>().spacing()}; }},
-        {"length", "number", "samples times spacing", dimension::length,
-         [](Call& call) -> Values { return {call.self<Profile>().length()}; }},
-        {"radius", "number", "of a closed outline, whose heights are r - radius; else nil", dimension::length,
-         [](Call& call) -> Values { return {Value(call.self<Profile>().closed_radius())}; }},
-        {"digest",
-         "string",
-         "equal profiles have equal digests",
-         {},
-         [](Call& call) -> Values { return {call.self<Profile>().digest()}; }},
+        getter<&Profile::size>("points", "integer", "number of samples"),
+        getter<&Profile::spacing>("spacing", "number", "distance between samples", dimension::length),
+        getter<&Profile::length>("length", "number", "samples times spacing", dimension::length),
+        getter<&Profile::closed_radius>("radius", "number",
+                                        "of a closed outline, whose heights are r - radius; else nil",
+                                        dimension::length),
+        getter<&Profile::digest>("digest", "string", "equal profiles have equal digests"),
     };
     for (Getter& field : missing_point_fields_of_profile()) c.fields.push_back(std::move(field));
     c.methods = {
@@ -180,8 +168,7 @@ const Class& class_of<Profile>() {
         {.name = "roughness",
          .body = roughness_of_profile,
          .sentence = "Amplitude and slope statistics of the measured samples (ISO 21920-2), nothing levelled "
-                     "or filtered "
-                     "first.",
+                     "or filtered first.",
          .returns = "Roughness",
          .example = "print(p:roughness().Ra)"},
         {.name = "spectrum",

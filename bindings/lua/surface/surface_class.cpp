@@ -3,6 +3,7 @@
 // profiles are in surface_operations.cpp.
 #include <algorithm>
 
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/areal_parameters.hpp"
@@ -87,10 +88,6 @@ std::string describe_surface(const void* self) {
 std::size_t bytes_of_surface(const void* self) {
   return static_cast<const Surface*>(self)->measured_heights().size() * sizeof(double);
 }
-bool equal_surfaces(const void* a, const void* b) {
-  return static_cast<const Surface*>(a)->digest() == static_cast<const Surface*>(b)->digest();
-}
-std::string digest_of_surface(const void* self) { return static_cast<const Surface*>(self)->digest(); }
 
 }  // namespace
 
@@ -103,8 +100,8 @@ const Class& class_of<Surface>() {
     c.sentence = "Heights on a regular grid of cells; an immutable value whose methods return new ones.";
     c.describe = describe_surface;
     c.native_bytes = bytes_of_surface;
-    c.equal = equal_surfaces;
-    c.digest = digest_of_surface;
+    c.equal = have_one_digest<Surface>;
+    c.digest = text_of<&Surface::digest>;
     c.known = known_result;
     c.fields = {
         {"cells",
@@ -128,23 +125,15 @@ const Class& class_of<Surface>() {
            const auto& m = call.self<Surface>().material();
            return {m ? object(*m) : Value()};
          }},
-        {"periodic",
-         "boolean",
-         "whether the heights continue smoothly across the rim",
-         {},
-         [](Call& call) -> Values { return {call.self<Surface>().traits().periodic}; }},
-        {"aliased_share",
-         "number",
-         "share of the variance past Nyquist; nil where it is not known",
-         {},
-         [](Call& call) -> Values { return {Value(call.self<Surface>().traits().aliased_share)}; }},
-        {"peak_to_valley", "number", "greatest less least height", dimension::length,
-         [](Call& call) -> Values { return {call.self<Surface>().peak_to_valley()}; }},
-        {"digest",
-         "string",
-         "of grid, heights and holes: equal surfaces have equal digests",
-         {},
-         [](Call& call) -> Values { return {call.self<Surface>().digest()}; }},
+        getter<Surface>("periodic", "boolean", "whether the heights continue smoothly across the rim",
+                        [](const Surface& of) { return of.traits().periodic; }),
+        getter<Surface>("aliased_share", "number",
+                        "share of the variance past Nyquist; nil where it is not known",
+                        [](const Surface& of) { return of.traits().aliased_share; }),
+        getter<&Surface::peak_to_valley>("peak_to_valley", "number", "greatest less least height",
+                                         dimension::length),
+        getter<&Surface::digest>("digest", "string",
+                                 "of grid, heights and holes: equal surfaces have equal digests"),
     };
     for (Getter& field : missing_point_fields_of_surface()) c.fields.push_back(std::move(field));
     c.operators = surface_operators();
@@ -163,17 +152,15 @@ const Class& class_of<Surface>() {
          .example = "local h = s:heights()"},
         {.name = "roughness",
          .body = roughness_of,
-         .sentence = "Amplitude and slope statistics of all measured nodes (ISO 25178-2), nothing levelled "
-                     "or filtered "
-                     "first. "
-                     "Its amplitude is peak to valley; that of lab.surface.sine is half of it.",
+         .sentence =
+             "Amplitude and slope statistics of all measured nodes (ISO 25178-2), nothing levelled or "
+             "filtered first. Its amplitude is peak to valley; that of lab.surface.sine is half of it.",
          .returns = "ArealRoughness",
          .example = "print(s:roughness().Ra)"},
         {.name = "spectrum",
          .body = spectrum_of,
-         .sentence =
-             "Radially averaged power spectral density; points that were not measured are set to the mean, "
-             "which takes from its power and adds rims.",
+         .sentence = "Radially averaged power spectral density; points that were not measured are set to the "
+                     "mean, which takes from its power and adds rims.",
          .options = &spectrum_block(),
          .options_optional = true,
          .returns = "Spectrum",
@@ -193,13 +180,11 @@ const Class& class_of<Surface>() {
          .example = "s:filtered{ short_wave=\"2.5 um\", long_wave=\"0.8 mm\" }"},
         {.name = "write",
          .body = write_surface,
-         .sentence =
-             "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
-             "(Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for bit, "
-             "points that were not measured too. .sdf (ISO 25178-71) keeps heights and holes bit for bit, "
-             "and the "
-             "spacing of points. .sur (Digital Surf) rounds heights to 2^-30 of the "
-             "greatest and the size to single precision.",
+         .sentence = "Writes the heights: .h5 (HDF5, with an .xdmf beside it for ParaView), .npy, .x3p, .gwy "
+                     "(Gwyddion), .txt, .asc or .csv by the extension of the path. All read back bit for "
+                     "bit, points that were not measured too. .sdf (ISO 25178-71) keeps heights and holes "
+                     "bit for bit, and the spacing of points. .sur (Digital Surf) rounds heights to 2^-30 of "
+                     "the greatest and the size to single precision.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",
          .example = "s:write \"specimen.x3p\"",
@@ -207,8 +192,7 @@ const Class& class_of<Surface>() {
         {.name = "picture",
          .body = picture,
          .sentence = "A picture of the heights as PNG, true to scale, with scale and colour bars; points "
-                     "that were not "
-                     "measured are left blank.",
+                     "that were not measured are left blank.",
          .parameters = {{"path", "string", "a .png under the run directory"}},
          .options = &picture_block(),
          .options_optional = true,
