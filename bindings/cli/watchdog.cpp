@@ -94,8 +94,8 @@ void Watchdog::guard(std::optional<double> limit_seconds) {
       ask(StopReason::time_limit);
     }
     if (stop_flag().reason() != StopReason::none && !patience_ends) patience_ends = Clock::now() + grace;
-    const bool patient = ctrl_c_ == CtrlC::waits && stop_flag().reason() == StopReason::interrupt;
-    if (patience_ends && (end_now || (!patient && Clock::now() >= *patience_ends))) {
+    const bool waits = ctrl_c_ == CtrlC::waits && stop_flag().reason() == StopReason::interrupt;
+    if (patience_ends && (end_now || (!waits && Clock::now() >= *patience_ends))) {
       const StopReason reason = stop_flag().reason();
       last_words_(reason);
       std::fflush(stdout);

@@ -3,11 +3,10 @@
 // first: it raises the stop flag, which native work polls, and sets a hook, which Lua code runs into.
 // Work that does neither (a pattern that backtracks for ever) is ended after a grace period: the
 // journal and the notebooks are made safe and the process exits. A second Ctrl-C does not wait. At a prompt
-// Ctrl-C is patient: what it stops may take its time, and only a second one after the grace period ends all.
+// Ctrl-C waits: what it stops may take its time, and only a second one after the grace period ends all.
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <functional>
 #include <mutex>

@@ -157,7 +157,7 @@ for st in c:sweep{ approach = there } do
   loop:write{ approach = st.approach, turns = #st.preload, contacts = st.contacts, load = st.load }
 end
 case:evidence(loop, "A sweep of a paraboloid that adheres: together, apart and together again.",
-  { { "approach", "%.3f" }, { "turns", "%d", "turns drawn from" }, { "contacts", "%d" }, { "load", "%.4f" } })
+  { { "approach", "%.3f" }, { "turns", "%d", "turns of the preload" }, { "contacts", "%d" }, { "load", "%.4f" } })
 local rows = loop:rows()
 case:holds("brought together, nothing touches at -0.065", rows[3].contacts == 0)
 case:holds("drawn apart, it holds at -0.065", rows[5].contacts > 0)

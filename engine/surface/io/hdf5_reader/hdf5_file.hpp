@@ -69,9 +69,10 @@ Hdf5Array owning_array(std::string name, std::vector<std::size_t> shape, Array<T
   return {std::move(name), std::move(shape), std::span<const T>(*kept), std::move(unit), kept};
 }
 
-// Writes the whole file or nothing: aside, waits for the disk, then renames. The same content gives the same
-// bytes: no times, no names of machines. Thread-safe; two calls take turns. Throws Error{bad_file} when the
-// library or the disk refuses, Error{bad_value} for a name, text or shape that cannot be written.
+// Writes the whole file or nothing: under a temporary name, waits for the disk, then renames. The same
+// content gives the same bytes: no times, no names of machines. Thread-safe; two calls take turns. Throws
+// Error{bad_file} when the library or the disk refuses, Error{bad_value} for a name, text or shape that
+// cannot be written.
 void write_hdf5(const std::filesystem::path& path, const Hdf5Content& content);
 
 // Everything in the file that is an array of numbers, or a text or number of the root, in the order that the
