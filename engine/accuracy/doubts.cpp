@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/accuracy/doubts.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>

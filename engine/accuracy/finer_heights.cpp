@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"

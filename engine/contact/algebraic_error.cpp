@@ -2,7 +2,6 @@
 #include "engine/contact/algebraic_error.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 

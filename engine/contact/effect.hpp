@@ -6,7 +6,6 @@
 #pragma once
 
 #include <any>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>

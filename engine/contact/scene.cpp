@@ -30,8 +30,7 @@ void require_complete(const Surface& body, const std::string& which) {
               std::to_string(all - body.measured()) + " of the " + std::to_string(all) + " points of the " +
                   which + " body were not measured, and a contact needs every point",
               "fill them first, `" + which +
-                  " = surface:filled{ by=\"interpolate\" }`, or crop the surface to "
-                  "a part without holes");
+                  " = surface:filled{ by=\"interpolate\" }`, or crop the surface to a part without holes");
 }
 
 }  // namespace

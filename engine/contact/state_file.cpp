@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/state_file.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 

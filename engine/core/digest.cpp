@@ -4,8 +4,6 @@
 #define XXH_STATIC_LINKING_ONLY
 #include <xxhash.h>
 
-#include <array>
-#include <bit>
 #include <new>
 
 namespace asperity {

@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <span>
 #include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
@@ -322,10 +321,9 @@ class Reader {
       if (unit.name != "1" && (unit.name.front() != name.front())) names.emplace_back(unit.name);
     const std::string guess = did_you_mean(name, names);
     refuse(text_, "unknown unit " + shown_name(name) + guess,
-           guess.empty()
-               ? "units are products of m, g, s, min, N, Pa, bar, J, rad, deg, Hz, % with prefixes, such as "
-                 "um, MPa/um, kg m^-3"
-               : "");
+           guess.empty() ? "units are products of m, g, s, min, N, Pa, bar, J, rad, deg, Hz, % with "
+                           "prefixes, such as um, MPa/um, kg m^-3"
+                         : "");
   }
 
   void add(const Unit& unit, int power) {

@@ -4,7 +4,6 @@
 // a length is never taken for one. What comes out is always SI (m, kg, s, rad, Pa, N, …).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>

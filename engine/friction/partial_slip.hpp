@@ -11,7 +11,6 @@
 // point along Q everywhere and the compliance as the mean over directions. No history of Q, no yield.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"

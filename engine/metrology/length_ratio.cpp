@@ -2,7 +2,6 @@
 #include "engine/metrology/length_ratio.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"

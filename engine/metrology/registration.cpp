@@ -8,7 +8,6 @@
 #include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/parallel.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"

@@ -205,10 +205,9 @@ std::size_t LogTable::known_names(std::string_view titles) const {
 void LogTable::refuse_other_forms() const {
   const std::string_view line = lines_.head_line();
   if (is_row_of_numbers(line))
-    refuse_file(
-        file_, "begins with numbers, in " + here() + ", and names no columns",
-        "begin with a line such as \"time [s], pressure [MPa], rotation [deg], dwell [min]\", or give "
-        "the titles, as in columns={ \"time [s]\", \"load [kN]\" }");
+    refuse_file(file_, "begins with numbers, in " + here() + ", and names no columns",
+                "begin with a line such as \"time [s], pressure [MPa], rotation [deg], dwell [min]\", or "
+                "give the titles, as in columns={ \"time [s]\", \"load [kN]\" }");
   if (std::ranges::any_of(columns_, [](const Column& column) { return column.known != nullptr; })) return;
   constexpr std::size_t nearby = 100;
   TableLines ahead = lines_;

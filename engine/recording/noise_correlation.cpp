@@ -2,7 +2,6 @@
 #include "engine/recording/noise_correlation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"

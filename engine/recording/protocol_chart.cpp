@@ -2,7 +2,6 @@
 #include "engine/recording/protocol_chart.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>

@@ -2,7 +2,6 @@
 #include "engine/recording/ramp_in_noise.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace asperity {
 

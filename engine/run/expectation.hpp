@@ -11,7 +11,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "engine/statistics/table.hpp"
 #include "engine/statistics/table_filter.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"

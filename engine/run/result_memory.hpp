@@ -4,7 +4,6 @@
 // longer fits, what was used longest ago goes first. May stand in front of a store on the disk.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <list>
 #include <memory>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/specimen/slip_growth.hpp"
 
-#include <algorithm>
-
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/require.hpp"

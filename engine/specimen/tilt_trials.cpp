@@ -178,11 +178,10 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
                              format_quantity(raised->pressure, dimension::pressure) + " until " +
                              std::to_string(raised->contacts) + " nodes touched");
     if (!result.at_weight.empty()) {
-      add_sentence(note,
-                   "the weight presses the tile with " +
-                       format_quantity(result.at_weight.front().pressure, dimension::pressure) +
-                       ", above the smallest probe pressure, so the contact was solved under it; tau0 is "
-                       "an effective, calibrated number, so only ratios of mu are predictions");
+      add_sentence(note, "the weight presses the tile with " +
+                             format_quantity(result.at_weight.front().pressure, dimension::pressure) +
+                             ", above the smallest probe pressure, so the contact was solved under it; tau0 "
+                             "is an effective, calibrated number, so only ratios of mu are predictions");
       if (std::any_of(result.at_weight.begin(), result.at_weight.end(),
                       [](const TiltProbe& p) { return p.yields; }))
         add_sentence(note,
@@ -195,10 +194,9 @@ std::string note_on(const TiltResult& result, const TiltTrialOptions& options, b
                    "hardness; without " +
                        effects_that(Effect::Acts::bounds_pressure) + " the probe is elastic");
     if (const double pull = mean_of(result.probes, &TiltProbe::attraction); pull > 0)
-      add_sentence(note,
-                   "the bodies attract each other by " + format_short(pull, 3) +
-                       " of the load at the probe pressures, which is taken to hold down to the weight; "
-                       "bodies that stick without a load hold more");
+      add_sentence(note, "the bodies attract each other by " + format_short(pull, 3) +
+                             " of the load at the probe pressures, which is taken to hold down to the "
+                             "weight; bodies that stick without a load hold more");
     add_sentence(note,
                  "real area per load is taken from the probe pressures down to the weight; tau0 is an "
                  "effective, calibrated number, so only ratios of mu are predictions");

@@ -229,11 +229,10 @@ CurveFit fit_power(const FitPoints& points, double confidence) {
   std::vector<double> begin = power_start(used, x0, 1);
   if (begin.empty()) begin = power_start(used, x0, -1);
   if (begin.empty())
-    throw Error(
-        ErrorCode::infeasible,
-        "the points do not determine `a` and `b` of y = a x^b: fewer than two of different x have x above 0 "
-        "and y of one sign",
-        "measure at more values of x");
+    throw Error(ErrorCode::infeasible,
+                "the points do not determine `a` and `b` of y = a x^b: fewer than two of different x have x "
+                "above 0 and y of one sign",
+                "measure at more values of x");
   const CurveModel about = [x0](double x, std::span<const double> q) {
     return q[0] * elementary::pow(x / x0, q[1]);
   };

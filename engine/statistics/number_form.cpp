@@ -146,23 +146,21 @@ std::optional<NumberEvidence::Doubt> NumberEvidence::doubt() const {
     return Doubt{"the numbers", std::string("a ") + (decimal_ == ',' ? "comma" : "point") +
                                     " would be both the decimal sign and that of thousands"};
   if (!unclear_blank_.place.empty() && thousands_ != ' ')
-    return Doubt{unclear_blank_.place, unclear_blank_.finding +
-                                           " has a blank between its digits; thousands=\" \" says that it "
-                                           "parts thousands"};
+    return Doubt{unclear_blank_.place,
+                 unclear_blank_.finding +
+                     " has a blank between its digits; thousands=\" \" says that it parts thousands"};
   if (!unclear_comma_.place.empty() && decimal_ != ',' && thousands_ != ',')
     return Doubt{
         unclear_comma_.place,
-        unclear_comma_.finding +
-            (decimal_ == '.'
-                 ? " has a comma where the decimal sign is a point; thousands=\",\" says that it parts "
-                   "thousands"
-                 : " may be a decimal number or have its thousands parted; decimal=\",\" or "
-                   "thousands=\",\" says which")};
+        unclear_comma_.finding + (decimal_ == '.' ? " has a comma where the decimal sign is a point; "
+                                                    "thousands=\",\" says that it parts thousands"
+                                                  : " may be a decimal number or have its thousands parted; "
+                                                    "decimal=\",\" or thousands=\",\" says which")};
   if (!unclear_point_.place.empty() && decimal_ == ',' && thousands_ != '.')
-    return Doubt{unclear_point_.place,
-                 unclear_point_.finding +
-                     " has a point where the decimal sign is a comma; thousands=\".\" says that "
-                     "it parts thousands"};
+    return Doubt{
+        unclear_point_.place,
+        unclear_point_.finding +
+            " has a point where the decimal sign is a comma; thousands=\".\" says that it parts thousands"};
   return {};
 }
 

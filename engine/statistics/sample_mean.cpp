@@ -53,11 +53,10 @@ void add_student_interval(SampleMean& of) {
   of.method = "Student's t, " + degrees_text(of.count);
   const double cv = of.mean != 0 ? *of.deviation / std::abs(of.mean) : 0;
   if (of.skewness && std::abs(*of.skewness) > 1 && cv > 0.5)
-    of.warnings.push_back(
-        "the values are skewed (skewness " + format_short(*of.skewness, 2) + ", coefficient of variation " +
-        format_short(cv, 2) +
-        "): Student's interval holds the mean less often than it says; interval=\"log\" assumes that the "
-        "logarithms are normal");
+    of.warnings.push_back("the values are skewed (skewness " + format_short(*of.skewness, 2) +
+                          ", coefficient of variation " + format_short(cv, 2) +
+                          "): Student's interval holds the mean less often than it says; interval=\"log\" "
+                          "assumes that the logarithms are normal");
 }
 
 void add_log_interval(SampleMean& of, std::span<const double> values) {

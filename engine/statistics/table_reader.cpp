@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -480,10 +479,9 @@ class MeasuredTable {
       rows[row].back() = *reading.seconds;
       constexpr double half_a_day = 43200;
       if (!stamps.dated() && last && *reading.seconds < *last - half_a_day && !warned) {
-        monitor_.warn(
-            file_name(file_.path()) + " " + place(row, k) + ": " + shown(text) +
-            " is more than half a day before the time above; if midnight came between, the times need "
-            "their dates");
+        monitor_.warn(file_name(file_.path()) + " " + place(row, k) + ": " + shown(text) +
+                      " is more than half a day before the time above; if midnight came between, the times "
+                      "need their dates");
         warned = true;
       }
       last = reading.seconds;

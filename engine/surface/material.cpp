@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/material.hpp"
 
-#include <array>
-#include <cmath>
 #include <limits>
 #include <vector>
 

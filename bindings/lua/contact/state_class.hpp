@@ -2,8 +2,6 @@
 // The states of a contact as native values of the language.
 #pragma once
 
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "bindings/lua/registry/record_type.hpp"

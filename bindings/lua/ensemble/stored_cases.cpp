@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 
 #include "bindings/lua/registry/session.hpp"
 #include "engine/core/digest.hpp"

@@ -5,7 +5,6 @@
 // dry run as ever.
 #pragma once
 
-#include <cstddef>
 #include <set>
 #include <string>
 #include <vector>

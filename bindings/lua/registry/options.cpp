@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <utility>
 
 #include "bindings/lua/registry/guard.hpp"

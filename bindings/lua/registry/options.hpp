@@ -5,9 +5,7 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>

@@ -12,7 +12,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "bindings/lua/registry/lua_api.hpp"
 #include "bindings/lua/registry/script_spelling.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/run/knob.hpp"
 
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -156,9 +155,8 @@ const Module& knob_module() {
         .body = make_knob,
         .sentence =
             "A number that may be set from outside within bounds; returns its value, in SI. A slider on the "
-            "page, "
-            "`lab.knob.set` in the prompt, `--knob pressure=\"50 MPa\"` on the command line. A run records "
-            "the values it was made with, and replay and resume take those.",
+            "page, `lab.knob.set` in the prompt, `--knob pressure=\"50 MPa\"` on the command line. A run "
+            "records the values it was made with, and replay and resume take those.",
         .options = &knob_block(),
         .returns = "number",
         .example =

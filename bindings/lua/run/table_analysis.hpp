@@ -3,7 +3,6 @@
 // method takes its table by table_of_self (table_values.hpp).
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "bindings/lua/registry/record_type.hpp"

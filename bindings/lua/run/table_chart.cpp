@@ -150,13 +150,12 @@ std::vector<Option<C>> panel_keys(bool first) {
   keys.push_back(flag("log_x", &C::log_x, "logarithmic axis along"));
   keys.push_back(flag("log_y", &C::log_y, "logarithmic axis up"));
   keys.push_back(flag("in_order", &C::in_order, "join rows as they were written, for loops that come back"));
-  keys.push_back(
-      custom<C>("lines", "boolean|table[]",
-                "whether to join the points: where a fit is drawn or names stand along x they are not, "
-                "unless asked for; or a list of lines across, each with y or x, a number in the column's "
-                "unit or a quantity, and a name",
-                read_lines)
-          .defaults_to("true"));
+  keys.push_back(custom<C>("lines", "boolean|table[]",
+                           "whether to join the points: where a fit is drawn or names stand along x they are "
+                           "not, unless asked for; or a list of lines across, each with y or x, a number in "
+                           "the column's unit or a quantity, and a name",
+                           read_lines)
+                     .defaults_to("true"));
   keys.push_back(flag("points", &C::points, "mark the points"));
   keys.push_back(custom<C>("fit", "Fit|Fit[]",
                            "what t:fit gave for these columns, drawn with the band of the curve", read_fits));
@@ -243,10 +242,9 @@ const Block<NotebookChart>& notebook_chart_block() {
         });
     below.info.inner = &below_block();
     keys.push_back(std::move(below));
-    keys.push_back(
-        text("file", &C::file,
-             "an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a table "
-             "table-<y>-<x>.svg"));
+    keys.push_back(text("file", &C::file,
+                        "an .svg, .png or .pdf under the run directory; default <notebook>-<y>-<x>.svg, of a "
+                        "table table-<y>-<x>.svg"));
     return Block<C>{"chart", std::move(keys)};
   }();
   return block;

@@ -60,8 +60,8 @@ void read_start(const Argument& value, const OptionInfo& info, FitKeys& keys, Pr
 void check_fit(FitKeys& keys, Problems& problems) {
   if (keys.function && keys.start.empty())
     problems.push_back(
-        "`start` is missing: a function needs the names of its parameters and values to begin from, as in "
-        "{ a=1, b=0.5 }");
+        "`start` is missing: a function needs the names of its parameters and values to begin from, as in { "
+        "a=1, b=0.5 }");
   if (!keys.function && !keys.start.empty())
     problems.push_back("`start` is of no use to the model \"" + keys.model + "\", which finds its own");
 }
@@ -74,8 +74,7 @@ const Block<FitKeys>& fit_block() {
        text("y", &K::y, "the column that is fitted").required(),
        custom<K>("model", "\"linear\"|\"power\"|function",
                  "\"linear\": y = intercept + slope x; \"power\": y = a x^b; or a function(x, q) that "
-                 "returns y from x "
-                 "and the table q of the parameters, in the units of the columns",
+                 "returns y from x and the table q of the parameters, in the units of the columns",
                  read_model)
            .required(),
        custom<K>("start", "table", "for a function: its parameters by name, with values to begin from",
@@ -345,10 +344,8 @@ Function fit_method() {
           .body = fit_of_columns,
           .sentence =
               "Fits a curve to two columns by least squares: parameters with intervals and correlation, R², "
-              "residuals. "
-              "`chart{ fit= }` draws it with its band. Parameters that the rows do not determine are an "
-              "error that "
-              "names them.",
+              "residuals. `chart{ fit= }` draws it with its band. Parameters that the rows do not determine "
+              "are an error that names them.",
           .options = &fit_block(),
           .returns = "Fit",
           .example = "print(book:fit{ x=\"N\", y=\"mu\", model=\"linear\" })",

@@ -58,14 +58,13 @@ const std::vector<Option<TableForm>>& table_form_keys() {
             read_columns(value, info, form, problems);
           }),
       integer("skip", &F::skip, at_least(0), "lines above the heads that are left out"),
-      custom<F>(
-          "unit", "table",
-          "units of columns that the file says none for, or others than it says: { load=\"kN\" }; \"1\" for "
-          "plain numbers, \"date\" for dates that a spreadsheet wrote as numbers of days",
-          [](const Argument& value, const OptionInfo& info, F& form, Problems& problems) {
-            read_pairs(value, info, form.units, "units by the names of columns, as in { load=\"kN\" }",
-                       problems);
-          }),
+      custom<F>("unit", "table",
+                "units of columns that the file says none for, or others than it says: { load=\"kN\" }; "
+                "\"1\" for plain numbers, \"date\" for dates that a spreadsheet wrote as numbers of days",
+                [](const Argument& value, const OptionInfo& info, F& form, Problems& problems) {
+                  read_pairs(value, info, form.units, "units by the names of columns, as in { load=\"kN\" }",
+                             problems);
+                }),
       choice("dates", &F::dates,
              {{"day first", DateOrder::day_first}, {"month first", DateOrder::month_first}},
              "the order in dates such as 03/04/2026")

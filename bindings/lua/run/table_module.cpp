@@ -43,10 +43,9 @@ const Block<ReadKeys>& read_table_block() {
         [](const Argument& value, const OptionInfo& info, TableForm& form, Problems& problems) {
           read_texts(value, info, form.texts, problems);
         }));
-    keys.push_back(
-        choice("stamps", &TableForm::stamps_since_1970, {{"first", false}, {"1970", true}},
-               "what dates and times of day are counted from, in seconds: the first one of their column, "
-               "or the beginning of 1970"));
+    keys.push_back(choice("stamps", &TableForm::stamps_since_1970, {{"first", false}, {"1970", true}},
+                          "what dates and times of day are counted from, in seconds: the first one of their "
+                          "column, or the beginning of 1970"));
     return Block<ReadKeys>("read", std::move(keys));
   }();
   return block;
@@ -99,14 +98,11 @@ const Module& table_module() {
         {.name = "read",
          .body = read_table_file,
          .sentence = "A table that a logger or a spreadsheet wrote as text (UTF-8, UTF-16, Latin-1): a line "
-                     "of heads, then "
-                     "rows, parted by commas, semicolons, tabs or blanks, with decimal points or commas. "
-                     "Units stand in the "
-                     "heads, load [N], load (N), load / N, or in the line below, or in the cells; numbers "
-                     "with a unit come "
-                     "in SI. Dates and times of day become seconds, ISO 8601 and local forms; columns of "
-                     "words are texts. "
-                     "What may be read in two ways is an error that names the key that decides.",
+                     "of heads, then rows, parted by commas, semicolons, tabs or blanks, with decimal points "
+                     "or commas. Units stand in the heads, load [N], load (N), load / N, or in the line "
+                     "below, or in the cells; numbers with a unit come in SI. Dates and times of day become "
+                     "seconds, ISO 8601 and local forms; columns of words are texts. What may be read in two "
+                     "ways is an error that names the key that decides.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_table_block(),
          .options_optional = true,
@@ -115,9 +111,8 @@ const Module& table_module() {
          .heavy = true},
         {.name = "from",
          .body = table_from,
-         .sentence =
-             "A table of rows that a script has. A column may carry its unit in its name, and a cell may "
-             "be a quantity.",
+         .sentence = "A table of rows that a script has. A column may carry its unit in its name, and a cell "
+                     "may be a quantity.",
          .parameters = {{"rows", "table[]", "rows, each a table of columns and their values"}},
          .options = &from_block(),
          .options_optional = true,

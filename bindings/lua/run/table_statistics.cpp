@@ -215,21 +215,19 @@ Values histogram_of_column(Call& call) {
 const RecordInfo& histogram_type() { return histogram_record(); }
 
 Function mean_method() {
-  return {
-      .name = "mean",
-      .body = mean_of_column,
-      .sentence =
-          "The mean of a column with its interval, as a table: one row, or one for each group of rows. Its "
-          "columns are those of `by`, then mean, sd (standard deviation), u (standard uncertainty of the "
-          "mean), "
-          "low and high (the interval), n, left_out (cells that are empty or no finite number), skewness and "
-          "interval (how it was computed).",
-      .parameters = {{"column", "string", "the column"}},
-      .options = &mean_block(),
-      .options_optional = true,
-      .returns = "Table",
-      .example = "print(book:mean(\"mu\", { by=\"D\" }))",
-      .unknown_when_dry = true};
+  return {.name = "mean",
+          .body = mean_of_column,
+          .sentence =
+              "The mean of a column with its interval, as a table: one row, or one for each group of rows. "
+              "Its columns are those of `by`, then mean, sd (standard deviation), u (standard uncertainty of "
+              "the mean), low and high (the interval), n, left_out (cells that are empty or no finite "
+              "number), skewness and interval (how it was computed).",
+          .parameters = {{"column", "string", "the column"}},
+          .options = &mean_block(),
+          .options_optional = true,
+          .returns = "Table",
+          .example = "print(book:mean(\"mu\", { by=\"D\" }))",
+          .unknown_when_dry = true};
 }
 
 Function histogram_method() {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/runtime/base_library.hpp"
 
-#include <algorithm>
-
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/error.hpp"

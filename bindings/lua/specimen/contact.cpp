@@ -2,8 +2,6 @@
 // Contacts as values of the language: two specimens on the bench, pressed, turned and read.
 #include "bindings/lua/specimen/contact.hpp"
 
-#include <algorithm>
-
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/registry/session.hpp"
@@ -303,8 +301,7 @@ const Class& class_of<SpecimenPair>() {
     c.article_name = "a contact";
     c.sentence =
         "Two specimens on the bench, how the upper lies on the lower, and what the scene computes: the one "
-        "value "
-        "that changes.";
+        "value that changes.";
     c.shareable = false;
     c.describe = describe_contact;
     c.digest = digest_of_contact;
@@ -320,8 +317,8 @@ const Class& class_of<SpecimenPair>() {
         {.name = "sweep",
          .body = sweep,
          .sentence =
-             "One state after another along a list of loads, up or down. Bodies that attract each other "
-             "are followed on their branch: each state is drawn from the turns of the list before it.",
+             "One state after another along a list of loads, up or down. Bodies that attract each other are "
+             "followed on their branch: each state is drawn from the turns of the list before it.",
          .options = &sweep_block(),
          .returns = "iterator<State>",
          .example = "for st in c:sweep{ pressure={\"1 MPa\", \"10 MPa\"} } do print(st.area_fraction) end",
@@ -333,17 +330,16 @@ const Class& class_of<SpecimenPair>() {
          .example = "c:release()"},
         {.name = "place",
          .body = place,
-         .sentence = "Lifts the upper body and puts it down turned by a multiple of 90 degrees and, on a "
-                     "periodic tile, shifted "
-                     "by whole cells, as drawn from the seed; heights are never resampled.",
+         .sentence =
+             "Lifts the upper body and puts it down turned by a multiple of 90 degrees and, on a periodic "
+             "tile, shifted by whole cells, as drawn from the seed; heights are never resampled.",
          .options = &place_block(),
          .example = "c:place{ seed=2 }"},
         {.name = "rotate",
          .body = rotate,
          .sentence = "Turns the upper body about the centre of the nodes, counter-clockwise seen from above; "
                      "turns add up. A periodic contact turns by multiples of 90 degrees only; on a free "
-                     "boundary nothing "
-                     "presses where the turned body no longer covers the lower one.",
+                     "boundary nothing presses where the turned body no longer covers the lower one.",
          .parameters = {{"angle", "an angle", "to turn by"}},
          .example = "c:rotate \"90 deg\""},
         {.name = "shift",
@@ -355,11 +351,10 @@ const Class& class_of<SpecimenPair>() {
          .body = log,
          .sentence =
              "Writes all that was done to the contact since it was made as a press log, which "
-             "lab.protocol.read reads back as the same events: turns, loads, dwells, the times of a "
-             "protocol that has them; and beside each press what it measured, in columns that the reader "
-             "leaves out: result load or pressure, approach, area_fraction, peak_pressure. Where presses "
-             "were asked for in several ways, all stand by the pressure that they brought. Returns the "
-             "file.",
+             "lab.protocol.read reads back as the same events: turns, loads, dwells, the times of a protocol "
+             "that has them; and beside each press what it measured, in columns that the reader leaves out: "
+             "result load or pressure, approach, area_fraction, peak_pressure. Where presses were asked for "
+             "in several ways, all stand by the pressure that they brought. Returns the file.",
          .parameters = {{"path", "string", "under the run directory"}},
          .returns = "string",
          .example = "c:log \"done.csv\"",
@@ -372,12 +367,9 @@ const Class& class_of<SpecimenPair>() {
         {.name = "explain",
          .body = explain,
          .sentence = "What a press will compute, what is off, and the expected transforms, memory and time. "
-                     "Given the press, "
-                     "with the keys of contact:press, that press is tried on fewer cells and its transforms "
-                     "are told by "
-                     "that, mostly within a factor of two of what it takes; without, they are a rough guess "
-                     "for a press by "
-                     "pressure. Presses nothing.",
+                     "Given the press, with the keys of contact:press, that press is tried on fewer cells "
+                     "and its transforms are told by that, mostly within a factor of two of what it takes; "
+                     "without, they are a rough guess for a press by pressure. Presses nothing.",
          .options = &press_block(),
          .options_optional = true,
          .returns = "Plan",
@@ -394,11 +386,9 @@ const Class& class_of<SpecimenPair>() {
          .example = "c:upper():write \"worn.x3p\""},
         {.name = "close",
          .body = close,
-         .sentence =
-             "Frees the memory of the contact and of its states now instead of when Lua collects them. "
-             "What was read of a state stays, and its load, approach, area, peak pressure, certificate and "
-             "digest; "
-             "reading anything else of it is an error.",
+         .sentence = "Frees the memory of the contact and of its states now instead of when Lua collects "
+                     "them. What was read of a state stays, and its load, approach, area, peak pressure, "
+                     "certificate and digest; reading anything else of it is an error.",
          .example = "c:close()"},
     };
     return c;

@@ -181,15 +181,13 @@ const Block<AccuracyKeys>& accuracy_block() {
       {number("tolerance", &K::given_tolerance, {1e-15, 1, false, true, false},
               "bound on every relative entry of the certificate")
            .defaults_to("1e-06"),
-       choice(
-           "precision", &K::given_precision,
-           {{"double", O::Precision::double_}, {"single", O::Precision::single}},
-           "of the transforms inside a half-space solve. In \"double\" those of a step may be rounded to "
-           "single precision on 256 x 256 nodes and more, where that saves time and gaps computed afresh "
-           "later take it back; \"single\" rounds them on any grid and saves memory on a periodic tile. The "
-           "certificate is double always. A periodic tile of odd `nx`, or of a side with a prime factor over "
-           "7, stays in "
-           "double; boxes refuse it")
+       choice("precision", &K::given_precision,
+              {{"double", O::Precision::double_}, {"single", O::Precision::single}},
+              "of the transforms inside a half-space solve. In \"double\" those of a step may be rounded to "
+              "single precision on 256 x 256 nodes and more, where that saves time and gaps computed afresh "
+              "later take it back; \"single\" rounds them on any grid and saves memory on a periodic tile. "
+              "The certificate is double always. A periodic tile of odd `nx`, or of a side with a prime "
+              "factor over 7, stays in double; boxes refuse it")
            .shown_by([](const K& keys) {
              return std::string(keys.precision == O::Precision::single ? "\"single\"" : "\"double\"");
            })
@@ -197,14 +195,12 @@ const Block<AccuracyKeys>& accuracy_block() {
        choice("on_failure", &O::on_failure, {{"error", O::OnFailure::error}, {"best", O::OnFailure::best}},
               "what a solve that misses its tolerance or `error` does: raise an error, or return the best it "
               "got"),
-       custom<K>(
-           "estimate", "boolean|\"finer\"",
-           "solves each press on other cells too, for st.error.discretisation: true on half and a "
-           "quarter of them, which costs about a third of the press and mostly bounds the error; \"finer\" "
-           "on thrice the cells a side, which costs about eleven times the press and is within a factor of "
-           "three of the "
-           "true error, above and below, in nine cases of ten",
-           read_estimate)
+       custom<K>("estimate", "boolean|\"finer\"",
+                 "solves each press on other cells too, for st.error.discretisation: true on half and a "
+                 "quarter of them, which costs about a third of the press and mostly bounds the error; "
+                 "\"finer\" on thrice the cells a side, which costs about eleven times the press and is "
+                 "within a factor of three of the true error, above and below, in nine cases of ten",
+                 read_estimate)
            .shown_by([](const K& keys) { return std::string(estimate_text(keys.estimate)); })
            .defaults_to("false"),
        number("error", &K::error, {1e-6, 1, false, true, false},
@@ -335,8 +331,8 @@ const Block<SceneKeys>& scene_block() {
       {native<Surface>("lower", &K::lower, "Surface", "a surface", "the lower body, rough side up")
            .required(),
        custom<K>("upper", "Surface|Material",
-                 "the upper body: a rough surface that is turned over to face down, a flat of a "
-                 "material, or lab.rigid",
+                 "the upper body: a rough surface that is turned over to face down, a flat of a material, or "
+                 "lab.rigid",
                  [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
                    if (const Surface* surface = value.as<Surface>())
                      keys.upper = *surface;

@@ -72,9 +72,8 @@ const Block<ReadProtocolKeys>& read_protocol_block() {
         choice(
             "events", &K::events, {{"rows", ReadAs::rows}, {"detect", ReadAs::detect}},
             "\"rows\": each row is an event; \"detect\": they are found in a recording sampled all the time")
-            .defaults_to(
-                "as the table looks: a hundred rows or more with times, and no dwell, place or turn, "
-                "are a recording"),
+            .defaults_to("as the table looks: a hundred rows or more with times, and no dwell, place or "
+                         "turn, are a recording"),
         quantity("area", &K::area, dimension::area, above(0),
                  "nominal area of the specimen that was pressed: its loads become mean pressures, as a tile "
                  "of it carries them"),
@@ -95,8 +94,8 @@ const Block<ReadProtocolKeys>& read_protocol_block() {
                "squares of the noise that a bend must save to be seen; fewer see more, and ghosts")
             .defaults_to("10 + 4 ln samples"),
         choice("overshoot", &K::overshoot, {{"press", Overshoot::press}, {"ignore", Overshoot::ignore}},
-               "what becomes of a load above the holds at both its sides: a press of its own, for "
-               "flattening goes by the highest load, or nothing")
+               "what becomes of a load above the holds at both its sides: a press of its own, for flattening "
+               "goes by the highest load, or nothing")
             .defaults_to("\"press\""),
         number("least_overshoot", &K::least_overshoot, inside(0, 1),
                "an overshoot by less is none, as a share of the load beside it; nor one within six times the "
@@ -107,10 +106,10 @@ const Block<ReadProtocolKeys>& read_protocol_block() {
         quantity("turn_step", &K::turn_step, dimension::angle, above(0),
                  "turns are whole multiples of this, and are rounded to them")
             .defaults_to("none: turns are as they were read"),
-        choice(
-            "equal_times", &K::equal_times, {{"error", EqualTimes::refuse}, {"spread", EqualTimes::spread}},
-            "what becomes of samples of a recording that share a time, as those of a fast logger with a slow "
-            "clock do: an error, or they are spread evenly until the next time")};
+        choice("equal_times", &K::equal_times,
+               {{"error", EqualTimes::refuse}, {"spread", EqualTimes::spread}},
+               "what becomes of samples of a recording that share a time, as those of a fast logger with a "
+               "slow clock do: an error, or they are spread evenly until the next time")};
     keys.insert(keys.end(), table_form_keys().begin(), table_form_keys().end());
     return Block<K>("read", std::move(keys), [](K& given, Problems& problems) {
       if (given.events == ReadAs::rows && given.detects())
@@ -175,40 +174,33 @@ Values read_protocol(Call& call) {
   }
   if (looks)
     monitor.inform(file_name(path) +
-                   " looks like a recording, so its events are detected; events=\"rows\" "
-                   "takes each of its rows for one");
+                   " looks like a recording, so its events are detected; events=\"rows\" takes each of its "
+                   "rows for one");
   return {object(detect_events(recording, detection_options(keys, recording), monitor))};
 }
 
 }  // namespace
 
 Function protocol_read_function() {
-  return {
-      .name = "read",
-      .body = read_protocol,
-      .sentence =
-          "A protocol from a press log. Its columns are named with units, such as time [s], pressure "
-          "[MPa] or "
-          "load [N], and read as lab.table.read reads any table, times that are dates too, from the first "
-          "on; "
-          "force, Kraft, Druck, Zeit and the like are understood; other columns are left out with a "
-          "warning, those titled \"result ...\" without. With a row an event there may be rotation [deg], "
-          "dwell [min], and place for a seed: a row turns the upper body by its rotation from where it "
-          "lies, "
-          "then presses for its dwell; no pressure takes the load off, and so does a turn under load. In "
-          "a "
-          "recording, load or pressure and the stage's angle [deg] sampled all the time, rises, holds, "
-          "peaks, releases and turns are detected; print(p) lists them with the lines they came from and "
-          "the "
-          "thresholds, and what the noise leaves uncertain is a warning or an error. Press times are "
-          "those "
-          "of the beginning of the hold.",
-      .parameters = {{"path", "string", "the file"}},
-      .options = &read_protocol_block(),
-      .options_optional = true,
-      .returns = "Protocol",
-      .example = "local protocol = lab.protocol.read \"press_log.csv\"",
-      .heavy = true};
+  return {.name = "read",
+          .body = read_protocol,
+          .sentence =
+              "A protocol from a press log. Its columns are named with units, such as time [s], pressure "
+              "[MPa] or load [N], and read as lab.table.read reads any table, times that are dates too, from "
+              "the first on; force, Kraft, Druck, Zeit and the like are understood; other columns are left "
+              "out with a warning, those titled \"result ...\" without. With a row an event there may be "
+              "rotation [deg], dwell [min], and place for a seed: a row turns the upper body by its rotation "
+              "from where it lies, then presses for its dwell; no pressure takes the load off, and so does a "
+              "turn under load. In a recording, load or pressure and the stage's angle [deg] sampled all the "
+              "time, rises, holds, peaks, releases and turns are detected; print(p) lists them with the "
+              "lines they came from and the thresholds, and what the noise leaves uncertain is a warning or "
+              "an error. Press times are those of the beginning of the hold.",
+          .parameters = {{"path", "string", "the file"}},
+          .options = &read_protocol_block(),
+          .options_optional = true,
+          .returns = "Protocol",
+          .example = "local protocol = lab.protocol.read \"press_log.csv\"",
+          .heavy = true};
 }
 
 }  // namespace asperity::lua

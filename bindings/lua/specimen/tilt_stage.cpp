@@ -38,25 +38,24 @@ const Block<StageKeys>& stage_block() {
        quantity("limit", &K::limit, dimension::angle, {0, std::numbers::pi / 2, true, false, false},
                 "greatest angle of the stage"),
        quantity("gravity", &K::gravity, dimension::acceleration, above(0), "acceleration of free fall"),
-       custom<K>("probe_pressure", "a pressure[]",
-                 "at which a half-space contact is solved, each raised until enough nodes touch; a box "
-                 "contact is solved at its weight, and so is a half-space whose weight presses harder than "
-                 "the least of these",
-                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-                   OptionInfo pressure = info;
-                   pressure.dimension = dimension::pressure;
-                   keys.probe_given = true;
-                   keys.probe_pressures.clear();
-                   const auto read = [&](const Argument& part) {
-                     if (auto p = detail::read_quantity(part, pressure, above(0), problems))
-                       keys.probe_pressures.push_back(*p);
-                   };
-                   if (!value.is_table()) return read(value);
-                   if (value.length() == 0)
-                     return problems.push_back(
-                         "`probe_pressure` is an empty list; give one pressure or more");
-                   for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, read);
-                 })
+       custom<K>(
+           "probe_pressure", "a pressure[]",
+           "at which a half-space contact is solved, each raised until enough nodes touch; a box contact is "
+           "solved at its weight, and so is a half-space whose weight presses harder than the least of these",
+           [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+             OptionInfo pressure = info;
+             pressure.dimension = dimension::pressure;
+             keys.probe_given = true;
+             keys.probe_pressures.clear();
+             const auto read = [&](const Argument& part) {
+               if (auto p = detail::read_quantity(part, pressure, above(0), problems))
+                 keys.probe_pressures.push_back(*p);
+             };
+             if (!value.is_table()) return read(value);
+             if (value.length() == 0)
+               return problems.push_back("`probe_pressure` is an empty list; give one pressure or more");
+             for (std::int64_t k = 1; k <= value.length(); ++k) value.element(k, read);
+           })
            .defaults_to("{\"1 MPa\", \"3 MPa\"}"),
        number("scatter", &TiltTrialOptions::scatter, at_least(0),
               "relative standard deviation of the friction force from trial to trial")}};
@@ -166,8 +165,7 @@ const RecordType<TiltResult>& tilt_type() {
             "corrected real contact area over the load, 1/Pa: mean over the trials; nil but on a half-space"},
            {"probe_spread", &T::probe_spread,
             "greatest relative distance of mu at one probe from the mean of its trial: what going down to "
-            "the "
-            "weight may be wrong by; nil where the weight was solved, of one probe, and of boxes"},
+            "the weight may be wrong by; nil where the weight was solved, of one probe, and of boxes"},
            {"solved_at_weight", [](const T& t) { return !t.at_weight.empty(); },
             "whether a half-space was solved under the weight itself"},
            {"probes", &T::probes, tilt_probe_type(), "those of all trials that solved anew"},
@@ -216,10 +214,9 @@ const Class& class_of<TiltStage>() {
     c.methods = {
         {.name = "raise",
          .body = raise_stage,
-         .sentence = "Raises the stage until the specimen slides, several times. angle is exact; "
-                     "held is the last step that "
-                     "held, the source paper's measure; mu = tan(held), so mu goes in the steps of the stage "
-                     "and tan(angle) does not.",
+         .sentence = "Raises the stage until the specimen slides, several times. angle is exact; held is the "
+                     "last step that held, the source paper's measure; mu = tan(held), so mu goes in the "
+                     "steps of the stage and tan(angle) does not.",
          .options = &raise_block(),
          .options_optional = true,
          .returns = "Tilt",
@@ -232,8 +229,8 @@ const Class& class_of<TiltStage>() {
          .options = &growth_block(),
          .options_optional = true,
          .returns = "SlipShare[]",
-         .example = "for _, at in ipairs(stage:slip_growth{ steps=10 }) do print(at.angle, "
-                    "at.slip_fraction) end",
+         .example =
+             "for _, at in ipairs(stage:slip_growth{ steps=10 }) do print(at.angle, at.slip_fraction) end",
          .heavy = true}};
     c.results = {&tilt_type(), &tilt_trial_type(), &tilt_probe_type(), &slip_share_type()};
     return c;

@@ -3,7 +3,6 @@
 // process alone the same with one slab.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>

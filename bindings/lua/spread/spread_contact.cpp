@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts over the ranks of mpirun as values of the language.
 #include <algorithm>
-#include <cmath>
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/specimen/contact_scene.hpp"
@@ -98,19 +97,18 @@ const Block<spread_SceneKeys>& spread_scene_block() {
   using K = spread_SceneKeys;
   static const Block<K> block{
       "lab.spread.contact",
-      {custom<K>(
-           "lower", "SpreadSurface", "the lower body, rough side up, from lab.spread",
-           [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
-             if (const SlabSurface* surface = value.as<SlabSurface>())
-               keys.lower = *surface;
-             else if (const Object* other = value.as_any_object();
-                      other != nullptr && other->type == &class_of<Surface>())
-               problems.push_back(
-                   "`lower` is a surface that every rank holds; make it with lab.spread, or press it with "
-                   "lab.contact");
-             else if (!value.is_unknown())
-               detail::wrong_type(value, info, "a surface from lab.spread", problems);
-           })
+      {custom<K>("lower", "SpreadSurface", "the lower body, rough side up, from lab.spread",
+                 [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
+                   if (const SlabSurface* surface = value.as<SlabSurface>())
+                     keys.lower = *surface;
+                   else if (const Object* other = value.as_any_object();
+                            other != nullptr && other->type == &class_of<Surface>())
+                     problems.push_back(
+                         "`lower` is a surface that every rank holds; make it with lab.spread, or press it "
+                         "with lab.contact");
+                   else if (!value.is_unknown())
+                     detail::wrong_type(value, info, "a surface from lab.spread", problems);
+                 })
            .required(),
        custom<K>("upper", "Material", "a flat of a material, or lab.rigid",
                  [](const Argument& value, const OptionInfo& info, K& keys, Problems& problems) {
@@ -121,22 +119,20 @@ const Block<spread_SceneKeys>& spread_scene_block() {
                          value, info, "a material or lab.rigid; over ranks the upper body is flat", problems);
                  })
            .required(),
-       custom<K>(
-           "boundary", "\"periodic\"", "the tile goes on beyond its rim",
-           [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
-             if (value.is_text() && value.text() == "free")
-               problems.push_back(
-                   "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or use "
-                   "lab.contact");
-             else if (!value.is_text() || value.text() != "periodic")
-               detail::wrong_type(value, info, "\"periodic\"", problems);
-           })
+       custom<K>("boundary", "\"periodic\"", "the tile goes on beyond its rim",
+                 [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
+                   if (value.is_text() && value.text() == "free")
+                     problems.push_back(
+                         "`boundary` is \"free\", which is not computed over ranks; give \"periodic\", or "
+                         "use lab.contact");
+                   else if (!value.is_text() || value.text() != "periodic")
+                     detail::wrong_type(value, info, "\"periodic\"", problems);
+                 })
            .required(),
-       custom<K>(
-           "effects", "table",
-           "what the scene computes: { elasticity=\"half_space\" }, and plasticity={ hardness= } if pressure "
-           "is limited",
-           spread_read_effects)
+       custom<K>("effects", "table",
+                 "what the scene computes: { elasticity=\"half_space\" }, and plasticity={ hardness= } if "
+                 "pressure is limited",
+                 spread_read_effects)
            .required(),
        table_of("accuracy", &K::accuracy, spread_accuracy_block(),
                 "how close a solve must come, and what if it does not")}};
@@ -250,17 +246,16 @@ SlabContactAnswer solve(Team& team, const SlabContactProblem& problem, const Spr
 }
 
 Function spread_contact_function() {
-  return {
-      .name = "contact",
-      .body = spread_make_contact,
-      .sentence =
-          "A periodic half-space contact over the ranks, under a flat: the problem, the certificates and the "
-          "units of lab.contact. Nothing stays on the surface after a press.",
-      .options = &spread_scene_block(),
-      .returns = "SpreadContact",
-      .example =
-          "local c = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary=\"periodic\", effects={ "
-          "elasticity=\"half_space\" } }"};
+  return {.name = "contact",
+          .body = spread_make_contact,
+          .sentence =
+              "A periodic half-space contact over the ranks, under a flat: the problem, the certificates and "
+              "the units of lab.contact. Nothing stays on the surface after a press.",
+          .options = &spread_scene_block(),
+          .returns = "SpreadContact",
+          .example =
+              "local c = lab.spread.contact{ lower=tile, upper=lab.rigid, boundary=\"periodic\", effects={ "
+              "elasticity=\"half_space\" } }"};
 }
 
 template <>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Presses over ranks in the store of the run, so that a resumed one does not repeat them. Numbers alone:
 // the fields may be more than one machine has room for.
-#include <utility>
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/spread/spread.hpp"

@@ -2,7 +2,6 @@
 // lab.calibrate: what is asked for, the rows as the model gets them, and the model, a function of the script
 // that is called with the table q of the parameters in SI and one row as rows() gives it.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <set>

@@ -30,8 +30,7 @@ const RecordType<Roughness>& roughness_type(bool areal) {
       {"kurtosis", &R::kurtosis, "of the heights; 3 of Gaussian ones, 0 where all are equal"},
       {"rms_slope", &R::rms_slope,
        "root mean square slope between neighbouring nodes, never across the rim; where points were not "
-       "measured, "
-       "of the pairs along each direction that were, nan where there is none"},
+       "measured, of the pairs along each direction that were, nan where there is none"},
       {"peak", &R::peak, dimension::length, "the greatest height, as stored"},
       {"valley", &R::valley, dimension::length, "the least height, as stored"},
       {"mean", &R::mean, dimension::length, "of the heights, as stored"}};
@@ -88,30 +87,24 @@ const RecordType<FractalDimension>& fractal_dimension_type() {
       "FractalDimension",
       "fractal dimension",
       "The fractal dimension of profiles, and what it was found from. Of exact fractional Brownian profiles "
-      "of "
-      "D = 1.1, 1.5 and 1.9 the methods find, on 150 samples: structure and madogram 1.15, 1.50, 1.92; psd "
-      "0.99, "
-      "1.49, 2.15; box 1.06, 1.27, 1.53; length of steep heights 1.14, 1.49, 1.92. On 8000: structure and "
-      "madogram "
-      "1.12, 1.50, 1.90; psd 1.05, 1.50, 1.96; box 1.07, 1.39, 1.70; length of steep heights 1.11, 1.49, "
-      "1.91.",
+      "of D = 1.1, 1.5 and 1.9 the methods find, on 150 samples: structure and madogram 1.15, 1.50, 1.92; "
+      "psd 0.99, 1.49, 2.15; box 1.06, 1.27, 1.53; length of steep heights 1.14, 1.49, 1.92. On 8000: "
+      "structure and madogram 1.12, 1.50, 1.90; psd 1.05, 1.50, 1.96; box 1.07, 1.39, 1.70; length of steep "
+      "heights 1.11, 1.49, 1.91.",
       {{"D", &F::D, "fractal dimension of the profiles, from 1 to 2"},
        {"error", &F::error,
         "standard deviation of D over the profiles, of one, standard error of its line; with \"box\" the "
-        "bias of "
-        "counting boxes too, as measured on fractional Brownian profiles"},
+        "bias of counting boxes too, as measured on fractional Brownian profiles"},
        {"lengths", &F::lengths,
         "what the method measures at each step, averaged over the profiles: m^2 of \"structure\" and "
-        "\"psd\", m "
-        "of \"madogram\", plain numbers of the others"},
+        "\"psd\", m of \"madogram\", plain numbers of the others"},
        {"steps", &F::steps, "in samples; with \"psd\" wavelengths"},
        {"r_squared", &F::r_squared, "of the line through the lengths, both on logarithmic axes"},
        {"profiles", &F::profiles, "how many gave a D"},
        {"measured", &F::measured, measured_sentence},
        {"resolved", &F::resolved,
         "whether D can be believed, as far as the method itself can tell: not where the dimension runs from "
-        "step to "
-        "step, as below the shortest wave of a face or the reach of a tip"},
+        "step to step, as below the shortest wave of a face or the reach of a tip"},
        {"reason", [](const F& f) { return f.reason.empty() ? std::nullopt : std::optional(f.reason); },
         "why it is not resolved; nil where it is"}}};
   return type;
@@ -133,17 +126,16 @@ const Block<FractalDimensionOptions>& fractal_dimension_block(bool surface) {
   using O = FractalDimensionOptions;
   auto make = [](bool areal) {
     std::vector<Option<O>> options = {
-        choice(
-            "method", &O::method,
-            {{"length", DimensionMethod::length},
-             {"psd", DimensionMethod::psd},
-             {"structure", DimensionMethod::structure},
-             {"box", DimensionMethod::box},
-             {"madogram", DimensionMethod::madogram}},
-            "profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure "
-            "function, box counting or madogram; the `lengths` of the result are what the method measures at "
-            "each of its `steps`, profile lengths by \"length\" alone; \"psd\" and \"box\" refuse points not "
-            "measured"),
+        choice("method", &O::method,
+               {{"length", DimensionMethod::length},
+                {"psd", DimensionMethod::psd},
+                {"structure", DimensionMethod::structure},
+                {"box", DimensionMethod::box},
+                {"madogram", DimensionMethod::madogram}},
+               "profile length (the paper's eq. 3), spectrum (mean power in half-octave bands), structure "
+               "function, box counting or madogram; the `lengths` of the result are what the method measures "
+               "at each of its `steps`, profile lengths by \"length\" alone; \"psd\" and \"box\" refuse "
+               "points not measured"),
         custom<O>("steps", "integer[]", "steps in samples, e.g. {1, 2, 4, 8, 16}",
                   [](const Argument& value, const OptionInfo& info, O& o, Problems& problems) {
                     if (!value.is_table() || value.length() < 2)
@@ -189,8 +181,7 @@ const Block<GaussianFilter>& filter_block() {
            "waves longer than this are attenuated; the `long_wave` of a generator is the longest it makes"),
        flag("robust", &O::robust,
             "the mean line of `long_wave` follows the bulk of the heights, not deep scratches or spikes (ISO "
-            "16610-31, "
-            "-71; biweights of the residuals)")}};
+            "16610-31, -71; biweights of the residuals)")}};
   return block;
 }
 

@@ -124,10 +124,9 @@ Function registered_to_method() {
       .body = register_to,
       .sentence =
           "Laid on a map of the same ground measured before: shift, turn and tilt are found through wear, "
-          "noise and holes, and nothing is stretched. Wear takes height away: what stands lower than "
-          "before does not pull. Cells and sizes of the two may differ. An error where the maps cannot "
-          "tell: too little overlap, other ground, ground that repeats itself or has no features in some "
-          "direction.",
+          "noise and holes, and nothing is stretched. Wear takes height away: what stands lower than before "
+          "does not pull. Cells and sizes of the two may differ. An error where the maps cannot tell: too "
+          "little overlap, other ground, ground that repeats itself or has no features in some direction.",
       .parameters = {{"before", "Surface", "what it is laid on"}},
       .options = &registration_block(),
       .options_optional = true,

@@ -304,8 +304,7 @@ const Module& surface_module() {
     };
     add("weierstrass_mandelbrot", weierstrass_mandelbrot_body,
         "The fractal surface of the source paper, a sum of cosine waves (Yan and Komvopoulos 1998; Hanaor, "
-        "Gan and "
-        "Einav 2013, eq. 2), with exact phases.",
+        "Gan and Einav 2013, eq. 2), with exact phases.",
         weierstrass_mandelbrot_block(), "Surface",
         "local s = lab.surface.weierstrass_mandelbrot{ cells=150, D=2.5, seed=1 }");
     add("self_affine", self_affine_body,
@@ -344,9 +343,8 @@ const Module& surface_module() {
          .body = read_body,
          .sentence = "A measured surface from a file: " + format_names() +
                      ", known by its content, then by its extension, as it is or packed with gzip. Points "
-                     "that it marks as not measured stay "
-                     "missing. Over x y z triples a line such as "
-                     "\"x [mm];y [mm];z [um]\" says their units.",
+                     "that it marks as not measured stay missing. Over x y z triples a line such as \"x "
+                     "[mm];y [mm];z [um]\" says their units.",
          .parameters = {{"path", "string", "the file"}},
          .options = &read_block(),
          .options_optional = true,

@@ -234,17 +234,17 @@ std::vector<Function> surface_operations() {
        .example = "s:scaled{ amplitude=\"1 um\" }"},
       {.name = "shifted",
        .body = shift_surface,
-       .sentence = "Moved along x and y, cyclically: whole cells exactly, fractions of a cell on periodic "
-                   "surfaces.",
+       .sentence =
+           "Moved along x and y, cyclically: whole cells exactly, fractions of a cell on periodic surfaces.",
        .options = &shift_surface_block(),
        .returns = "Surface",
        .example = "s:shifted{ x=\"10 um\" }"},
       {.name = "rotated",
        .body = rotate_surface,
        .sentence =
-           "Turned counter-clockwise seen from above: quarter turns exactly, other angles by "
-           "interpolation, which takes from short waves: there and back Rq falls by 0.02 % at waves of 16 "
-           "cells, 0.2 % at 8 and 3 % at 4. Where it touches a point that was not measured there is none.",
+           "Turned counter-clockwise seen from above: quarter turns exactly, other angles by interpolation, "
+           "which takes from short waves: there and back Rq falls by 0.02 % at waves of 16 cells, 0.2 % at 8 "
+           "and 3 % at 4. Where it touches a point that was not measured there is none.",
        .parameters = {{"angle", "an angle", "to turn by"}},
        .returns = "Surface",
        .example = "s:rotated \"90 deg\""},
@@ -262,25 +262,22 @@ std::vector<Function> surface_operations() {
       {.name = "resampled",
        .body = resample,
        .sentence =
-           "The same surface on other cells: through the spectrum if periodic, else by cubic "
-           "interpolation, as it is wherever there are points not measured; where that touches one there "
-           "is none.",
+           "The same surface on other cells: through the spectrum if periodic, else by cubic interpolation, "
+           "as it is wherever there are points not measured; where that touches one there is none.",
        .options = &resample_block(),
        .returns = "Surface",
        .example = "s:resampled{ cells=512 }"},
       {.name = "plus",
        .body = add_surfaces,
-       .sentence =
-           "The sum of two surfaces of equal cells and size; a point that was not measured on one of them "
-           "is none of the sum.",
+       .sentence = "The sum of two surfaces of equal cells and size; a point that was not measured on one of "
+                   "them is none of the sum.",
        .parameters = {{"other", "Surface", "what to add"}},
        .returns = "Surface",
        .example = "s:plus(fine)"},
       {.name = "minus",
        .body = subtract_surfaces,
-       .sentence =
-           "The difference of two surfaces of equal cells and size: heights less those of the other. A "
-           "point that was not measured on one of them is none of the difference.",
+       .sentence = "The difference of two surfaces of equal cells and size: heights less those of the other. "
+                   "A point that was not measured on one of them is none of the difference.",
        .parameters = {{"other", "Surface", "what to take away"}},
        .returns = "Surface",
        .example = "local worn = s:minus(fine)"},

@@ -58,11 +58,10 @@ void plan_gap_term(GapTerm term, std::string sentence, const ContactGeometry& ge
     const double cell = std::max(grid.hx(), grid.hy());
     constexpr double enough = 4;
     if (zone < enough * cell)
-      plan.warnings.push_back("the zone where " + quoted(term.effect) + " pulls beside a contact is about " +
-                              format_quantity(zone, dimension::length, 3) + " wide, " +
-                              format_short(zone / cell, 2) +
-                              " cells; under four, pull and jumps hang on the grid: take more `cells` or a "
-                              "longer range");
+      plan.warnings.push_back(
+          "the zone where " + quoted(term.effect) + " pulls beside a contact is about " +
+          format_quantity(zone, dimension::length, 3) + " wide, " + format_short(zone / cell, 2) +
+          " cells; under four, pull and jumps hang on the grid: take more `cells` or a longer range");
   }
   plan.attraction.push_back(std::move(term));
 }
@@ -94,8 +93,8 @@ const Effect& adhesion_effect() {
       .sentence =
           "the surfaces attract each other across the gap; loads and approaches may be below zero. A press "
           "takes many transforms: of 60 contacts, balls and rough ground on 64 x 64 cells, 55 to 3628 by "
-          "approach, 161 in the middle, and 73 to 1588 by pressure, 228 in the middle; contact:explain "
-          "tells those of one",
+          "approach, 161 in the middle, and 73 to 1588 by pressure, 228 in the middle; contact:explain tells "
+          "those of one",
       .acts = Effect::Acts::adds_term,
       .defaults = O{},
       .options = {quantity_row("work", &O::work, dimension::energy_per_area, at_least(0),
@@ -104,11 +103,11 @@ const Effect& adhesion_effect() {
                   quantity_row("range", &O::range, dimension::length, above(0),
                                "gap over which the attraction falls")
                       .needed(),
-                  choice_row("model", &O::model,
-                             {{"exponential", GapLaw::exponential}, {"dugdale", GapLaw::dugdale}},
-                             "work/range e^(-gap/range), or work/range up to a gap of the range; the end is "
-                             "smoothed over gaps of "
-                             "0.5 to 1.5 ranges, so pull-off is 0.1 to 0.5 % above Maugis's")},
+                  choice_row(
+                      "model", &O::model,
+                      {{"exponential", GapLaw::exponential}, {"dugdale", GapLaw::dugdale}},
+                      "work/range e^(-gap/range), or work/range up to a gap of the range; the end is "
+                      "smoothed over gaps of 0.5 to 1.5 ranges, so pull-off is 0.1 to 0.5 % above Maugis's")},
       .check = check_adhesion,
       .plan = plan_adhesion};
   return record;

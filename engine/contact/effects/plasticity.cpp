@@ -144,18 +144,17 @@ const Effect& plasticity_effect() {
       .sentence = "pressure is limited by hardness, and what yields stays flattened; {} for its defaults",
       .acts = Effect::Acts::bounds_pressure,
       .defaults = O{},
-      .options =
-          {quantity_row(
-               "hardness", &O::hardness, dimension::pressure, above(0).or_never(),
-               "greatest pressure a body carries before it yields. Of two bodies the softer one limits the "
-               "pressure and takes nearly all of what yields: a body r times as hard as the other takes the "
-               "share 1/(1 + exp(1.5 (r^2 - 1/r^2)) young/young of the other), half of like bodies, .25 at "
-               "r = 1.2, .06 at 1.5, .004 at 2, as J2 plasticity below the surface has it; r is that of each "
-               "node, with what hardening has made of it")
-               .defaults_to("each body's own"),
-           quantity_row("hardening", &O::hardening, dimension::stiffness, above(0).or_never(),
-                        "growth of the pressure with the plastic part of the approach; math.huge leaves it "
-                        "out: the pressure stays at the hardness")},
+      .options = {quantity_row(
+                      "hardness", &O::hardness, dimension::pressure, above(0).or_never(),
+                      "greatest pressure a body carries before it yields. Of two bodies the softer one "
+                      "limits the pressure and takes nearly all of what yields: a body r times as hard as "
+                      "the other takes the share 1/(1 + exp(1.5 (r^2 - 1/r^2)) young/young of the other), "
+                      "half of like bodies, .25 at r = 1.2, .06 at 1.5, .004 at 2, as J2 plasticity below "
+                      "the surface has it; r is that of each node, with what hardening has made of it")
+                      .defaults_to("each body's own"),
+                  quantity_row("hardening", &O::hardening, dimension::stiffness, above(0).or_never(),
+                               "growth of the pressure with the plastic part of the approach; math.huge "
+                               "leaves it out: the pressure stays at the hardness")},
       .plan = plan_plasticity,
       .leave = leave_yielded,
       .keeps = hardness_memory,

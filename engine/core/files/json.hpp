@@ -7,8 +7,6 @@
 
 #include <concepts>
 #include <cstdint>
-#include <initializer_list>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>

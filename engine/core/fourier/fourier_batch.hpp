@@ -5,7 +5,6 @@
 // and imaginary part of a complex one. Unnormalised.
 #pragma once
 
-#include <array>
 #include <complex>
 #include <memory>
 #include <vector>

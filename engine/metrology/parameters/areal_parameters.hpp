@@ -5,7 +5,6 @@
 // Heights count from the mean.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>

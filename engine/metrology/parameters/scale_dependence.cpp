@@ -2,7 +2,6 @@
 #include "engine/metrology/parameters/scale_dependence.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

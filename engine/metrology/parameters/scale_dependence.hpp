@@ -14,8 +14,6 @@
 // condition is not monotonic. It is on the safe side for mild tips.
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "engine/surface/surface.hpp"

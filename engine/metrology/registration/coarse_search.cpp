@@ -2,7 +2,6 @@
 #include "engine/metrology/registration/coarse_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <cstdint>

@@ -7,8 +7,6 @@
 // roughness, so the formal standard error would be several times too small.
 #pragma once
 
-#include <array>
-
 #include "engine/metrology/registration/height_map.hpp"
 #include "engine/metrology/registration/natural_spline.hpp"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/generators/recalled_heights.hpp"
 
-#include <utility>
-
 #include "engine/core/digest.hpp"
 #include "engine/core/files/result_store.hpp"
 

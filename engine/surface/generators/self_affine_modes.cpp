@@ -2,8 +2,6 @@
 #include "engine/surface/generators/self_affine_modes.hpp"
 
 #include <algorithm>
-#include <string>
-#include <utility>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"

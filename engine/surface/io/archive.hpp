@@ -4,7 +4,6 @@
 // holds more or less is an error. Wraps libzip and libmd.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/io/column_head.hpp"
 
-#include <algorithm>
 #include <cctype>
 
 #include "engine/core/error.hpp"

@@ -4,7 +4,6 @@
 // columns mean is for the readers of x y z files and of profiles in two columns.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -2,7 +2,6 @@
 // Marks as the formats' makers state them, or as Gwyddion's readers do.
 #include "engine/surface/io/foreign_format.hpp"
 
-#include <algorithm>
 #include <array>
 #include <string_view>
 

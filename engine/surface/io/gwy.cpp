@@ -274,8 +274,6 @@ HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, M
   return map;
 }
 
-HeightMap read_gwy(const SourceFile& file, Monitor& monitor) { return read_gwy_channel(file, {}, monitor); }
-
 bool recognises_gwy(const SourceFile& file) { return file.bytes().starts_with(mark); }
 
 // --- writing
@@ -313,7 +311,7 @@ const Format& gwy_format() {
        "The published layout, and files that this program writes; no instrument's file was compared."},
       endings,
       recognises_gwy,
-      read_gwy,
+      nullptr,
       read_gwy_channel};
   return format;
 }

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"

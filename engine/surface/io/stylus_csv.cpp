@@ -6,7 +6,6 @@
 // good to about rounding / n^1.5. Unevenly spaced samples are an error, and so are samples that end
 // before the `Length` of the header. `Resolution` alone says nothing of the end and is not used.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

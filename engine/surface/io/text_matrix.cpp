@@ -7,8 +7,6 @@
 // "x [mm],z [um]" says so (column_head.hpp); any other table is taken as heights. Under a head of words
 // (own_head.hpp) it is the same, with what the head says for certain.
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <optional>
 
 #include "engine/core/error.hpp"

@@ -4,8 +4,6 @@
 #include "engine/surface/io/write.hpp"
 
 #include <bit>
-#include <cstring>
-#include <string_view>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"

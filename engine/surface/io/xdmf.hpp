@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "engine/core/grid.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_file.hpp"

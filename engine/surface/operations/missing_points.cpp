@@ -104,12 +104,11 @@ Outliers outliers_of(const Field& z, const OutlierRule& rule, bool wraps_x, bool
   result.limit = rule.factor * result.deviation;
   const bool all_alike = std::all_of(known.begin(), known.end(), [](double r) { return r == 0; });
   if (result.deviation == 0 && !all_alike)
-    throw Error(
-        ErrorCode::bad_value,
-        "more than half of the heights differ by one and the same number from the median of those around "
-        "them, so that the rule \"mad\" would mark every other one",
-        "heights in few steps, a plateau, or ground smoother than the window: give a wider `window`, or say "
-        "which points are outliers with `where`");
+    throw Error(ErrorCode::bad_value,
+                "more than half of the heights differ by one and the same number from the median of those "
+                "around them, so that the rule \"mad\" would mark every other one",
+                "heights in few steps, a plateau, or ground smoother than the window: give a wider `window`, "
+                "or say which points are outliers with `where`");
   result.mask = Field(z.nx(), z.ny());
   for (std::size_t k = 0; k < z.size(); ++k) {
     if (std::isnan(z[k])) continue;

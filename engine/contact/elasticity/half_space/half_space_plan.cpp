@@ -2,7 +2,6 @@
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 

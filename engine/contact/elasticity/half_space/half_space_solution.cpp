@@ -2,7 +2,6 @@
 #include "engine/contact/elasticity/half_space/half_space_solution.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>

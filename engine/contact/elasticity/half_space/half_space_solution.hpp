@@ -6,7 +6,6 @@
 // pressure give way by 1/K_h besides K.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/contact/elasticity/layer/elastic_layer.hpp"
 
-#include <cmath>
 #include <string>
 
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
@@ -88,11 +87,10 @@ void check_layer(const std::any&, const Scene& scene) {
                 "give the lower body the material of the layer, and lay it below");
   const Material* const upper = upper_material(scene.upper);
   if (upper == nullptr || !upper->rigid)
-    throw Error(ErrorCode::bad_value,
-                "the upper body " + material_found(upper) +
-                    ", and what presses on a layer is rigid in this "
-                    "version",
-                "press with lab.rigid, or give the upper surface material=lab.rigid");
+    throw Error(
+        ErrorCode::bad_value,
+        "the upper body " + material_found(upper) + ", and what presses on a layer is rigid in this version",
+        "press with lab.rigid, or give the upper surface material=lab.rigid");
 }
 
 // As plan_half_space, with the layer in the operator and in the sentence.
@@ -134,9 +132,8 @@ const ElasticModel& layer_model() {
       .defaults = O{},
       .options = {quantity_row(
                       "thickness", &O::thickness, dimension::length, above(0),
-                      "of the layer, the lower body; of model=\"layer\", which needs it. Approach and "
-                      "energy hold its uniform compression, K(0) = t (1+nu)(1-2nu)/(E (1-nu)) per mean "
-                      "pressure")
+                      "of the layer, the lower body; of model=\"layer\", which needs it. Approach and energy "
+                      "hold its uniform compression, K(0) = t (1+nu)(1-2nu)/(E (1-nu)) per mean pressure")
                       .needed(),
                   choice_row("base", &O::base,
                              {{"bonded", LayerBase::bonded}, {"frictionless", LayerBase::frictionless}},

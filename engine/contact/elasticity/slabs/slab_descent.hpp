@@ -6,8 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
-#include <string>
 
 #include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/slabs/slab_level.hpp"

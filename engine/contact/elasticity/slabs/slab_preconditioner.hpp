@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "engine/contact/elasticity/slabs/slab_level.hpp"
 

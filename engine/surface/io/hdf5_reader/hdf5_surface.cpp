@@ -117,8 +117,6 @@ HeightMap read_hdf5_channel(const SourceFile& file, const std::string& channel, 
   return map;
 }
 
-HeightMap read_hdf5(const SourceFile& file, Monitor& monitor) { return read_hdf5_channel(file, {}, monitor); }
-
 }  // namespace
 
 Hdf5Array tile_size(const Grid& grid) {
@@ -149,7 +147,7 @@ const Format& hdf5_format() {
        "Files written by h5py and by this program."},
       endings,
       looks_like_hdf5,
-      read_hdf5,
+      nullptr,
       read_hdf5_channel};
   return format;
 }

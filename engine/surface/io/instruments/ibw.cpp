@@ -169,8 +169,6 @@ HeightMap read_ibw_channel(const SourceFile& file, const std::string& channel, M
   return map;
 }
 
-HeightMap read_ibw(const SourceFile& file, Monitor& monitor) { return read_ibw_channel(file, {}, monitor); }
-
 }  // namespace
 
 const Format& ibw_format() {
@@ -185,7 +183,7 @@ const Format& ibw_format() {
                               "an independent program."},
                              endings,
                              recognises_ibw,
-                             read_ibw,
+                             nullptr,
                              read_ibw_channel};
   return format;
 }

@@ -5,9 +5,7 @@
 // `bufferUnit`; `xLength` and `yLength` are in metres. The first line in the file is the lowest, whichever
 // way the scan went: j = 0 is at the bottom. There are no missing points. Layout as restated by Gwyddion's
 // and SurfaceTopography's readers. Spectra, and numbers written as text, are not read.
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "engine/core/files/text_table.hpp"
@@ -116,8 +114,6 @@ HeightMap read_mi_channel(const SourceFile& file, const std::string& channel, Mo
   return map;
 }
 
-HeightMap read_mi(const SourceFile& file, Monitor& monitor) { return read_mi_channel(file, {}, monitor); }
-
 bool recognises_mi(const SourceFile& file) { return file.bytes().starts_with(mi_mark); }
 
 }  // namespace
@@ -133,7 +129,7 @@ const Format& mi_format() {
                               "one that its tests state."},
                              endings,
                              recognises_mi,
-                             read_mi,
+                             nullptr,
                              read_mi_channel};
   return format;
 }

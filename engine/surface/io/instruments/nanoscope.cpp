@@ -7,7 +7,6 @@
 // on integers have 32 bits whatever b says. The first line in the file is the lowest of the image: j = 0 is
 // at the bottom. There are no missing points. The offset in z is not added. Layout as restated by Gwyddion's
 // and SurfaceTopography's readers. Force curves, text files and versions before 4.3 are not read.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -254,10 +253,6 @@ HeightMap read_nanoscope_channel(const SourceFile& file, const std::string& chan
   return map;
 }
 
-HeightMap read_nanoscope(const SourceFile& file, Monitor& monitor) {
-  return read_nanoscope_channel(file, {}, monitor);
-}
-
 bool recognises_nanoscope(const SourceFile& file) { return file.bytes().starts_with(nanoscope_mark); }
 
 }  // namespace
@@ -275,7 +270,7 @@ const Format& nanoscope_format() {
        "independent program."},
       endings,
       recognises_nanoscope,
-      read_nanoscope,
+      nullptr,
       read_nanoscope_channel};
   return format;
 }

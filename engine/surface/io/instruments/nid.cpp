@@ -7,8 +7,6 @@
 // There are no missing points. Layout as told by the headers themselves and restated by Gwyddion's reader of
 // the same layout (EZD). The file that was compared was scanned upwards: its first line shows the start.
 #include <array>
-#include <cmath>
-#include <limits>
 #include <map>
 
 #include "engine/core/files/text_table.hpp"
@@ -164,8 +162,6 @@ HeightMap read_nid_channel(const SourceFile& file, const std::string& channel, M
   return map;
 }
 
-HeightMap read_nid(const SourceFile& file, Monitor& monitor) { return read_nid_channel(file, {}, monitor); }
-
 bool recognises_nid(const SourceFile& file) {
   return file.bytes().starts_with(nid_mark) && file.bytes().find("\n#!") != std::string_view::npos;
 }
@@ -183,7 +179,7 @@ const Format& nid_format() {
        "A file of the public test set of SurfaceTopography: heights and sizes, by an independent program."},
       endings,
       recognises_nid,
-      read_nid,
+      nullptr,
       read_nid_channel};
   return format;
 }

@@ -159,8 +159,6 @@ HeightMap read_opd_channel(const SourceFile& file, const std::string& channel, M
   return map;
 }
 
-HeightMap read_opd(const SourceFile& file, Monitor& monitor) { return read_opd_channel(file, {}, monitor); }
-
 bool recognises_opd(const SourceFile& file) { return file.bytes().starts_with(opd_mark); }
 
 }  // namespace
@@ -176,7 +174,7 @@ const Format& opd_format() {
        "points."},
       endings,
       recognises_opd,
-      read_opd,
+      nullptr,
       read_opd_channel};
   return format;
 }

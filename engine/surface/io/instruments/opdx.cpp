@@ -208,8 +208,6 @@ HeightMap read_opdx_channel(const SourceFile& file, const std::string& channel, 
   return map;
 }
 
-HeightMap read_opdx(const SourceFile& file, Monitor& monitor) { return read_opdx_channel(file, {}, monitor); }
-
 bool recognises_opdx(const SourceFile& file) { return file.bytes().starts_with(opdx_mark); }
 
 }  // namespace
@@ -224,7 +222,7 @@ const Format& opdx_format() {
                               "with its maker's export as text."},
                              endings,
                              recognises_opdx,
-                             read_opdx,
+                             nullptr,
                              read_opdx_channel};
   return format;
 }

@@ -10,7 +10,6 @@
 // jump, and what is reached is stable from the side it was reached from.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"

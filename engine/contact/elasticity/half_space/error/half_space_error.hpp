@@ -8,8 +8,6 @@
 // the slope of a convex function of the load and so lies between its difference quotients.
 #pragma once
 
-#include <optional>
-
 #include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/elasticity/half_space/solver/half_space_solve.hpp"
 

@@ -7,7 +7,6 @@
 // passes that each lower the energy ½ p·Kp − (h + δ)·p take over, for a while.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <type_traits>
 #include <variant>
 
