@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bindings/lua/ensemble/ensemble_case.hpp"
+#include "bindings/lua/ensemble/scripted_cases.hpp"
 #include "bindings/lua/ensemble/stored_cases.hpp"
 #include "bindings/lua/ensemble/transfer.hpp"
 #include "bindings/lua/registry/argument.hpp"
@@ -33,21 +34,22 @@ constexpr char run_of_calls[] =
 constexpr std::array<const char*, 2> names_of_arguments = {"a", "b"};
 constexpr int deepest_batch = 8;
 
-class BatchedCases final : public EnsembleCases {
+class BatchedCases final : public ScriptedCases {
  public:
-  BatchedCases(std::vector<CaseSetup> setups, const StoredCases& kept)
-      : setups_(std::move(setups)), reasons_(setups_.size()), kept_(kept) {}
+  // The setups must outlive them.
+  BatchedCases(const std::vector<CaseSetup>& setups, const StoredCases& kept)
+      : ScriptedCases(
+            setups.size(), [&setups](std::size_t k) { return setups[k]; }, kept),
+        reasons_(setups.size()) {}
 
   // Why a call failed.
   const std::string& reason(std::size_t k) const { return reasons_[k]; }
-  std::size_t count() const override { return setups_.size(); }
   std::string name(std::size_t k) const override { return "call " + std::to_string(k + 1); }
   // A failure is told by who called, once; calls behind it are left out. Calls are taken in order, so that
   // the first failure is the same for any number of threads.
   Finished compute(std::size_t k) override {
-    auto found = std::make_unique<CaseResult>();
-    if (k > first_failed_) return found;
-    *found = run_case(setups_[k], states_);
+    if (k > first_failed_) return std::make_unique<CaseResult>();
+    Finished found = ScriptedCases::compute(k);
     if (found->failure.empty() || stop_flag().reason() != StopReason::none) return found;
     std::size_t before = first_failed_;
     while (k < before && !first_failed_.compare_exchange_weak(before, k)) {
@@ -55,35 +57,9 @@ class BatchedCases final : public EnsembleCases {
     reasons_[k] = std::exchange(found->failure, {});
     return found;
   }
-  void interrupt() override { states_.interrupt(); }
-  Finished failed(const std::string& why) const override {
-    auto result = std::make_unique<CaseResult>();
-    result->failure = why;
-    return result;
-  }
-  void fail(FinishedCase& found, const std::string& why) const override {
-    static_cast<CaseResult&>(found).row.reset();
-    found.failure = why;
-  }
-  Finished find_kept(std::size_t k, bool with_failures) const override {
-    std::optional<CaseResult> found = kept_.find(setups_[k], with_failures);
-    return found ? std::make_unique<CaseResult>(*std::move(found)) : nullptr;
-  }
-  void keep(std::size_t k, const FinishedCase& found, bool always) const override {
-    kept_.keep(setups_[k], static_cast<const CaseResult&>(found), always);
-  }
-  std::string bytes(std::size_t k, const FinishedCase& found) const override {
-    return case_bytes(static_cast<const CaseResult&>(found), setups_[k].values);
-  }
-  Finished from_bytes(std::size_t k, std::string_view bytes) const override {
-    return std::make_unique<CaseResult>(case_from_bytes(bytes, setups_[k].values));
-  }
 
  private:
-  const std::vector<CaseSetup> setups_;
   std::vector<std::string> reasons_;  // each written by the thread of its call
-  const StoredCases& kept_;
-  RunningStates states_;
   std::atomic<std::size_t> first_failed_ = std::numeric_limits<std::size_t>::max();
 };
 
@@ -107,19 +83,19 @@ class BatchMonitor final : public Monitor {
 class ScriptedBatch final : public CallBatch {
  public:
   ScriptedBatch(const Call& call, std::shared_ptr<const PackedValue> run)
-      : L(call.L), session_(call.session()), run_(std::move(run)), kept_(session_, *run_) {
-    ensemble_ = ++session_.ensembles;
-    if (session_.notes != nullptr) session_.notes->drew = true;  // its calls have seeds made of this one's
-  }
+      : L(call.L),
+        session_(call.session()),
+        common_(common_setup(call.L, session_, std::move(run))),
+        kept_(session_, *common_.run) {}
 
   std::vector<BatchedAnswer> answers(const std::vector<Values>& arguments,
                                      const std::function<void(std::size_t)>& done) override {
     std::vector<CaseSetup> setups;
     for (const Values& given : arguments) setups.push_back(setup_of(given));
     BatchMonitor monitor(session_.monitor(), setups.size(), done);
-    BatchedCases cases(std::move(setups), kept_);
+    BatchedCases cases(setups, kept_);
     CaseSchedule schedule{monitor};
-    schedule.ensemble = ensemble_;
+    schedule.ensemble = common_.ensemble;
     schedule.print = [this](std::string_view text) {
       std::fwrite(text.data(), 1, text.size(), session_.output);
     };
@@ -135,19 +111,7 @@ class ScriptedBatch final : public CallBatch {
 
  private:
   CaseSetup setup_of(const Values& given) {
-    CaseSetup one;
-    one.run = run_;
-    one.trusted = session_.trusted;
-    one.depth = session_.depth + 1;
-    one.refinement = session_.refinement;
-    one.variation = session_.variation;
-    one.knobs = session_.knobs;
-    one.ledger = session_.ledger;
-    one.results = results_for_cases(session_);
-    one.watched = lua_gethook(L) != nullptr;
-    one.script = session_.script;
-    one.script_digest = session_.script_digest;
-    one.ensemble = ensemble_;
+    CaseSetup one = common_;
     one.seed = Stream(session_.seed, "calls of a study").bits(calls_++);
     for (std::size_t k = 0; k < given.size(); ++k) {
       const Argument::StackGuard guard(L);
@@ -201,9 +165,8 @@ class ScriptedBatch final : public CallBatch {
 
   lua_State* L;
   Session& session_;
-  std::shared_ptr<const PackedValue> run_;
+  const CaseSetup common_;
   const StoredCases kept_;
-  int ensemble_ = 0;
   std::uint64_t calls_ = 0;
 };
 

@@ -356,21 +356,9 @@ Values ensemble(Call& call) {
                 "this ensemble stands inside " + std::to_string(deepest_case) + " others",
                 "let the outer ones vary more keys in `over` instead");
   return with_key(call.argument(1), "run", [&](const Argument& run) -> Values {
-    CaseSetup common;
-    common.run = pack(call.L, run.index(), Cargo::functions, "run",
-                      "make it inside `run`, or use it on the rows that come back");
-    common.trusted = session.trusted;
-    common.depth = session.depth + 1;
-    common.refinement = session.refinement;
-    common.variation = session.variation;
-    common.knobs = session.knobs;
-    common.ledger = session.ledger;
-    common.results = results_for_cases(session);
-    common.watched = lua_gethook(call.L) != nullptr;
-    common.script = session.script;
-    common.script_digest = session.script_digest;
-    common.ensemble = ++session.ensembles;
-    if (session.notes != nullptr) session.notes->drew = true;  // its cases have seeds made of this one's
+    const CaseSetup common = common_setup(call.L, session,
+                                          pack(call.L, run.index(), Cargo::functions, "run",
+                                               "make it inside `run`, or use it on the rows that come back"));
     if (session.dry_run) {
       const Explanation::Repeating cases(session.explanation.get(), static_cast<std::int64_t>(keys.count()));
       return dry_rows(call, keys, run);

@@ -8,51 +8,57 @@
 
 namespace asperity::lua {
 
-namespace {
+CaseSetup common_setup(lua_State* L, Session& session, std::shared_ptr<const PackedValue> run) {
+  CaseSetup common;
+  common.run = std::move(run);
+  common.trusted = session.trusted;
+  common.depth = session.depth + 1;
+  common.refinement = session.refinement;
+  common.variation = session.variation;
+  common.knobs = session.knobs;
+  common.ledger = session.ledger;
+  common.results = results_for_cases(session);
+  common.watched = lua_gethook(L) != nullptr;
+  common.script = session.script;
+  common.script_digest = session.script_digest;
+  common.ensemble = ++session.ensembles;
+  if (session.notes != nullptr) session.notes->drew = true;  // its cases have seeds made of this one's
+  return common;
+}
 
-class ScriptedCases final : public EnsembleCases {
- public:
-  ScriptedCases(std::size_t count, const std::function<CaseSetup(std::size_t)>& setup,
-                const StoredCases& kept)
-      : count_(count), setup_(setup), kept_(kept) {}
+std::string ScriptedCases::name(std::size_t k) const { return case_name(setup_(k).values); }
 
-  std::size_t count() const override { return count_; }
-  std::string name(std::size_t k) const override { return case_name(setup_(k).values); }
-  Finished compute(std::size_t k) override {
-    return std::make_unique<CaseResult>(run_case(setup_(k), states_));
-  }
-  void interrupt() override { states_.interrupt(); }
-  Finished failed(const std::string& why) const override {
-    auto result = std::make_unique<CaseResult>();
-    result->failure = why;
-    return result;
-  }
-  void fail(FinishedCase& found, const std::string& why) const override {
-    static_cast<CaseResult&>(found).row.reset();
-    found.failure = why;
-  }
-  Finished find_kept(std::size_t k, bool with_failures) const override {
-    std::optional<CaseResult> found = kept_.find(setup_(k), with_failures);
-    return found ? std::make_unique<CaseResult>(*std::move(found)) : nullptr;
-  }
-  void keep(std::size_t k, const FinishedCase& found, bool always) const override {
-    kept_.keep(setup_(k), static_cast<const CaseResult&>(found), always);
-  }
-  std::string bytes(std::size_t k, const FinishedCase& found) const override {
-    return case_bytes(static_cast<const CaseResult&>(found), setup_(k).values);
-  }
-  Finished from_bytes(std::size_t k, std::string_view bytes) const override {
-    return std::make_unique<CaseResult>(case_from_bytes(bytes, setup_(k).values));
-  }
+EnsembleCases::Finished ScriptedCases::compute(std::size_t k) {
+  return std::make_unique<CaseResult>(run_case(setup_(k), states_));
+}
 
- private:
-  const std::size_t count_;
-  const std::function<CaseSetup(std::size_t)>& setup_;
-  const StoredCases& kept_;
-  RunningStates states_;
-};
+EnsembleCases::Finished ScriptedCases::failed(const std::string& why) const {
+  auto result = std::make_unique<CaseResult>();
+  result->failure = why;
+  return result;
+}
 
-}  // namespace
+void ScriptedCases::fail(FinishedCase& found, const std::string& why) const {
+  static_cast<CaseResult&>(found).row.reset();
+  found.failure = why;
+}
+
+EnsembleCases::Finished ScriptedCases::find_kept(std::size_t k, bool with_failures) const {
+  std::optional<CaseResult> found = kept_.find(setup_(k), with_failures);
+  return found ? std::make_unique<CaseResult>(*std::move(found)) : nullptr;
+}
+
+void ScriptedCases::keep(std::size_t k, const FinishedCase& found, bool always) const {
+  kept_.keep(setup_(k), static_cast<const CaseResult&>(found), always);
+}
+
+std::string ScriptedCases::bytes(std::size_t k, const FinishedCase& found) const {
+  return case_bytes(static_cast<const CaseResult&>(found), setup_(k).values);
+}
+
+EnsembleCases::Finished ScriptedCases::from_bytes(std::size_t k, std::string_view bytes) const {
+  return std::make_unique<CaseResult>(case_from_bytes(bytes, setup_(k).values));
+}
 
 std::vector<CaseResult> run_cases(std::size_t cases, const std::function<CaseSetup(std::size_t)>& setup,
                                   const StoredCases& kept, const std::string& place, Session& session) {
