@@ -141,15 +141,10 @@ export class Run {
   private write(name: string, row: Record<string, Cell>, units: Record<string, string>): void {
     let notebook = this.notebooks.get(name);
     if (!notebook) this.notebooks.set(name, (notebook = { name, columns: [], units: {}, rows: [] }));
+    // A row names its columns in the order of the notebook's CSV.
     for (const column of Object.keys(row)) {
       if (!notebook.columns.includes(column)) notebook.columns.push(column);
     }
-    // In the order in which the script writes them, which a row does not keep.
-    const written = (column: string): number => {
-      const at = this.keys.indexOf(column);
-      return at < 0 ? this.keys.length : at;
-    };
-    if (notebook.rows.length === 0) notebook.columns.sort((a, b) => written(a) - written(b));
     Object.assign(notebook.units, units);
     notebook.rows.push(row);
   }
