@@ -189,16 +189,19 @@ class CalibrationWork {
     std::vector<double> start;
     for (std::size_t k = 0; k < p; ++k) start.push_back(problem_.parameter(k).start);
     fit(start);
+    bool profiled = false;
     for (int again = 0; options_.profile && scatter_known() && again < 3; ++again) {
       problem_.say("profile likelihood");
       profiles_.assign(p, {});
       const std::optional<std::vector<double>> lower = profile();
-      if (!lower) break;
+      profiled = !lower;
+      if (profiled) break;
       // A lower sum lies beside: the fit begins there once more.
       problem_.say("fit again");
       fit(*lower);
       ++begun_again_;
     }
+    confirm(profiled);
     return described();
   }
 
@@ -238,9 +241,15 @@ class CalibrationWork {
   void settle(const std::vector<double>& start) {
     at_ = problem_.minimum(start, at_);
     iterations_ += at_.iterations;
+    describe_place();
+  }
+
+  // What the derivatives at the least sum say.
+  void describe_place() {
     const std::vector<bool> none(problem_.parameters(), false);
     held_ = problem_.pushed(at_.place, at_.rows_jacobian, none);
-    tangent_ = problem_.tangent(at_.place, at_.rows_jacobian, held_);
+    let_go(problem_.tangent(at_.place, at_.rows_jacobian, none, at_.hidden));
+    tangent_ = problem_.tangent(at_.place, at_.rows_jacobian, held_, at_.hidden);
     // The directions that no row sees are those of all parameters but the held ones; a held one that would
     // be free is measured by its own column.
     covariance_ = covariance_of(tangent_, problem_.parameters());
@@ -252,6 +261,50 @@ class CalibrationWork {
     // What is left where the model passes through every row is rounding, and no scatter.
     const double rounding = through_every_row * problem_.size_of(at_.place);
     if (degrees_ > 0 && at_.place.sum <= rounding * rounding) variance_ = 0;
+  }
+
+  // A parameter at a bound is not held there by the rows where it can leave it, together with others, and no
+  // row changes. `all`: the tangent of all parameters.
+  void let_go(const CalibrationTangent& all) {
+    for (std::size_t k = all.rank; k < all.svd.values.size(); ++k) {
+      const std::vector<double>& v = all.svd.v[k];
+      bool onward = true, backward = true;
+      for (std::size_t p = 0; p < v.size(); ++p) {
+        const double part = std::abs(v[p]) > no_part && all.lengths[p] > 0 ? v[p] : 0;
+        const bool low = problem_.at_lower(at_.place.q[p], p), high = problem_.at_upper(at_.place.q[p], p);
+        if ((part > 0 && high) || (part < 0 && low)) onward = false;
+        if ((part > 0 && low) || (part < 0 && high)) backward = false;
+      }
+      if (!onward && !backward) continue;
+      for (std::size_t p = 0; p < v.size(); ++p)
+        if (std::abs(v[p]) > no_part) held_[p] = false;
+    }
+  }
+
+  // Derivatives of a model that has steps or noise of its own may tell parameters apart which the rows do
+  // not, or be 0. Where the profile has not shown that they hold, they are taken anew, as wide as it needs.
+  void confirm(bool profiled) {
+    bool sure = profiled && !at_.noisy;
+    for (std::size_t p = 0; sure && p < determined_.size(); ++p)
+      sure = determined_[p] && !held_[p] && profiles_[p].as_foretold;
+    if (sure) return;
+    problem_.say("width of differences");
+    auto firm = problem_.firm_slopes(at_);
+    if (!firm) return;
+    const std::vector<bool> determined = determined_, held = held_;
+    TableColumns before = std::exchange(at_.rows_jacobian, std::move(firm->rows_jacobian));
+    at_.hidden = firm->hidden;
+    describe_place();
+    if (determined_ == determined && held_ == held && !std::ranges::count(determined, false)) {
+      at_.rows_jacobian = std::move(before);
+      at_.hidden = 0;
+      describe_place();
+      return;
+    }
+    if (!profiles_.empty()) {
+      profiles_.assign(problem_.parameters(), {});
+      profile();
+    }
   }
 
   bool scatter_known() const { return variance_ > 0; }

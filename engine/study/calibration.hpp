@@ -126,12 +126,12 @@ void check_calibration(const CalibrationRows& rows, std::span<const CalibrationP
                        const CalibrationOptions& options);
 
 // Same inputs, same bits. The model is called row by row, in order, for each set of parameters: about 2p + 1
-// sets a step, and with `sparing` one a step and p at the start and at the end. Throws Error{bad_value} for
-// lengths that differ, values that are not finite, an `u` that is not above 0, fewer rows than parameters,
-// bounds that do not hold the start, and a model that is no finite number at the start or beside it, naming
-// the row and the parameters; Error{infeasible} where specimens are asked for and are no more than the
-// parameters; Error{not_converged}; and what the model throws. A stop that was asked for ends it between two
-// rows.
+// sets a step, and with `sparing` one a step and p at the start and at the end; 4p to 10p more where the
+// profile has not shown that derivatives hold. Throws Error{bad_value} for lengths that differ, values that
+// are not finite, an `u` not above 0, fewer rows than parameters, bounds that do not hold the start, and a
+// model that is no finite number at the start or beside it, naming the row and the parameters;
+// Error{infeasible} where specimens are asked for and are no more than the parameters; Error{not_converged};
+// and what the model throws. A stop that was asked for ends it between two rows.
 Calibration calibrate(const CalibrationRows& rows, const CalibrationModel& model,
                       std::span<const CalibrationParameter> parameters,
                       const CalibrationOptions& options = {}, Monitor& monitor = Monitor::silent());

@@ -246,7 +246,7 @@ TableColumns CalibrationProblem::jacobian(const CalibrationPlace& at, const std:
 }
 
 CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const TableColumns& rows_jacobian,
-                                               const std::vector<bool>& held) const {
+                                               const std::vector<bool>& held, double hidden) const {
   CalibrationTangent found;
   TableColumns columns;
   for (std::size_t p = 0; p < parameters(); ++p) {
@@ -268,7 +268,9 @@ CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const
     double product = 0;
     for (std::size_t i = 0; i < at.residual.size(); ++i) product += found.svd.u[k][i] * at.residual[i];
     found.along.push_back(product);
-    if (!(found.svd.values[k] > (sparing_ ? sparing_unseen() : unseen) * found.svd.values[0])) continue;
+    // The largest counts however far the derivatives may be off.
+    const double least = (sparing_ ? sparing_unseen() : unseen) * found.svd.values[0];
+    if (!(found.svd.values[k] > (k == 0 ? least : std::max(hidden, least)))) continue;
     found.rank = k + 1;
     sum += product * product;
   }

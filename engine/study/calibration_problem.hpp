@@ -3,7 +3,9 @@
 // by differences within bounds, and the least sum by Levenberg and Marquardt's method on the singular values
 // of the Jacobian. Differences go forward on the way and are central at the end; a parameter at a bound that
 // the rows push against is held there. Directions that no observation sees are left as they are. A sparing
-// fit (calibration_sparing.cpp) takes differences at the start and at the end alone.
+// fit (calibration_sparing.cpp) takes differences at the start and at the end alone. Where a model has steps
+// or noise of its own, differences of several widths say how far they can be trusted
+// (calibration_firmness.cpp).
 #pragma once
 
 #include <chrono>
@@ -54,6 +56,14 @@ struct CalibrationMinimum {
   std::vector<double> differenced_at;  // of a sparing fit: where the differences of rows_jacobian were taken
   int iterations = 0;
   bool noisy = false;  // the model's own noise ended it
+  // A singular value of the tangent, beside the largest, that errors of rows_jacobian alone may make.
+  double hidden = 0;
+};
+
+// df/dq of rows from differences so wide that those of another width agree, as well as they do.
+struct FirmSlopes {
+  TableColumns rows_jacobian;
+  double hidden = 0;  // as in CalibrationMinimum
 };
 
 class CalibrationProblem {
@@ -84,8 +94,12 @@ class CalibrationProblem {
   void weigh(CalibrationPlace& place, const std::vector<double>* roots) const;
   TableColumns jacobian(const CalibrationPlace& at, const std::vector<double>& scales,
                         const std::vector<bool>& held, bool central);
+  // `hidden`: as in CalibrationMinimum.
   CalibrationTangent tangent(const CalibrationPlace& at, const TableColumns& rows_jacobian,
-                             const std::vector<bool>& held) const;
+                             const std::vector<bool>& held, double hidden = 0) const;
+  // Of differences of rising width, the first that tell every parameter, or else those that agree best;
+  // nothing where the model has no value beside.
+  std::optional<FirmSlopes> firm_slopes(const CalibrationMinimum& at);
   // Parameters that stand at a bound which the residuals push against, and those held before.
   std::vector<bool> pushed(const CalibrationPlace& at, const TableColumns& rows_jacobian,
                            const std::vector<bool>& held) const;

@@ -10,6 +10,7 @@ namespace asperity {
 namespace {
 
 constexpr double straight_enough = 0.01;  // of the root of the cut
+constexpr double foretold_enough = 0.3;   // of the change that derivatives foretell
 constexpr double end_within = 0.003;      // of the root of the cut
 constexpr double sparing_within = 0.1;    // the same, of a fit to which each place is dear
 constexpr int most_places = 24;           // of an end
@@ -19,6 +20,31 @@ struct ProfilePlace {
   double distance = 0, root = 0;
   std::vector<double> q;
 };
+
+// What the observations do at the first place of a side, and what the derivatives at the estimate foretell.
+struct FirstPlace {
+  double distance = 0;
+  std::vector<double> foretold, lack;  // of each observation; lack: foretold less found
+};
+
+// Curvature is the same on both sides and cancels in their difference; steps and noise of the model do not.
+bool derivatives_hold(const FirstPlace& below, const FirstPlace& above) {
+  const auto within = [](const std::vector<double>& lack, const std::vector<double>& foretold) {
+    double apart = 0, change = 0;
+    for (std::size_t i = 0; i < lack.size(); ++i) {
+      apart += lack[i] * lack[i];
+      change += foretold[i] * foretold[i];
+    }
+    return apart <= foretold_enough * foretold_enough * change;
+  };
+  if (below.distance == above.distance && above.distance > 0) {
+    std::vector<double> odd = above.lack;
+    for (std::size_t i = 0; i < odd.size(); ++i) odd[i] = (odd[i] - below.lack[i]) / 2;
+    return within(odd, above.foretold);
+  }
+  return above.distance + below.distance > 0 && within(below.lack, below.foretold) &&
+         within(above.lack, above.foretold);
+}
 
 class ProfileSide {
  public:
@@ -67,6 +93,7 @@ class ProfileSide {
   }
 
   bool at_bound() const { return at_bound_; }
+  const FirstPlace& first() const { return first_; }
   const std::vector<ProfilePlace>& places() const { return places_; }
   const std::optional<std::vector<double>>& lower_sum() const { return lower_sum_; }
 
@@ -102,7 +129,7 @@ class ProfileSide {
     }
     auto there = problem_.place(q, &at_.place.roots);
     if (!there) return {};
-    if (!(from.distance == 0 && straight(*there))) {
+    if (!(from.distance == 0 && straight(*there, distance))) {
       auto best = problem_.minimum_beside(*there, p_, at_, (problem_.sparing() ? 1e-2 : 1e-3) * cut_);
       if (!best) return {};
       there = std::move(best);
@@ -113,7 +140,7 @@ class ProfileSide {
   }
 
   // Whether the model there is what its derivatives at the estimate say.
-  bool straight(const CalibrationPlace& there) const {
+  bool straight(const CalibrationPlace& there, double distance) {
     CalibrationPlace foretold = there;
     foretold.fitted = at_.place.fitted;
     for (std::size_t i = 0; i < there.q.size(); ++i)
@@ -121,10 +148,14 @@ class ProfileSide {
         foretold.fitted[k] += at_.rows_jacobian[i][k] * (there.q[i] - at_.place.q[i]);
     problem_.weigh(foretold, &at_.place.roots);
     double sum = 0;
+    FirstPlace seen{distance, {}, {}};
     for (std::size_t k = 0; k < foretold.residual.size(); ++k) {
       const double d = foretold.residual[k] - there.residual[k];
       sum += d * d;
+      seen.foretold.push_back(foretold.residual[k] - at_.place.residual[k]);
+      seen.lack.push_back(d);
     }
+    if (first_.distance == 0) first_ = std::move(seen);
     return sum <= straight_enough * straight_enough * cut_;
   }
 
@@ -137,6 +168,7 @@ class ProfileSide {
   std::vector<ProfilePlace> places_;
   std::optional<ProfilePlace> before_;
   std::optional<std::vector<double>> lower_sum_;
+  FirstPlace first_;
   bool at_bound_ = false;
   int failures_ = 0, turns_between_ = 0;
 };
@@ -146,6 +178,7 @@ class ProfileSide {
 CalibrationProfile profile_of(CalibrationProblem& problem, const CalibrationMinimum& at, std::size_t p,
                               const std::vector<double>& guide, double reach, double cut, double scatter) {
   CalibrationProfile found;
+  FirstPlace below, above;
   for (const double side : {-1.0, 1.0}) {
     ProfileSide one(problem, at, p, guide, side, cut);
     const std::optional<double> end = one.follow(reach);
@@ -155,7 +188,9 @@ CalibrationProfile profile_of(CalibrationProblem& problem, const CalibrationMini
       if (side < 0 || place.distance > 0)
         found.points.push_back({at.place.q[p] + side * place.distance, place.root * place.root / scatter});
     if (one.lower_sum() && !found.lower_sum) found.lower_sum = one.lower_sum();
+    (side < 0 ? below : above) = one.first();
   }
+  found.as_foretold = derivatives_hold(below, above);
   std::ranges::sort(found.points, {}, &ProfilePoint::value);
   return found;
 }

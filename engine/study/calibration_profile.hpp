@@ -18,6 +18,8 @@ struct CalibrationProfile {
   std::vector<ProfilePoint> points;                  // ascending; excess in units of `scatter`²
   // Parameters where S is less than at the least sum that was found, if any.
   std::optional<std::vector<double>> lower_sum;
+  // At its first places the model did what its derivatives foretell, but for curvature.
+  bool as_foretold = false;
 };
 
 // `guide`: how all parameters move with this one along the valley of S, with 1 for itself; `reach`: how far

@@ -15,6 +15,7 @@ namespace asperity {
 namespace {
 
 constexpr double main_part = 0.01;     // of a direction that no row sees
+constexpr double seen_by_law = 1e-5;   // a singular value relative to the largest, where there is no noise
 constexpr double weak_part = 0.3;      // of the direction that the rows see least
 constexpr double weak_condition = 10;  // from which parameters may be hardly apart
 constexpr int digits = 4;
@@ -92,9 +93,12 @@ class VerdictWords {
       if (f_.problem.inside(q[p], p) != q[p]) return false;
     const auto there = f_.problem.place(q, &f_.at.place.roots);
     if (!there) return false;
+    // The end of a sparing fit may be foretold and never computed.
+    if (!computed_ && f_.problem.sparing()) computed_ = f_.problem.place(f_.at.place.q, &f_.at.place.roots);
+    const CalibrationPlace& here = computed_ ? *computed_ : f_.at.place;
     double change = 0, alone = 0;
     for (std::size_t k = 0; k < there->residual.size(); ++k) {
-      const double d = there->residual[k] - f_.at.place.residual[k];
+      const double d = there->residual[k] - here.residual[k];
       change += d * d;
     }
     for (std::size_t i = 0; i < f_.tangent.parameters.size(); ++i) {
@@ -113,6 +117,11 @@ class VerdictWords {
     text += " = " + with_interval(q[a] + factor * q[b], {{a, 1.0}, {b, factor}});
     const double together =
         q[a] != 0 && q[b] != 0 ? da / q[a] * q[b] / db : 0;  // -1 along a product, 1 a ratio
+    // Derivatives that are rough tell the sense alone; what is said is proven by the model itself.
+    const bool rough = f_.at.hidden > 1e-2;
+    const bool like_ratio = rough ? together > 0 : std::abs(together - 1) < 1e-2,
+               like_product = rough ? together < 0 : std::abs(together + 1) < 1e-2;
+    proven_ = true;
     const auto moved = [&](double by_a, double by_b) {
       std::vector<double> there = q;
       there[a] *= by_a;
@@ -120,9 +129,12 @@ class VerdictWords {
       return there;
     };
     // Along a ratio the parameters go straight to 0, and their sum says nothing of it.
-    if (std::abs(together - 1) < 1e-2 && (unchanged(moved(1.25, 1.25)) || unchanged(moved(0.8, 0.8))))
+    if (like_ratio && (unchanged(moved(1.25, 1.25)) || unchanged(moved(0.8, 0.8))))
       return "the ratio " + name(a) + "/" + name(b) + " = " +
              with_interval(q[a] / q[b], {{a, 1 / q[b]}, {b, -q[a] / (q[b] * q[b])}}) + units_of(a, b);
+    if (like_product && (unchanged(moved(1.25, 0.8)) || unchanged(moved(0.8, 1.25))))
+      return "the product " + name(a) + " " + name(b) + " = " +
+             with_interval(q[a] * q[b], {{a, q[b]}, {b, q[a]}}) + units_of(a, b);
     const double step = 0.1 / std::max(std::abs(da) / scale(a), std::abs(db) / scale(b));
     for (const double side : {1.0, -1.0}) {
       std::vector<double> there = q;
@@ -130,15 +142,14 @@ class VerdictWords {
       there[b] += side * step * db;
       if (unchanged(there)) return text + units_of(a, b);
     }
-    if (std::abs(together + 1) < 1e-2 && (unchanged(moved(1.25, 0.8)) || unchanged(moved(0.8, 1.25))))
-      return "the product " + name(a) + " " + name(b) + " = " +
-             with_interval(q[a] * q[b], {{a, q[b]}, {b, q[a]}}) + units_of(a, b);
+    proven_ = false;
     return text + " near " + name(a) + " = " + with_unit(q[a], a) + ", " + name(b) + " = " +
            with_unit(q[b], b);
   }
 
   void tell_unseen() {
     const CalibrationTangent& t = f_.tangent;
+    bool hidden = false;
     std::vector<std::size_t> silent;
     for (std::size_t i = 0; i < t.parameters.size(); ++i)
       if (!(t.lengths[i] > 0)) silent.push_back(t.parameters[i]);
@@ -157,6 +168,7 @@ class VerdictWords {
         }
       if (parts.empty()) continue;
       of_.identifiable = false;
+      proven_ = false;
       const auto change = [&](std::size_t part) {
         return t.svd.v[k][columns[part]] / t.lengths[columns[part]];
       };
@@ -173,7 +185,12 @@ class VerdictWords {
         sentences_.push_back(names(parts) + " are not identifiable: together they can change (" +
                              joined(changes, " and ") + ") and no row changes; " + advice(parts));
       }
+      hidden = hidden || (!proven_ && t.svd.values[k] > seen_by_law * t.svd.values[0]);
     }
+    if (hidden)
+      sentences_.push_back(
+          "steps or noise of the model hide what more these rows may tell: let it be computed to a closer "
+          "tolerance or on more cells");
   }
 
   void tell_hardly_apart() {
@@ -310,7 +327,8 @@ class VerdictWords {
   Calibration& of_;
   const CalibrationFindings& f_;
   std::vector<std::string> sentences_;
-  bool doubt_ = false;
+  std::optional<CalibrationPlace> computed_;
+  bool doubt_ = false, proven_ = false;
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/arithmetic/random.hpp"
+#include "engine/core/error.hpp"
 #include "engine/core/sanitizers.hpp"
 #include "engine/study/calibration.hpp"
 
@@ -146,6 +147,107 @@ TEST(SparingCalibration, WhatIsNotDeterminedIsGivenNoNumber) {
   EXPECT_FALSE(found.identifiable);
   EXPECT_FALSE(found.parameters[0].value || found.parameters[1].value);
   EXPECT_NE(found.verdict.find("the product a b"), std::string::npos) << found.verdict;
+}
+
+// Real area of a press on 32 x 32 cells: a count of nodes, so a model in steps of 1/1024 (or coarser ones),
+// in which stiffness and factor act as a product.
+struct CountedNodes {
+  double nodes = 1024;
+  CalibrationRows rows;
+  std::vector<double> load;
+  double area(double stiffness, std::size_t row) const {
+    return std::floor(nodes * std::erf(0.9 * load[row] / stiffness) + 0.5) / nodes;
+  }
+  CalibrationModel product() const {
+    return [this](std::span<const double> q, std::size_t row) { return area(q[0] * q[1], row); };
+  }
+};
+
+CountedNodes counted_nodes(std::uint64_t seed, double scatter, double nodes = 1024) {
+  CountedNodes made;
+  made.nodes = nodes;
+  const Stream draws(seed, "counted nodes");
+  for (std::size_t k = 0; k < 10; ++k) {
+    made.load.push_back(0.03 + 0.03 * static_cast<double>(k));
+    made.rows.y.push_back(made.area(1.3, k) * (1 + scatter * draws.normal(k)));
+  }
+  return made;
+}
+
+// Starts, bounds and steps of differences that make the columns of a Jacobian look apart.
+const std::vector<std::vector<CalibrationParameter>> starts_of_product = {
+    {{"E", 1, {}, {}}, {"f", 1, {}, {}}},
+    {{"E", 1, 0.1, 10.0}, {"f", 1, 0.1, 1.0}},
+    {{"E", 1.3, {}, {}, 0.05}, {"f", 1, {}, {}, 0.05}},
+    {{"E", 1, {}, {}, 0.01}, {"f", 1, {}, {}, 0.1}},
+    {{"E", 1.1, {}, {}}, {"f", 1, {}, {}, 0.01}}};
+
+TEST(SparingCalibration, StepsOfTheModelTellNoProductApart) {
+  int fits = 0, products = 0;
+  for (const bool spare : {true, false})
+    for (const bool profile : {true, false})
+      for (const double scatter : {0.0, 0.003, 0.01, 0.03, 0.1})
+        for (std::size_t from = 0; from < starts_of_product.size(); ++from)
+          for (std::uint64_t seed = 1; seed <= (sanitized ? 2U : 6U); ++seed) {
+            const CountedNodes made = counted_nodes(seed, scatter, seed % 2 == 0 ? 1024 : 80);
+            const CalibrationOptions options = {.profile = profile, .sparing = spare};
+            try {
+              const Calibration found =
+                  calibrate(made.rows, made.product(), starts_of_product[from], options);
+              const CalibratedParameter &stiffness = found.parameters[0], &factor = found.parameters[1];
+              EXPECT_FALSE(found.identifiable);
+              EXPECT_FALSE(stiffness.value || factor.value || stiffness.low || factor.low)
+                  << (stiffness.value ? "E" : "") << (factor.value ? "f" : "") << ", start " << from
+                  << ", scatter " << scatter << ", seed " << seed << ", sparing " << spare << ": "
+                  << found.verdict;
+              ++fits;
+              products += found.verdict.find("only the product E f = 1.") != std::string::npos ? 1 : 0;
+            } catch (const Error& error) {
+              // A fit that the steps end too early is refused as a whole.
+              EXPECT_EQ(error.code(), ErrorCode::not_converged) << error.what();
+            }
+          }
+  EXPECT_GE(products, 0.85 * fits) << fits;
+}
+
+// Beside the same steps, what the rows do determine keeps its number.
+TEST(SparingCalibration, StepsOfTheModelTakeNoNumberFromWhatIsDetermined) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    CountedNodes made = counted_nodes(seed, 0.03);
+    for (double& y : made.rows.y) y += 0.5;
+    const CalibrationModel shifted = [&](std::span<const double> q, std::size_t row) {
+      return made.area(q[0], row) + q[1];
+    };
+    const Calibration both =
+        calibrate(made.rows, shifted, std::vector<CalibrationParameter>{{"E", 1, {}, {}}, {"c", 0.3, {}, {}}},
+                  {.sparing = true});
+    EXPECT_TRUE(both.identifiable) << both.verdict;
+    EXPECT_TRUE(both.parameters[0].low && both.parameters[1].low);
+    const CalibrationModel product = [&](std::span<const double> q, std::size_t row) {
+      return made.area(q[0] * q[1], row) + q[2];
+    };
+    const Calibration found =
+        calibrate(made.rows, product,
+                  std::vector<CalibrationParameter>{{"E", 1, {}, {}}, {"f", 1, {}, {}}, {"c", 0.3, {}, {}}},
+                  {.sparing = true});
+    EXPECT_FALSE(found.parameters[0].value || found.parameters[1].value) << found.verdict;
+    ASSERT_TRUE(found.parameters[2].value && found.parameters[2].standard_error) << found.verdict;
+    EXPECT_NEAR(*found.parameters[2].value, 0.5, 5 * *found.parameters[2].standard_error);
+  }
+}
+
+// A factor at its bound, with the product at its best: the rows do not push against the bound.
+TEST(SparingCalibration, BoundGivesNoNumberToHalfAProduct) {
+  Presses made = presses(3);
+  const CalibrationModel product = [&](std::span<const double> q, std::size_t row) {
+    return made.at(std::vector<double>{q[0] * q[1], 0.9}, row);
+  };
+  for (const CalibrationOptions& options : {sparing, unsparing}) {
+    const Calibration found = calibrate(
+        made.rows, product, std::vector<CalibrationParameter>{{"a", 1, {}, {}}, {"b", 1, {}, 1.0}}, options);
+    EXPECT_FALSE(found.parameters[0].value || found.parameters[1].value) << found.verdict;
+    EXPECT_EQ(found.verdict.find("stands at"), std::string::npos) << found.verdict;
+  }
 }
 
 TEST(SparingCalibration, BoundsHoldAndAStartAtZeroIsFound) {

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far differences of a model can be trusted. A model that counts (nodes in contact, say) or has a
+// tolerance of its own has steps: narrow differences of it are 0 or far too large, and columns of a Jacobian
+// that are made of steps look independent where the parameters act as one. Differences of two widths agree as
+// well as both hold: their disagreement bounds what noise and curvature can do to singular values (Weyl), and
+// a direction is seen only above it.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.hpp"
+#include "engine/study/calibration_problem.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr double wider = 4;                   // than the differences before
+constexpr double widest_share = 0.25;         // of a parameter
+constexpr double first_sparing_share = 0.02;  // the same, of differences that are dear
+constexpr double beyond_errors = 2;           // what is seen, in disagreements of the columns
+constexpr double beyond_noise = 1.2;          // the same, where the wider hold three times as well
+constexpr double falls_by = 0.5;              // disagreement with width, where noise makes it
+
+double length_of_column(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+std::optional<FirmSlopes> CalibrationProblem::firm_slopes(const CalibrationMinimum& at) {
+  const std::vector<bool> none(parameters(), false);
+  const auto observed_column = [&](const std::vector<double>& of_rows) {
+    std::vector<double> weighted(of_rows.size());
+    for (std::size_t k = 0; k < weighted.size(); ++k) weighted[k] = at.place.roots[k] * of_rows[k];
+    return observed(weighted);
+  };
+  // Errors relative to the length of each column, together.
+  const auto disagreement = [&](const TableColumns& narrow, const TableColumns& wide) {
+    double sum = 0;
+    for (std::size_t p = 0; p < parameters(); ++p) {
+      const std::vector<double> of_narrow = observed_column(narrow[p]), of_wide = observed_column(wide[p]);
+      const double length = length_of_column(of_wide);
+      std::vector<double> apart(of_wide.size());
+      for (std::size_t i = 0; i < apart.size(); ++i) apart[i] = of_wide[i] - of_narrow[i];
+      const double error = length_of_column(apart);
+      if (error > 0) sum += length > 0 ? error * error / (length * length) : 1;
+    }
+    return std::sqrt(sum);
+  };
+  // One share for all: parameters that act as one then have the same columns, steps and curvature and all.
+  double share = widest_share;
+  for (const CalibrationParameter& of : parameters_)
+    share = std::min(share, sparing_ ? std::max(of.step, first_sparing_share) : of.step);
+  std::optional<FirmSlopes> best;
+  std::size_t least_silent = parameters() + 1;
+  TableColumns narrow;
+  double before = 0;  // disagreement
+  for (;;) {
+    TableColumns wide;
+    try {
+      for (std::size_t p = 0; p < parameters(); ++p) {
+        auto column = slopes(at.place, p, share * at.scales[p], true);
+        if (!column) return best;
+        wide.push_back(*std::move(column));
+      }
+    } catch (const Error& error) {
+      // A model that refuses to go so far has been asked enough.
+      if (error.code() != ErrorCode::bad_value && error.code() != ErrorCode::infeasible &&
+          error.code() != ErrorCode::not_converged)
+        throw;
+      return best;
+    }
+    if (!narrow.empty()) {
+      const double apart = disagreement(narrow, wide);
+      const double hidden = (apart < falls_by * before ? beyond_noise : beyond_errors) * apart;
+      before = apart;
+      const CalibrationTangent there = tangent(at.place, wide, none, hidden);
+      const auto silent = static_cast<std::size_t>(
+          std::ranges::count_if(there.lengths, [](double length) { return !(length > 0); }));
+      if (silent < least_silent || (silent == least_silent && hidden < best->hidden)) {
+        best = FirmSlopes{wide, hidden};
+        least_silent = silent;
+      }
+      if (silent == 0 && there.rank == parameters()) return FirmSlopes{std::move(wide), hidden};
+    }
+    narrow = std::move(wide);
+    if (share >= widest_share) return best;
+    share = std::min(wider * share, widest_share);
+  }
+}
+
+}  // namespace asperity
