@@ -121,7 +121,7 @@
 ---@field shift asperity.RegistrationShift of the shift
 ---@field angle number of the turn (rad)
 ---@field tilt asperity.RegistrationTilt of the slopes
----@field lift number of the height (m)
+---@field lift number of the height; the pull of wear shallower than the noise is not in it (m)
 
 ---A shift in the plane, or its standard uncertainty.
 ---@class asperity.RegistrationShift
@@ -1506,11 +1506,11 @@ function TiltStage:slip_growth(options) end
 ---@field file string where its rows are kept
 local Notebook = {}
 
----Adds a row. A column may carry its unit in its name: ["Ra [m]"] = s:roughness().Ra.
+---Adds a row. A column may carry its unit in its name: ["Ra [m]"] = s:roughness().Ra. A number is kept as it is, in that unit; a quantity such as "3 um" is converted to it.
 ---@param row table columns and their values: numbers, strings, booleans
 function Notebook:write(row) end
 
----Gives columns their units, for the table's header and the charts.
+---Gives columns their units, for the table's header and the charts. Numbers are kept as they are, those written before too: in { z="um" } a length in metres is written as z * 1e6.
 ---@param units table unit of each column
 function Notebook:units(units) end
 

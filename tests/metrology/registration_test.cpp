@@ -329,6 +329,30 @@ TEST_F(RegistrationAccuracy, NoiseDoesNotDrawItToHalfACell) {
   EXPECT_LT(std::hypot(e.mean_x, e.mean_y), 0.01);
 }
 
+// Beside worn ground stands ground that the smoothing lowers by less than the noise: it is not worn, and what
+// wear took is counted from it.
+TEST_F(RegistrationAccuracy, LiftIsThatOfGroundThatIsNotWorn) {
+  WornPairKind kind = named("lift");
+  kind.nx = kind.ny = 160;
+  kind.least_worn = kind.most_worn = 0.2;
+  kind.least_noise = kind.most_noise = 0.01;
+  const int count = whole() ? 40 : 6;
+  double mean = 0, mean_u = 0;
+  int within_2u = 0;
+  for (int k = 1; k <= count; ++k) {
+    const WornPair pair = worn_pair(kind, static_cast<std::uint64_t>(k));
+    const Registration r = registered(pair.after, pair.before, turns_up_to(6));
+    mean += (r.lift - pair.lift) / count;
+    mean_u += r.u.lift / count;
+    within_2u += std::abs(r.lift - pair.lift) < 2 * r.u.lift ? 1 : 0;
+  }
+  if (whole())
+    std::printf("lift: %.3f nm too high, u %.3f nm, %d of %d within 2u\n", mean * 1e9, mean_u * 1e9,
+                within_2u, count);
+  EXPECT_LT(std::abs(mean), 0.02 * kind.most_noise * kind.rms);
+  EXPECT_GE(within_2u, 0.8 * count);
+}
+
 TEST_F(RegistrationAccuracy, LongCellsAndSizesThatAreNoPowersOfTwo) {
   WornPairKind kind = named("long");
   kind.nx = 200;

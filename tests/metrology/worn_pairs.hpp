@@ -36,6 +36,7 @@ struct WornPairKind {
 struct WornPair {
   Surface before, after;
   double shift_x, shift_y, angle;  // m, rad: as Registration tells them
+  double lift;                     // m
 };
 
 // Heights at R(angle)(p - c) + c + shift for every node p, c the centre of the nodes.
@@ -141,7 +142,9 @@ inline WornPair worn_pair(const WornPairKind& kind, std::uint64_t seed, double s
   Field before = waves.sampled(0, 0, 0), after = waves.sampled(shift_x, shift_y, angle);
   const double noise = draw.uniform(4, kind.least_noise, kind.most_noise) * kind.rms;
   if (kind.most_worn > 0) wear(after, draw.uniform(3, kind.least_worn, kind.most_worn), kind.rms, kind, seed);
-  tilt(after, draw.uniform(5, -0.5, 0.5) * kind.rms, draw.uniform(6, -0.5, 0.5) * kind.rms);
+  const double across_x = draw.uniform(5, -0.5, 0.5) * kind.rms,
+               across_y = draw.uniform(6, -0.5, 0.5) * kind.rms;
+  tilt(after, across_x, across_y);
   add_noise(before, noise, seed, kind.name + " noise before");
   add_noise(after, noise, seed, kind.name + " noise after");
   if (kind.most_holes > 0) {
@@ -150,8 +153,13 @@ inline WornPair worn_pair(const WornPairKind& kind, std::uint64_t seed, double s
     punch_holes(after, draw.uniform(8, kind.least_holes, kind.most_holes), seed, kind.name + " holes after");
   }
   const Grid grid = make_grid(kind.nx, kind.ny, kind.nx * kind.cell_x, kind.ny * kind.cell_y);
-  return {Surface::with_holes(grid, std::move(before)), Surface::with_holes(grid, std::move(after)), shift_x,
-          shift_y, angle};
+  const double lift = 0.5 * (across_x * (kind.nx - 1) / kind.nx + across_y * (kind.ny - 1) / kind.ny);
+  return {Surface::with_holes(grid, std::move(before)),
+          Surface::with_holes(grid, std::move(after)),
+          shift_x,
+          shift_y,
+          angle,
+          lift};
 }
 
 inline WornPair worn_pair(const WornPairKind& kind, std::uint64_t seed) {

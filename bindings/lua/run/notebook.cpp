@@ -186,12 +186,16 @@ const Class& class_of<Notebook>() {
     c.methods = {
         {.name = "write",
          .body = write_row,
-         .sentence = "Adds a row. A column may carry its unit in its name: [\"Ra [m]\"] = s:roughness().Ra.",
+         .sentence =
+             "Adds a row. A column may carry its unit in its name: [\"Ra [m]\"] = s:roughness().Ra. A number "
+             "is kept as it is, in that unit; a quantity such as \"3 um\" is converted to it.",
          .parameters = {{"row", "table", "columns and their values: numbers, strings, booleans"}},
          .example = "book:write{ N=1, mu=0.4 }"},
         {.name = "units",
          .body = units,
-         .sentence = "Gives columns their units, for the table's header and the charts.",
+         .sentence = "Gives columns their units, for the table's header and the charts. Numbers are kept as "
+                     "they are, "
+                     "those written before too: in { z=\"um\" } a length in metres is written as z * 1e6.",
          .parameters = {{"units", "table", "unit of each column"}},
          .example = "book:units{ Ra=\"m\", pressure=\"Pa\" }"},
         {.name = "table",

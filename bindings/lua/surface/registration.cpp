@@ -64,7 +64,8 @@ const RecordType<RegistrationUncertainty>& registration_uncertainty_type() {
           return PlanarTilt{u.tilt_x, u.tilt_y};
         },
         registration_tilt_type(), "of the slopes"},
-       {"lift", &U::lift, dimension::length, "of the height"}}};
+       {"lift", &U::lift, dimension::length,
+        "of the height; the pull of wear shallower than the noise is not in it"}}};
   return type;
 }
 

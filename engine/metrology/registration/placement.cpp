@@ -22,6 +22,7 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double least_overlap = 0.1;    // of the smaller map
 constexpr double least_explained = 0.5;  // of the variance of the heights
 constexpr double firmly_explained = 0.9;
+constexpr double gaussian_reach = 3;  // standard deviations
 // A second placement is as good where it leaves less than this many times the variance unexplained.
 constexpr double clearly_worse = 1.5, least_difference = 5e-4;
 
@@ -204,13 +205,13 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
   options.stride = stride_of(after);
   options.tolerance = 1e-5;
   options.most_steps = 60;
-  const Refined found = refined(maps, start, options);
+  Refined found = refined(maps, start, options);
   if (!found.possible)
     refuse("the best placement leaves " + percent_of(found.overlap) +
                " of the smaller map on the other, or no relief there",
            "measure more of the same ground");
   refuse_what_is_not_decided(found, coarse);
-  const PoseUncertainty u = jackknifed(maps, found, options);
+  PoseUncertainty u = jackknifed(maps, found, options);
   if (!u.possible)
     refuse("too little of the maps overlaps to say how sure the placement is",
            "measure more of the same ground");
@@ -222,6 +223,11 @@ Placement find_placement(const HeightMap& before, const HeightMap& after, const 
                " of the heights, and the parts of the map disagree by " + metres(loose * limits.cell) +
                " about it",
            "measure more ground with features of its own, or narrow the search with `angle` and `at_most`");
+  const UnwornPlane unworn = plane_of_unworn_ground(maps, found, gaussian_reach * widest, options);
+  if (unworn.possible) {
+    found.plane = unworn.plane;
+    u.plane = unworn.u;
+  }
   return {found, u, coarse.second};
 }
 

@@ -146,6 +146,30 @@ class Problem {
     return count;
   }
 
+  // Leaves out what lies further than `far` from zero, to either side so that noise does not pull, and all
+  // within `reach` of it. How many samples still count.
+  std::size_t leave_out(double far, double reach) {
+    const HeightMap& after = maps_.after();
+    const double step_x = after.hx * stride_, step_y = after.hy * stride_;
+    const int wide = static_cast<int>(reach / step_x), high = static_cast<int>(reach / step_y);
+    Array<unsigned char> near(samples_.size(), 0);
+    for (int row = 0; row < rows_; ++row)
+      for (int column = 0; column < columns_; ++column) {
+        if (!(std::abs(samples_[index(column, row)].residual) > far)) continue;
+        for (int b = std::max(0, row - high); b <= std::min(rows_ - 1, row + high); ++b)
+          for (int a = std::max(0, column - wide); a <= std::min(columns_ - 1, column + wide); ++a) {
+            const double x = (a - column) * step_x, y = (b - row) * step_y;
+            if (x * x + y * y <= reach * reach) near[index(a, b)] = 1;
+          }
+      }
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      if (near[k] != 0) samples_[k].residual = std::numeric_limits<double>::quiet_NaN();
+      count += std::isnan(samples_[k].residual) ? 0 : 1;
+    }
+    return count;
+  }
+
   // Of the residuals above zero, as a standard deviation.
   double upper_scale() {
     sorted_.clear();
@@ -348,12 +372,12 @@ Pose weakest_change(const MapPair& maps, const Refined& found, const RefinementO
   return {length * v[0][least], length * v[1][least], length * v[2][least] / problem.radius()};
 }
 
+namespace {
+
 // One Newton step from the solution with the tile's share of the sums taken out, by the true curvature ψ' of
 // the biweight: what leaving the tile out and refining again would give, to first order.
-PoseUncertainty jackknifed(const MapPair& maps, const Refined& found, const RefinementOptions& options) {
-  Problem problem(maps, options.stride);
-  problem.sample(found.pose, found.plane);
-  const TileSums of_tiles = problem.sums(std::max(found.residual, 1e-9), options.tuning);
+PoseUncertainty jackknifed(const Problem& problem, double scale, double tuning) {
+  const TileSums of_tiles = problem.sums(std::max(scale, 1e-9), tuning);
   const Sums total = total_of(of_tiles);
   std::vector<Vector6> changes;
   for (const Sums& tile : of_tiles) {
@@ -377,6 +401,42 @@ PoseUncertainty jackknifed(const MapPair& maps, const Refined& found, const Refi
   }
   const double r = problem.radius();
   return {true, {u[0], u[1], u[2] / r}, {u[3], u[4] / r, u[5] / r}};
+}
+
+}  // namespace
+
+PoseUncertainty jackknifed(const MapPair& maps, const Refined& found, const RefinementOptions& options) {
+  Problem problem(maps, options.stride);
+  problem.sample(found.pose, found.plane);
+  return jackknifed(problem, found.residual, options.tuning);
+}
+
+UnwornPlane plane_of_unworn_ground(const MapPair& maps, const Refined& found, double reach,
+                                   const RefinementOptions& options) {
+  constexpr int steps = 8;
+  constexpr double far_off = 3;       // scales
+  constexpr double least_left = 0.1;  // of the samples
+  Problem problem(maps, options.stride);
+  UnwornPlane result{false, found.plane, {}};
+  double scale = found.residual;
+  for (int step = 0; step <= steps; ++step) {
+    const std::size_t all = problem.sample(found.pose, result.plane);
+    const std::size_t left = problem.leave_out(far_off * std::max(scale, 1e-9), reach);
+    if (static_cast<double>(left) < std::max(64.0, least_left * static_cast<double>(all))) return {};
+    if (step == steps) break;
+    scale = problem.upper_scale();
+    Sums total = total_of(problem.sums(std::max(scale, 1e-9), options.tuning));
+    hold_pose(total.weighted, total.right);
+    Vector6 change{};
+    if (!solve(total.weighted, total.right, change)) return {};
+    result.plane.height += change[3];
+    result.plane.slope_x += change[4] / problem.radius();
+    result.plane.slope_y += change[5] / problem.radius();
+  }
+  const PoseUncertainty u = jackknifed(problem, scale, options.tuning);
+  result.possible = u.possible;
+  result.u = u.plane;
+  return result;
 }
 
 }  // namespace asperity::registration

@@ -77,4 +77,16 @@ struct PoseUncertainty {
 };
 PoseUncertainty jackknifed(const MapPair& maps, const Refined& found, const RefinementOptions& options);
 
+// The plane at a pose that is found, by ground that is not worn. Beside worn ground the Gaussian that
+// smoothed the maps spreads a little of what is lost, less than the noise, which the biweight lets pull the
+// plane down: samples within `reach` cells of those that lie far off are left out. Not possible where little
+// else is left.
+struct UnwornPlane {
+  bool possible = false;
+  Plane plane;
+  Plane u;  // standard uncertainties
+};
+UnwornPlane plane_of_unworn_ground(const MapPair& maps, const Refined& found, double reach,
+                                   const RefinementOptions& options);
+
 }  // namespace asperity::registration
