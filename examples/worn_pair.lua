@@ -109,12 +109,12 @@ end
 local function on(surface, event) return surface:masked{ mask = ground[event].mask } end
 local function parameters(surface, event) return on(surface, event):levelled():areal_parameters() end
 local book = lab.notebook("maps", { columns = { "event", "map", "Ra", "Ra_predicted", "Ssk", "Ssk_predicted", "lost",
-                                                "lost_predicted", "likeness", "u_lift", "Ra_put_back", "Ssk_put_back" } })
+                                                "lost_predicted", "likeness", "u_lift", "Ra_put_back" } })
 for k, maps in ipairs(laid) do
   local tile, smooth = tile_of(maps.before)
   local stayed, put_back = parameters(maps.before, 0), parameters(maps[0].after, 0)
   local Ra, Ssk = stayed.Sa - put_back.Sa, stayed.Ssk - put_back.Ssk
-  book:write{ event = 0, map = k, ["Ra_put_back [m]"] = Ra, Ssk_put_back = Ssk, ["lost [m]"] = mean_of(on(maps[0].lost, 0)), ["u_lift [m]"] = maps[0].u_lift }
+  book:write{ event = 0, map = k, ["Ra_put_back [m]"] = Ra, ["lost [m]"] = mean_of(on(maps[0].lost, 0)), ["u_lift [m]"] = maps[0].u_lift }
   for event, predicted in ipairs(pressed(tile)) do
     local map = maps[event]
     local lost_predicted = smooth - predicted:cropped{ cells = smooth.cells }
@@ -129,13 +129,16 @@ end
 -- 4. Measured beside predicted: means over the maps, 95 % intervals. That of the lost height holds the height of
 -- the unworn ground too, from which it counts. What wear pulls this by is alike in every map of one ground, so
 -- that more maps do not make it smaller. Those of Ra and skewness hold what was added for putting back: worn ground
--- has other short waves and maps have noise, so that it could be none or twice as much.
+-- has other short waves and maps have noise, so that it could be none or twice as much; skewness goes by third
+-- powers of the heights.
 print "\nevent             measured (95 %)                      predicted (95 %)                    in truth"
 local summary = lab.notebook "summary"
 local function means(column, event) return book:mean(column, { where = { event = event } }):rows()[1] end
 local function interval(quantity, event)
   local m = means(quantity, event)
-  local u = quantity == "lost" and means("u_lift", event).mean or math.abs(means(quantity .. "_put_back", 0).mean) / math.sqrt(3)
+  local put_back = math.abs(means("Ra_put_back", 0).mean) / math.sqrt(3)
+  local u = quantity == "lost" and means("u_lift", event).mean or put_back
+  if quantity == "Ssk" then u = 3 * math.abs(m.mean) * put_back / means("Ra", event).mean end
   local half = math.sqrt((m.high - m.mean) ^ 2 + (2 * u) ^ 2)
   return m.mean, m.mean - half, m.mean + half
 end
