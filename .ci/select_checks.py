@@ -113,6 +113,11 @@ BUILD = re.compile(r"\.ci/|cmake/|tests/support/|(?!examples/)(.*/)?CMakeLists\.
 CHECKED = ".ci/checked"
 
 
+# Headers of the library whose name stands in whatever uses them.
+SPELT = ("array", "complex", "deque", "initializer_list", "limits", "map", "mutex", "optional", "set", "span", "thread", "variant",
+         "vector")
+
+
 def under(path, places):
     """Whether the path is one of the places, lies in one, or is a source of that name."""
     return any(path == place or path.startswith((place + "/", place + ".")) for place in places)
@@ -160,6 +165,42 @@ def includers(paths):
                 reached.add(path)
                 todo.append(path)
     return reached
+
+
+@functools.cache
+def found_from(path):
+    """What a source names in its #include lines and in those of the files of this project that it includes, directly or not."""
+    names, seen, todo = set(), {path}, [path]
+    while todo:
+        with open(os.path.join(ROOT, todo.pop()), encoding="utf-8") as text:
+            for name in re.findall(r'^\s*#\s*include\s+(["<][^">]+)[">]', text.read(), re.M):
+                names.add(name)
+                inner = name[1:]
+                if inner not in seen and inner in include_graph():
+                    seen.add(inner)
+                    todo.append(inner)
+    return names
+
+
+def misses(path, name):
+    """Whether a source may use what an #include gives, and does not find it."""
+    if name in found_from(path):
+        return False
+    with open(os.path.join(ROOT, path), encoding="utf-8") as text:
+        return name[1:] not in SPELT or name[1:] in text.read()
+
+
+def poorer_sources(base):
+    """The sources that include a header which gave up an #include since the commit, and that miss what it included."""
+    lost, path = {}, ""
+    difference = subprocess.run(["git", "diff", "--no-renames", base, "--", "*.hpp"], cwd=ROOT, capture_output=True, text=True, check=True)
+    for line in difference.stdout.splitlines():
+        if line.startswith("--- a/"):
+            path = line[6:]
+        elif given_up := re.match(r'-\s*#\s*include\s+(["<][^">]+)[">]', line):
+            lost.setdefault(path, set()).add(given_up[1])
+    return {source for header, names in lost.items() for source in includers([header])
+            if any(misses(source, name) for name in names)}
 
 
 def group_of(path):

@@ -2,25 +2,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Sources that differ from a commit compile each by itself, with every warning an error: builds that compile several at
 # once do not see an #include that is missing, nor what shadows what. Headers too, by the source of their name where that
-# includes them first; and where a header gave up an #include, all sources that include it.
+# includes them first; and where a header gave up an #include, the sources that include it and find what it included nowhere else.
 #
 #   alone.sh COMMIT        what differs from the commit, committed or not
 #   alone.sh --everything  every source
 set -euo pipefail
 cd "$(dirname -- "$0")/../.."
 
-graph() {  # paths: those of the sources that include one of them
+poorer() {  # sources that include a header which gave up an #include they find nowhere else
   python3 -c 'import sys; sys.path.insert(0, ".ci"); import select_checks as s
-print("\n".join(p for p in s.includers(sys.argv[1:])))' "$@"
+print("\n".join(s.poorer_sources(sys.argv[1])))' "$1"
 }
 sources() { grep -E '^(engine|bindings|tests|bench)/.*\.(cpp|hpp)$' || true; }
 if [ "$1" = --everything ]; then
   files=$(git ls-files engine bindings tests bench | sources)
 else
   files=$({ git diff --name-only --diff-filter=d --no-renames "$1"; git ls-files --others --exclude-standard; } | sources)
-  poorer=$(git diff --no-renames "$1" -- '*.hpp' | awk '/^--- a\// { path = substr($2, 3) } /^-#include/ { print path }' | sort -u)
   # shellcheck disable=SC2086  # a list of words
-  if [ -n "$poorer" ]; then files=$(printf '%s\n' $files $(graph $poorer) | sort -u); fi
+  files=$(printf '%s\n' $files $(poorer "$1") | sort -u)
 fi
 # A header whose source is compiled and includes it first is compiled there.
 # shellcheck disable=SC2086  # a list of words

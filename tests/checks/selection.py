@@ -56,6 +56,10 @@ for path in files:
             group = chooser.group_of(source)
             expect(selection.everything or group in selection.release, f"{source} includes {path}, which does not call for {group}")
 
+for name, missed in (('"engine/core/digest.hpp', False), ('"engine/contact/plan.hpp', True), ("<cctype", True), ("<deque", False)):
+    expect(chooser.misses("engine/core/digest.cpp", name) == missed,
+           f"engine/core/digest.cpp {'has no way to' if missed else 'finds or does not name'} {name[1:]}")
+
 for path in ("CMakeLists.txt", "engine/CMakeLists.txt", "cmake/Packages.cmake", "CMakePresets.json", "lab", ".ci/run",
              ".ci/select_checks.py", "tests/CMakeLists.txt", "tests/support/open_files.cpp"):
     expect(chooser.select([path]).everything, f"{path} may change anything")
