@@ -146,15 +146,15 @@ def test_a_limit_of_time_is_met():
 
 def test_long_moves_are_answered_on_fewer_cells_first():
     with Server(runner.program) as server:
-        live = begin(server, pressed.replace("cells=64", "cells=512"))
+        live = begin(server, pressed.replace("cells=64", "cells=2048"))
         move(server, live)
         move(server, live, pressure="30 MPa")
         parts = move(server, live, pressure="40 MPa")
         assert [part["part"] for part in parts] == ["coarse", "whole"], [part["part"] for part in parts]
         coarse, fine = parts
         assert coarse["factor"] < 1 and fine["factor"] == 1
-        assert coarse["view"]["fields"][0]["from_nx"] == 512 * coarse["factor"]
-        assert fine["view"]["fields"][0]["from_nx"] == 512
+        assert coarse["view"]["fields"][0]["from_nx"] == 2048 * coarse["factor"]
+        assert fine["view"]["fields"][0]["from_nx"] == 2048
 
 
 def test_cells_that_a_script_does_not_take_are_not_tried_again():
