@@ -172,6 +172,14 @@ void CalibrationProblem::refuse_place(const std::string& where) const {
       "begin from other values, set `lower` and `upper`, or write the model so that it has a value there");
 }
 
+void CalibrationProblem::throw_no_lower(const std::vector<double>& q) const {
+  throw Error(ErrorCode::not_converged,
+              "the calibration goes no lower from " + parameters_text(q) +
+                  ", which is no least sum of squares: the derivatives of the model do not hold there",
+              "let the differences be larger (`step` of a parameter) where the model has noise of its own, "
+              "or begin elsewhere");
+}
+
 std::string CalibrationProblem::parameters_text(const std::vector<double>& q) const {
   std::string text;
   for (std::size_t p = 0; p < q.size(); ++p)
@@ -406,13 +414,7 @@ CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
         damping = 1e-4;
         continue;
       }
-      if (!offset_within(noise_of_model))
-        throw Error(
-            ErrorCode::not_converged,
-            "the calibration goes no lower from " + parameters_text(found.place.q) +
-                ", which is no least sum of squares: the derivatives of the model do not hold there",
-            "let the differences be larger (`step` of a parameter) where the model has noise of its own, "
-            "or begin elsewhere");
+      if (!offset_within(noise_of_model)) throw_no_lower(found.place.q);
       found.noisy = !offset_within(1e-3);
       return found;
     }

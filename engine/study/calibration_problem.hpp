@@ -115,6 +115,8 @@ class CalibrationProblem {
   std::optional<CalibrationPlace> minimum_beside(const CalibrationPlace& start, std::size_t p,
                                                  const CalibrationMinimum& beside, double gain);
   std::string parameters_text(const std::vector<double>& q) const;
+  // Throws Error{not_converged}: no step from here makes the sum less, and the derivatives say one should.
+  [[noreturn]] void throw_no_lower(const std::vector<double>& q) const;
   // Of the data as the weights there count them.
   double size_of(const CalibrationPlace& at) const;
 

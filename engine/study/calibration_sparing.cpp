@@ -261,13 +261,7 @@ CalibrationMinimum CalibrationProblem::sparing_minimum(const std::vector<double>
     auto next = lower(found, damping, tries);
     if (!next) {
       if (!first && found.place.q == found.differenced_at) {
-        if (at.offset > hidden_within * scatter)
-          throw Error(
-              ErrorCode::not_converged,
-              "the calibration goes no lower from " + parameters_text(found.place.q) +
-                  ", which is no least sum of squares: the derivatives of the model do not hold there",
-              "let the differences be larger (`step` of a parameter) where the model has noise of its own, "
-              "or begin elsewhere");
+        if (at.offset > hidden_within * scatter) throw_no_lower(found.place.q);
         found.noisy = true;
         return found;
       }
