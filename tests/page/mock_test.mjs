@@ -545,7 +545,7 @@ test('Knob, MovedByKeysRunsTheScriptAgain', () =>
     // Another script has other knobs, or none.
     await on.run(page, 'print "plain"\n');
     await printed(page, 'plain');
-    assert.equal(await page.$eval('.knobs', (e) => e.hidden), true);
+    await on.until(page, () => document.querySelector('.knobs').hidden, 'no knob should be left');
   }));
 
 test('Knob, MovedWhileARunGoesOnStopsThatRun', () =>

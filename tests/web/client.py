@@ -132,24 +132,23 @@ def printed(events, stream="out"):
     return "".join(event["text"] for event in of_type(events, "output") if event["stream"] == stream)
 
 
-def children_of(process):
-    children = []
-    for entry in os.listdir("/proc"):
-        try:
-            with open(f"/proc/{entry}/stat") as facts:
-                if entry.isdigit() and facts.read().rsplit(")", 1)[1].split()[1] == str(process):
-                    children.append(int(entry))
-        except (OSError, IndexError):
-            pass
-    return children
+def state_and_parent(process):
+    """Of /proc/N/stat; a process may end while its line is read."""
+    try:
+        with open(f"/proc/{process}/stat") as facts:
+            return facts.read().rsplit(")", 1)[1].split()[:2]
+    except OSError:
+        return ["Z", ""]
 
 
 def alive(process):
-    try:
-        with open(f"/proc/{process}/stat") as facts:
-            return facts.read().rsplit(")", 1)[1].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
+    return state_and_parent(process)[0] != "Z"
+
+
+def children_of(process):
+    """Those that live: one that has ended stays listed until its parent asks how."""
+    entries = [(int(entry), state_and_parent(entry)) for entry in os.listdir("/proc") if entry.isdigit()]
+    return [child for child, (state, parent) in entries if state != "Z" and parent == str(process)]
 
 
 def finished(events):

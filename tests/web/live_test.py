@@ -59,11 +59,19 @@ def events(part, kind):
     return [event for event in part["events"] if event["type"] == kind]
 
 
-def gone(processes, patience=10):
+def comes_true(test, patience=10):
     end = time.monotonic() + patience
-    while any(alive(process) for process in processes) and time.monotonic() < end:
+    while not test() and time.monotonic() < end:
         time.sleep(0.02)
-    return not any(alive(process) for process in processes)
+    return test()
+
+
+def gone(processes):
+    return comes_true(lambda: not any(alive(process) for process in processes))
+
+
+def comes_to_have(server, count):
+    return comes_true(lambda: len(children_of(server.process.pid)) == count)
 
 
 def test_a_move_computes_what_the_knob_touches():
@@ -191,17 +199,17 @@ def test_one_script_a_tab_and_nobody_elses():
         assert alive(mine[0]), "another person's word ends nothing"
         # Another script of the same tab takes its place.
         other = begin(server, pressed, token=one)
-        assert gone(mine) and len(children_of(server.process.pid)) == 1
+        assert gone(mine) and comes_to_have(server, 1)
         assert server.ask("POST", f"/api/live/{live}", {"knobs": {}}, token=one).status == 404
         # Of one person's tabs the one that was left longest makes room.
         tabs = [begin(server, endless, tab=f"tab {k}", token=one) for k in range(4)]
         assert server.ask("POST", f"/api/live/{other}", {"knobs": {}}, token=one).status == 404
         whole(move(server, tabs[-1], token=one))
-        assert len(children_of(server.process.pid)) == 2
+        assert comes_to_have(server, 2)
         assert whole(move(server, begin(server, endless, token=two), token=two))
         for tab in tabs:
             server.ask("DELETE", f"/api/live/{tab}", token=one)
-        assert len(children_of(server.process.pid)) == 1
+        assert comes_to_have(server, 1)
 
 
 def test_no_process_is_left_of_a_server_that_ends():
@@ -211,9 +219,9 @@ def test_no_process_is_left_of_a_server_that_ends():
             move(server, idle)
             asking = threading.Thread(target=lambda: _quietly(lambda: move(server, busy, n="5")))
             asking.start()
+            assert comes_to_have(server, 2), children_of(server.process.pid)
             time.sleep(0.5)
             processes = children_of(server.process.pid)
-            assert len(processes) == 2, processes
             begun = time.monotonic()
             server.process.send_signal(how)
             server.process.wait(20)

@@ -85,7 +85,10 @@ export class KnobsPane {
     const news = run !== this.current;
     this.current = run;
     if (!run || run.live) return;
-    if (news && run.script !== this.of?.script && run !== this.asked) this.clear();
+    if (news && run.script !== this.of?.script && run !== this.asked) {
+      this.clear();
+      this.asked = undefined; // what is still on its way is of another script
+    }
     if (run.active || run === this.asked) return;
     this.asked = run;
     if (this.waiting) this.go();
