@@ -62,6 +62,12 @@ void Notebook::write(std::span<const Entry> given) {
   table_.check(row);
   Json fields = Json::object({{"notebook", name_}, {"row", std::move(values)}});
   if (!units.is_null()) fields.set("units", std::move(units));
+  // Whoever follows the rows cannot see where a declared column stands that the first of them lacks.
+  if (table_.rows() == 0 && !order_.empty()) {
+    std::vector<std::string> columns;
+    for (const TableColumn& column : table_.columns()) columns.push_back(column.name);
+    fields.set("columns", Json::strings(columns));
+  }
   journal_.write("row", fields);
   const bool new_header = table_.append(row);
   if (csv_.empty()) return;

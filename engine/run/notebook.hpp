@@ -34,9 +34,9 @@ class Notebook {
   // Table::declare_unit does.
   void order_columns(const std::vector<std::string>& columns);
 
-  // Journal event "row". Throws as Table::check and Journal::write do, with nothing changed; and
-  // Error{bad_file} if the CSV cannot be written, when row and journal line are kept and the next
-  // write or save tries again.
+  // Journal event "row"; the first one carries the order that was given. Throws as Table::check and
+  // Journal::write do, with nothing changed; and Error{bad_file} if the CSV cannot be written, when row and
+  // journal line are kept and the next write or save tries again.
   void write(std::span<const Entry> row);
   // Throws as Table::declare_unit.
   void declare_unit(std::string_view column, std::string_view unit);

@@ -70,6 +70,7 @@ test('Served, UnderOneSecond', () =>
 // comes later last.
 for (const [name, columns, rows] of [
   ['order', 'z,m,a,also,extra', '{ columns={ "z", "m", "a" } })\nbook:write{ a=1, extra=1, m=2, also=3, z=4 }'],
+  ['lacking', 'z,m,a,late', '{ columns={ "z", "m", "a" } })\nbook:write{ a=1 } book:write{ a=2, late=1, z=3 }'],
   ['plain', 'b,m,z,a', '{})\nbook:write{ z=1, b=2, m=3 } book:write{ z=1, a=2 }'],
 ])
   test(`Table, ColumnsStandAsInTheCsv, ${name}`, () =>

@@ -149,7 +149,7 @@ def test_a_limit_of_time_is_met():
         last = move(server, stuck)[-1]
         assert last["part"] == "ended" and "time limit" in last["why"], last
         assert gone(process)
-        assert server.ask("POST", f"/api/live/{stuck}", {"knobs": {}}).status == 404
+        assert comes_true(lambda: server.ask("POST", f"/api/live/{stuck}", {"knobs": {}}).status == 404)
 
 
 def test_long_moves_are_answered_on_fewer_cells_first():

@@ -89,10 +89,13 @@ std::vector<Seen> seen_in(const std::string& call, std::int64_t line, const lua:
 std::optional<Json> told_of(std::string_view event, const Json& fields) {
   if (event == "row") {
     Json units = field_or_null(fields, "units");
-    return Json::object({{"type", "row"},
-                         {"notebook", field_or_null(fields, "notebook")},
-                         {"row", field_or_null(fields, "row")},
-                         {"units", units.is_null() ? Json::object() : std::move(units)}});
+    Json told = Json::object({{"type", "row"},
+                              {"notebook", field_or_null(fields, "notebook")},
+                              {"row", field_or_null(fields, "row")},
+                              {"units", units.is_null() ? Json::object() : std::move(units)}});
+    if (Json columns = field_or_null(fields, "columns"); !columns.is_null())
+      told.set("columns", std::move(columns));
+    return told;
   }
   if (event != "expect") return {};
   const Json label = field_or_null(fields, "label"), sentence = field_or_null(fields, "sentence");

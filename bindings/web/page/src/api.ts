@@ -86,7 +86,7 @@ export type RunEvent = { n: number } & (
   | { type: 'started' }
   | { type: 'output'; stream: 'out' | 'err'; text: string }
   | { type: 'progress'; task: string; fraction?: number; eta_s?: number; text?: string }
-  | { type: 'row'; notebook: string; row: Record<string, Cell>; units?: Record<string, string> }
+  | { type: 'row'; notebook: string; row: Record<string, Cell>; units?: Record<string, string>; columns?: string[] }
   | { type: 'file'; name: string; bytes: number; kind?: string }
   | { type: 'view'; name: string; title?: string }
   | { type: 'views_left_out'; count: number }

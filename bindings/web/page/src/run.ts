@@ -90,7 +90,7 @@ export class Run {
         this.progress = { task: event.task, fraction: event.fraction, eta: event.eta_s, text: event.text };
         break;
       case 'row':
-        this.write(event.notebook, event.row, event.units ?? {});
+        this.write(event.notebook, event.row, event.units ?? {}, event.columns ?? []);
         break;
       case 'file':
         this.files.set(event.name, { name: event.name, bytes: event.bytes, kind: event.kind ?? '' });
@@ -138,10 +138,10 @@ export class Run {
     }
   }
 
-  private write(name: string, row: Record<string, Cell>, units: Record<string, string>): void {
+  private write(name: string, row: Record<string, Cell>, units: Record<string, string>, columns: string[]): void {
     let notebook = this.notebooks.get(name);
-    if (!notebook) this.notebooks.set(name, (notebook = { name, columns: [], units: {}, rows: [] }));
-    // A row names its columns in the order of the notebook's CSV.
+    if (!notebook) this.notebooks.set(name, (notebook = { name, columns: [...columns], units: {}, rows: [] }));
+    // A row names its columns in the order of the notebook's CSV; those that the first lacks come with it.
     for (const column of Object.keys(row)) {
       if (!notebook.columns.includes(column)) notebook.columns.push(column);
     }
