@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An attraction across the gap, as a solver sees it: a traction that falls with the gap g >= 0 and its
-// potential, whatever brought it. Exponential: w/ρ e^(−g/ρ); Dugdale (1960; Maugis 1992): w/ρ while g < ρ.
-// Both potentials are concave, which is what makes their descent monotone. The repulsion is a hard wall.
+// An attraction across the gap, as a solver sees it: a traction that falls with the gap g >= 0, whatever
+// brought it. Exponential: w/ρ e^(−g/ρ); Dugdale (1960; Maugis 1992): w/ρ while g < ρ. The energies that the
+// tractions are slopes of are concave, which is what makes their descent monotone. The repulsion is a hard
+// wall.
 #pragma once
 
 #include <algorithm>
@@ -29,12 +30,6 @@ struct GapTerm {
       return greatest() * (edge > 0 ? std::clamp((1 + edge - g / range) / (2 * edge), 0.0, 1.0)
                                     : static_cast<double>(g < range));
     return greatest() * elementary::exp(-g / range);
-  }
-  // J/m² below what two faces far apart have, so <= 0.
-  double potential(double g) const {
-    if (law == GapLaw::exponential) return -work * elementary::exp(-g / range);
-    const double x = g / range, left = std::max(0.0, 1 + edge - x);
-    return -work * (left < 2 * edge ? left * left / (4 * edge) : std::max(0.0, 1 - x));
   }
 };
 

@@ -475,20 +475,4 @@ FractalDimension fractal_dimension(std::span<const Profile> profiles,
   return measure(set, options);
 }
 
-std::vector<int> geometric_steps(int first, int last, int count) {
-  if (first < 1 || last < first || count < 1)
-    throw Error(ErrorCode::bad_value,
-                std::to_string(count) + " steps from " + std::to_string(first) + " to " +
-                    std::to_string(last) + " samples were asked for",
-                "steps rise from 1 or more, and there is at least one");
-  std::vector<int> steps;
-  const double ratio = static_cast<double>(last) / first;
-  for (int k = 0; k < count; ++k) {
-    const double place = count > 1 ? static_cast<double>(k) / (count - 1) : 0;
-    const int step = static_cast<int>(std::lround(first * elementary::pow(ratio, place)));
-    if (steps.empty() || step > steps.back()) steps.push_back(step);
-  }
-  return steps;
-}
-
 }  // namespace asperity

@@ -82,7 +82,4 @@ FractalDimension fractal_dimension(const Profile& profile, const FractalDimensio
 FractalDimension fractal_dimension(std::span<const Profile> profiles,
                                    const FractalDimensionOptions& options = {});
 
-// About `count` whole steps in equal ratios from `first` to `last`, rounded, without repeats.
-std::vector<int> geometric_steps(int first, int last, int count);
-
 }  // namespace asperity

@@ -275,11 +275,6 @@ Field filtered(Field z, const Grid& grid, bool periodic, bool holes, const Gauss
 
 }  // namespace
 
-double gaussian_transmission(double cut_off, double wavelength) {
-  const double ratio = cut_off / wavelength;
-  return elementary::exp2(-ratio * ratio);
-}
-
 Surface gaussian_filtered(const Surface& surface, const GaussianFilter& filter) {
   const GaussianFilter needed = checked(filter);
   if (!needed.short_wave && !needed.long_wave) return surface;

@@ -37,15 +37,12 @@ struct GaussianFilter {
   bool robust = false;               // the mean line of long_wave
 };
 
-// The share 2^-(cut_off/wavelength)² of a wave that the mean line keeps.
-double gaussian_transmission(double cut_off, double wavelength);
-
-// Cost O(nodes · log n) for any cut-offs, by zero-padded transforms of rows, then columns; two copies
-// of the grid. Material and periodicity stay. With a long_wave the mean of a periodic result is 0;
-// elsewhere about 0. Same bits for any number of threads; thread-safe.
-// A robust mean line costs two filters an iteration, five to fifteen of them, and three more copies of the
-// grid. Throws Error{bad_value} naming `short_wave` or `long_wave` when neither is given, one is not
-// positive, short_wave is not below long_wave, or `robust` is asked for without a long_wave;
+// The mean line keeps the share 2^-(cut_off/wavelength)² of a wave. Cost O(nodes · log n) for any cut-offs,
+// by zero-padded transforms of rows, then columns; two copies of the grid. Material and periodicity stay.
+// With a long_wave the mean of a periodic result is 0; elsewhere about 0. Same bits for any number of
+// threads; thread-safe. A robust mean line costs two filters an iteration, five to fifteen of them, and three
+// more copies of the grid. Throws Error{bad_value} naming `short_wave` or `long_wave` when neither is given,
+// one is not positive, short_wave is not below long_wave, or `robust` is asked for without a long_wave;
 // Error{not_converged} for heights whose robust mean line keeps moving, or of which more than half lie
 // exactly on it.
 Surface gaussian_filtered(const Surface& surface, const GaussianFilter& filter);

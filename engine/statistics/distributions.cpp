@@ -90,6 +90,10 @@ double beta_fraction(double a, double b, const Shares& at) {
   return value;
 }
 
+// I_x(a, b) and 1 - I_x(a, b), each with its own digits.
+struct BetaTails {
+  double lower, upper;
+};
 BetaTails tails(double a, double b, const Shares& at, double slope) {
   if (at.x < (a + 1) / (a + b + 2)) {
     const double lower = slope * beta_fraction(a, b, at);
@@ -170,61 +174,23 @@ void require_degrees(double degrees) {
                 "there must be more than 0");
 }
 
-double t_factor(double within, double outside, double degrees) {
-  if (degrees >= normal_from) return normal_factor(within, outside);
-  return std::sqrt(degrees) * elementary::exp(0.5 * beta_quantile(0.5, 0.5 * degrees, within, outside));
-}
-
 }  // namespace
-
-BetaTails incomplete_beta(double a, double b, double log_odds) {
-  const Shares at = shares_of(log_odds);
-  if (at.x == 0) return {0, 1};
-  if (at.y == 0) return {1, 0};
-  return tails(a, b, at, beta_slope(a, b, at));
-}
-
-double student_t_cdf(double t, double degrees) {
-  require_degrees(degrees);
-  if (degrees >= normal_from) return normal_cdf(t);
-  if (std::isnan(t) || t == 0) return std::isnan(t) ? t : 0.5;
-  const double odds = 2 * (elementary::log(std::abs(t)) - 0.5 * elementary::log(degrees));
-  const BetaTails found = incomplete_beta(0.5, 0.5 * degrees, odds);
-  return t < 0 ? 0.5 * found.upper : 0.5 + 0.5 * found.lower;
-}
-
-double student_t_quantile(double p, double degrees) {
-  require_share(p, "the share below a quantile");
-  require_degrees(degrees);
-  const double t = t_factor(std::abs(2 * p - 1), 2 * std::min(p, 1 - p), degrees);
-  return p < 0.5 ? -t : t;
-}
 
 double student_t_factor(double confidence, double degrees) {
   require_share(confidence, "the confidence");
   require_degrees(degrees);
-  return t_factor(confidence, 1 - confidence, degrees);
+  if (degrees >= normal_from) return normal_factor(confidence, 1 - confidence);
+  return std::sqrt(degrees) *
+         elementary::exp(0.5 * beta_quantile(0.5, 0.5 * degrees, confidence, 1 - confidence));
 }
 
 double f_cdf(double f, double between, double within) {
   require_degrees(between);
   require_degrees(within);
   if (!(f > 0)) return std::isnan(f) ? f : 0;
-  const double odds = elementary::log(f) + elementary::log(between) - elementary::log(within);
-  return incomplete_beta(0.5 * between, 0.5 * within, odds).lower;
-}
-
-double f_quantile(double p, double between, double within) {
-  require_share(p, "the share below a quantile");
-  require_degrees(between);
-  require_degrees(within);
-  return within / between * elementary::exp(beta_quantile(0.5 * between, 0.5 * within, p, 1 - p));
-}
-
-double normal_cdf(double z) {
-  if (std::isnan(z)) return z;
-  const double outside = 0.5 * normal_tails(std::abs(z));
-  return z < 0 ? outside : 1 - outside;
+  const Shares at = shares_of(elementary::log(f) + elementary::log(between) - elementary::log(within));
+  const double a = 0.5 * between, b = 0.5 * within;
+  return tails(a, b, at, beta_slope(a, b, at)).lower;
 }
 
 double normal_quantile(double p) {

@@ -62,14 +62,23 @@ void press(SpecimenPair& pair, double megapascals) {
   pair.release();
 }
 
+// About 24 whole steps in equal ratios from one cell to `last`, without repeats.
+std::vector<int> steps_to(double last) {
+  std::vector<int> steps;
+  for (int k = 0; k < 24; ++k) {
+    const int step = static_cast<int>(std::lround(std::pow(last, k / 23.0)));
+    if (steps.empty() || step > steps.back()) steps.push_back(step);
+  }
+  return steps;
+}
+
 double excess(const Surface& surface) {
   FractalDimensionOptions options;
   options.along = Along::both;
   options.wrap = true;
   options.offsets = true;
   options.pooled = true;
-  options.steps =
-      geometric_steps(1, static_cast<int>(std::lround(250 * micrometre / surface.grid().hx())), 24);
+  options.steps = steps_to(std::round(250 * micrometre / surface.grid().hx()));
   return fractal_dimension(surface, options).D - 1;
 }
 

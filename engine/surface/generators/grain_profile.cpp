@@ -76,18 +76,6 @@ Array<double> grain_outline(const GrainProfileOptions& options, Monitor& monitor
   return w;
 }
 
-double grain_structure_function(const GrainProfileOptions& options, std::int64_t lag) {
-  const std::int64_t points = options.points;
-  double sum = 0;
-  for (const GrainTerm& term : grain_terms(options)) {
-    const std::int64_t within = (lag % points + points) % points;
-    // 1 - cos x = 2 sin²(x/2), which keeps its digits at short lags.
-    const double sine = elementary::sin(angle(term.waves, within, points) / 2);
-    sum += 2 * term.amplitude * term.amplitude * sine * sine;
-  }
-  return sum;
-}
-
 Profile grain_profile(const GrainProfileOptions& options, Monitor& monitor) {
   Array<double> heights = grain_outline(options, monitor);
   const Range w = range(heights);

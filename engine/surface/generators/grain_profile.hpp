@@ -38,8 +38,5 @@ Profile grain_profile(const GrainProfileOptions& options, Monitor& monitor = Mon
 std::vector<GrainTerm> grain_terms(const GrainProfileOptions& options);
 // w at every point. The heights of the profile are w times 2εR/(max w - min w), less a constant.
 Array<double> grain_outline(const GrainProfileOptions& options, Monitor& monitor = Monitor::silent());
-// Mean over i of (w[i + lag] - w[i])² around the closed outline, exact for every set of phases:
-// Σ_n γ^(2(D-2)n) (1 - cos(2πk_n lag/K)).
-double grain_structure_function(const GrainProfileOptions& options, std::int64_t lag);
 
 }  // namespace asperity

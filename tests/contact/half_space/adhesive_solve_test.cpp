@@ -220,15 +220,17 @@ TEST(AdhesiveSolve, APeriodicTileCarriesItsLoadAndItsAttraction) {
   EXPECT_TRUE(answer.contact.converged);
 }
 
-TEST(GapTerm, TractionIsTheSlopeOfThePotentialAndTheWorkIsTheWork) {
+TEST(GapTerm, TractionFallsAndItsWorkIsTheWork) {
   for (const GapTerm& term : {GapTerm{"", GapLaw::exponential, 2, 3}, GapTerm{"", GapLaw::dugdale, 2, 3, 0.5},
                               GapTerm{"", GapLaw::dugdale, 2, 3}}) {
-    EXPECT_NEAR(term.potential(0), -2, 1e-15);
-    EXPECT_NEAR(term.potential(200), 0, 1e-15);
-    for (double g = 0.13; g < 9; g += 0.1)
-      if (term.edge > 0 || term.law == GapLaw::exponential || std::abs(g - 3) > 1e-3) {
-        EXPECT_NEAR((term.potential(g + 1e-6) - term.potential(g - 1e-6)) / 2e-6, term.traction(g), 1e-6);
-      }
+    double sum = 0, before = term.traction(0);
+    for (double g = 0.0005; g < 120; g += 0.001) {
+      const double now = term.traction(g);
+      EXPECT_LE(now, before);
+      sum += 0.001 * now;
+      before = now;
+    }
+    EXPECT_NEAR(sum, 2, 1e-6);
   }
   EXPECT_EQ((GapTerm{"", GapLaw::dugdale, 2, 3}.traction(3)), 0);
   EXPECT_EQ((GapTerm{"", GapLaw::dugdale, 2, 3}.traction(std::nextafter(3.0, 0.0))), 2.0 / 3.0);
