@@ -170,4 +170,11 @@ std::size_t unfinished_bytes(std::string_view text) {
   return 0;
 }
 
+std::optional<std::uint64_t> count_in(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
 }  // namespace asperity

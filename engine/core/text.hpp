@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,5 +45,8 @@ std::string without_traceback(const std::string& message);
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 // " (did you mean `x`?)" or empty.
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
+
+// The number that a text of decimal digits alone is; none for every other text and past 64 bits.
+std::optional<std::uint64_t> count_in(std::string_view text);
 
 }  // namespace asperity

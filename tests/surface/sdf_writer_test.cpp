@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/surface/io/instruments/sdf_writer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces to SUR and back: heights within half a step, holes exactly, the first line first.
-#include "engine/surface/io/instruments/sur_writer.hpp"
 
 #include <cmath>
 #include <cstdint>

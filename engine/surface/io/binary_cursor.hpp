@@ -70,10 +70,13 @@ void require_numbers(const SourceFile& file, std::uint64_t nx, std::uint64_t ny,
 void require_exactly(const SourceFile& file, std::uint64_t nx, std::uint64_t ny, std::uint64_t width,
                      std::uint64_t present);
 
+struct NoHoles {
+  bool operator()(auto) const { return false; }
+};
 // A field of ny rows out of bytes that require_numbers found enough; `is_hole` says which numbers stand for a
-// missing point.
-template <class T, class IsHole>
-Field field_of_numbers(std::string_view bytes, int nx, int ny, Monitor& monitor, IsHole&& is_hole) {
+// missing point, by default none.
+template <class T, class IsHole = NoHoles>
+Field field_of_numbers(std::string_view bytes, int nx, int ny, Monitor& monitor, const IsHole& is_hole = {}) {
   Field heights(nx, ny);
   Task task(monitor, "reading", ny);
   for (int j = 0; j < ny; ++j) {

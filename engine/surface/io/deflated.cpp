@@ -74,13 +74,16 @@ std::optional<SourceFile> inside_gzip(const SourceFile& file, Monitor& monitor) 
   std::size_t filled = 0;
   Task task(monitor, "unpacking", static_cast<std::int64_t>(packed.size()));
   std::size_t told = 0;
+  const auto check_size = [&] {
+    if (filled > most)
+      refuse_file(file,
+                  "unpacks to more than " + format_bytes(static_cast<std::int64_t>(most)) + " out of " +
+                      format_bytes(static_cast<std::int64_t>(packed.size())),
+                  "if it does hold heights, unpack it with gunzip and read what is inside");
+  };
   for (;;) {
     if (filled == plain.size()) {
-      if (filled > most)
-        refuse_file(file,
-                    "unpacks to more than " + format_bytes(static_cast<std::int64_t>(most)) + " out of " +
-                        format_bytes(static_cast<std::int64_t>(packed.size())),
-                    "if it does hold heights, unpack it with gunzip and read what is inside");
+      check_size();
       plain.resize(std::min<std::size_t>(std::max(first, 2 * filled), static_cast<std::size_t>(most) + 1));
     }
     std::size_t came = 0;
@@ -106,11 +109,7 @@ std::optional<SourceFile> inside_gzip(const SourceFile& file, Monitor& monitor) 
   if (!std::all_of(rest.begin(), rest.end(), [](char c) { return c == '\0'; }))
     refuse_file(file, "has " + std::to_string(rest.size()) + " bytes after what gzip packed",
                 "the file is damaged");
-  if (filled > most)
-    refuse_file(file,
-                "unpacks to more than " + format_bytes(static_cast<std::int64_t>(most)) + " out of " +
-                    format_bytes(static_cast<std::int64_t>(packed.size())),
-                "if it does hold heights, unpack it with gunzip and read what is inside");
+  check_size();
   plain.resize(filled);
   return SourceFile(file.path(), std::move(plain), ending_inside(file.path()));
 }

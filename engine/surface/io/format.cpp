@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The list of formats and the choice among them. A new format is one source file, one declaration
-// and one line here (docs/contributor.md).
+// The list of formats and the choice among them. A new format is one source file and one line here
+// (docs/contributor.md).
 #include "engine/surface/io/format.hpp"
 
 #include <algorithm>
@@ -13,34 +13,45 @@
 #include "engine/surface/io/foreign_format.hpp"
 #include "engine/surface/io/own_head.hpp"
 
+// A line for each, in the order in which they are tried: NAME_format() is the record in its source.
+// clang-format off
+#define ASPERITY_FORMATS(format) \
+  format(npy)        \
+  format(x3p)        \
+  format(hdf5)       \
+  format(gwy)        \
+  format(sur)        \
+  format(opd)        \
+  format(sdf)        \
+  format(bcr)        \
+  format(metropro)   \
+  format(al3d)       \
+  format(frt)        \
+  format(nms)        \
+  format(plu)        \
+  format(nanoscope)  \
+  format(opdx)       \
+  format(nid)        \
+  format(ibw)        \
+  format(mi)         \
+  format(wsxm)       \
+  format(park)       \
+  format(stylus_csv) \
+  format(xyz)        \
+  format(text)       \
+  /* end of the list */
+// clang-format on
+
 namespace asperity {
 
+#define ASPERITY_DECLARED(name) const Format& name##_format();
+ASPERITY_FORMATS(ASPERITY_DECLARED)
+#undef ASPERITY_DECLARED
+
 std::span<const Format* const> formats() {
-  static const std::array all{
-      &npy_format(),         //
-      &x3p_format(),         //
-      &hdf5_format(),        //
-      &gwy_format(),         //
-      &sur_format(),         //
-      &opd_format(),         //
-      &sdf_format(),         //
-      &bcr_format(),         //
-      &metropro_format(),    //
-      &al3d_format(),        //
-      &frt_format(),         //
-      &nms_format(),         //
-      &plu_format(),         //
-      &nanoscope_format(),   //
-      &opdx_format(),        //
-      &nid_format(),         //
-      &ibw_format(),         //
-      &mi_format(),          //
-      &wsxm_format(),        //
-      &park_format(),        //
-      &stylus_csv_format(),  //
-      &xyz_format(),         //
-      &text_format(),        // end of the list
-  };
+#define ASPERITY_LISTED(name) &name##_format(),
+  static const std::array all{ASPERITY_FORMATS(ASPERITY_LISTED)};
+#undef ASPERITY_LISTED
   return all;
 }
 

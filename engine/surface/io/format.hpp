@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/grid.hpp"
@@ -40,8 +41,8 @@ struct Format {
   std::string_view name;   // as in `format = "npy"`
   std::string_view marks;  // what it is known by, for errors
   FormatAccount account;
-  std::span<const std::string_view> extensions;  // lower case, without dots
-  bool (*recognises)(const SourceFile& file);    // by content alone; never throws but for a stop
+  std::vector<std::string_view> extensions;    // lower case, without dots
+  bool (*recognises)(const SourceFile& file);  // by content alone; never throws but for a stop
   // Throws Error{bad_file} for whatever is not as the format wants it. Allocates no more than a
   // fixed multiple of the file's size.
   HeightMap (*read)(const SourceFile& file, Monitor& monitor);
@@ -50,29 +51,10 @@ struct Format {
   HeightMap (*read_channel)(const SourceFile& file, const std::string& channel, Monitor& monitor) = nullptr;
 };
 
-const Format& npy_format();
-const Format& x3p_format();
-const Format& hdf5_format();
-const Format& gwy_format();
-const Format& sur_format();
-const Format& opd_format();
-const Format& sdf_format();
-const Format& bcr_format();
-const Format& metropro_format();
-const Format& al3d_format();
-const Format& frt_format();
-const Format& nms_format();
-const Format& plu_format();
-const Format& nanoscope_format();
-const Format& opdx_format();
-const Format& nid_format();
-const Format& ibw_format();
-const Format& mi_format();
-const Format& wsxm_format();
-const Format& park_format();
+// Those that others name.
 const Format& stylus_csv_format();
 const Format& xyz_format();
-const Format& text_format();  // end of the list
+const Format& text_format();
 
 // Whether a text of three columns without any mark looks like x y z triples of a lattice with some
 // points missing or given more than once, which a matrix of three columns could be as well.

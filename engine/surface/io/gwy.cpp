@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // GWY, Gwyddion's own files: objects within objects, each a name, a length and named components with a letter
 // for their type. A map is the GwyDataField "/N/data" of the outermost container, with its sizes, units and
-// heights as doubles;
-// "/N/data/title" is what people call it. Source: "Format of Gwyddion Files" in Gwyddion's user guide. A
-// mask,
-// "/N/mask", marks whatever its user wanted to mark: it is not applied. Only where the metadata "/N/meta"
-// say, as this program writes them, that the masked points were not measured, the mask is of holes; under it
-// the heights are the mean, because Gwyddion knows no missing height. Offsets and everything else are passed
-// over.
-#include "engine/surface/io/gwy.hpp"
-
+// heights as doubles; "/N/data/title" is what people call it. Source: "Format of Gwyddion Files" in
+// Gwyddion's user guide. A mask, "/N/mask", marks whatever its user wanted to mark: it is not applied. Only
+// where the metadata "/N/meta" say, as this program writes them, that the masked points were not measured,
+// the mask is of holes; under it the heights are the mean, because Gwyddion knows no missing height. Offsets
+// and everything else are passed over.
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
@@ -24,6 +20,7 @@
 #include "engine/core/text.hpp"
 #include "engine/surface/io/binary_cursor.hpp"
 #include "engine/surface/io/format.hpp"
+#include "engine/surface/surface.hpp"
 
 namespace asperity {
 
@@ -251,8 +248,7 @@ HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, M
   const std::string name =
       "the map " + std::to_string(number) + (entry.title.empty() ? "" : " \"" + entry.title + "\"");
   HeightMap map;
-  map.heights =
-      field_of_numbers<double>(field.data, field.nx, field.ny, monitor, [](double) { return false; });
+  map.heights = field_of_numbers<double>(field.data, field.nx, field.ny, monitor);
   map.unit = metres(field.unit_z);
   if (!map.unit && !field.unit_z.empty())
     refuse_file(file, "holds " + name + " in " + shown(field.unit_z) + ", which is no unit of length",
@@ -269,8 +265,7 @@ HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, M
     take_out_holes(file, entry, name, map.heights);
   else if (entry.masked())
     monitor.warn(file_name(file.path()) + ": " + name +
-                 " has a mask, which is not applied: its points are taken as "
-                 "they stand");
+                 " has a mask, which is not applied: its points are taken as they stand");
   return map;
 }
 
@@ -302,20 +297,23 @@ double mean_of_measured(const Surface& surface) {
 }  // namespace
 
 const Format& gwy_format() {
-  static constexpr std::array<std::string_view, 1> endings{"gwy"};
   static const Format format{
       "gwy",
       "GWYP at the start",
       {"Gwyddion's own files: any of their maps; a mask only where it says that points were not measured.",
        "Maps that are no lengths, unless named with `channel`, volumes and curves.",
        "The published layout, and files that this program writes; no instrument's file was compared."},
-      endings,
+      {"gwy"},
       recognises_gwy,
       nullptr,
       read_gwy_channel};
   return format;
 }
 
+// A surface as a file of Gwyddion: one map in metres, bit for bit. Points that were not measured stand under
+// a mask, as Gwyddion has it, and the metadata say so.
+// Throws Error{bad_value} for a surface past 4 GiB, with its mask, which the format cannot hold, and
+// Error{bad_file}.
 void write_gwy(const Surface& surface, const std::string& path) {
   static_assert(std::endian::native == std::endian::little, "GWY data are written as they lie in memory");
   const Grid& grid = surface.grid();

@@ -163,13 +163,12 @@ HeightMap read_npy(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& npy_format() {
-  static constexpr std::array<std::string_view, 1> endings{"npy"};
   static const Format format{
       "npy",
       "\\x93NUMPY at the start",
       {"NumPy arrays of one or two axes, integers or floating-point numbers.",
        "Complex numbers, records and objects; arrays of three axes.", "Arrays written by NumPy."},
-      endings,
+      {"npy"},
       recognises_npy,
       read_npy};
   return format;

@@ -6,7 +6,6 @@
 // this program's own is two columns, position and height, and so is a table over which a line such as
 // "x [mm],z [um]" says so (column_head.hpp); any other table is taken as heights. Under a head of words
 // (own_head.hpp) it is the same, with what the head says for certain.
-#include <array>
 #include <optional>
 
 #include "engine/core/error.hpp"
@@ -277,17 +276,15 @@ HeightMap read_text_matrix(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& text_format() {
-  static constexpr std::array<std::string_view, 5> endings{"txt", "csv", "asc", "dat", "tsv"};
   static const Format format{
       "text",
       "a line of numbers first",
-      {"A matrix of numbers, one line a row, or a trace, bare or under a head: of this "
-       "program, of Gwyddion, of common exports, or of words, of which lengths with a "
-       "unit and counts are taken; in UTF-16 too.",
+      {"A matrix of numbers, one line a row, or a trace, bare or under a head: of this program, of Gwyddion, "
+       "of common exports, or of words, of which lengths with a unit and counts are taken; in UTF-16 too.",
        "Lines of different lengths; tables under words that may be points, a log or a "
        "wrapped matrix, unless the head or the call says.",
        "Files of the public test set of SurfaceTopography."},
-      endings,
+      {"txt", "csv", "asc", "dat", "tsv"},
       recognises_text_matrix,
       read_text_matrix};
   return format;

@@ -9,13 +9,15 @@
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
-#include "engine/surface/io/gwy.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
-#include "engine/surface/io/instruments/sdf_writer.hpp"
-#include "engine/surface/io/instruments/sur_writer.hpp"
-#include "engine/surface/io/x3p_writer.hpp"
 
 namespace asperity {
+
+// Each defined in the source of its format.
+void write_gwy(const Surface& surface, const std::string& path);
+void write_x3p(const Surface& surface, const std::string& path);
+void write_sdf(const Surface& surface, const std::string& path, Monitor& monitor);
+void write_sur(const Surface& surface, const std::string& path, Monitor& monitor);
 
 namespace {
 

@@ -21,6 +21,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/text_table.hpp"
+#include "engine/core/text.hpp"
 #include "engine/surface/io/archive.hpp"
 #include "engine/surface/io/format.hpp"
 
@@ -96,13 +97,11 @@ X3pAxis axis_of(const SourceFile& file, pugi::xml_node axes, const std::string& 
 
 std::uint64_t count_of(const SourceFile& file, pugi::xml_node dimension, const char* name) {
   const std::string_view text = text_of(child(dimension, name));
-  std::uint64_t value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || failure != std::errc{} || end != text.data() + text.size() || value < 1 ||
-      value > static_cast<std::uint64_t>(max_cells))
+  const std::optional<std::uint64_t> count = count_in(text);
+  if (!count || *count < 1 || *count > static_cast<std::uint64_t>(max_cells))
     refuse_file(file, "has a matrix whose " + std::string(name) + " is " + shown(text),
                 "it must be a whole number from 1 to " + std::to_string(max_cells));
-  return value;
+  return *count;
 }
 
 struct Map {
@@ -345,14 +344,13 @@ HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& x3p_format() {
-  static constexpr std::array<std::string_view, 1> endings{"x3p"};
   static const Format format{"x3p",
                              "a zip archive with main.xml",
                              {"X3P of ISO 25178-72: surfaces and profiles on a grid, with their valid "
                               "points, zipped in a folder or not.",
                               "Point clouds, several layers, uneven spacing.",
                               "A file of the public test set of SurfaceTopography, heights and sizes."},
-                             endings,
+                             {"x3p"},
                              recognises_x3p,
                              read_x3p};
   return format;

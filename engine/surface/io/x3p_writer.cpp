@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Writes X3P (ISO 25178-72): incremental x and y, absolute z in double precision, MD5 of the data.
+// No date but a fixed one, so that the same surface gives the same bytes.
 // The archive is built by libzip from the heights where they lie; nothing is copied but the packed
 // bytes. A point that was not measured is NaN, as the standard has it for floating-point heights; its mask of
 // valid points is for integers, which have no such number.
-#include "engine/surface/io/x3p_writer.hpp"
-
 #include <zip.h>
 
 #include <array>
 #include <bit>
 #include <charconv>
 #include <span>
+#include <string>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/archive.hpp"
+#include "engine/surface/surface.hpp"
 
 namespace asperity {
 
@@ -80,6 +82,8 @@ std::string md5_of(std::span<const char> bytes) {
 
 }  // namespace
 
+// Throws Error{bad_file} when the file cannot be written. Increments carry more digits than a double
+// holds, so that the size reads back exactly.
 void write_x3p(const Surface& surface, const std::string& path) {
   static_assert(std::endian::native == std::endian::little, "X3P data are written as they lie in memory");
   const auto heights = surface.measured_heights().values();

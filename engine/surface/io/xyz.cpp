@@ -6,7 +6,6 @@
 // gridded here. Three columns whose first two are almost a lattice, or what may be left of one, are
 // neither taken for points nor for a matrix: the caller has to say.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -354,13 +353,12 @@ bool may_be_triples(const SourceFile& file) {
 }
 
 const Format& xyz_format() {
-  static constexpr std::array<std::string_view, 1> endings{"xyz"};
   static const Format format{"xyz",
                              "x y z triples on a lattice",
                              {"Lines of x, y and z on a lattice, in any order, with holes.",
                               "Points that are not on a lattice, points given twice.",
                               "Files of the public test set of SurfaceTopography."},
-                             endings,
+                             {"xyz"},
                              recognises_xyz,
                              read_xyz};
   return format;

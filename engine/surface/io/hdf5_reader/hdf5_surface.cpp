@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/surface/io/hdf5_reader/hdf5_surface.hpp"
 
-#include <array>
 #include <limits>
 
 #include "engine/core/quantity.hpp"
@@ -138,14 +137,13 @@ void write_hdf5_surface(const Surface& surface, const std::filesystem::path& pat
 }
 
 const Format& hdf5_format() {
-  static constexpr std::array<std::string_view, 3> endings{"h5", "hdf5", "he5"};
   static const Format format{
       "hdf5",
       "\\x89HDF at the start",
       {"Arrays of two axes in HDF5, by name with `channel`, and surfaces that this program wrote.",
        "Packings other than deflate and shuffle, complex numbers and records.",
        "Files written by h5py and by this program."},
-      endings,
+      {"h5", "hdf5", "he5"},
       looks_like_hdf5,
       nullptr,
       read_hdf5_channel};

@@ -5,8 +5,6 @@
 // the text. Layout: Alicona's description of the format, as restated by SurfaceTopography's reader. Pictures
 // and the grid of quality are passed over.
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 
@@ -37,12 +35,8 @@ std::pair<std::string, std::string> take_tag(BinaryCursor& cursor, const SourceF
 std::uint64_t tag_count(const SourceFile& file, const Al3dTags& tags, std::string_view name) {
   const auto found = tags.find(name);
   if (found == tags.end()) refuse_file(file, "has no tag " + std::string(name));
-  const std::string_view text = trimmed(found->second);
-  std::uint64_t value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size())
-    refuse_file(file, "has no count as its " + std::string(name) + ": " + shown(found->second));
-  return value;
+  if (const auto count = count_in(trimmed(found->second))) return *count;
+  refuse_file(file, "has no count as its " + std::string(name) + ": " + shown(found->second));
 }
 
 double tag_number(const SourceFile& file, const Al3dTags& tags, std::string_view name) {
@@ -122,14 +116,13 @@ HeightMap read_al3d(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& al3d_format() {
-  static constexpr std::array<std::string_view, 1> endings{"al3d"};
   static const Format format{"al3d",
                              "AliconaImaging at the start",
                              {"AL3D of Alicona (InfiniteFocus): the depth image.",
                               "Files of pictures alone; texture and quality are passed over.",
                               "A file of the public test set of SurfaceTopography, every height and size; it "
                               "has no missing points."},
-                             endings,
+                             {"al3d"},
                              recognises_al3d,
                              read_al3d};
   return format;

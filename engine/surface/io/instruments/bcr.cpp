@@ -6,9 +6,7 @@
 // points are numbers past 1.7e38, 32767 of 16 bits unless `voidpixels` is 0, and a `voidpixels` that can be
 // no count of them. Layout as restated by Gwyddion's and SurfaceTopography's readers. `zmin` is passed over.
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -75,12 +73,8 @@ bool recognises_bcr(const SourceFile& file) {
 std::uint64_t count_of(const SourceFile& file, const Lines& lines, const std::string& key) {
   const auto found = lines.find(key);
   if (found == lines.end()) refuse_file(file, "has no " + key + " in its header");
-  const std::string& text = found->second;
-  std::uint64_t value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size())
-    refuse_file(file, "has no count for " + key + " in its header: " + shown(text));
-  return value;
+  if (const auto count = count_in(found->second)) return *count;
+  refuse_file(file, "has no count for " + key + " in its header: " + shown(found->second));
 }
 
 // The lines of a header of so many characters; gives the numbers as `data`.
@@ -194,7 +188,6 @@ HeightMap read_bcr(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& bcr_format() {
-  static constexpr std::array<std::string_view, 2> endings{"bcr", "bcrf"};
   static const Format format{"bcr",
                              "`fileformat = bcrstm` or bcrf at the start",
                              {"BCR and BCRF of SPIP (Image Metrology): integers or single precision, in text "
@@ -202,7 +195,7 @@ const Format& bcr_format() {
                               "Other kinds of number, heights that are no length.",
                               "A file in UTF-16 of the public test set of SurfaceTopography (bcrf): every "
                               "height, size; integers by the layout alone."},
-                             endings,
+                             {"bcr", "bcrf"},
                              recognises_bcr,
                              read_bcr};
   return format;

@@ -5,7 +5,6 @@
 // greatest valid integer of 16 bits. A point that was not measured is 1, or outside these. Layout as restated
 // by SurfaceTopography's and Gwyddion's readers. All other blocks are passed over, maps of other quantities
 // among them.
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -116,7 +115,6 @@ HeightMap read_frt(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& frt_format() {
-  static constexpr std::array<std::string_view, 1> endings{"frt"};
   static const Format format{
       "frt",
       "FRTM_GLIDERV at the start",
@@ -124,7 +122,7 @@ const Format& frt_format() {
        "Files without a topography; other maps in a file are passed over.",
        "Two files of 16 bits of the public test set of SurfaceTopography, every height, missing points, "
        "size; 32 bits by the layout alone."},
-      endings,
+      {"frt"},
       recognises_frt,
       read_frt};
   return format;

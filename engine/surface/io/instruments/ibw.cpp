@@ -172,7 +172,6 @@ HeightMap read_ibw_channel(const SourceFile& file, const std::string& channel, M
 }  // namespace
 
 const Format& ibw_format() {
-  static constexpr std::array<std::string_view, 1> endings{"ibw"};
   static const Format format{"ibw",
                              "version 5 and a header whose sum is 0",
                              {"Binary waves of Igor Pro, version 5, as Asylum Research's microscopes write "
@@ -181,7 +180,7 @@ const Format& ibw_format() {
                               "and of big-endian machines.",
                               "Two files of the public test set of SurfaceTopography: heights and sizes, by "
                               "an independent program."},
-                             endings,
+                             {"ibw"},
                              recognises_ibw,
                              nullptr,
                              read_ibw_channel};

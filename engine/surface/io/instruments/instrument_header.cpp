@@ -40,12 +40,8 @@ double leading_number(std::string_view text, std::string_view& rest) {
 }  // namespace
 
 std::uint64_t instrument_count(const SourceFile& file, std::string_view key, std::string_view text) {
-  text = trimmed(text);
-  std::uint64_t value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size())
-    refuse_file(file, "has no count for " + quoted(key) + " in its header: " + shown(text));
-  return value;
+  if (const auto count = count_in(trimmed(text))) return *count;
+  refuse_file(file, "has no count for " + quoted(key) + " in its header: " + shown(trimmed(text)));
 }
 
 double instrument_number(const SourceFile& file, std::string_view key, std::string_view text) {
@@ -119,6 +115,11 @@ std::size_t chosen_map(const SourceFile& file, const std::vector<NamedMap>& maps
     refuse_file(file, "holds several maps of heights: " + listed_names(maps, true),
                 "name one of them with `channel`");
   return found;
+}
+
+void refuse_no_heights(const SourceFile& file, const NamedMap& map, const std::string& unit) {
+  refuse_file(file, "holds the map " + quoted(map.name) + " in " + unit + ", which is no unit of length",
+              "name a map of heights with `channel`");
 }
 
 Field lines_reversed(const Field& heights) {

@@ -40,6 +40,9 @@ void tell_apart_by(std::vector<NamedMap>& maps, const std::vector<std::string>& 
 // Error{bad_file} naming the maps where there is no such one, or where several are of heights.
 std::size_t chosen_map(const SourceFile& file, const std::vector<NamedMap>& maps, const std::string& channel);
 
+// Says that this map is in `unit`, as its file has it, which is no unit of length. Throws Error{bad_file}.
+[[noreturn]] void refuse_no_heights(const SourceFile& file, const NamedMap& map, const std::string& unit);
+
 // The same heights with each line from its other end.
 Field lines_reversed(const Field& heights);
 

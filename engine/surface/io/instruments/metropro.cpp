@@ -113,8 +113,7 @@ const Format& metropro_format() {
       {"MetroPro (.dat) of Zygo interferometers: the phase map, of headers 1, 2 and 3.",
        "Files of intensities alone; intensities are passed over.",
        "A file of the public test set of SurfaceTopography (header 1, resolution 1), every height and size; "
-       "it "
-       "has no missing points."},
+       "it has no missing points."},
       {},  // .dat may be anything
       recognises_metropro,
       read_metropro};

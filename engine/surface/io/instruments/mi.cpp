@@ -5,7 +5,6 @@
 // `bufferUnit`; `xLength` and `yLength` are in metres. The first line in the file is the lowest, whichever
 // way the scan went: j = 0 is at the bottom. There are no missing points. Layout as restated by Gwyddion's
 // and SurfaceTopography's readers. Spectra, and numbers written as text, are not read.
-#include <array>
 #include <map>
 
 #include "engine/core/files/text_table.hpp"
@@ -91,19 +90,14 @@ HeightMap read_mi_channel(const SourceFile& file, const std::string& channel, Mo
   const MiLines& buffer = header.buffers[chosen];
   const std::string_view unit_text = mi_entry(file, buffer, "bufferUnit");
   const std::optional<double> unit = instrument_length_unit(unit_text);
-  if (!unit)
-    refuse_file(file,
-                "holds the map " + quoted(maps[chosen].name) + " in " + shown(unit_text) +
-                    ", which is no unit of length",
-                "name a map of heights with `channel`");
+  if (!unit) refuse_no_heights(file, maps[chosen], shown(unit_text));
   const double range = instrument_number(file, "bufferRange", mi_entry(file, buffer, "bufferRange"));
   if (!(range > 0)) refuse_file(file, "gives " + format_short(range) + " as its bufferRange");
   const std::string_view data = header.data.substr(chosen * in_a_map, in_a_map);
   const int nx = static_cast<int>(columns), ny = static_cast<int>(rows);
   HeightMap map;
-  map.heights =
-      width == 2 ? field_of_numbers<std::int16_t>(data, nx, ny, monitor, [](std::int16_t) { return false; })
-                 : field_of_numbers<std::int32_t>(data, nx, ny, monitor, [](std::int32_t) { return false; });
+  map.heights = width == 2 ? field_of_numbers<std::int16_t>(data, nx, ny, monitor)
+                           : field_of_numbers<std::int32_t>(data, nx, ny, monitor);
   map.unit = *unit * range / (width == 2 ? 32768.0 : 2147483648.0);
   const auto size_of = [&](const char* key) {
     return instrument_length(file, key, std::string(mi_entry(file, header.lines, key)) + " m");
@@ -119,7 +113,6 @@ bool recognises_mi(const SourceFile& file) { return file.bytes().starts_with(mi_
 }  // namespace
 
 const Format& mi_format() {
-  static constexpr std::array<std::string_view, 1> endings{"mi"};
   static const Format format{"mi",
                              "`fileType      Image` at the start",
                              {"MI of Agilent and Molecular Imaging: the buffer of topography, or another in "
@@ -127,7 +120,7 @@ const Format& mi_format() {
                               "Spectra, numbers written as text, buffers of other quantities.",
                               "A file of the public test set of SurfaceTopography: size, heights, and the "
                               "one that its tests state."},
-                             endings,
+                             {"mi"},
                              recognises_mi,
                              nullptr,
                              read_mi_channel};

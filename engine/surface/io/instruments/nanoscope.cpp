@@ -7,7 +7,6 @@
 // on integers have 32 bits whatever b says. The first line in the file is the lowest of the image: j = 0 is
 // at the bottom. There are no missing points. The offset in z is not added. Layout as restated by Gwyddion's
 // and SurfaceTopography's readers. Force curves, text files and versions before 4.3 are not read.
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -234,18 +233,12 @@ HeightMap read_nanoscope_channel(const SourceFile& file, const std::string& chan
   tell_apart_by(maps, lines);  // trace and retrace of one quantity have one title
   const std::size_t found = chosen_map(file, maps, channel);
   const NanoscopeImage& image = images[found];
-  if (!image.unit)
-    refuse_file(
-        file,
-        "holds the map " + quoted(maps[found].name) + " in " + image.kind + ", which is no unit of length",
-        "name a map of heights with `channel`");
+  if (!image.unit) refuse_no_heights(file, maps[found], image.kind);
   warn_of_stopped_scan(file, *described[found], image, monitor);
   warn_of_aspect(file, *described[found], image, monitor);
   HeightMap map;
-  map.heights = image.width == 2 ? field_of_numbers<std::int16_t>(image.data, image.nx, image.ny, monitor,
-                                                                  [](std::int16_t) { return false; })
-                                 : field_of_numbers<std::int32_t>(image.data, image.nx, image.ny, monitor,
-                                                                  [](std::int32_t) { return false; });
+  map.heights = image.width == 2 ? field_of_numbers<std::int16_t>(image.data, image.nx, image.ny, monitor)
+                                 : field_of_numbers<std::int32_t>(image.data, image.nx, image.ny, monitor);
   map.unit = image.unit;
   map.size_x = image.size_x;
   map.size_y = image.size_y;
@@ -258,17 +251,15 @@ bool recognises_nanoscope(const SourceFile& file) { return file.bytes().starts_w
 }  // namespace
 
 const Format& nanoscope_format() {
-  static constexpr std::array<std::string_view, 2> endings{"spm", "di"};
   static const Format format{
       "nanoscope",
       "\\*File list at the start",
       {"Nanoscope of Digital Instruments, Veeco and Bruker, from 4.3 on: the image of heights, or another in "
-       "a "
-       "unit of length with `channel`.",
+       "a unit of length with `channel`.",
        "Force curves, files of text, versions before 4.3, images of other quantities.",
        "Six files of the public test set of SurfaceTopography, versions 5.12 to 10: heights and sizes, by an "
        "independent program."},
-      endings,
+      {"spm", "di"},
       recognises_nanoscope,
       nullptr,
       read_nanoscope_channel};

@@ -6,7 +6,6 @@
 // bits is (n / 2^b + 1/2) · range + min. The first line in the file is the lowest: j = 0 is at the bottom.
 // There are no missing points. Layout as told by the headers themselves and restated by Gwyddion's reader of
 // the same layout (EZD). The file that was compared was scanned upwards: its first line shows the start.
-#include <array>
 #include <map>
 
 #include "engine/core/files/text_table.hpp"
@@ -130,25 +129,15 @@ HeightMap read_nid_channel(const SourceFile& file, const std::string& channel, M
   const NidSection& section = *image.section;
   const std::string_view unit_text = nid_entry(file, section, "Dim2Unit");
   const std::optional<double> unit = instrument_length_unit(unit_text);
-  if (!unit)
-    refuse_file(file,
-                "holds the map " + quoted(maps[found].name) + " in " + shown(unit_text) +
-                    ", which is no unit of length",
-                "name a map of heights with `channel`");
+  if (!unit) refuse_no_heights(file, maps[found], shown(unit_text));
   const double range = instrument_number(file, "Dim2Range", nid_entry(file, section, "Dim2Range"));
   const double least = instrument_number(file, "Dim2Min", nid_entry(file, section, "Dim2Min"));
   if (!(range > 0)) refuse_file(file, "gives " + format_short(range) + " as its Dim2Range");
   const int nx = static_cast<int>(image.nx), ny = static_cast<int>(image.ny);
   HeightMap map;
-  double steps = 4294967296.0;
-  if (image.width == 2) {
-    steps = 65536;
-    map.heights =
-        field_of_numbers<std::int16_t>(image.data, nx, ny, monitor, [](std::int16_t) { return false; });
-  } else {
-    map.heights =
-        field_of_numbers<std::int32_t>(image.data, nx, ny, monitor, [](std::int32_t) { return false; });
-  }
+  const double steps = image.width == 2 ? 65536.0 : 4294967296.0;
+  map.heights = image.width == 2 ? field_of_numbers<std::int16_t>(image.data, nx, ny, monitor)
+                                 : field_of_numbers<std::int32_t>(image.data, nx, ny, monitor);
   for (double& height : map.heights.values()) height = (height / steps + 0.5) * range + least;
   map.unit = unit;
   map.size_x = nid_length(file, section, "Dim0");
@@ -169,7 +158,6 @@ bool recognises_nid(const SourceFile& file) {
 }  // namespace
 
 const Format& nid_format() {
-  static constexpr std::array<std::string_view, 1> endings{"nid"};
   static const Format format{
       "nid",
       "[DataSet] at the start",
@@ -177,7 +165,7 @@ const Format& nid_format() {
        "`channel`.",
        "Images of other quantities, numbers of other than 16 and 32 bits.",
        "A file of the public test set of SurfaceTopography: heights and sizes, by an independent program."},
-      endings,
+      {"nid"},
       recognises_nid,
       nullptr,
       read_nid_channel};

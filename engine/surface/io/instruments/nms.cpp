@@ -6,7 +6,6 @@
 // (millimetres or nanometres, which end of the range is added), the header's own numbers and the field of
 // 160 um of the objective decide. No mark of points that were not measured is known: fill them in the
 // instrument's software, or `masked` makes holes of outliers.
-#include <array>
 #include <cmath>
 
 #include "engine/core/text.hpp"
@@ -60,8 +59,7 @@ HeightMap read_nms(const SourceFile& file, Monitor& monitor) {
                 "its header is wrong or the file is damaged: read so, its lines would be shifted");
   constexpr double micrometre = 1e-6, nanometre = 1e-9;
   HeightMap map;
-  map.heights = field_of_numbers<std::uint16_t>(data, static_cast<int>(nx), static_cast<int>(ny), monitor,
-                                                [](std::uint16_t) { return false; });
+  map.heights = field_of_numbers<std::uint16_t>(data, static_cast<int>(nx), static_cast<int>(ny), monitor);
   const double step = (high - low) / static_cast<double>(last - first);
   for (double& height : map.heights.values()) height = low + (height - static_cast<double>(first)) * step;
   map.unit = micrometre;
@@ -73,14 +71,13 @@ HeightMap read_nms(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& nms_format() {
-  static constexpr std::array<std::string_view, 1> endings{"nms"};
   static const Format format{"nms",
                              "OM_MS_ at byte 32",
                              {"NMS of NanoFocus confocal microscopes: the height image, in 16 bits.",
                               "Other widths of number; no mark of missing points is known.",
                               "Two files of the public test set of SurfaceTopography, every height and size; "
                               "its public readers differ on units, and 160 um is the objective's field."},
-                             endings,
+                             {"nms"},
                              recognises_nms,
                              read_nms};
   return format;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // OPD of Wyko, Veeco and Bruker interferometers: a directory of named blocks, then the blocks in its order.
 // The map is a block of type 3 (columns, lines, bytes a number, then column by column), its heights in
-// wavelengths
-// (`Wavelength`, nm) or, as integers, in parts of one (`Mult`); `Pixel_size` is in mm along x, `Aspect` times
-// that along y. Missing points are 1e38 or more, or 32766 and 32767 of 16 bits. Layout as restated by
-// Gwyddion's and SurfaceTopography's readers.
+// wavelengths (`Wavelength`, nm) or, as integers, in parts of one (`Mult`); `Pixel_size` is in mm along x,
+// `Aspect` times that along y. Missing points are 1e38 or more, or 32766 and 32767 of 16 bits. Layout as
+// restated by Gwyddion's and SurfaceTopography's readers.
 #include <array>
 #include <cmath>
 
@@ -164,7 +163,6 @@ bool recognises_opd(const SourceFile& file) { return file.bytes().starts_with(op
 }  // namespace
 
 const Format& opd_format() {
-  static constexpr std::array<std::string_view, 1> endings{"opd"};
   static const Format format{
       "opd",
       "a directory of blocks",
@@ -172,7 +170,7 @@ const Format& opd_format() {
        "Blocks that are no maps, heights of other than 2 or 4 bytes.",
        "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
        "points."},
-      endings,
+      {"opd"},
       recognises_opd,
       nullptr,
       read_opd_channel};

@@ -6,7 +6,6 @@
 // `DataScale` (the length of one number) and `Array`, doubles. Numbers that are not finite are missing
 // samples. Layout as restated by SurfaceTopography's reader. Maps (`2D_Data`) are refused: there was no file
 // to check them with.
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -213,14 +212,13 @@ bool recognises_opdx(const SourceFile& file) { return file.bytes().starts_with(o
 }  // namespace
 
 const Format& opdx_format() {
-  static constexpr std::array<std::string_view, 1> endings{"opdx"};
   static const Format format{"opdx",
                              "VCA DATA at the start",
                              {"OPDx of Bruker's Vision64 and Dektak profilometers: a profile.",
                               "Maps, of which no file could be compared.",
                               "A file of the public test set of SurfaceTopography: heights and positions, "
                               "with its maker's export as text."},
-                             endings,
+                             {"opdx"},
                              recognises_opdx,
                              nullptr,
                              read_opdx_channel};

@@ -148,9 +148,9 @@ HeightMap read_park(const SourceFile& file, Monitor& monitor) {
   const int nx = static_cast<int>(header.nx), ny = static_cast<int>(header.ny);
   HeightMap map;
   if (header.number_type == 0)
-    map.heights = field_of_numbers<std::int16_t>(data, nx, ny, monitor, [](std::int16_t) { return false; });
+    map.heights = field_of_numbers<std::int16_t>(data, nx, ny, monitor);
   else if (header.number_type == 1)
-    map.heights = field_of_numbers<std::int32_t>(data, nx, ny, monitor, [](std::int32_t) { return false; });
+    map.heights = field_of_numbers<std::int32_t>(data, nx, ny, monitor);
   else
     map.heights =
         field_of_numbers<float>(data, nx, ny, monitor, [](float value) { return !std::isfinite(value); });
@@ -166,7 +166,6 @@ HeightMap read_park(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& park_format() {
-  static constexpr std::array<std::string_view, 2> endings{"tiff", "tif"};
   static const Format format{
       "park",
       "a TIFF with Park's mark in its tag 50432",
@@ -174,7 +173,7 @@ const Format& park_format() {
        "Line profiles, spectroscopy, other quantities, scans with x and y swapped, pictures without heights.",
        "A file of the public test set of SurfaceTopography: heights, size and the roughness that its tests "
        "state."},
-      endings,
+      {"tiff", "tif"},
       recognises_park,
       read_park};
   return format;

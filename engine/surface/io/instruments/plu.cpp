@@ -4,7 +4,6 @@
 // heights in micrometres, single precision, line by line; pictures of the camera may follow. A point that was
 // not measured is 1000001. Layout as restated by Gwyddion's and SurfaceTopography's readers. The file has no
 // mark of its own: it is known by the form of its date and by numbers of points that its header repeats.
-#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -84,7 +83,6 @@ HeightMap read_plu(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& plu_format() {
-  static constexpr std::array<std::string_view, 2> endings{"plu", "apx"};
   static const Format format{
       "plu",
       "a date of 24 letters and a zero byte at the start",
@@ -92,7 +90,7 @@ const Format& plu_format() {
        "Profiles, pictures, thicknesses; pictures beside a topography are passed over.",
        "Two files of the public test sets of SurfaceTopography and surfalize, every height and size; they "
        "have no missing points."},
-      endings,
+      {"plu", "apx"},
       recognises_plu,
       read_plu};
   return format;

@@ -6,7 +6,6 @@
 // refused.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "engine/core/files/text_table.hpp"
@@ -122,11 +121,8 @@ double header_number(const SourceFile& file, std::string_view key, std::string_v
 }
 
 std::uint64_t header_count(const SourceFile& file, std::string_view key, std::string_view text) {
-  std::uint64_t value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size())
-    refuse_file(file, "has no count for " + shown(key) + " in its header: " + shown(text));
-  return value;
+  if (const auto count = count_in(text)) return *count;
+  refuse_file(file, "has no count for " + shown(key) + " in its header: " + shown(text));
 }
 
 SdfHeader read_text_header(const SourceFile& file, LineReader& lines) {
@@ -212,16 +208,14 @@ HeightMap read_sdf(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& sdf_format() {
-  static constexpr std::array<std::string_view, 1> endings{"sdf"};
   static const Format format{
       "sdf",
       "aISO-1.0, bISO-1.0 or BCR at the start",
       {"SDF of ISO 25178-71 and its forerunner, in text or binary, all eight types of number.",
        "Compressed files.",
        "A text file of the public test set of SurfaceTopography; binary files of this program are read alike "
-       "by "
-       "surfalize."},
-      endings,
+       "by surfalize."},
+      {"sdf"},
       recognises_sdf,
       read_sdf};
   return format;

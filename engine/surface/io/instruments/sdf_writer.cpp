@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A surface as SDF of ISO 25178-71, binary (bISO-1.0), heights in metres as doubles, missing points NaN. What
+// reads back has the same heights, bit for bit, and the same holes; a size is the spacing times the points
+// and may differ in its last digit, and of a map of one line the width is that of a trace. The header counts
+// points with 16 bits: 65535 a side.
 // Layout: ISO 25178-71, as the reader (sdf.cpp) has it.
-#include "engine/surface/io/instruments/sdf_writer.hpp"
-
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <string>
 
 #include "engine/core/error.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/source_file.hpp"
+#include "engine/core/monitor.hpp"
+#include "engine/surface/surface.hpp"
 
 namespace asperity {
 
@@ -35,6 +40,8 @@ std::string sdf_header(const Grid& grid) {
 
 }  // namespace
 
+// The same surface gives the same bytes. Throws Error{bad_value} for more than 65535 points a side,
+// Error{bad_file} where the file cannot be written.
 void write_sdf(const Surface& surface, const std::string& path, Monitor& monitor) {
   const Grid& grid = surface.grid();
   constexpr int most = std::numeric_limits<std::uint16_t>::max();

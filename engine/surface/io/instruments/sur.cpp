@@ -186,7 +186,6 @@ HeightMap read_sur(const SourceFile& file, Monitor& monitor) {
 }  // namespace
 
 const Format& sur_format() {
-  static constexpr std::array<std::string_view, 2> endings{"sur", "pro"};
   static const Format format{
       "sur",
       "DIGITAL SURF at the start",
@@ -195,7 +194,7 @@ const Format& sur_format() {
        "Files of Apple computers, binary images and other studiables.",
        "Three files of the public test sets of SurfaceTopography and surfalize, every height, size, missing "
        "points; compressed: files of surfalize's writer."},
-      endings,
+      {"sur", "pro"},
       recognises_sur,
       read_sur};
   return format;

@@ -7,7 +7,6 @@
 // its end. Numbers that are not finite are missing points. Layout and orientation as restated by Gwyddion's
 // reader and writer.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -145,7 +144,6 @@ bool recognises_wsxm(const SourceFile& file) {
 }  // namespace
 
 const Format& wsxm_format() {
-  static constexpr std::array<std::string_view, 2> endings{"stp", "top"};
   static const Format format{
       "wsxm",
       "`WSxM file copyright` and `SxM Image file` at the start",
@@ -153,7 +151,7 @@ const Format& wsxm_format() {
        "Maps of other quantities, spectra, movies, and maps of one height only.",
        "Two files of the public test set of SurfaceTopography (double, short): heights and sizes, by an "
        "independent program."},
-      endings,
+      {"stp", "top"},
       recognises_wsxm,
       read_wsxm};
   return format;
