@@ -79,8 +79,6 @@ double PartialSlip::displacement() const {
 
 double PartialSlip::stiffness() const { return stuck_ ? stuck_->stiffness() / compliance_ratio_ : 0; }
 
-std::span<const std::string> PartialSlip::field_names() { return names_of_fields; }
-
 Field PartialSlip::field(std::string_view name) const {
   if (std::find(names_of_fields.begin(), names_of_fields.end(), name) == names_of_fields.end())
     throw Error(ErrorCode::unknown_name,

@@ -45,7 +45,6 @@ class PartialSlip {
   double stiffness() const;
   // "shear" (Pa, along Q) or "stick" (1 or 0). Throws Error{unknown_name}.
   Field field(std::string_view name) const;
-  static std::span<const std::string> field_names();
 
   // The contact under P, and what the second solve cost; nothing where none was needed.
   const State& normal() const { return normal_; }

@@ -31,11 +31,6 @@ std::vector<Verdict> ExpectationLog::verdicts() const {
   return verdicts_;
 }
 
-std::size_t ExpectationLog::passed() const {
-  const std::lock_guard lock(mutex_);
-  return static_cast<std::size_t>(std::ranges::count(verdicts_, true, &Verdict::passed));
-}
-
 std::size_t ExpectationLog::failed() const {
   const std::lock_guard lock(mutex_);
   return static_cast<std::size_t>(std::ranges::count(verdicts_, false, &Verdict::passed));

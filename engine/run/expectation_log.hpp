@@ -20,7 +20,6 @@ class ExpectationLog {
   // Takes what is there away, and puts that in its place.
   std::vector<Verdict> exchange(std::vector<Verdict> verdicts);
   std::vector<Verdict> verdicts() const;
-  std::size_t passed() const;
   std::size_t failed() const;
   // "12 expectations hold (2 negative controls fail, as they should)", "3 of 12 expectations fail"
   // and the like; "" when there were none.

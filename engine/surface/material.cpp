@@ -68,8 +68,4 @@ double plane_strain_modulus(const Material& m) {
   return *m.young / ((1.0 - *m.poisson) * (1.0 + *m.poisson));  // exact to rounding near -1 too
 }
 
-double contact_modulus(const Material& a, const Material& b) {
-  return 1.0 / (1.0 / plane_strain_modulus(a) + 1.0 / plane_strain_modulus(b));
-}
-
 }  // namespace asperity

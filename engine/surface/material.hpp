@@ -30,7 +30,5 @@ void check(const Material& material);
 
 // E/(1-ν²) of one body, Pa; infinite for a rigid one. Throws Error{bad_state} naming what is missing.
 double plane_strain_modulus(const Material& material);
-// 1/E* = Σ (1-ν²)/E over both bodies. Infinite if both are rigid.
-double contact_modulus(const Material& a, const Material& b);
 
 }  // namespace asperity

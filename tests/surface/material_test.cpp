@@ -62,12 +62,6 @@ TEST(Material, PlaneStrainModulus) {
   EXPECT_EQ(plane_strain_modulus(rigid_material()), infinity);
 }
 
-TEST(Material, ContactModulus) {
-  EXPECT_DOUBLE_EQ(contact_modulus(elastic(2, 0), elastic(2, 0)), 1);
-  EXPECT_DOUBLE_EQ(contact_modulus(elastic(70e9, 0.33), rigid_material()), 70e9 / (1 - 0.33 * 0.33));
-  EXPECT_EQ(contact_modulus(rigid_material(), rigid_material()), infinity);
-}
-
 TEST(Material, MissingElasticityIsNamed) {
   Material material;
   EXPECT_EQ(refusal([&] { plane_strain_modulus(material); }, ErrorCode::bad_state),

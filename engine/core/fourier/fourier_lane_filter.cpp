@@ -78,17 +78,6 @@ bool FourierLaneFilter<Real>::possible(int period_x, int period_y) {
 }
 
 template <class Real>
-std::int64_t FourierLaneFilter<Real>::bytes(int nx, int ny, int period_x, int period_y) {
-  const int half = period_x / 2, blocks = (half + lanes - 1) / lanes;
-  const std::int64_t spectrum = static_cast<std::int64_t>(odd(blocks)) * ny;
-  const std::int64_t factors = static_cast<std::int64_t>(blocks) * (period_y / 2 + 1);
-  const std::int64_t values = std::max(half, period_y) + lanes;
-  return static_cast<std::int64_t>(sizeof(Complex)) * (spectrum + values * thread_count()) +
-         static_cast<std::int64_t>(sizeof(Vector)) * factors +
-         static_cast<std::int64_t>(sizeof(double)) * (nx + lanes) * lanes * thread_count();
-}
-
-template <class Real>
 FourierLaneFilter<Real>::FourierLaneFilter(int nx, int ny, int period_x, int period_y,
                                            const Multiplier& multiplier)
     : nx_(nx),

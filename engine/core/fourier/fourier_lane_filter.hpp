@@ -48,9 +48,6 @@ class FourierLaneFilter {
   // The multiplier of wave (a, b), 0 <= a <= period_x/2, 0 <= b <= period_y/2, as it is held.
   double factor(int a, int b) const;
 
-  // What one holds at most: the spectrum, the multiplier, and a few rows and columns a thread.
-  static std::int64_t bytes(int nx, int ny, int period_x, int period_y);
-
  private:
   static constexpr int lanes = Lanes<Real>::count;
   using Complex = typename Lanes<Real>::Complex;

@@ -252,20 +252,20 @@ TEST(FreeCompliance, DoesNotWrap) {
   EXPECT_NEAR(u(0, 0), LoveKernel(1)(0, 0), 1e-14);
 }
 
-TEST(HalfSpaceCompliance, StatesWhatItHolds) {
-  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
-    for (const auto& [nx, ny] : {std::pair(256, 128), std::pair(101, 90)}) {
-      set_thread_count(1);
-      const std::int64_t before = memory::held();
-      HalfSpaceCompliance compliance(nx, ny, 1, boundary);
-      Field p(nx, ny, 1.0);
-      compliance.apply(p.values(), p.values());
-      const std::int64_t held =
-          memory::held() - before - static_cast<std::int64_t>(p.size() * sizeof(double));
-      EXPECT_LE(held, HalfSpaceCompliance::bytes(nx, ny, boundary) + 32 * (nx + ny) + 4096);
-      EXPECT_GE(held, HalfSpaceCompliance::bytes(nx, ny, boundary) / 2);
-      set_thread_count(0);
-    }
+TEST(HalfSpaceCompliance, HoldsAGridAndAQuarterOrThree) {
+  set_thread_count(1);
+  const int n = 512;
+  for (const auto& [boundary, grids] :
+       {std::pair(Boundary::periodic, 1.25), std::pair(Boundary::free, 3.0)}) {
+    const std::int64_t before = memory::held();
+    HalfSpaceCompliance compliance(n, n, 1, boundary);
+    Field p(n, n, 1.0);
+    compliance.apply(p.values(), p.values());
+    const double held =
+        static_cast<double>(memory::held() - before) / static_cast<double>(sizeof(double) * p.size()) - 1;
+    EXPECT_NEAR(held, grids, 0.1 * grids);
+  }
+  set_thread_count(0);
 }
 
 TEST(HalfSpaceCompliance, SaysBeforehandWhereItCanBeSingle) {
@@ -289,7 +289,6 @@ TEST(HalfSpaceCompliance, MovesWithItsWorkSpace) {
   HalfSpaceCompliance second = std::move(first);
   const Field v = applied(second, p);
   for (std::size_t k = 0; k < u.size(); ++k) ASSERT_EQ(u[k], v[k]);
-  EXPECT_DOUBLE_EQ(second.transform_work(), 256 * 8);
 }
 
 struct Known {

@@ -416,18 +416,4 @@ HalfSpaceCompliance::Spectrum HalfSpaceCompliance::spectrum() const {
   return found;
 }
 
-double HalfSpaceCompliance::transform_work() const {
-  const double n = static_cast<double>(parts_->period_x) * parts_->period_y;
-  return n * elementary::log2(std::max(n, 2.0));
-}
-
-std::int64_t HalfSpaceCompliance::bytes(int nx, int ny, Boundary boundary, bool single) {
-  const int period_x = period(nx, boundary), period_y = period(ny, boundary);
-  if (FourierLaneFilter<double>::possible(period_x, period_y))
-    return single ? FourierLaneFilter<float>::bytes(nx, ny, period_x, period_y)
-                  : FourierLaneFilter<double>::bytes(nx, ny, period_x, period_y);
-  return FourierFilter::bytes(nx, ny, period_x, period_y) +
-         static_cast<std::int64_t>(sizeof(double)) * (period_x / 2 + 1) * (period_y / 2 + 1);
-}
-
 }  // namespace asperity

@@ -51,7 +51,8 @@ class HalfSpaceCompliance {
   // nx, ny >= 1; aspect > 0. An application counts 2·weight transforms: the cost of one transform of
   // this grid in transforms of the finest. Making one costs less than an application and counts none.
   // `single`: transforms and multiplier in single precision, where single() says so; fields stay double.
-  // `multiplier`: of a periodic tile; half-spaces unless one is given.
+  // `multiplier`: of a periodic tile; half-spaces unless one is given. An object holds a grid and a quarter
+  // on a periodic tile, three grids on a free one; in single precision about half of that.
   HalfSpaceCompliance(int nx, int ny, double aspect, Boundary boundary, double weight = 1,
                       bool single = false, const ComplianceMultiplier& multiplier = {});
   ~HalfSpaceCompliance();
@@ -95,13 +96,6 @@ class HalfSpaceCompliance {
     double node = 0, inverse_node = 0;  // its mean over all waves, K_kk, and the mean of its inverse
   };
   Spectrum spectrum() const;
-
-  // n log2 n of the transform, padding included.
-  double transform_work() const;
-
-  // What an object of this grid holds. Periodic: a grid and a quarter, free: three grids; in single precision
-  // about half of that.
-  static std::int64_t bytes(int nx, int ny, Boundary boundary, bool single = false);
 
  private:
   struct Parts;

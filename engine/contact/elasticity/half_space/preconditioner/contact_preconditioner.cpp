@@ -408,17 +408,4 @@ void ContactPreconditioner::gather(const Keep& keep) { parts_->gather(keep); }
 
 std::size_t ContactPreconditioner::tiles() const { return parts_->tiles(); }
 
-std::int64_t ContactPreconditioner::bytes(int nx, int ny, double aspect, Boundary boundary,
-                                          const ComplianceMultiplier& multiplier) {
-  // The free set, the groups of eight nodes with their margins', the rows of smooth fields, and a patch a
-  // thread.
-  constexpr std::int64_t patch = 12 * (tile_width + 64) * (FreeTiles::height + 32);
-  return HalfOrderPyramid::bytes(nx, ny, aspect, boundary, multiplier) +
-         2 * static_cast<std::int64_t>(nx) * ny + SmoothExtension::field_bytes(nx, ny) +
-         patch * thread_count() +
-         (LineExtension::serves(aspect, boundary) || !carries_on(multiplier)
-              ? LineExtension::bytes(nx, ny) + 4 * static_cast<std::int64_t>(nx) * ny
-              : 0);
-}
-
 }  // namespace asperity

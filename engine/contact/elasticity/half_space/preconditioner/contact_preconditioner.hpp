@@ -25,7 +25,8 @@ namespace asperity {
 class ContactPreconditioner {
  public:
   // nx, ny >= 1; aspect > 0; sweeps >= 0. `weight` is the cost of one transform of this grid in
-  // transforms of the finest; counted only as far as the pyramid has to transform.
+  // transforms of the finest; counted only as far as the pyramid has to transform. An object holds two grids
+  // at most, four on a periodic tile one of whose lengths has a large prime factor.
   ContactPreconditioner(int nx, int ny, double aspect, Boundary boundary, double weight = 1, int sweeps = 4,
                         const ComplianceMultiplier& multiplier = {});
   ~ContactPreconditioner();
@@ -63,10 +64,6 @@ class ContactPreconditioner {
   // … and its sum over the free set, to the last digits.
   double smooth_sum() const;
   std::size_t tiles() const;
-
-  // What an object of this grid holds, at most.
-  static std::int64_t bytes(int nx, int ny, double aspect, Boundary boundary,
-                            const ComplianceMultiplier& multiplier = {});
 
  private:
   class Parts;

@@ -66,10 +66,6 @@ HatAxis::HatAxis(int nodes, Boundary boundary) : wraps(boundary == Boundary::per
 
 SmoothExtension::SmoothExtension(int nx, int ny, Boundary boundary) : x_(nx, boundary), y_(ny, boundary) {}
 
-std::int64_t SmoothExtension::field_bytes(int nx, int ny) {
-  return static_cast<std::int64_t>(sizeof(float) + sizeof(double)) * nx * (ny / spacing + 1);
-}
-
 double SmoothExtension::divisor(std::size_t hat, double free) const {
   const auto i = hat % static_cast<std::size_t>(x_.hats), j = hat / static_cast<std::size_t>(x_.hats);
   return free + reluctance * x_.mass[i] * y_.mass[j];
@@ -185,12 +181,6 @@ LineExtension::LineExtension(int nx, int ny, Boundary boundary, bool along_x)
       begin_(static_cast<std::size_t>(lines_) + 1),
       beside_(static_cast<std::size_t>(lines_)) {
   free_.reserve(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
-}
-
-std::int64_t LineExtension::bytes(int nx, int ny) {
-  const std::int64_t sides = static_cast<std::int64_t>(nx) + ny;
-  return static_cast<std::int64_t>(sizeof(int)) * nx * ny +
-         static_cast<std::int64_t>(sizeof(std::size_t) + sizeof(Beside)) * (sides + 1);
 }
 
 void LineExtension::set_free(std::span<const std::uint8_t> free) {

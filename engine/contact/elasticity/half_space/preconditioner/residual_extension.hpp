@@ -101,9 +101,6 @@ class SmoothExtension {
     Array<Real> rows_;  // those through the points
   };
 
-  // What a field in either precision holds.
-  static std::int64_t field_bytes(int nx, int ny);
-
   std::size_t size() const { return static_cast<std::size_t>(x_.hats) * static_cast<std::size_t>(y_.hats); }
   // What sums over the free nodes are divided by, `free` of all hats being the sums of 1: more than that
   // where few nodes are free, so that a lone contact is not carried on as if it were the ground.
@@ -134,8 +131,6 @@ class LineExtension {
   void extend(std::span<float> field) const;
   // The transpose: sums of `field`, as extend() has shared them out, on the free nodes, and 0 elsewhere.
   void gather(std::span<float> field) const;
-
-  static std::int64_t bytes(int nx, int ny);
 
  private:
   // Between which two lines that hold free nodes a line lies; itself twice if it holds some, −1 if none does.
