@@ -58,6 +58,12 @@ Field::Field(int nx, int ny, UnsetArray<double>&& values) : nx_(nx), ny_(ny), va
 
 double block_sum(std::span<const double> values) { return pairwise(values.data(), values.size()); }
 
+double upper_median(std::span<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 double mean(std::span<const double> values) {
   return values.empty() ? 0.0 : block_sum(values) / static_cast<double>(values.size());
 }

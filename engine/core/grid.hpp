@@ -68,6 +68,8 @@ class Field {
 // Sum in fixed blocks of 1024 added pairwise: the same bits for any number of threads, and an error
 // that grows with log n.
 double block_sum(std::span<const double> values);
+// The median of one value or more, of two in the middle the upper one. O(n); reorders them.
+double upper_median(std::span<double> values);
 double mean(std::span<const double> values);
 struct Range {
   double min = 0, max = 0;

@@ -54,4 +54,13 @@ inline double magnitude(const Range& r) { return std::max(std::abs(r.min), std::
 // that dwarfs the roughness costs no digits. Exact for equal values, and never overflows.
 double exact_mean(std::span<const double> values, const Range& values_range);
 
+// Blocks of rows, each on one thread.
+template <int rows_per_turn = 16, class Row>
+void for_each_row(int ny, const Row& row) {
+  parallel_for((ny + rows_per_turn - 1) / rows_per_turn, [&](std::int64_t turn) {
+    const int first = static_cast<int>(turn) * rows_per_turn;
+    for (int j = first; j < std::min(ny, first + rows_per_turn); ++j) row(j);
+  });
+}
+
 }  // namespace asperity

@@ -204,9 +204,7 @@ double median_magnitude(const Field& residuals) {
   magnitudes.reserve(residuals.size());
   for (const double r : residuals.values())
     if (!std::isnan(r)) magnitudes.push_back(std::abs(r));
-  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
-  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
-  return *middle;
+  return upper_median(magnitudes);
 }
 
 // The mean surface that Tukey's biweight of the residuals leaves to the bulk of the heights.

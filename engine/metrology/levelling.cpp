@@ -56,16 +56,6 @@ void check_degree(int degree) {
                 "give 0 (mean), 1 (plane), 2 (quadratic) … " + std::to_string(max_levelling_degree));
 }
 
-// Blocks of rows, each on one thread.
-template <class Row>
-void for_each_row(int ny, const Row& row) {
-  constexpr int rows_per_turn = 16;
-  parallel_for((ny + rows_per_turn - 1) / rows_per_turn, [&](std::int64_t turn) {
-    const int first = static_cast<int>(turn) * rows_per_turn;
-    for (int j = first; j < std::min(ny, first + rows_per_turn); ++j) row(j);
-  });
-}
-
 // Σ a[i]·b[i] in blocks, for the digits of long lines.
 double dot(std::span<const double> a, std::span<const double> b) {
   constexpr std::size_t block = 256;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/core/grid.hpp"
@@ -35,6 +36,15 @@ struct ChartSeries {
   bool band = false;                            // y_low and y_high bound a shaded band instead
   bool gaps = false;                            // a value that is NaN breaks the line, and is no loss
 };
+
+// One that is drawn as marks alone.
+inline ChartSeries marks_alone(std::string name, PointShape shape) {
+  ChartSeries series;
+  series.name = std::move(name);
+  series.line = false;
+  series.shape = shape;
+  return series;
+}
 
 // A line across the plot at one x or one y, named in the key.
 struct ChartReference {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/recording/log_forms.hpp"
-
+// What the tables of a press (log_table.hpp) know of titles and cells beyond what any table does: what others
+// call its columns, and units that stand behind a stroke or an underscore.
 #include <algorithm>
 #include <array>
 #include <utility>
 
+#include "engine/recording/log_table.hpp"
 #include "engine/statistics/table_head.hpp"
 #include "engine/statistics/time_stamp.hpp"
 

@@ -3,7 +3,7 @@
 // first line that is neither blank nor a comment (#) names the columns in any order and case, with the unit
 // of each quantity, which may also stand in the line below, in the cells, or be said beforehand; times may be
 // dates and times of day. What the columns mean is for its users: press_log.hpp (a row an event) and
-// press_recording.hpp (a row a sample). What others call the columns is in log_forms.hpp.
+// press_recording.hpp (a row a sample). What others call the columns is in log_forms.cpp.
 #pragma once
 
 #include <array>
@@ -126,5 +126,26 @@ class LogTable {
   std::array<std::size_t, most_meanings> column_of_{};  // number from 1; 0: none
   std::vector<std::string> warnings_;
 };
+
+// --- what these tables know of titles and cells beyond what any table does (log_forms.cpp)
+
+// A date or a time of day: "2026-11-23T10:00:00", "23.11.2026 10:00", "11/23/2026 10:00 AM", "10:00:03.2".
+bool is_time_stamp(std::string_view cell);
+
+// A day of this century counted from 1900, as spreadsheets keep dates: 36526 to 73415.
+bool is_day_of_a_spreadsheet(const TextCell& cell);
+
+// A title taken apart, however its unit stands in it: "Kraft / kN", "time_s", "Force (N)", "load kN".
+struct LogTitle {
+  std::string name;  // lower case, the first word
+  std::string unit;  // "" where there is none
+};
+LogTitle log_title(std::string_view title);
+
+// Whether a word may mean the column: its own name, or what others call it ("kraft" for load, "angle" for
+// rotation).
+bool means(std::string_view word, std::string_view column);
+// Whether it can mean nothing else: an angle may be that of the stage or a turn by so much.
+bool surely_means(std::string_view word, std::string_view column);
 
 }  // namespace asperity

@@ -7,10 +7,9 @@
 //
 // A row turns the upper body by `rotation` from where it lies, then presses to `pressure`, or to `load` on
 // the whole tile, for `dwell`; a zero takes the load off, and so does an empty cell, with a warning. A column
-// `place` (or `seed`)
-// lifts the body and puts it down afresh before the turn. A body under load is released before it is placed
-// or turned. The time is kept and nothing waits for it; a dwell that goes on past the time of the next row is
-// warned of.
+// `place` (or `seed`) lifts the body and puts it down afresh before the turn. A body under load is released
+// before it is placed or turned. The time is kept and nothing waits for it; a dwell that goes on past the
+// time of the next row is warned of.
 //
 // Every row is an event: a recording sampled all the time is for press_recording.hpp, and this reader warns
 // of a table that looks like one. Titles that begin with "result " are what was measured, and are left out.

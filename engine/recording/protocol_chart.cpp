@@ -105,14 +105,6 @@ class Clock {
   Played played_;
 };
 
-ChartSeries marks(std::string name, PointShape shape) {
-  ChartSeries series;
-  series.name = std::move(name);
-  series.line = false;
-  series.shape = shape;
-  return series;
-}
-
 }  // namespace
 
 LineChart protocol_chart(const Protocol& protocol, const std::string& title) {
@@ -137,8 +129,9 @@ LineChart protocol_chart(const Protocol& protocol, const std::string& title) {
   recorded.points = false;
   events.name = found != nullptr ? "detected" : "protocol";
   events.points = false;
-  ChartSeries rise = marks("rise", PointShape::triangle), peak = marks("peak", PointShape::ring),
-              release = marks("release", PointShape::cross), turn = marks("turn", PointShape::diamond);
+  ChartSeries rise = marks_alone("rise", PointShape::triangle), peak = marks_alone("peak", PointShape::ring),
+              release = marks_alone("release", PointShape::cross),
+              turn = marks_alone("turn", PointShape::diamond);
   const auto add = [clock](ChartSeries& series, double time, double load) {
     series.x.push_back(time / clock);
     series.y.push_back(load);

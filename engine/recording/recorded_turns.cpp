@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The body's heading while each load is on, and what it changes by from one to the next.
-#include "engine/recording/recorded_turns.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
 
+#include "engine/core/grid.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/recording/recording_marks.hpp"
 
 namespace asperity {
 
@@ -73,9 +73,7 @@ class TurnFinder {
       last = angle;
     }
     if (steps.empty()) return 0;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle / (0.6745 * std::sqrt(2.0));
+    return upper_median(steps) / (0.6745 * std::sqrt(2.0));
   }
 
   // The mean angle of these rows, which must not change.

@@ -4,23 +4,94 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/grid.hpp"
 #include "engine/core/laws_met.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/quantity.hpp"
 #include "engine/core/text.hpp"
-#include "engine/recording/noise_correlation.hpp"
+#include "engine/recording/straight_pieces.hpp"
 
 namespace asperity {
 
 namespace {
 
-double median_of(Array<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+constexpr double per_deviation = 0.6745;  // median magnitude of a Gaussian
+
+double median_of(Array<double>& values) { return values.empty() ? 0 : upper_median(values); }
+
+// How alike neighbouring readings of a recording scatter, as they
+// do after a filter. Noise is taken for a first-order autoregression with the coefficient r, whose means over
+// n readings are known as those of n (1 - r)/(1 + r) independent ones (Bartlett 1935). Second differences
+// over L readings have the variance s² (1.5 - 2 r^L + 0.5 r^2L); the medians of their magnitudes at L = 1 and
+// at a greater one give r and s. They are taken of what the lines of the pieces leave, so that ramps do not
+// move them, nor a clock that jitters on a ramp.
+struct NoiseCorrelation {
+  double deviation = 0;    // of a reading
+  double independent = 1;  // the share of independent readings among n
+};
+
+constexpr double greatest_correlation = 0.98, least_correlation = 0.4;
+
+// The variance of a second difference over so many readings, of noise of variance 1.
+double bend_variance(double r, int stride) {
+  const double far = elementary::pow(r, stride);
+  return 1.5 - 2 * far + 0.5 * far * far;
+}
+
+struct Bends {
+  std::size_t count = 0;
+  double square = 0;  // of the deviation that their median tells
+};
+
+// Within pieces, their ends left out: a corner may lie there.
+Bends bends_of(std::span<const double> time, std::span<const double> value,
+               std::span<const StraightPiece> pieces, int stride) {
+  Array<double> magnitudes;
+  // A sensor at its limit has no noise.
+  const double top = *std::max_element(value.begin(), value.end());
+  const auto lag = static_cast<std::size_t>(stride);
+  constexpr std::size_t rim = 1;
+  for (const StraightPiece& piece : pieces) {
+    const double slope = piece.line.slope();
+    const auto left = [&](std::size_t k) {
+      return value[k] - piece.line.y - slope * (time[k] - piece.line.t);
+    };
+    for (std::size_t k = piece.first + rim + lag; k + lag + rim <= piece.last; ++k)
+      if (value[k] != top || value[k - lag] != top || value[k + lag] != top)
+        magnitudes.push_back(std::abs(left(k) - 0.5 * (left(k - lag) + left(k + lag))));
+  }
+  if (magnitudes.empty()) return {};
+  const double deviation = median_of(magnitudes) / per_deviation;
+  return {magnitudes.size(), deviation * deviation};
+}
+
+// Looked for within the pieces. Nothing for noise that is white as far as can be told (r below 0.4), or where
+// too few readings lie within pieces. `time` and `value` are as long as the pieces tell. O(n).
+std::optional<NoiseCorrelation> noise_correlation(std::span<const double> time, std::span<const double> value,
+                                                  std::span<const StraightPiece> pieces) {
+  constexpr std::size_t enough = 400;
+  const Bends near = bends_of(time, value, pieces, 1);
+  if (near.count < enough || !(near.square > 0)) return {};
+  for (const int stride : {16, 8, 4}) {
+    const Bends far = bends_of(time, value, pieces, stride);
+    if (far.count < enough) continue;
+    // The ratio grows with r, from 1 on.
+    const double ratio = far.square / near.square;
+    const auto ratio_of = [stride](double r) { return bend_variance(r, stride) / bend_variance(r, 1); };
+    double low = 0, high = greatest_correlation;
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (low + high);
+      (ratio_of(middle) < ratio ? low : high) = middle;
+    }
+    if (low < least_correlation) return {};
+    return NoiseCorrelation{std::sqrt(near.square / bend_variance(low, 1)), (1 - low) / (1 + low)};
+  }
+  return {};
 }
 
 // The most that three neighbours in a row reach: one sample out of line does not count.
@@ -105,7 +176,6 @@ void RecordingMarks::measure_noise() {
     const double scaled = std::abs(bend) / std::sqrt(1 + w * w + (1 - w) * (1 - w));
     (y_[k] > bottom_ + 0.5 * range_ ? above : below).push_back(scaled);
   }
-  constexpr double per_deviation = 0.6745;  // median magnitude of a Gaussian
   constexpr std::size_t enough = 30;
   const double high = above.size() < enough && below.size() >= enough ? 0 : median_of(above);
   const double low = below.size() < enough && above.size() >= enough ? 0 : median_of(below);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -120,5 +121,17 @@ class RecordingMarks {
   std::vector<Mark> levels_, marks_, doubtful_;
   std::vector<Disturbance> disturbances_;
 };
+
+// Turns of the body between the loads of a recording (recorded_turns.cpp). O(rows).
+struct RecordedTurn {
+  double time;   // s
+  double angle;  // rad
+  std::size_t line;
+};
+
+// In the order of time; none where no angle was recorded. `highest` is the highest load, N or Pa. Throws what
+// detect_events does for turns.
+std::vector<RecordedTurn> recorded_turns(const PressRecording& recording, const DetectionOptions& options,
+                                         const RecordingMarks& marks, double highest);
 
 }  // namespace asperity

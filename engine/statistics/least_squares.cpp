@@ -30,12 +30,6 @@ constexpr double undetermined = 1e-8;  // a singular value relative to the large
 constexpr double part_of_direction = 0.05;
 constexpr double difference_step = 1e-3;  // about epsilon^(1/5), of a parameter's scale
 
-double length_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum);
-}
-
 std::string parameters_text(std::span<const FitStart> start, const std::vector<double>& values) {
   std::string text;
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -209,6 +203,12 @@ std::vector<std::vector<double>> covariance_of(const Tangent& at) {
 }
 
 }  // namespace
+
+double length_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum);
+}
 
 SingularValues singular_values(const TableColumns& columns) {
   if (columns.empty()) return {};

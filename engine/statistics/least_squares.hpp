@@ -59,4 +59,7 @@ LeastSquares least_squares(const UsedPoints& points, const CurveModel& model,
 std::vector<double> slopes_of(const CurveModel& model, double x, const std::vector<double>& parameters,
                               const std::vector<double>& scales);
 
+// The root of the sum of their squares.
+double length_of(const std::vector<double>& values);
+
 }  // namespace asperity

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/statistics/least_squares.hpp"
 #include "engine/study/calibration_problem.hpp"
 
 namespace asperity {
@@ -20,12 +21,6 @@ constexpr double first_sparing_share = 0.02;  // the same, of differences that a
 constexpr double beyond_errors = 2;           // what is seen, in disagreements of the columns
 constexpr double beyond_noise = 1.2;          // the same, where the wider hold three times as well
 constexpr double falls_by = 0.5;              // disagreement with width, where noise makes it
-
-double length_of_column(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum);
-}
 
 }  // namespace
 
@@ -41,10 +36,10 @@ std::optional<FirmSlopes> CalibrationProblem::firm_slopes(const CalibrationMinim
     double sum = 0;
     for (std::size_t p = 0; p < parameters(); ++p) {
       const std::vector<double> of_narrow = observed_column(narrow[p]), of_wide = observed_column(wide[p]);
-      const double length = length_of_column(of_wide);
+      const double length = length_of(of_wide);
       std::vector<double> apart(of_wide.size());
       for (std::size_t i = 0; i < apart.size(); ++i) apart[i] = of_wide[i] - of_narrow[i];
-      const double error = length_of_column(apart);
+      const double error = length_of(apart);
       if (error > 0) sum += length > 0 ? error * error / (length * length) : 1;
     }
     return std::sqrt(sum);

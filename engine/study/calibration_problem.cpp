@@ -9,6 +9,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
+#include "engine/statistics/least_squares.hpp"
 
 namespace asperity {
 
@@ -21,12 +22,6 @@ constexpr double noise_of_model = 0.03;           // the same, at which a model 
 constexpr double calibration_rounding = 1e-13;    // of the model, relative to the data
 constexpr double unseen = 1e-5;                   // a singular value relative to the largest
 constexpr double smallest_share = 1e-3;           // of the largest fitted value, as relative weights count it
-
-double norm(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum);
-}
 
 double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
@@ -51,7 +46,7 @@ CalibrationProblem::CalibrationProblem(const CalibrationRows& rows, const Calibr
     weighted.push_back(own_[k] * rows.y[k]);
     groups_.push_back({{k}, 1});
   }
-  size_ = norm(weighted);
+  size_ = length_of(weighted);
 }
 
 // What is left is never less than what comes after the present part, so that a part which takes longer than
@@ -262,7 +257,7 @@ CalibrationTangent CalibrationProblem::tangent(const CalibrationPlace& at, const
     std::vector<double> of_rows(rows_.y.size());
     for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * rows_jacobian[p][k];
     std::vector<double> column = observed(of_rows);
-    const double length = norm(column);
+    const double length = length_of(column);
     if (length > 0)
       for (double& value : column) value /= length;
     found.parameters.push_back(p);
@@ -356,7 +351,7 @@ std::vector<double> CalibrationProblem::natural_scales(const CalibrationPlace& a
       if (!there) return false;
       std::vector<double> change(there->size());
       for (std::size_t k = 0; k < change.size(); ++k) change[k] = own_[k] * ((*there)[k] - at.fitted[k]);
-      return norm(change) <= wanted;
+      return length_of(change) <= wanted;
     };
     constexpr int largest = 6, smallest = -17;
     int power = largest;
@@ -392,7 +387,8 @@ CalibrationMinimum CalibrationProblem::minimum(const std::vector<double>& start,
     found.rows_jacobian = jacobian(found.place, found.scales, none, central);
     const CalibrationTangent at =
         tangent(found.place, found.rows_jacobian, pushed(found.place, found.rows_jacobian, none));
-    const double length = norm(found.place.residual), floor = calibration_rounding * size_of(found.place);
+    const double length = length_of(found.place.residual),
+                 floor = calibration_rounding * size_of(found.place);
     const auto offset_within = [&](double share) {
       return at.offset <= share * length || at.offset <= floor;
     };
@@ -445,7 +441,8 @@ std::optional<CalibrationPlace> CalibrationProblem::minimum_beside(const Calibra
     const CalibrationTangent here = tangent(at, slopes_here, pushed(at, slopes_here, held));
     if (here.offset * here.offset <= gain) return at;
     auto next = better(at, here, &beside.place.roots, damping);
-    if (!next) return here.offset <= noise_of_model * norm(at.residual) ? std::optional(at) : std::nullopt;
+    if (!next)
+      return here.offset <= noise_of_model * length_of(at.residual) ? std::optional(at) : std::nullopt;
     const bool little = at.sum - next->sum <= 0.1 * gain && here.offset * here.offset <= 4 * gain;
     at = *std::move(next);
     if (little) return at;
@@ -457,7 +454,7 @@ std::optional<CalibrationPlace> CalibrationProblem::minimum_beside(const Calibra
 double CalibrationProblem::size_of(const CalibrationPlace& at) const {
   std::vector<double> of_rows(rows_.y.size());
   for (std::size_t k = 0; k < of_rows.size(); ++k) of_rows[k] = at.roots[k] * rows_.y[k];
-  return norm(of_rows);
+  return length_of(of_rows);
 }
 
 }  // namespace asperity

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/statistics/least_squares.hpp"
 #include "engine/study/calibration_problem.hpp"
 
 namespace asperity {
@@ -31,12 +32,6 @@ constexpr double comes_nearer_by = 0.5;    // a step, or it is the last
 constexpr double noise_is_seen = 0.1;      // standard errors: a step so short shows the model's noise
 constexpr double noise_tells = 0.1;        // standard errors, by which noise may move the estimates unsaid
 constexpr double sparing_rounding = 1e-9;  // of the residuals, relative to the data
-
-double length_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum);
-}
 
 }  // namespace
 

@@ -26,14 +26,6 @@ double time_of(const StudyRow& row) {
   return row.end == StudyRow::End::failed ? row.first_seconds : row.expected_seconds.value_or(0);
 }
 
-ChartSeries mark(std::string name, PointShape shape) {
-  ChartSeries series;
-  series.name = std::move(name);
-  series.line = false;
-  series.shape = shape;
-  return series;
-}
-
 void add(ChartSeries& series, double x, double y) {
   series.x.push_back(x);
   series.y.push_back(y);
@@ -77,10 +69,10 @@ LineChart study_chart(const StudyResult& result, const std::string& title) {
   chart.y.range = error.range(bottom ? 4 : 1.6, top ? 4 : 1.6);
   const double high = chart.y.range->max / 1.2, low = chart.y.range->min * 1.2;
 
-  ChartSeries front = mark("nothing beats these", PointShape::ring),
-              failed = mark("failed", PointShape::cross),
-              left_out = mark("left out: budget", PointShape::triangle),
-              exact = mark("no error at all", PointShape::diamond);
+  ChartSeries front = marks_alone("nothing beats these", PointShape::ring),
+              failed = marks_alone("failed", PointShape::cross),
+              left_out = marks_alone("left out: budget", PointShape::triangle),
+              exact = marks_alone("no error at all", PointShape::diamond);
   for (std::size_t way = 0; way < result.request.ways.size(); ++way) {
     ChartSeries line;
     line.name = result.request.ways[way].name;

@@ -7,6 +7,7 @@
 
 #include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/metrology/blocked_sums.hpp"
 
 namespace asperity {
 
@@ -78,20 +79,16 @@ class SlopesOfRows {
 ArealSlopes areal_slopes(const Surface& surface) {
   const SlopesOfRows slopes(surface);
   const int ny = surface.grid().ny;
-  constexpr int rows_per_turn = 16;
   std::array<Array<double>, terms> sum, count;
   for (int t = 0; t < terms; ++t) {
     sum[static_cast<std::size_t>(t)].resize(static_cast<std::size_t>(ny));
     count[static_cast<std::size_t>(t)].resize(static_cast<std::size_t>(ny));
   }
-  parallel_for((ny + rows_per_turn - 1) / rows_per_turn, [&](std::int64_t turn) {
-    const int first = static_cast<int>(turn) * rows_per_turn;
-    for (int j = first; j < std::min(ny, first + rows_per_turn); ++j) {
-      const SlopeSums row = slopes.row(j);
-      for (std::size_t t = 0; t < terms; ++t) {
-        sum[t][static_cast<std::size_t>(j)] = row.sum[t];
-        count[t][static_cast<std::size_t>(j)] = row.count[t];
-      }
+  for_each_row(ny, [&](int j) {
+    const SlopeSums row = slopes.row(j);
+    for (std::size_t t = 0; t < terms; ++t) {
+      sum[t][static_cast<std::size_t>(j)] = row.sum[t];
+      count[t][static_cast<std::size_t>(j)] = row.count[t];
     }
   });
   std::array<double, terms> total{}, number{};

@@ -18,15 +18,6 @@ namespace {
 
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-template <class Row>
-void for_rows_of_map(int ny, const Row& row) {
-  constexpr int rows_per_turn = 16;
-  parallel_for((ny + rows_per_turn - 1) / rows_per_turn, [&](std::int64_t turn) {
-    const int first = static_cast<int>(turn) * rows_per_turn;
-    for (int j = first; j < std::min(ny, first + rows_per_turn); ++j) row(j);
-  });
-}
-
 // Sums by which the plane through the measured nodes is found; x and y run from -1 to 1.
 std::array<double, 9> plane_sums(const Field& z, double middle) {
   const auto nx = static_cast<std::size_t>(z.nx());
@@ -54,7 +45,7 @@ std::vector<double> gaussian_weights(double sigma) {
 Field convolved_rows(const Field& in, const std::vector<double>& weights) {
   const int reach = static_cast<int>(weights.size() / 2), nx = in.nx();
   Field out(nx, in.ny());
-  for_rows_of_map(in.ny(), [&](int j) {
+  for_each_row(in.ny(), [&](int j) {
     const double* from = in.row(j).data();
     double* to = out.row(j).data();
     for (int k = -reach; k <= reach; ++k) {
@@ -67,7 +58,7 @@ Field convolved_rows(const Field& in, const std::vector<double>& weights) {
 Field convolved_columns(const Field& in, const std::vector<double>& weights) {
   const int reach = static_cast<int>(weights.size() / 2), ny = in.ny();
   Field out(in.nx(), ny);
-  for_rows_of_map(ny, [&](int j) {
+  for_each_row(ny, [&](int j) {
     double* to = out.row(j).data();
     for (int k = std::max(-reach, -j); k <= std::min(reach, ny - 1 - j); ++k) {
       const double weight = weights[static_cast<std::size_t>(k + reach)];
@@ -101,7 +92,7 @@ HeightMap levelled_map(const Surface& surface, double cell, Plane& plane) {
     const double half_x = std::max(0.5 * (z.nx() - 1), 0.5), half_y = std::max(0.5 * (z.ny() - 1), 0.5);
     a /= half_x * map.hx;
     b /= half_y * map.hy;
-    for_rows_of_map(z.ny(), [&](int j) {
+    for_each_row(z.ny(), [&](int j) {
       for (int i = 0; i < z.nx(); ++i) z(i, j) -= c + a * map.x(i) + b * map.y(j);
     });
     plane.height += c;
@@ -125,7 +116,7 @@ HeightMap without_spikes(const HeightMap& map) {
   const Field& z = map.heights;
   // Magnitude of the distance from the neighbours' median; NaN where that is not known.
   Field apart(nx, ny, not_measured);
-  for_rows_of_map(ny, [&](int j) {
+  for_each_row(ny, [&](int j) {
     std::array<double, 8> around{};  // sorted
     for (int i = 0; i < nx; ++i) {
       if (std::isnan(z(i, j))) continue;
@@ -147,11 +138,9 @@ HeightMap without_spikes(const HeightMap& map) {
     if (!std::isnan(d)) sorted.push_back(d);
   HeightMap result = map;
   if (sorted.empty()) return result;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit = 8 * 1.4826 * *middle;
+  const double limit = 8 * 1.4826 * upper_median(sorted);
   if (!(limit > 0)) return result;
-  for_rows_of_map(ny, [&](int j) {
+  for_each_row(ny, [&](int j) {
     for (int i = 0; i < nx; ++i) {
       if (!(apart(i, j) > limit)) continue;
       int others = -1;

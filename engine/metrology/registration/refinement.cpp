@@ -12,6 +12,7 @@
 
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/metrology/blocked_sums.hpp"
 
 namespace asperity::registration {
 
@@ -120,7 +121,7 @@ class Problem {
     const double sine = turned.sine, cosine = turned.cosine;
     const double to_x = 1 / maps_.before_hx(), to_y = 1 / maps_.before_hy();
     const double middle_x = 0.5 * (before.nx() - 1), middle_y = 0.5 * (before.ny() - 1);
-    for_rows([&](int row) {
+    for_each_row<8>(rows_, [&](int row) {
       const int j = row * stride_;
       const double y = after.y(j);
       for (int column = 0; column < columns_; ++column) {
@@ -176,9 +177,7 @@ class Problem {
     for (const Sample& s : samples_)
       if (s.residual > 0) sorted_.push_back(s.residual);
     if (sorted_.empty()) return 0;
-    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
-    std::nth_element(sorted_.begin(), middle, sorted_.end());
-    return 1.4826 * *middle;
+    return 1.4826 * upper_median(sorted_);
   }
 
   // Middle of the shortest interval that holds two fifths of the residuals: where unworn ground stands, as
@@ -202,7 +201,7 @@ class Problem {
     std::vector<std::array<Sums, tiles>> of_rows(static_cast<std::size_t>(rows_));
     const double unit = 1 / std::max(tuning * scale, 1e-300);
     const HeightMap& after = maps_.after();
-    for_rows([&](int row) {
+    for_each_row<8>(rows_, [&](int row) {
       std::array<Sums, tiles>& line = of_rows[static_cast<std::size_t>(row)];
       const double y = after.y(row * stride_) / radius_;
       for (int column = 0; column < columns_; ++column) {
@@ -239,14 +238,6 @@ class Problem {
   }
 
  private:
-  template <class Row>
-  void for_rows(const Row& row) const {
-    constexpr int rows_per_turn = 8;
-    parallel_for((rows_ + rows_per_turn - 1) / rows_per_turn, [&](std::int64_t turn) {
-      const int first = static_cast<int>(turn) * rows_per_turn;
-      for (int j = first; j < std::min(rows_, first + rows_per_turn); ++j) row(j);
-    });
-  }
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);

@@ -44,13 +44,6 @@ std::size_t put_holes(std::span<double> heights, std::span<const double> mask) {
   return fresh;
 }
 
-// Of values that are there; changes their order. The upper one of two in the middle.
-double upper_median(std::span<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 void check_outlier_rule(const OutlierRule& rule) {
   require(std::isfinite(rule.factor) && rule.factor > 0, "factor", rule.factor, "",
           "give a finite number above 0, in standard deviations of Gaussian residuals");
