@@ -12,10 +12,12 @@
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
-#include "engine/study/budget_plan.hpp"
 #include "engine/study/sensitivity.hpp"
 
 namespace asperity {
+
+// In budget_plan.cpp.
+void add_costs(Budget& budget, double order, double solver_seconds);
 
 namespace {
 

@@ -2,7 +2,7 @@
 // Box elements that yield, and rigid ones: answers by hand, bisection to sums in long double, the bearing
 // model, what events leave, hard cases (equal heights, one node, hardness over thirty decades, loads at the
 // hardness), and no bit from an order of nodes or from an effect without strength.
-#include "engine/contact/elasticity/box/yielding_box_solver.hpp"
+#include "engine/contact/elasticity/box/box_solver.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,11 +10,7 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
-#include "engine/study/exact/box_paraboloid.hpp"
-#include "engine/study/exact/hertz.hpp"
-#include "engine/study/exact/persson.hpp"
-#include "engine/study/exact/wavy.hpp"
-#include "engine/study/exact/weierstrass_mandelbrot_height.hpp"
+#include "engine/study/exact/closed_forms.hpp"
 
 namespace asperity::exact::exact_test {
 namespace {

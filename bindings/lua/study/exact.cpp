@@ -7,11 +7,7 @@
 #include "bindings/lua/friction/law.hpp"
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/surface/weierstrass_mandelbrot_keys.hpp"
-#include "engine/study/exact/box_paraboloid.hpp"
-#include "engine/study/exact/hertz.hpp"
-#include "engine/study/exact/persson.hpp"
-#include "engine/study/exact/wavy.hpp"
-#include "engine/study/exact/weierstrass_mandelbrot_height.hpp"
+#include "engine/study/exact/closed_forms.hpp"
 
 namespace asperity::lua {
 
@@ -277,11 +273,9 @@ const Module& exact_module() {
                 "print(lab.exact.crossed_waves{ amplitude=0.01, wavelength=1, modulus=1, pressure=0.05 })"},
            {.name = "persson",
             .body = persson,
-            .sentence =
-                "Real contact area of a rough half-space by Persson's theory (2001), with a hardness or "
-                "without: a theory, 25 % below simulations at pressures of 0.01 to 0.04 E*h', h' the rms "
-                "slope, and 20 % "
-                "at 0.1 E*h'.",
+            .sentence = "Real contact area of a rough half-space by Persson's theory (2001), with a hardness "
+                        "or without: a theory, 25 % below simulations at pressures of 0.01 to 0.04 E*h', h' "
+                        "the rms slope, and 20 % at 0.1 E*h'.",
             .options = &persson_block(),
             .returns = "PerssonArea",
             .example = "print(lab.exact.persson{ modulus=1, rms_slope=0.1, pressure=0.01 })"},

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/study/exact/box_paraboloid.hpp"
+// A paraboloid of radius R on independent elements of stiffness k (Winkler): pressure k(δ − r²/2R), so
+//   F = πkRδ²,  A = 2πRδ,  U = Fδ/3.
+#include "engine/study/exact/closed_forms.hpp"
 
 #include <cmath>
 #include <numbers>
-
-#include "engine/study/exact/in_range.hpp"
 
 namespace asperity::exact {
 

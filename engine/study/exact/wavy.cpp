@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/study/exact/wavy.hpp"
+// Wavy half-spaces pressed against a flat. One wave, z = h cos(2πx/λ) (Westergaard 1939; Johnson, Contact
+// Mechanics, §13.2), with f = p̄/p_full and p_full = πE*h/λ: contact on a share A of each wave with
+// sin²(πA/2) = f, mean gap h(1 − f + f ln f), and what follows from these. Two crossed waves, z = h
+// cos(2πx/λ) cos(2πy/λ) (Johnson, Greenwood & Higginson 1985), have a closed form at full contact only, from
+// p* = √2 πE*h/λ up. Frictionless, without adhesion; approach from first touch.
+#include "engine/study/exact/closed_forms.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +12,6 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/constants.hpp"
 #include "engine/core/text.hpp"
-#include "engine/study/exact/in_range.hpp"
 
 namespace asperity::exact {
 

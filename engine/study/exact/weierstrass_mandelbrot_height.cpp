@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/study/exact/weierstrass_mandelbrot_height.hpp"
+// One height of a Weierstrass–Mandelbrot surface (surface/generators/weierstrass_mandelbrot.hpp) to the last
+// digit of a double: the sum of its definition in as many bits as its highest wave number has, and 128 more.
+// It shares nothing with the generator but the draw of the phases. Slow: one cosine of thousands of bits a
+// wave.
+#include "engine/study/exact/closed_forms.hpp"
 
 #include <mpfr.h>
 

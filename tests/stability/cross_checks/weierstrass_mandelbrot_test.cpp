@@ -9,7 +9,7 @@
 #include <ostream>
 
 #include "engine/core/arithmetic/random.hpp"
-#include "engine/study/exact/weierstrass_mandelbrot_height.hpp"
+#include "engine/study/exact/closed_forms.hpp"
 
 namespace asperity::stability::weierstrass_mandelbrot_test {
 namespace {

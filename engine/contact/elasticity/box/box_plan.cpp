@@ -8,7 +8,6 @@
 #include "engine/contact/bodies/elastic_bodies.hpp"
 #include "engine/contact/elasticity/box/box_solver.hpp"
 #include "engine/contact/elasticity/box/sorted_drops.hpp"
-#include "engine/contact/elasticity/box/yielding_box_solver.hpp"
 #include "engine/contact/elasticity/box/yielding_elements.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/core/error.hpp"

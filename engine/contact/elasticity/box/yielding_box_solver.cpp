@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "engine/contact/elasticity/box/yielding_box_solver.hpp"
-
+// Box elements that yield, under a plane: box_solver.hpp says what is solved, yielding_elements.hpp how.
 #include <algorithm>
 #include <cmath>
 #include <limits>
