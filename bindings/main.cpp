@@ -15,12 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "bindings/cli/commands/accuracy_command.hpp"
-#include "bindings/cli/commands/check_command.hpp"
 #include "bindings/cli/commands/command.hpp"
-#include "bindings/cli/commands/information_commands.hpp"
-#include "bindings/cli/commands/lesson_command.hpp"
-#include "bindings/cli/commands/repl_command.hpp"
 #include "bindings/cli/commands/replay_command.hpp"
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/exit_status.hpp"

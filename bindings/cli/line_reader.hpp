@@ -5,15 +5,37 @@
 // and SIGTERM or SIGHUP ends the input; both are blocked otherwise, for whoever watches over the work.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bindings/cli/edit/line_editor.hpp"
-#include "bindings/cli/line_history.hpp"
 #include "bindings/lua/editor/completion.hpp"
 
 namespace asperity::cli {
+
+// The lines typed at a prompt, kept from session to session in $XDG_STATE_HOME/asperity/history
+// (~/.local/state/asperity/history without it), readable by nobody else. A line is added as it is typed, so
+// that sessions side by side and one that is killed lose nothing; when a session begins the file is cut to
+// the last thousand lines. What cannot be read or written is passed over: a prompt works without it.
+class LineHistory {
+ public:
+  static constexpr std::size_t most_lines = 1000;
+  // Without a file nothing is kept.
+  explicit LineHistory(std::filesystem::path file = {});
+  // Where the environment says it goes; empty if there is no home.
+  static std::filesystem::path default_file();
+
+  const std::vector<std::string>& lines() const { return lines_; }
+  // Empty lines, those that begin with a space, and the same line again are not kept.
+  bool add(const std::string& line);
+
+ private:
+  std::filesystem::path file_;
+  std::vector<std::string> lines_;
+};
 
 class LineReader {
  public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/commands/accuracy_command.hpp"
-
+// `asperity accuracy`: what accuracy costs a script that returns a number. The script is run again with
+// every `cells` it gives multiplied by a factor, and with another tolerance for its contacts, and what
+// comes out is a study of work and precision (engine/study/work_precision.hpp).
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <utility>
 
+#include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/muted.hpp"
 #include "bindings/cli/shared_options.hpp"
 #include "bindings/cli/terminal_monitor.hpp"
@@ -30,6 +32,13 @@
 namespace asperity::cli {
 
 namespace {
+
+struct AccuracyCommand {
+  RunCommand run;
+  double at_most = 300;         // seconds, for all runs of the script
+  int repeats = 3;              // timed runs a setting
+  std::optional<double> truth;  // the exact value, SI; otherwise the finest grid gives it
+};
 
 constexpr const char* study_name = "accuracy";
 constexpr const char* wanted =
@@ -205,6 +214,39 @@ double exact_value(const std::string& text) {
   }
 }
 
+// Exit status as of cli::run; 1 also for a script that returns no number, or gives nothing to vary.
+int accuracy(const AccuracyCommand& command) {
+  return in_run_directory(command.run, [&command](RunContext& context) -> std::string {
+    const FirstRun first = run_as_written(context);
+    std::fflush(stdout);
+    ScriptWork work(context);
+    WorkPrecision study(plan(command, first, context.monitor), work, context.monitor);
+    lua::record_request(context.run.get(), study_name, study.result().request);
+    try {
+      const Muted muted;
+      study.run();
+    } catch (const std::exception&) {
+      lua::record_result(context.run.get(), study_name, study.result());
+      throw;
+    }
+    const StudyResult& result = study.result();
+    lua::record_result(context.run.get(), study_name, result);
+    context.monitor.clear();
+    std::printf("%s\n", study_text(result).c_str());
+    if (first.used->grids > 0)
+      std::printf(
+          "cells_factor multiplies every `cells` that the script gives; without it they are as written.\n");
+    if (first.used->contacts > 0)
+      std::printf("tolerance replaces that of every contact; the script's own is %s at the tightest.\n",
+                  format_short(first.used->tightest.load()).c_str());
+    std::fflush(stdout);
+    const LineChart chart = study_chart(result, context.command.script);
+    const std::filesystem::path file = context.run->path_for(std::string(study_name) + ".svg");
+    for (const std::string& warning : draw(chart, file)) context.monitor.warn(warning);
+    return "";
+  });
+}
+
 CommandReader declare_accuracy(CLI::App& options) {
   struct Given {
     AccuracyCommand accuracy;
@@ -236,7 +278,7 @@ CommandReader declare_accuracy(CLI::App& options) {
     if (!given->truth.empty()) asked.truth = exact_value(given->truth);
     asked.run.limit_memory = bytes_of(given->memory);
     asked.run.knobs = knobs_of(given->knobs);
-    return [given] { return cli::accuracy(given->accuracy); };
+    return [given] { return accuracy(given->accuracy); };
   };
 }
 
@@ -253,38 +295,6 @@ Command accuracy_command() {
               "number\n",
           .prints = Prints::of_script,
           .declare = declare_accuracy};
-}
-
-int accuracy(const AccuracyCommand& command) {
-  return in_run_directory(command.run, [&command](RunContext& context) -> std::string {
-    const FirstRun first = run_as_written(context);
-    std::fflush(stdout);
-    ScriptWork work(context);
-    WorkPrecision study(plan(command, first, context.monitor), work, context.monitor);
-    lua::record_request(context.run.get(), study_name, study.result().request);
-    try {
-      const Muted muted;
-      study.run();
-    } catch (const std::exception&) {
-      lua::record_result(context.run.get(), study_name, study.result());
-      throw;
-    }
-    const StudyResult& result = study.result();
-    lua::record_result(context.run.get(), study_name, result);
-    context.monitor.clear();
-    std::printf("%s\n", study_text(result).c_str());
-    if (first.used->grids > 0)
-      std::printf(
-          "cells_factor multiplies every `cells` that the script gives; without it they are as written.\n");
-    if (first.used->contacts > 0)
-      std::printf("tolerance replaces that of every contact; the script's own is %s at the tightest.\n",
-                  format_short(first.used->tightest.load()).c_str());
-    std::fflush(stdout);
-    const LineChart chart = study_chart(result, context.command.script);
-    const std::filesystem::path file = context.run->path_for(std::string(study_name) + ".svg");
-    for (const std::string& warning : draw(chart, file)) context.monitor.warn(warning);
-    return "";
-  });
 }
 
 }  // namespace asperity::cli

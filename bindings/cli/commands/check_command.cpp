@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/commands/check_command.hpp"
-
+// `asperity check` and `asperity explain`: a script followed without its heavy calls.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/cli/run_observer.hpp"
 #include "bindings/cli/shared_options.hpp"
@@ -102,66 +102,8 @@ int dry_run(const RunCommand& command, const std::string& verb, lua::Session& se
   return failed;
 }
 
-// What is given to either command.
-struct FollowedScript {
-  RunCommand run;
-  std::string time;
-  std::vector<std::string> knobs;
-  bool json = false;  // of `explain`
-};
-
-CommandReader declare_check(CLI::App& options) {
-  const auto given = std::make_shared<FollowedScript>();
-  add_script_options(options, given->run, given->time);
-  add_knobs(options, given->knobs);
-  return [given]() -> CommandWork {
-    given->run.limit_time = seconds_of(given->time);
-    given->run.knobs = knobs_of(given->knobs);
-    return [given] { return cli::check(given->run); };
-  };
-}
-
-CommandReader declare_explain(CLI::App& options) {
-  const auto given = std::make_shared<FollowedScript>();
-  add_script_options(options, given->run, given->time);
-  add_knobs(options, given->knobs);
-  options.add_flag("--json", given->json, "as JSON");
-  return [given]() -> CommandWork {
-    given->run.limit_time = seconds_of(given->time);
-    given->run.knobs = knobs_of(given->knobs);
-    return [given] { return cli::explain(given->run, given->json); };
-  };
-}
-
-}  // namespace
-
-Command check_command() {
-  return {.name = "check",
-          .sentence = "look for mistakes in a script without running it",
-          .overview = "asperity check SCRIPT                          look for mistakes without running it\n",
-          .declare = declare_check};
-}
-
-Command explain_command() {
-  return {
-      .name = "explain",
-      .sentence =
-          "what a script will compute, and at what cost: its surfaces are made and its contacts planned, "
-          "but nothing is pressed; a loop over a sweep turns once",
-      .overview = "asperity explain SCRIPT                        what it will compute, and at what cost\n",
-      .declare = declare_explain};
-}
-
-int check(const RunCommand& command) {
-  TerminalMonitor monitor;
-  lua::Session session(monitor);
-  return dry_run(command, "check", session, [&](const std::string& reached) {
-    if (command.observer != nullptr) return command.observer->ended(done, StopReason::none, reached);
-    std::printf("%s: no problem found%s%s\n", command.script.c_str(), reached.empty() ? "" : "; checked ",
-                reached.c_str());
-  });
-}
-
+// What the script will compute and at what cost: surfaces are made, contacts planned, nothing is pressed.
+// Exit statuses are those of run().
 int explain(const RunCommand& command, bool json) {
   TerminalMonitor monitor;
   lua::Session session(monitor);
@@ -179,6 +121,55 @@ int explain(const RunCommand& command, bool json) {
     }
     std::fputs(session.explanation->text().c_str(), stdout);
     if (!reached.empty()) std::printf("explained %s\n", reached.c_str());
+  });
+}
+
+// What is given to either command.
+struct FollowedScript {
+  RunCommand run;
+  std::string time;
+  std::vector<std::string> knobs;
+  bool json = false;  // of `explain`
+};
+
+CommandReader declare(CLI::App& options, bool explains) {
+  const auto given = std::make_shared<FollowedScript>();
+  add_script_options(options, given->run, given->time);
+  add_knobs(options, given->knobs);
+  if (explains) options.add_flag("--json", given->json, "as JSON");
+  return [given, explains]() -> CommandWork {
+    given->run.limit_time = seconds_of(given->time);
+    given->run.knobs = knobs_of(given->knobs);
+    return [given, explains] { return explains ? explain(given->run, given->json) : cli::check(given->run); };
+  };
+}
+
+}  // namespace
+
+Command check_command() {
+  return {.name = "check",
+          .sentence = "look for mistakes in a script without running it",
+          .overview = "asperity check SCRIPT                          look for mistakes without running it\n",
+          .declare = [](CLI::App& options) { return declare(options, false); }};
+}
+
+Command explain_command() {
+  return {
+      .name = "explain",
+      .sentence =
+          "what a script will compute, and at what cost: its surfaces are made and its contacts planned, "
+          "but nothing is pressed; a loop over a sweep turns once",
+      .overview = "asperity explain SCRIPT                        what it will compute, and at what cost\n",
+      .declare = [](CLI::App& options) { return declare(options, true); }};
+}
+
+int check(const RunCommand& command) {
+  TerminalMonitor monitor;
+  lua::Session session(monitor);
+  return dry_run(command, "check", session, [&](const std::string& reached) {
+    if (command.observer != nullptr) return command.observer->ended(done, StopReason::none, reached);
+    std::printf("%s: no problem found%s%s\n", command.script.c_str(), reached.empty() ? "" : "; checked ",
+                reached.c_str());
   });
 }
 

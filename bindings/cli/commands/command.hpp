@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A command of the program, as in `asperity run`: its name, what the pages of help say of it, its options,
 // and what carries it out. Each declares all of this in a file of its own, and main() (bindings/main.cpp)
-// walks a list of them, so that a command more is a file more and a line of that list.
+// walks a list of them, so that a command more is a file more, its line here and a line of that list.
 #pragma once
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -36,5 +37,24 @@ struct Command {
   // Adds its options to its own part of the parser, which outlives what is returned.
   std::function<CommandReader(CLI::App& options)> declare;
 };
+
+// Commands that show nobody else what they do, each defined in the source of its name; the last three in
+// information_commands.cpp.
+Command accuracy_command();
+Command check_command();
+Command explain_command();
+Command lesson_command();
+Command repl_command();
+// `overview` is asked for the lines of all commands, which `asperity help` begins with.
+Command help_command(std::string (*overview)());
+Command materials_command();
+Command version_command();
+
+// Pages made from the command line as the program reads it (command_pages.cpp), so that they cannot say
+// anything else. The manual page asperity(1), in the macros of man(7), …
+std::string manual_page(const CLI::App& app, const std::string& version);
+// … and what a shell, bash, completes: commands, the options of each, scripts, run directories, these
+// lessons.
+std::string bash_completion(const CLI::App& app, const std::vector<std::string>& lessons);
 
 }  // namespace asperity::cli

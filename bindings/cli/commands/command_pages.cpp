@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/commands/command_pages.hpp"
-
+// Pages made from the command line as the program reads it, so that they cannot say anything else: the manual
+// page asperity(1), and what a shell completes.
 #include <CLI/CLI.hpp>
+
+#include "bindings/cli/commands/command.hpp"
 
 namespace asperity::cli {
 

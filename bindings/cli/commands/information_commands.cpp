@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/commands/information_commands.hpp"
-
+// Commands that tell and compute nothing: `asperity help`, of the language and of the program's own command
+// line; `asperity materials`; `asperity version`.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "bindings/cli/commands/command_pages.hpp"
+#include "bindings/cli/commands/command.hpp"
 #include "bindings/cli/exit_status.hpp"
 #include "bindings/lua/editor/help.hpp"
 #include "bindings/lua/editor/lessons.hpp"

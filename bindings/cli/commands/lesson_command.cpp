@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/commands/lesson_command.hpp"
-
+// `asperity lesson`: the lessons that come with the program, to be read, copied and run in a terminal.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -8,6 +7,7 @@
 #include <fstream>
 #include <memory>
 
+#include "bindings/cli/commands/run_command.hpp"
 #include "bindings/cli/shared_options.hpp"
 #include "bindings/lua/editor/lessons.hpp"
 #include "engine/core/error.hpp"
@@ -16,6 +16,13 @@
 namespace asperity::cli {
 
 namespace {
+
+struct LessonCommand {
+  std::string name;   // empty: list them all
+  bool copy = false;  // writes the script into the present folder
+  bool run = false;
+  RunCommand options;  // of a run; its script is the lesson's
+};
 
 // The words of a text in lines of at most 100 letters, each after the first behind an indent.
 std::string in_lines(const std::string& text, std::size_t indent) {
@@ -61,37 +68,8 @@ void copy(const lua::Lesson& lesson) {
               lesson.file.c_str());
 }
 
-CommandReader declare_lesson(CLI::App& options) {
-  struct Given {
-    LessonCommand lesson;
-    std::string memory;
-  };
-  const auto given = std::make_shared<Given>();
-  LessonCommand& asked = given->lesson;
-  options.add_option("name", asked.name, "a lesson, by name or number; without it they are listed");
-  CLI::Option* copied =
-      options.add_flag("--copy", asked.copy, "put its script into this folder, to be changed and run");
-  options.add_flag("--run", asked.run, "run it as it is")->excludes(copied);
-  add_run_options(options, asked.options, given->memory);
-
-  return [given]() -> CommandWork {
-    given->lesson.options.limit_memory = bytes_of(given->memory);
-    return [given] { return cli::lesson(given->lesson); };
-  };
-}
-
-}  // namespace
-
-Command lesson_command() {
-  return {.name = "lesson",
-          .sentence = "lessons that come with the program: lists them, shows one, copies or runs it",
-          .overview =
-              "asperity lesson [NAME]                         lessons: a question, a prediction, a run that "
-              "tells why\n",
-          .prints = Prints::of_script,
-          .declare = declare_lesson};
-}
-
+// Exit status: that of the run, 0 otherwise, 2 for a lesson that is not there or a file that is there
+// already.
 int lesson(const LessonCommand& command) {
   try {
     if (command.name.empty()) {
@@ -121,6 +99,37 @@ int lesson(const LessonCommand& command) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     return 2;
   }
+}
+
+CommandReader declare_lesson(CLI::App& options) {
+  struct Given {
+    LessonCommand lesson;
+    std::string memory;
+  };
+  const auto given = std::make_shared<Given>();
+  LessonCommand& asked = given->lesson;
+  options.add_option("name", asked.name, "a lesson, by name or number; without it they are listed");
+  CLI::Option* copied =
+      options.add_flag("--copy", asked.copy, "put its script into this folder, to be changed and run");
+  options.add_flag("--run", asked.run, "run it as it is")->excludes(copied);
+  add_run_options(options, asked.options, given->memory);
+
+  return [given]() -> CommandWork {
+    given->lesson.options.limit_memory = bytes_of(given->memory);
+    return [given] { return lesson(given->lesson); };
+  };
+}
+
+}  // namespace
+
+Command lesson_command() {
+  return {.name = "lesson",
+          .sentence = "lessons that come with the program: lists them, shows one, copies or runs it",
+          .overview =
+              "asperity lesson [NAME]                         lessons: a question, a prediction, a run that "
+              "tells why\n",
+          .prints = Prints::of_script,
+          .declare = declare_lesson};
 }
 
 }  // namespace asperity::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/cli/commands/repl_command.hpp"
-
+// `asperity repl`: a conversation with the laboratory. Lines come from a terminal, edited and completed, or
+// from a pipe, read as they are; each is run as it comes, and its value is shown. A run directory is made
+// when the first file is written; its script.lua is what was said, less the lines that failed.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -31,6 +32,16 @@
 namespace asperity::cli {
 
 namespace {
+
+struct ReplCommand {
+  std::optional<std::string> out;
+  int threads = 0;  // 0: one a processor
+  std::uint64_t seed = 1;
+  std::optional<std::int64_t> limit_memory;  // bytes
+  std::optional<double> limit_time;          // seconds, of one line
+  bool trust = false;
+  bool no_history = false;
+};
 
 class Conversation {
  public:
@@ -260,6 +271,18 @@ class Conversation {
   bool lines_failed_ = false, stopped_ = false;
 };
 
+// Exit status: 0; what os.exit was given; without a terminal 1 where a line or an expectation failed; 130
+// where a signal ended it.
+int repl(const ReplCommand& command) {
+  try {
+    Conversation conversation(command);
+    return conversation.converse();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    return bad_usage;
+  }
+}
+
 CommandReader declare_repl(CLI::App& options) {
   struct Given {
     ReplCommand repl;
@@ -283,7 +306,7 @@ CommandReader declare_repl(CLI::App& options) {
   return [given]() -> CommandWork {
     given->repl.limit_time = seconds_of(given->time);
     given->repl.limit_memory = bytes_of(given->memory);
-    return [given] { return cli::repl(given->repl); };
+    return [given] { return repl(given->repl); };
   };
 }
 
@@ -295,16 +318,6 @@ Command repl_command() {
           .overview = "asperity repl [options]                        try things line by line\n",
           .prints = Prints::by_editor,
           .declare = declare_repl};
-}
-
-int repl(const ReplCommand& command) {
-  try {
-    Conversation conversation(command);
-    return conversation.converse();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "asperity: %s\n", error.what());
-    return bad_usage;
-  }
 }
 
 }  // namespace asperity::cli

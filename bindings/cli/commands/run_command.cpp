@@ -424,11 +424,10 @@ int run(const RunCommand& asked) {
     try {
       std::optional<RunCommand> again = taken_up(asked, !launched || launched->rank == 0);
       if (!again) {
-        std::fprintf(
-            stderr,
-            "asperity: %s came to its end, and every file is as it was recorded; there is nothing to "
-            "resume\n",
-            asked.resume->c_str());
+        std::fprintf(stderr,
+                     "asperity: %s came to its end, and every file is as it was recorded; there is nothing "
+                     "to resume\n",
+                     asked.resume->c_str());
         const std::vector<std::string> altered = altered_inputs(read_run(*asked.resume, true));
         for (const std::string& sentence : altered) std::fprintf(stderr, "%s\n", sentence.c_str());
         if (!altered.empty())

@@ -81,6 +81,8 @@ Command run_command(BehindBarriers<RunCommand> barriers);
 // Exit status: 0 done, 1 the script or an expectation failed, 2 bad usage or another process runs there, 130
 // interrupted, 143 asked to end (TERM), 129 the terminal was closed (HUP).
 int run(const RunCommand& command);
+// `asperity check`: the script is followed without its heavy calls. Exit statuses are those of run().
+int check(const RunCommand& command);
 
 // What the work of a run has at hand.
 struct RunContext {

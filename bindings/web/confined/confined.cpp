@@ -12,7 +12,6 @@
 #include <cstring>
 #include <utility>
 
-#include "bindings/cli/commands/check_command.hpp"
 #include "bindings/cli/commands/run_command.hpp"
 #include "bindings/web/confined/command_request.hpp"
 #include "bindings/web/confined/confined_command.hpp"
