@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The list of everything a script can see, one line a module and a class.
 #include "bindings/lua/contact/discretisation_error.hpp"
-#include "bindings/lua/contact/plan.hpp"
+#include "bindings/lua/contact/state_class.hpp"
 #include "bindings/lua/contact/state_error.hpp"
 #include "bindings/lua/friction/law.hpp"
 #include "bindings/lua/metrology/stylus.hpp"
@@ -12,15 +12,10 @@
 #include "bindings/lua/run/table.hpp"
 #include "bindings/lua/specimen/contact.hpp"
 #include "bindings/lua/specimen/protocol.hpp"
-#include "bindings/lua/specimen/shear.hpp"
 #include "bindings/lua/specimen/tilt_stage.hpp"
 #include "bindings/lua/spread/spread.hpp"
-#include "bindings/lua/study/budget.hpp"
-#include "bindings/lua/study/calibration.hpp"
-#include "bindings/lua/study/sensitivity.hpp"
 #include "bindings/lua/study/study.hpp"
-#include "bindings/lua/surface/areal_parameters.hpp"
-#include "bindings/lua/surface/material.hpp"
+#include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/surface.hpp"
 
 namespace asperity::lua {

@@ -2,7 +2,6 @@
 // A conversation line by line: what is shown, what waits for more, and what stays.
 #include "bindings/lua/editor/prompt.hpp"
 
-#include "bindings/lua/editor/shown_line.hpp"
 #include "tests/bindings/lua_test.hpp"
 
 namespace asperity::lua::prompt_test {

@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "bindings/web/api/positions.hpp"
+#include "bindings/web/api/answers.hpp"
 #include "bindings/web/api/views.hpp"
 #include "bindings/web/confined/frames.hpp"
 #include "bindings/web/runs/event_log.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/contact/plan.hpp"
-
-#include "bindings/lua/registry/record_type.hpp"
+// What contact:explain gives: the plan of a press, what is to be computed and what it is expected to cost.
 #include "engine/contact/plan.hpp"
+#include "bindings/lua/contact/state_class.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "engine/core/files/json.hpp"
 
 namespace asperity::lua {
@@ -67,11 +67,7 @@ const Class& class_of<Plan>() {
         getter<Plan>("json", "string", "all of it, as JSON",
                      [](const Plan& of) { return to_json(of).text(2); })};
     c.results = {&planned_term_type(), &planned_buffer_type()};
-    c.describe = [](const void* self) {
-      std::string text = static_cast<const Plan*>(self)->text();
-      text.pop_back();
-      return text;
-    };
+    c.describe = lines_of<Plan>;
     return c;
   }();
   return type;

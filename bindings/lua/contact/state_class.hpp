@@ -7,6 +7,7 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/surface/field_class.hpp"
 #include "engine/contact/certificate.hpp"
+#include "engine/contact/plan.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/core/grid.hpp"
 
@@ -17,5 +18,10 @@ std::vector<RecordField<Certificate>> certificate_fields();
 
 template <>
 const Class& class_of<asperity::State>();
+
+// What contact:explain gives (plan.cpp): the plan of a press, what is to be computed and what it is expected
+// to cost.
+template <>
+const Class& class_of<Plan>();
 
 }  // namespace asperity::lua

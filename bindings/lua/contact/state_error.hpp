@@ -24,6 +24,4 @@ const Class& class_of<StateError>();
 template <>
 const Class& class_of<StateBounds>();
 
-// Seconds, transforms and bytes as a result.
-
 }  // namespace asperity::lua

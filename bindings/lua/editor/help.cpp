@@ -8,6 +8,7 @@
 
 #include "bindings/lua/registry/record_type.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/files/text_table.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {
@@ -281,12 +282,6 @@ std::string keys_help(const std::string& name) {
 
 // --- parts of names, words of sentences
 
-std::string lowered(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
 // Whether a sentence has a word that begins with this one.
@@ -300,15 +295,15 @@ bool has_word(std::string_view sentence, std::string_view word) {
 // "" where there is none, and for a single letter, which is in every name.
 // `beside` what was found by its very name.
 std::string hits_help(const std::string& asked, const std::vector<Topic>& topics, bool beside) {
-  const std::string word = lowered(asked);
+  const std::string word = lower_case(asked);
   if (word.size() < 2 || word.find_first_not_of(' ') == std::string::npos) return "";
   std::vector<std::string> by_name, by_sentence;
   const auto look = [&](const std::string& name, std::string_view own, const std::string& sentence,
                         const std::string& type) {
-    if (beside && lowered(own) == word) return;
-    if (lowered(own).find(word) != std::string::npos)
+    if (beside && lower_case(own) == word) return;
+    if (lower_case(own).find(word) != std::string::npos)
       by_name.push_back(name + ": " + sentence);
-    else if (has_word(lowered(sentence + " " + type), word))
+    else if (has_word(lower_case(sentence + " " + type), word))
       by_sentence.push_back(name + ": " + sentence);
   };
   for (const Topic& topic : topics) look(topic.name, last_name(topic.name), topic.sentence, "");

@@ -4,8 +4,6 @@
 #include <cstdio>
 #include <optional>
 
-#include "bindings/lua/editor/show.hpp"
-#include "bindings/lua/editor/shown_line.hpp"
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/registry.hpp"

@@ -63,4 +63,16 @@ class Prompt {
 // Places of all other words stay as they are.
 std::string with_lasting_locals(const std::string& text);
 
+// Pushes show(value) (show.cpp), what a prompt draws in the terminal. A surface or a field of a state as a
+// map, a profile or the columns of a notebook as a chart; with the name of a file, the picture goes there
+// instead. Raises on lack of memory.
+void push_show(lua_State* L);
+
+// --- how a value is shown (shown_line.cpp)
+
+// Never raises; what cannot be shown says why.
+std::string shown_line(lua_State* L, int index);
+// A number with its unit, readable and as it is: "814.7 pm (8.147e-10 m)".
+std::string shown_quantity(double value, Dimension dimension);
+
 }  // namespace asperity::lua

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/editor/show.hpp"
-
+// show(value): what a prompt draws in the terminal. A surface or a field of a state as a map, a profile or
+// the columns of a notebook as a chart; with the name of a file, the picture goes there instead.
 #include <cstdio>
 
+#include "bindings/lua/editor/prompt.hpp"
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/contact.hpp"
-#include "bindings/lua/surface/missing_points.hpp"
-#include "bindings/lua/surface/picture.hpp"
+#include "bindings/lua/surface/field_class.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/plot/palette.hpp"
 #include "engine/plot/picture_profile.hpp"

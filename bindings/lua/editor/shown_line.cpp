@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/editor/shown_line.hpp"
-
+// A Lua value as a prompt shows it: on one line, tables with what they hold as far as it fits, results with
+// their units, native values as they describe themselves. What describes itself as a text of several lines
+// (a ledger, a plan) is shown so.
 #include <algorithm>
 #include <vector>
 
+#include "bindings/lua/editor/prompt.hpp"
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/registry.hpp"

@@ -15,6 +15,18 @@ namespace {
 
 const char native_key = 0;  // metatable[native_key] = true marks the metatables of native values
 
+// Of the metamethod that is called.
+const Class& class_at(lua_State* L) {
+  return *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
+}
+
+// The results of a body; raises what it failed with.
+template <class Body>
+int raised(lua_State* L, const std::string& name, const Body& body) {
+  const int results = guarded(L, name, body);
+  return results < 0 ? lua_error(L) : results;
+}
+
 int guarded_field(lua_State* L, const Class& type) {
   static const std::string nothing;
   return guarded(L, nothing, [&]() -> Values {
@@ -44,7 +56,7 @@ int outer_index(lua_State* L) {
   lua_pushvalue(L, 2);
   if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;  // a method
   lua_pop(L, 1);
-  const int results = guarded_field(L, *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1))));
+  const int results = guarded_field(L, class_at(L));
   return results < 0 ? mistaken_field(L) : results;
 }
 
@@ -60,49 +72,40 @@ int guarded_new_index(lua_State* L, const Class& type) {
 }
 
 int outer_new_index(lua_State* L) {
-  guarded_new_index(L, *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1))));
+  guarded_new_index(L, class_at(L));
   return noted_as_mistake(L) ? 0 : lua_error(L);
 }
 
 int outer_to_string(lua_State* L) {
-  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
-  const int results = [&] {
-    return guarded(L, type.name, [&]() -> Values {
-      const Object* self = Argument(L, 1).as_object(type);
-      if (self == nullptr || self->pointer == nullptr || type.describe == nullptr)
-        return {type.article_name + (self != nullptr && self->closed ? " (closed)" : "")};
-      return {type.describe(self->pointer.get())};
-    });
-  }();
-  return results < 0 ? lua_error(L) : results;
+  const Class& type = class_at(L);
+  return raised(L, type.name, [&]() -> Values {
+    const Object* self = Argument(L, 1).as_object(type);
+    if (self == nullptr || self->pointer == nullptr || type.describe == nullptr)
+      return {type.article_name + (self != nullptr && self->closed ? " (closed)" : "")};
+    return {type.describe(self->pointer.get())};
+  });
 }
 
 int outer_equal(lua_State* L) {
-  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
-  const int results = [&] {
-    return guarded(L, type.name, [&]() -> Values {
-      const Object* a = Argument(L, 1).as_object(type);
-      const Object* b = Argument(L, 2).as_object(type);
-      if (a == nullptr || b == nullptr || a->pointer == nullptr || b->pointer == nullptr) return {false};
-      return {a->pointer == b->pointer ||
-              (type.equal != nullptr && type.equal(a->pointer.get(), b->pointer.get()))};
-    });
-  }();
-  return results < 0 ? lua_error(L) : results;
+  const Class& type = class_at(L);
+  return raised(L, type.name, [&]() -> Values {
+    const Object* a = Argument(L, 1).as_object(type);
+    const Object* b = Argument(L, 2).as_object(type);
+    if (a == nullptr || b == nullptr || a->pointer == nullptr || b->pointer == nullptr) return {false};
+    return {a->pointer == b->pointer ||
+            (type.equal != nullptr && type.equal(a->pointer.get(), b->pointer.get()))};
+  });
 }
 
 int outer_length(lua_State* L) {
-  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
-  const int results = [&] {
-    return guarded(L, type.name, [&]() -> Values {
-      const Object* self = Argument(L, 1).as_object(type);
-      if (self != nullptr && self->is_placeholder()) return {Unknown{}};
-      if (self == nullptr || self->closed)
-        throw Error(ErrorCode::bad_state, type.article_name + " was used after it was closed");
-      return {type.length(self->pointer.get())};
-    });
-  }();
-  return results < 0 ? lua_error(L) : results;
+  const Class& type = class_at(L);
+  return raised(L, type.name, [&]() -> Values {
+    const Object* self = Argument(L, 1).as_object(type);
+    if (self != nullptr && self->is_placeholder()) return {Unknown{}};
+    if (self == nullptr || self->closed)
+      throw Error(ErrorCode::bad_state, type.article_name + " was used after it was closed");
+    return {type.length(self->pointer.get())};
+  });
 }
 
 int guarded_operator(lua_State* L, const Operator& operation) {
@@ -132,15 +135,12 @@ int outer_operator(lua_State* L) {
 
 // A native value has fields to read and methods to call, and nothing to walk over.
 int outer_pairs(lua_State* L) {
-  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
-  const int results = [&] {
-    static const std::string name = "pairs";
-    return guarded(L, name, [&]() -> Values {
-      throw Error(ErrorCode::bad_value, type.article_name + " is no table",
-                  "help \"" + type.name + "\" lists its fields and methods");
-    });
-  }();
-  return results < 0 ? lua_error(L) : results;
+  const Class& type = class_at(L);
+  static const std::string name = "pairs";
+  return raised(L, name, [&]() -> Values {
+    throw Error(ErrorCode::bad_value, type.article_name + " is no table",
+                "help \"" + type.name + "\" lists its fields and methods");
+  });
 }
 
 void drop(Object* object) {
@@ -158,17 +158,14 @@ int release(lua_State* L) {
 
 // __close: the same, after what the class does before it.
 int outer_close(lua_State* L) {
-  const Class& type = *static_cast<const Class*>(lua_touserdata(L, lua_upvalueindex(1)));
-  const int results = [&] {
-    return guarded(L, type.name, [&]() -> Values {
-      Object* object = native_at(L, 1);
-      if (object != nullptr && object->pointer != nullptr && type.closing != nullptr)
-        type.closing(object->pointer.get());
-      drop(object);
-      return {};
-    });
-  }();
-  return results < 0 ? lua_error(L) : results;
+  const Class& type = class_at(L);
+  return raised(L, type.name, [&]() -> Values {
+    Object* object = native_at(L, 1);
+    if (object != nullptr && object->pointer != nullptr && type.closing != nullptr)
+      type.closing(object->pointer.get());
+    drop(object);
+    return {};
+  });
 }
 
 void set_class_method(lua_State* L, const char* name, lua_CFunction function, const Class& type) {

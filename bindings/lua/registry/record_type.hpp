@@ -86,6 +86,13 @@ template <auto read, class T = decltype(detail::class_of_member(read))>
 std::string text_of(const void* self) {
   return std::invoke(read, *static_cast<const T*>(self));
 }
+// Their text without the end of its last line.
+template <class T>
+std::string lines_of(const void* self) {
+  std::string text = static_cast<const T*>(self)->text();
+  text.pop_back();
+  return text;
+}
 template <class T>
 bool have_one_digest(const void* a, const void* b) {
   return static_cast<const T*>(a)->digest() == static_cast<const T*>(b)->digest();

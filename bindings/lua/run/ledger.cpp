@@ -52,11 +52,7 @@ const Class& class_of<LedgerReport>() {
                   [](const R& of) { return text_list(of.effects_off); }),
         getter<R>("json", "string", "all of it, as JSON", [](const R& of) { return of.json().text(2); })};
     c.results = {&ledger_line_type(), &cost_type()};
-    c.describe = [](const void* self) {
-      std::string text = static_cast<const R*>(self)->text();
-      text.pop_back();
-      return text;
-    };
+    c.describe = lines_of<R>;
     return c;
   }();
   return type;

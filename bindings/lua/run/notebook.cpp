@@ -8,9 +8,9 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/table.hpp"
-#include "bindings/lua/run/table_analysis.hpp"
 #include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
+#include "bindings/lua/runtime/files.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/notebook_chart.hpp"
 #include "engine/run/run_directory.hpp"
@@ -19,14 +19,6 @@
 namespace asperity::lua {
 
 namespace {
-
-RunDirectory& run_of(const Call& call) {
-  const Session& session = call.session();
-  if (session.is_case || session.run == nullptr)
-    throw Error(ErrorCode::not_permitted, "a case of an ensemble keeps no notebook",
-                "return what it found, and write the rows after the loop");
-  return *session.run;
-}
 
 struct NotebookKeys {
   std::vector<std::string> columns;
@@ -46,7 +38,9 @@ const Block<NotebookKeys>& notebook_block() {
 Values open_notebook(Call& call) {
   const NotebookKeys keys = call.options(notebook_block(), 2);
   for (const std::string& column : keys.columns) parse_unit(split_column_unit(column).unit);
-  const std::shared_ptr<Notebook> book = run_of(call).notebook(call.text(1, "name"));
+  RunDirectory& run =
+      run_of(call, "keeps no notebook", "return what it found, and write the rows after the loop");
+  const std::shared_ptr<Notebook> book = run.notebook(call.text(1, "name"));
   if (!keys.columns.empty()) book->order_columns(keys.columns);
   return {object(book)};
 }

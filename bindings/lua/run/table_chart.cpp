@@ -5,7 +5,7 @@
 
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/notebook.hpp"
-#include "bindings/lua/run/table_analysis.hpp"
+#include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
@@ -202,10 +202,7 @@ void with_functions(const Argument& chart, std::vector<Wanted>& wanted, std::siz
 
 Values chart_rows(Call& call) {
   NotebookChart options = call.options(notebook_chart_block());
-  const Session& session = call.session();
-  if (session.is_case || session.run == nullptr)
-    throw Error(ErrorCode::not_permitted, "a case of an ensemble draws no charts",
-                "return what it found, and draw it after the loop");
+  RunDirectory& run = run_of(call, "draws no charts", "return what it found, and draw it after the loop");
   std::vector<Wanted> wanted;
   for (FunctionLine& line : options.functions) wanted.push_back({false, &line});
   if (options.below) {
@@ -217,7 +214,7 @@ Values chart_rows(Call& call) {
   const auto table = table_of_self(call);
   DrawnChart drawn;
   const auto draw_it = [&] {
-    drawn = draw_chart(*session.run, book != nullptr ? book->name() : "table", *table, options);
+    drawn = draw_chart(run, book != nullptr ? book->name() : "table", *table, options);
   };
   with_functions(call.argument(1), wanted, 0, draw_it);
   warn_of(call, drawn.warnings);

@@ -5,7 +5,6 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
-#include "bindings/lua/run/table_analysis.hpp"
 #include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"

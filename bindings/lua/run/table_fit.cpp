@@ -7,7 +7,7 @@
 
 #include "bindings/lua/registry/record.hpp"
 #include "bindings/lua/registry/session.hpp"
-#include "bindings/lua/run/table_analysis.hpp"
+#include "bindings/lua/run/table.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "engine/core/monitor.hpp"

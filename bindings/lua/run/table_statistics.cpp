@@ -4,7 +4,6 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/notebook.hpp"
 #include "bindings/lua/run/table.hpp"
-#include "bindings/lua/run/table_analysis.hpp"
 #include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/run/table_values.hpp"
 #include "bindings/lua/runtime/files.hpp"
@@ -173,14 +172,6 @@ const RecordType<ValueHistogram>& histogram_record() {
   return type;
 }
 
-RunDirectory& drawing_run(const Call& call) {
-  const Session& session = call.session();
-  if (session.is_case || session.run == nullptr)
-    throw Error(ErrorCode::not_permitted, "a case of an ensemble draws no pictures",
-                "return what it found, and draw it after the loop");
-  return *session.run;
-}
-
 void draw_histogram(Call& call, const HistogramKeys& keys, const TableColumn& column,
                     const ValueHistogram& found) {
   LineChart chart;
@@ -191,7 +182,8 @@ void draw_histogram(Call& call, const HistogramKeys& keys, const TableColumn& co
   for (std::size_t k = 0; k < found.counts.size(); ++k)
     chart.bars.push_back({found.edges[k], found.edges[k + 1],
                           keys.density ? found.density[k] : static_cast<double>(found.counts[k])});
-  warn_of(call, draw(chart, drawing_run(call).path_for(*keys.file)));
+  RunDirectory& run = run_of(call, "draws no pictures", "return what it found, and draw it after the loop");
+  warn_of(call, draw(chart, run.path_for(*keys.file)));
 }
 
 Values histogram_of_column(Call& call) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/runtime/file_list.hpp"
-
+// lab.files: the files of a folder whose names match a pattern.
 #include <filesystem>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 
+#include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/text.hpp"
@@ -18,6 +19,28 @@ namespace {
 namespace fs = std::filesystem;
 
 bool has_wildcard(const std::string& text) { return text.find_first_of("*?") != std::string::npos; }
+
+// Whether a name matches a pattern in which * stands for any characters and ? for one. O(name × pattern).
+bool matches_pattern(std::string_view name, std::string_view pattern) {
+  // Back to behind the last *, which then stands for one character more.
+  std::size_t n = 0, p = 0, star = std::string_view::npos, from = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      from = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+      ++n;
+      ++p;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      n = ++from;
+    } else {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
 
 // Names of plain files in a folder, or nothing where there is none.
 std::set<std::string> files_in(const fs::path& folder) {
@@ -73,27 +96,6 @@ Values list_files(Call& call) {
 }
 
 }  // namespace
-
-bool matches_pattern(std::string_view name, std::string_view pattern) {
-  // Back to behind the last *, which then stands for one character more.
-  std::size_t n = 0, p = 0, star = std::string_view::npos, from = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      from = n;
-    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
-      ++n;
-      ++p;
-    } else if (star != std::string_view::npos) {
-      p = star + 1;
-      n = ++from;
-    } else {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
 
 Function files_function() {
   return {.name = "files",

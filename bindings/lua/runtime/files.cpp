@@ -21,6 +21,13 @@ std::string writable_path(const Call& call, const std::string& name) {
   return session.run == nullptr ? name : session.run->path_for(name).string();
 }
 
+RunDirectory& run_of(const Call& call, const char* does, const char* instead) {
+  const Session& session = call.session();
+  if (session.is_case || session.run == nullptr)
+    throw Error(ErrorCode::not_permitted, std::string("a case of an ensemble ") + does, instead);
+  return *session.run;
+}
+
 std::string readable_path(const Call& call, const std::string& name) {
   const Session& session = call.session();
   return session.run == nullptr ? name : session.run->place_to_read(name).string();

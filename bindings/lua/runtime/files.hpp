@@ -11,11 +11,19 @@
 #include "bindings/lua/registry/registry.hpp"
 #include "engine/surface/io/read.hpp"
 
+namespace asperity {
+class RunDirectory;
+}
+
 namespace asperity::lua {
 
 // Where a file that the script writes goes. Throws Error{not_permitted} for a way out of the run
 // directory, and inside a case of an ensemble.
 std::string writable_path(const Call& call, const std::string& name);
+// The run that the script writes into. Throws Error{not_permitted} inside a case of an ensemble, which `does`
+// not
+// ("draws no charts") and should do something `instead`.
+RunDirectory& run_of(const Call& call, const char* does, const char* instead);
 // Where a file that the script reads lies: as named, or else the one the run wrote under that name.
 std::string readable_path(const Call& call, const std::string& name);
 // Tells the run of warnings, as drawing returns them.

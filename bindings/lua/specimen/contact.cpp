@@ -8,7 +8,6 @@
 #include "bindings/lua/run/ledger.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/contact_scene.hpp"
-#include "bindings/lua/specimen/shear.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/recording/bench_log.hpp"

@@ -9,6 +9,7 @@
 
 #include "bindings/lua/contact/state_class.hpp"
 #include "bindings/lua/registry/registry.hpp"
+#include "engine/friction/partial_slip.hpp"
 #include "engine/specimen/specimen_pair.hpp"
 
 namespace asperity::lua {
@@ -40,5 +41,11 @@ struct ShiftKeys {
 const Block<ShiftKeys>& shift_block();
 
 Function contact_function();
+
+// contact:shear (shear.cpp) and its result: a contact under load that is pulled sideways by less than makes
+// it slide.
+Function shear_method();
+template <>
+const Class& class_of<PartialSlip>();
 
 }  // namespace asperity::lua

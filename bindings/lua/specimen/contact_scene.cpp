@@ -286,18 +286,27 @@ const Block<SceneKeys>& effects_block() {
   return block;
 }
 
-// Every key of the table is an effect by name; those this build does not compute are refused.
-void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
-  if (!value.is_table())
-    return detail::wrong_type(value, info, "a table such as { elasticity=\"box\" }", problems);
+}  // namespace
+
+std::vector<std::string> effects_named(const Argument& value, const std::string& hint, Problems& problems) {
   std::vector<std::string> names;
   value.each([&](const Argument& key, const Argument&) {
     if (key.is_text())
       names.emplace_back(key.text());
     else
-      problems.push_back("`effects` holds " + key.describe() + " as a key; write { elasticity=\"box\" }");
+      problems.push_back("`effects` holds " + key.describe() + " as a key" + hint);
   });
   std::sort(names.begin(), names.end());
+  return names;
+}
+
+namespace {
+
+// Every key of the table is an effect by name; those this build does not compute are refused.
+void read_effects(const Argument& value, const OptionInfo& info, SceneKeys& keys, Problems& problems) {
+  if (!value.is_table())
+    return detail::wrong_type(value, info, "a table such as { elasticity=\"box\" }", problems);
+  const std::vector<std::string> names = effects_named(value, "; write { elasticity=\"box\" }", problems);
   for (const std::string& name : names) {
     collect(problems, [&] {
       (void)require_effect(name);

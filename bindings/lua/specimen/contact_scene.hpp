@@ -2,6 +2,9 @@
 // The options table of lab.contact: bodies, boundary, effects and accuracy, read into a Scene.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/row_block.hpp"
 #include "engine/contact/scene.hpp"
@@ -13,6 +16,8 @@ Scene read_scene(Call& call);
 // Of a dry run whose bodies are placeholders: throws what read_scene or the contact would for the scene,
 // as far as the bodies are known.
 void look_at_scene(const Call& call);
+// The keys of a table of effects, in order; a problem, with this hint, for each that is no text.
+std::vector<std::string> effects_named(const Argument& value, const std::string& hint, Problems& problems);
 // The keys of an effect's own table.
 const RowBlock& effect_block(const Effect& effect);
 // The keys, for the registry.

@@ -7,8 +7,6 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/specimen/contact.hpp"
-#include "bindings/lua/specimen/protocol_events.hpp"
-#include "bindings/lua/specimen/protocol_reading.hpp"
 #include "engine/core/files/atomic_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/recording/event_detection.hpp"

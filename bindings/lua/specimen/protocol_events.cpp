@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/specimen/protocol_events.hpp"
-
+// The list of events that lab.protocol takes: one table an event, with one key that says what is done and,
+// under it, what the contact's method of that name takes.
 #include <algorithm>
 
+#include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/specimen/contact.hpp"
+#include "bindings/lua/specimen/protocol.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity::lua {

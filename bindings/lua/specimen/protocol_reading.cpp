@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/specimen/protocol_reading.hpp"
-
+// lab.protocol.read: a protocol from a press log, row by row, or from a recording, whose events are detected.
 #include <cmath>
 
+#include "bindings/lua/registry/registry.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/run/table_keys.hpp"
 #include "bindings/lua/runtime/files.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/specimen/shear.hpp"
-
+// contact:shear and its result: a contact under load that is pulled sideways by less than makes it slide.
 #include "bindings/lua/contact/state_error.hpp"
 #include "bindings/lua/friction/law.hpp"
 #include "bindings/lua/registry/record.hpp"

@@ -74,14 +74,7 @@ void spread_read_effects(const Argument& value, const OptionInfo& info, spread_S
                          Problems& problems) {
   if (!value.is_table())
     return detail::wrong_type(value, info, "a table such as { elasticity=\"half_space\" }", problems);
-  std::vector<std::string> names;
-  value.each([&](const Argument& key, const Argument&) {
-    if (key.is_text())
-      names.emplace_back(key.text());
-    else
-      problems.push_back("`effects` holds " + key.describe() + " as a key");
-  });
-  std::sort(names.begin(), names.end());
+  const std::vector<std::string> names = effects_named(value, "", problems);
   for (const std::string& name : names) {
     try {
       with_key(value, name, [&](const Argument& given) { read_effect(name, given, keys, problems); });

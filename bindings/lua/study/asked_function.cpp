@@ -121,9 +121,9 @@ class ShareMonitor final : public Monitor {
 
 }  // namespace
 
-void AskedFunction::call(const Knobs& knobs) const {
-  if (lua_checkstack(L_, 8) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
-  lua_pushvalue(L_, ask_.index());
+void push_with_knobs(lua_State* L, const Argument& function, const Knobs& knobs, const char* table) {
+  if (lua_checkstack(L, 8) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
+  lua_pushvalue(L, function.index());
   auto fill = [&knobs](lua_State* s) {
     lua_createtable(s, 0, static_cast<int>(knobs.size()));
     for (const Knob& knob : knobs) {
@@ -133,8 +133,12 @@ void AskedFunction::call(const Knobs& knobs) const {
     }
     return 2;
   };
-  if (protect(L_, 1, 2, fill) != LUA_OK)
-    throw Error(ErrorCode::out_of_memory, "there is no memory for the table of `ask`");
+  if (protect(L, 1, 2, fill) != LUA_OK)
+    throw Error(ErrorCode::out_of_memory, std::string("there is no memory for ") + table);
+}
+
+void AskedFunction::call(const Knobs& knobs) const {
+  push_with_knobs(L_, ask_, knobs, "the table of `ask`");
   if (lua_pcall(L_, 1, 1, 0) == LUA_OK) return;
   stop_flag().check();
   throw Error(ErrorCode::bad_value,

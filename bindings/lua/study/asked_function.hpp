@@ -31,6 +31,10 @@ class QuietMonitor final : public Monitor {
   Monitor& outer_;
 };
 
+// Leaves the function and a table of its knobs on the stack; `table` is what the error calls it where there
+// is no memory for it.
+void push_with_knobs(lua_State* L, const Argument& function, const Knobs& knobs, const char* table);
+
 // Valid while the function stays where it is on the stack.
 class AskedFunction {
  public:

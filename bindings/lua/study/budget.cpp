@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/study/budget.hpp"
-
+// lab.budget: the whole error of a number, and what each part of it costs.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,6 +8,7 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/study/asked_function.hpp"
+#include "bindings/lua/study/study.hpp"
 #include "engine/run/run_directory.hpp"
 
 namespace asperity::lua {
@@ -170,10 +170,9 @@ const Block<BudgetKeys>& budget_block() {
   static const Block<K> block{
       "lab.budget",
       {ask_option<K>(
-           "function(x) returning the number, for a table x of the inputs, and of `cells`, "
-           "`tolerance`, `tip`, `noise` and the names in `replicate` where they are given. Where it "
-           "presses or makes surfaces, its calls are spread over threads, each in a fresh copy of "
-           "everything it uses"),
+           "function(x) returning the number, for a table x of the inputs, and of `cells`, `tolerance`, "
+           "`tip`, `noise` and the names in `replicate` where they are given. Where it presses or makes "
+           "surfaces, its calls are spread over threads, each in a fresh copy of everything it uses"),
        inputs_option<K>(),
        custom<K>(
            "replicate", "table",
@@ -320,8 +319,7 @@ const RecordType<BudgetPart>& part_type() {
       "A part of the error of a number.",
       {{"name", &P::name,
         "sampling, cells, solver, tip, noise, an input, or `inputs together`: what inputs do only together, "
-        "and what "
-        "their polynomial leaves open"},
+        "and what their polynomial leaves open"},
        {"u", &P::uncertainty, "standard uncertainty from this part, in the unit of the answer"},
        {"share", &P::share, "of the variance; all sum to 1"},
        {"share_error", &P::share_error, "standard error of the share of an input; 0 of other parts"},
@@ -348,34 +346,24 @@ const RecordType<BudgetPlan>& plan_type() {
   return type;
 }
 
-std::string describe_budget(const void* self) {
-  std::string text = static_cast<const Budget*>(self)->text();
-  text.pop_back();
-  return text;
-}
-
 }  // namespace
 
 Function budget_function() {
-  Function f;
-  f.name = "budget";
-  f.body = make_budget;
-  f.sentence =
-      "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to looser "
-      "tolerances and over the range of uncertain inputs. Gives the value, its interval, the share of each "
-      "part, what halving each costs, and the cheapest way to an interval. Inputs are taken as independent "
-      "of "
-      "each other. What `ask` presses is taken up from the run where it was computed before, and then costs "
-      "no time.";
-  f.options = &budget_block();
-  f.returns = "Budget";
-  f.example =
-      "print(lab.budget{ ask=function(x) return lab.surface.self_affine{ cells=x.cells, size=\"640 um\", "
-      "hurst=0.8, rms_height=\"1 um\", short_wave=\"80 um\", seed=x.seed }:roughness().Ra * x.gain end, "
-      "cells={ 32, "
-      "64 "
-      "}, replicate={ seed={ 1, 2, 3, 4, 5 } }, inputs={ gain={ value=1, u=\"2 %\" } } })";
-  return f;
+  return {.name = "budget",
+          .body = make_budget,
+          .sentence =
+              "The whole error of a number: `ask` is called again with other seeds, on coarser grids, to "
+              "looser tolerances and over the range of uncertain inputs. Gives the value, its interval, the "
+              "share of each part, what halving each costs, and the cheapest way to an interval. Inputs are "
+              "taken as independent of each other. What `ask` presses is taken up from the run where it was "
+              "computed before, and then costs no time.",
+          .options = &budget_block(),
+          .returns = "Budget",
+          .example =
+              "print(lab.budget{ ask=function(x) return lab.surface.self_affine{ cells=x.cells, size=\"640 "
+              "um\", hurst=0.8, rms_height=\"1 um\", short_wave=\"80 um\", seed=x.seed }:roughness().Ra * "
+              "x.gain end, cells={ 32, 64 }, replicate={ seed={ 1, 2, 3, 4, 5 } }, inputs={ gain={ value=1, "
+              "u=\"2 %\" } } })"};
 }
 
 template <>
@@ -385,7 +373,7 @@ const Class& class_of<Budget>() {
     c.name = "Budget";
     c.article_name = "a budget";
     c.sentence = "A number with its whole error. print() shows the table of its parts.";
-    c.describe = describe_budget;
+    c.describe = lines_of<Budget>;
     c.fields = {
         getter<&Budget::value>("value", "number", "the number, corrected for the error of the cells"),
         getter<&Budget::low>("low", "number", "lower end of its interval"),
@@ -397,8 +385,7 @@ const Class& class_of<Budget>() {
                        [](const Budget& of) { return of.sample ? of.sample->skewness : std::nullopt; }),
         getter<Budget>("leave_one_out", "number?",
                        "error of the polynomial of the inputs over their variance: shares are rough from 5 "
-                       "%, and refused "
-                       "from 20 % on",
+                       "%, and refused from 20 % on",
                        [](const Budget& of) {
                          return of.chaos ? std::optional(of.chaos->leave_one_out) : std::nullopt;
                        }),

@@ -16,7 +16,7 @@
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "bindings/lua/study/asked_function.hpp"
-#include "bindings/lua/study/calibration.hpp"
+#include "bindings/lua/study/study.hpp"
 #include "engine/core/monitor.hpp"
 #include "engine/statistics/number_columns.hpp"
 #include "engine/statistics/table_operations.hpp"
@@ -162,8 +162,7 @@ const Block<CalibrateKeys>& calibrate_block() {
       "lab.calibrate",
       {custom<K>("model", "function",
                  "function(q, row) returning y, one number: q holds the parameters by name in SI, row the "
-                 "cells of a row "
-                 "by column as rows() gives them; nil where it has no value",
+                 "cells of a row by column as rows() gives them; nil where it has no value",
                  [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
                    if (!value.is_function()) detail::wrong_type(value, info, "a function(q, row)", problems);
                  })
@@ -497,11 +496,9 @@ Function calibrate_function() {
       .body = run_calibration,
       .sentence =
           "Fits parameters of a law or a model to measured rows by least squares, and says what the rows "
-          "tell of "
-          "each: estimate, linearised interval (Student's t), interval by profile likelihood (F), "
-          "correlation, and "
-          "a verdict. What the rows do not determine is given no number, and the combination that they do "
-          "determine is named. Derivatives are taken by the program.",
+          "tell of each: estimate, linearised interval (Student's t), interval by profile likelihood (F), "
+          "correlation, and a verdict. What the rows do not determine is given no number, and the "
+          "combination that they do determine is named. Derivatives are taken by the program.",
       .options = &calibrate_block(),
       .returns = "Calibration",
       .example =

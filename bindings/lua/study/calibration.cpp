@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What lab.calibrate returns: its fields, and its charts.
-#include "bindings/lua/study/calibration.hpp"
-
 #include <limits>
 #include <utility>
 
@@ -9,6 +7,7 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
+#include "bindings/lua/study/study.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 
@@ -242,8 +241,7 @@ const Class& class_of<CalibrationReport>() {
         field<[](const R& r) { return r.found.residual_deviation; }>(
             "residual_sd", "number",
             "standard deviation of an observation about the model: relative with scatter=\"relative\", in "
-            "units "
-            "of `u` where that is known; 0 without degrees of freedom"),
+            "units of `u` where that is known; 0 without degrees of freedom"),
         field<[](const R& r) { return r.found.observations; }>("observations", "integer",
                                                                "rows, or specimens where their means count"),
         field<[](const R& r) { return r.found.degrees; }>(

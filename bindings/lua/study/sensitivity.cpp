@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/study/sensitivity.hpp"
-
+// lab.sensitivity: which uncertain input an answer hangs on, and which to measure better next.
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/study/asked_function.hpp"
+#include "bindings/lua/study/study.hpp"
 #include "engine/run/run_directory.hpp"
 
 namespace asperity::lua {
@@ -131,31 +131,22 @@ std::vector<SharedInput> shared_inputs(const Sensitivity& of) {
   return list;
 }
 
-std::string describe_sensitivity(const void* self) {
-  std::string text = static_cast<const Sensitivity*>(self)->text();
-  text.pop_back();
-  return text;
-}
-
 }  // namespace
 
 Function sensitivity_function() {
-  Function f;
-  f.name = "sensitivity";
-  f.body = make_sensitivity;
-  f.sentence =
-      "Which uncertain input an answer hangs on: first-order and total shares of its variance with their own "
-      "errors, by polynomial chaos, and which input to measure better next. The leave-one-out error of the "
-      "fit is printed: below 5 % of the variance shares are good, to 20 % rough, above they are refused. "
-      "Inputs are taken as independent.";
-  f.options = &sensitivity_block();
-  f.returns = "Sensitivity";
-  f.example =
-      "print(lab.sensitivity{ ask=function(x) return x.alpha + x.tau0 / x.pressure end, inputs={ alpha={ "
-      "value=0.2, u=0.02 }, tau0={ value=\"500 MPa\", u=\"50 MPa\" }, pressure={ value=\"2 GPa\", u=\"5 %\" "
-      "} "
-      "} })";
-  return f;
+  return {.name = "sensitivity",
+          .body = make_sensitivity,
+          .sentence =
+              "Which uncertain input an answer hangs on: first-order and total shares of its variance with "
+              "their own errors, by polynomial chaos, and which input to measure better next. The "
+              "leave-one-out error of the fit is printed: below 5 % of the variance shares are good, to 20 % "
+              "rough, above they are refused. Inputs are taken as independent.",
+          .options = &sensitivity_block(),
+          .returns = "Sensitivity",
+          .example =
+              "print(lab.sensitivity{ ask=function(x) return x.alpha + x.tau0 / x.pressure end, inputs={ "
+              "alpha={ value=0.2, u=0.02 }, tau0={ value=\"500 MPa\", u=\"50 MPa\" }, pressure={ value=\"2 "
+              "GPa\", u=\"5 %\" } } })"};
 }
 
 template <>
@@ -165,7 +156,7 @@ const Class& class_of<Sensitivity>() {
     c.name = "Sensitivity";
     c.article_name = "a sensitivity";
     c.sentence = "Which uncertain input an answer hangs on. print() shows the table of shares.";
-    c.describe = describe_sensitivity;
+    c.describe = lines_of<Sensitivity>;
     c.fields = {
         getter<Sensitivity>("mean", "number", "of the answer over the inputs",
                             [](const Sensitivity& of) { return of.chaos.mean; }),

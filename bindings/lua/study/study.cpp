@@ -153,8 +153,7 @@ const Class& class_of<Study>() {
     c.article_name = "a study";
     c.sentence =
         "What a study of work and precision found. print() shows its rows and the cheapest setting for 10 %, "
-        "1 % and "
-        "0.1 %.";
+        "1 % and 0.1 %.";
     c.describe = describe_study;
     c.fields = {
         of_study<&StudyResult::truth>("truth", "number", "the value that errors are measured against"),
@@ -174,23 +173,18 @@ const Class& class_of<Study>() {
          .body = rows_of_study,
          .sentence =
              "One table a setting: way, the knobs, value, error (relative to the truth), absolute_error, "
-             "held_error "
-             "(greatest error among it and the finer settings of its way), seconds (median), seconds_low and "
-             "seconds_high (fastest and slowest run), first_seconds (of the first run, which is not timed), "
-             "runs, "
-             "steady (all answers the same bits), pareto (nothing is both faster and closer), failed, "
-             "left_out and "
-             "the reason.",
+             "held_error (greatest error among it and the finer settings of its way), seconds (median), "
+             "seconds_low and seconds_high (fastest and slowest run), first_seconds (of the first run, which "
+             "is not timed), runs, steady (all answers the same bits), pareto (nothing is both faster and "
+             "closer), failed, left_out and the reason.",
          .returns = "table[]",
          .example =
              "for _, row in ipairs(study:rows()) do print(row.way, row.cells, row.error, row.seconds) end"},
         {.name = "chart",
          .body = chart_study,
          .sentence = "Draws error against time on logarithmic axes, a line per way, bars from the fastest to "
-                     "the slowest run, "
-                     "rings about what nothing beats, and marks at the rim for settings that failed or were "
-                     "left out; returns "
-                     "the file.",
+                     "the slowest run, rings about what nothing beats, and marks at the rim for settings "
+                     "that failed or were left out; returns the file.",
          .parameters = {{"path", "string?",
                          "an .svg, .png or .pdf under the run directory; default <name>.svg"}},
          .returns = "string",
@@ -198,15 +192,12 @@ const Class& class_of<Study>() {
          .heavy = true},
         {.name = "cheapest",
          .body = cheapest_setting,
-         .sentence =
-             "The fastest setting whose error, and that of every finer measured setting of its way, "
-             "is at most the "
-             "one asked for: a setting that comes near the truth by accident, where the error "
-             "changes its sign, is "
-             "not taken. Settings count as finer along the list of their way (turned round where "
-             "`cells` falls or "
-             "`tolerance` rises). Of settings whose answers are the same bits the one listed first is taken, "
-             "unless another takes less than half its time. An error says what the best reached was.",
+         .sentence = "The fastest setting whose error, and that of every finer measured setting of its way, "
+                     "is at most the one asked for: a setting that comes near the truth by accident, where "
+                     "the error changes its sign, is not taken. Settings count as finer along the list of "
+                     "their way (turned round where `cells` falls or `tolerance` rises). Of settings whose "
+                     "answers are the same bits the one listed first is taken, unless another takes less "
+                     "than half its time. An error says what the best reached was.",
          .options = &cheapest_block(),
          .returns = "StudyChoice",
          .example = "local best = study:cheapest{ error=1e-3 } print(best, best.seconds, best.error)"},

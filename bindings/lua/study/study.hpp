@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What lab.work_precision returns, a study and a setting that it chose; and how a study is kept in the run
-// directory.
+// The functions of the room, and their results as native values: what lab.work_precision returns, a study and
+// a setting that it chose, and how a study is kept in the run directory; and those of budgets, sensitivities
+// and calibrations.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,9 @@
 #include <string>
 
 #include "bindings/lua/registry/registry.hpp"
+#include "engine/study/budget.hpp"
+#include "engine/study/calibration_report.hpp"
+#include "engine/study/sensitivity.hpp"
 #include "engine/study/work_precision.hpp"
 
 namespace asperity {
@@ -39,5 +43,23 @@ const Class& class_of<StudyChoice>();
 void record_request(RunDirectory* run, const std::string& name, const StudyRequest& request);
 void record_calls(RunDirectory* run, const std::string& name, std::span<const StudyRun> calls);
 void record_result(RunDirectory* run, const std::string& name, const StudyResult& result);
+
+// lab.work_precision: what a quantity costs to a given accuracy, by several ways over their settings.
+Function work_precision_function();
+
+// lab.budget: the whole error of a number, and what each part of it costs.
+Function budget_function();
+template <>
+const Class& class_of<Budget>();
+
+// lab.sensitivity: which uncertain input an answer hangs on, and which to measure better next.
+Function sensitivity_function();
+template <>
+const Class& class_of<Sensitivity>();
+
+// lab.calibrate: parameters of a model of the script fitted to the rows of a table, and what it returns.
+Function calibrate_function();
+template <>
+const Class& class_of<CalibrationReport>();
 
 }  // namespace asperity::lua

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/study/work_precision.hpp"
-
+// lab.work_precision: what a quantity costs to a given accuracy, by several ways over their settings.
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -9,6 +8,7 @@
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/state.hpp"
+#include "bindings/lua/study/asked_function.hpp"
 #include "bindings/lua/study/study.hpp"
 #include "engine/study/work_precision.hpp"
 
@@ -169,8 +169,7 @@ const Block<StudyKeys>& study_block() {
       "lab.work_precision",
       {custom<K>("ask", "function",
                  "function(knobs) returning the quantity, one number; nil (and a message) or an error where "
-                 "a setting "
-                 "fails",
+                 "a setting fails",
                  [](const Argument& value, const OptionInfo& info, K&, Problems& problems) {
                    if (!value.is_function()) detail::wrong_type(value, info, "a function(knobs)", problems);
                  })
@@ -180,8 +179,7 @@ const Block<StudyKeys>& study_block() {
            .required(),
        custom<K>("try", "table[]",
                  "the ways: tables with a `name`, and knobs that `ask` understands; a knob given as a list "
-                 "is swept, "
-                 "from coarse to fine, and several lists go along together",
+                 "is swept, from coarse to fine, and several lists go along together",
                  read_ways)
            .required(),
        std::move(repeats), std::move(budget),
@@ -205,21 +203,7 @@ class LuaWork final : public StudyWork {
       : L(call.L), ask_(ask), session_(call.session()), name_(std::move(name)) {}
 
   // Leaves the function and its knobs on the stack.
-  void prepare(const Knobs& knobs) override {
-    if (lua_checkstack(L, 8) == 0) throw Error(ErrorCode::out_of_memory, "the Lua stack is full");
-    lua_pushvalue(L, ask_.index());
-    auto action = [&knobs](lua_State* s) {
-      lua_createtable(s, 0, static_cast<int>(knobs.size()));
-      for (const Knob& knob : knobs) {
-        lua_pushlstring(s, knob.name.data(), knob.name.size());
-        std::visit([s](const auto& v) { push_knob(s, v); }, knob.value);
-        lua_rawset(s, -3);
-      }
-      return 2;
-    };
-    if (protect(L, 1, 2, action) != LUA_OK)
-      throw Error(ErrorCode::out_of_memory, "there is no memory for the knobs");
-  }
+  void prepare(const Knobs& knobs) override { push_with_knobs(L, ask_, knobs, "the knobs"); }
 
   StudyAnswer ask(const Knobs& knobs, Monitor& monitor) override {
     const int bottom = lua_gettop(L) - 2;
@@ -244,11 +228,6 @@ class LuaWork final : public StudyWork {
   void record(std::span<const StudyRun> runs) override { record_calls(session_.run.get(), name_, runs); }
 
  private:
-  static void push_knob(lua_State* s, bool v) { lua_pushboolean(s, v ? 1 : 0); }
-  static void push_knob(lua_State* s, std::int64_t v) { lua_pushinteger(s, v); }
-  static void push_knob(lua_State* s, double v) { lua_pushnumber(s, v); }
-  static void push_knob(lua_State* s, const std::string& v) { lua_pushlstring(s, v.data(), v.size()); }
-
   lua_State* L;
   Argument ask_;
   Session& session_;
@@ -308,25 +287,19 @@ Values work_precision(Call& call) {
 }  // namespace
 
 Function work_precision_function() {
-  Function f;
-  f.name = "work_precision";
-  f.body = work_precision;
-  f.sentence =
-      "Measures what accuracy costs: asks for one quantity by several ways over their settings, times each "
-      "as the "
-      "median of `repeats` runs, and compares with the truth. Every setting is run once untimed for its "
-      "answer, then "
-      "all are timed in rounds; a setting that fails keeps its row. What the study will take is said first "
-      "on "
-      "standard error.";
-  f.options = &study_block();
-  f.returns = "Study";
-  f.example =
-      "local study = lab.work_precision{ ask=function(knobs) return lab.surface.sine{ cells=knobs.cells, "
-      "size=1, amplitude=\"1 mm\" }:roughness().Ra end, truth={ cells=512 }, try={ { name=\"finer grid\", "
-      "cells={ 32, "
-      "64, 128 } } } }";
-  return f;
+  return {.name = "work_precision",
+          .body = work_precision,
+          .sentence =
+              "Measures what accuracy costs: asks for one quantity by several ways over their settings, "
+              "times each as the median of `repeats` runs, and compares with the truth. Every setting is run "
+              "once untimed for its answer, then all are timed in rounds; a setting that fails keeps its "
+              "row. What the study will take is said first on standard error.",
+          .options = &study_block(),
+          .returns = "Study",
+          .example =
+              "local study = lab.work_precision{ ask=function(knobs) return lab.surface.sine{ "
+              "cells=knobs.cells, size=1, amplitude=\"1 mm\" }:roughness().Ra end, truth={ cells=512 }, "
+              "try={ { name=\"finer grid\", cells={ 32, 64, 128 } } } }"};
 }
 
 }  // namespace asperity::lua

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fields of areal parameters: one row each, with the discretisation in its sentence. A group (heights,
 // slopes, curve, hills, texture) is computed when a script first reads a field of it.
-#include "bindings/lua/surface/areal_parameters.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/record_type.hpp"

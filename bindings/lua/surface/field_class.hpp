@@ -6,9 +6,11 @@
 #include <memory>
 #include <string>
 
+#include "bindings/lua/registry/options.hpp"
 #include "bindings/lua/registry/value.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/plot/picture.hpp"
 
 namespace asperity::lua {
 
@@ -22,5 +24,8 @@ struct NamedField {
 
 template <>
 const Class& class_of<NamedField>();
+
+// The keys of a picture, shared by surfaces and fields.
+const Block<PictureOptions>& picture_block();
 
 }  // namespace asperity::lua

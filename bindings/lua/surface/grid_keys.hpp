@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The keys that nearly every surface generator takes: `cells`, `size`, `material`.
+// Materials as native values of the language, and the keys that nearly every surface generator takes:
+// `cells`, `size`, `material`.
 #pragma once
 
 #include <optional>
 
 #include "bindings/lua/registry/options.hpp"
-#include "bindings/lua/surface/material.hpp"
+#include "bindings/lua/registry/registry.hpp"
 #include "engine/core/grid.hpp"
 #include "engine/surface/material.hpp"
 
 namespace asperity::lua {
+
+template <>
+const Class& class_of<Material>();
+
+// lab.material, lab.materials and lab.rigid (material.cpp).
+Function material_function();
+Value materials_list();
+Value rigid_value();
 
 struct GridKeys {
   int nx = 0, ny = 0;

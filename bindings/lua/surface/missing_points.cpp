@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/surface/missing_points.hpp"
-
+// What surfaces and profiles have for points that were not measured: how many were, which, more of them by a
+// mask, a function or a rule for outliers, and heights in their place.
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/options.hpp"

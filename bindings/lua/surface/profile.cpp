@@ -6,8 +6,6 @@
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/runtime/files.hpp"
 #include "bindings/lua/surface/measure.hpp"
-#include "bindings/lua/surface/missing_points.hpp"
-#include "bindings/lua/surface/profile_parameters.hpp"
 #include "bindings/lua/surface/surface.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/files/source_file.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/surface/profile_parameters.hpp"
-
+// p:profile_parameters{...}: the parameters of ISO 21920-2 of a trace, filtered and cut into sections as ISO
+// 21920-3 has it; p:primary_parameters{...}: those of the trace without an L-filter.
 #include <cctype>
 #include <string>
 #include <utility>
@@ -8,7 +8,9 @@
 
 #include "bindings/lua/registry/guard.hpp"
 #include "bindings/lua/registry/options.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/surface/surface.hpp"
 #include "engine/core/require.hpp"
 #include "engine/metrology/levelling.hpp"
 #include "engine/metrology/parameters/profile_parameters.hpp"

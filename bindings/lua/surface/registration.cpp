@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/surface/registration.hpp"
-
+// s:registered_to(before): the method of surfaces, and the record that it gives.
+#include "engine/metrology/registration.hpp"
 #include "bindings/lua/registry/options.hpp"
+#include "bindings/lua/registry/record_type.hpp"
 #include "bindings/lua/registry/session.hpp"
 #include "bindings/lua/surface/surface.hpp"
 

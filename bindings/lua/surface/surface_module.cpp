@@ -22,6 +22,13 @@ Values result(Surface surface, const std::optional<Material>& material) {
   return {object(material ? surface.with_material(*material) : std::move(surface))};
 }
 
+// What a generator makes of keys that extend its options.
+template <auto block, auto generate>
+Values made(Call& call) {
+  const auto keys = call.options(block());
+  return result(generate(keys, call.session().monitor()), keys.body_material);
+}
+
 // --- weierstrass_mandelbrot
 
 const Block<WeierstrassMandelbrotOptions>& weierstrass_mandelbrot_block() {
@@ -48,10 +55,6 @@ Values weierstrass_mandelbrot_body(Call& call) {
 const Block<SineKeys>& sine_block() {
   static const Block<SineKeys> block{"lab.surface.sine", sine_keys(), check_sine_keys};
   return block;
-}
-Values sine_body(Call& call) {
-  SineKeys keys = call.options(sine_block());
-  return result(sine_surface(keys, call.session().monitor()), keys.body_material);
 }
 
 const Block<GridKeys>& flat_block() {
@@ -82,19 +85,11 @@ const Block<SphereKeys>& sphere_block() {
       }};
   return block;
 }
-Values sphere_body(Call& call) {
-  SphereKeys keys = call.options(sphere_block());
-  return result(sphere_surface(keys, call.session().monitor()), keys.body_material);
-}
 
 const Block<SelfAffineKeys>& self_affine_block() {
   static const Block<SelfAffineKeys> block{"lab.surface.self_affine", self_affine_keys(),
                                            check_self_affine_keys};
   return block;
-}
-Values self_affine_body(Call& call) {
-  SelfAffineKeys keys = call.options(self_affine_block());
-  return result(self_affine_surface(keys, call.session().monitor()), keys.body_material);
 }
 
 // --- bead_blasted
@@ -157,10 +152,6 @@ const Block<BeadBlastedKeys>& bead_blasted_block() {
         require_makeable(keys);
       }};
   return block;
-}
-Values bead_blasted_body(Call& call) {
-  BeadBlastedKeys keys = call.options(bead_blasted_block());
-  return result(bead_blasted_surface(keys, call.session().monitor()), keys.body_material);
 }
 
 const Block<GrainProfileOptions>& grain_profile_block() {
@@ -307,24 +298,24 @@ const Module& surface_module() {
         "Gan and Einav 2013, eq. 2), with exact phases.",
         weierstrass_mandelbrot_block(), "Surface",
         "local s = lab.surface.weierstrass_mandelbrot{ cells=150, D=2.5, seed=1 }");
-    add("self_affine", self_affine_body,
+    add("self_affine", made<self_affine_block, self_affine_surface>,
         "A Gaussian surface with power-law spectrum, flat below the roll-off; rms height, rms slope or Ra is "
         "met exactly.",
         self_affine_block(), "Surface",
         "local s = lab.surface.self_affine{ cells=256, size=\"1 mm\", hurst=0.8, rms_height=\"1 um\", "
         "short_wave=\"16 um\" }");
-    add("bead_blasted", bead_blasted_body,
+    add("bead_blasted", made<bead_blasted_block, bead_blasted_surface>,
         "A surface blasted with glass beads, as the specimens of the source paper: overlapping dents with "
         "piled-up rims, and a fine self-affine texture.",
         bead_blasted_block(), "Surface",
         "local s = lab.surface.bead_blasted{ cells=512, size=\"1 mm\", ra=\"3 um\" }");
     add("flat", flat_body, "A flat surface at height 0.", flat_block(), "Surface",
         "local s = lab.surface.flat{ cells=64, size=\"1 mm\" }");
-    add("sine", sine_body,
+    add("sine", made<sine_block, sine_surface>,
         "A cosine wave along x, or the product of one along x and one along y; crest at node 0.",
         sine_block(), "Surface", "local s = lab.surface.sine{ cells=64, size=\"1 mm\", amplitude=\"1 um\" }");
-    add("sphere", sphere_body, "A sphere or paraboloid with its apex at node (nx//2, ny//2), height 0.",
-        sphere_block(), "Surface",
+    add("sphere", made<sphere_block, sphere_surface>,
+        "A sphere or paraboloid with its apex at node (nx//2, ny//2), height 0.", sphere_block(), "Surface",
         "local s = lab.surface.sphere{ cells=128, size=\"1 mm\", radius=\"10 mm\" }");
     add("grain_profile", grain_profile_body,
         "The outline of a quasi-spherical grain with fractal roughness (the source paper's Fig. 1), as a "

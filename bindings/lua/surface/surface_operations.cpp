@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/lua/surface/surface_operations.hpp"
-
+// The methods of a surface that make other surfaces and profiles of it.
 #include "bindings/lua/surface/grid_keys.hpp"
 #include "bindings/lua/surface/measure.hpp"
 #include "bindings/lua/surface/surface.hpp"

@@ -9,10 +9,8 @@
 #include "bindings/lua/editor/lessons.hpp"
 #include "bindings/lua/runtime/version.hpp"
 #include "bindings/web/api/answers.hpp"
-#include "bindings/web/api/script_check.hpp"
-#include "bindings/web/api/script_completion.hpp"
+#include "bindings/web/runs/page_run.hpp"
 #include "bindings/web/runs/plain_files.hpp"
-#include "bindings/web/runs/run_files.hpp"
 #include "engine/core/error.hpp"
 
 namespace asperity::web {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/api/script_check.hpp"
-
+// `asperity check` for the page: a dry run in a confined process, and what it found as marks in the text.
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <sstream>
 
+#include "bindings/web/api/answers.hpp"
 #include "bindings/web/sandbox/confined_process.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/files/disk.hpp"

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/api/script_completion.hpp"
-
+// Completion for the page, whose places in the text are counted as a browser counts.
 #include <algorithm>
 
 #include "bindings/lua/editor/completion.hpp"
-#include "bindings/web/api/positions.hpp"
+#include "bindings/web/api/answers.hpp"
 
 namespace asperity::web {
 
 namespace {
+
+// Units of UTF-16 that the character which this byte begins takes; none for a byte inside one.
+std::size_t units_of(char byte) {
+  const auto bits = static_cast<unsigned char>(byte);
+  return (bits & 0xC0) == 0x80 ? 0 : bits >= 0xF0 ? 2 : 1;
+}
 
 // How deep brackets stand in brackets, whatever else the text is. What is read of a script goes down with
 // them, and the stack of a thread is not without end.
@@ -22,6 +27,24 @@ std::size_t deepest_bracket(const std::string& text) {
 }
 
 }  // namespace
+
+std::size_t byte_of_unit(std::string_view text, std::size_t unit) {
+  std::size_t before = 0, begin = 0;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const std::size_t units = units_of(text[k]);
+    if (units == 0) continue;
+    begin = k;
+    if (before + units > unit) return begin;
+    before += units;
+  }
+  return text.size();
+}
+
+std::size_t unit_of_byte(std::string_view text, std::size_t byte) {
+  std::size_t units = 0;
+  for (std::size_t k = 0; k < std::min(byte, text.size()); ++k) units += units_of(text[k]);
+  return units;
+}
 
 Json completion_of(const std::string& text, std::size_t unit) {
   std::size_t from = byte_of_unit(text, unit);

@@ -96,8 +96,7 @@ std::string keep_within(const fs::path& folder, std::int64_t most_bytes, std::si
   }
   return removed == 0 ? ""
                       : std::to_string(removed) +
-                            " of its files, the last that were written, were removed, because "
-                            "there may be " +
+                            " of its files, the last that were written, were removed, because there may be " +
                             format_bytes(most_bytes) + " in " + std::to_string(most_files) + " files";
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bindings/web/confined/confined.hpp"
+#include "bindings/web/http.hpp"
 #include "bindings/web/runs/event_log.hpp"
 #include "engine/run/run_knobs.hpp"
 
@@ -86,5 +87,11 @@ class PageRun {
 
   friend class RunFollower;
 };
+
+// What a run left and leaves, as answers (run_files.cpp): its events as they come, its files, its views.
+// From the query's `after` on, until the last or for some minutes: whoever asks takes it up again.
+HttpResponse events_answer(const std::shared_ptr<PageRun>& run, const HttpRequest& request);
+HttpResponse file_answer(const PageRun& run, const std::string& name);
+HttpResponse view_answer(const PageRun& run, const std::string& name);
 
 }  // namespace asperity::web

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/runs/run_files.hpp"
-
+// What a run left and leaves, as answers: its events as they come, its files, its views.
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "bindings/web/api/answers.hpp"
+#include "bindings/web/runs/page_run.hpp"
 #include "bindings/web/runs/plain_files.hpp"
 
 namespace asperity::web {

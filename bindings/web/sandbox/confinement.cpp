@@ -15,7 +15,6 @@
 #include <cstring>
 #include <string_view>
 
-#include "bindings/web/sandbox/file_barrier.hpp"
 #include "bindings/web/sandbox/namespaces.hpp"
 #include "bindings/web/sandbox/system_calls.hpp"
 #include "engine/core/error.hpp"
@@ -23,6 +22,9 @@
 #include "engine/core/text.hpp"
 
 namespace asperity::web {
+
+// In file_barrier.cpp.
+std::string confine_files(const Confinement& confinement, int& version);
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bindings/web/sandbox/file_barrier.hpp"
-
+// Landlock: which files a process may still open, by their place in the tree. Linux 5.13 and later, where
+// it is switched on; needs no rights.
 #include <fcntl.h>
 #include <linux/landlock.h>
 #include <sys/prctl.h>
@@ -10,6 +10,9 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <string>
+
+#include "bindings/web/sandbox/confinement.hpp"
 
 namespace asperity::web {
 
@@ -49,6 +52,9 @@ bool allow(int ruleset, const char* place, std::uint64_t rights) {
 
 }  // namespace
 
+// Shuts every file but those of the places, or of the working directory where there are none, and what a
+// drawing needs besides. Returns why it could not,
+// or "" and the version of the kernel's interface. No new rights must have been given up before.
 std::string confine_files(const Confinement& confinement, int& version) {
   version =
       static_cast<int>(::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION));
