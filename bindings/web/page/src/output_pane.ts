@@ -19,6 +19,12 @@ function laidOut(text: string): (string | HTMLElement)[] {
   return parts.map((p) => (p.columns ? p.text : h('span', { className: 'prose' }, p.text)));
 }
 
+/** An expectation and its verdict, in a list. */
+export function expectationItem(e: Run['expectations'][number]): HTMLElement {
+  const verdict = h('b', {}, e.held ? '✓ held: ' : '✗ not held: ');
+  return h('li', { className: e.held ? 'held' : 'failed' }, verdict, prose(e.text));
+}
+
 export class OutputPane {
   private readonly text = h('pre', { className: 'output', tabIndex: 0, 'aria-label': 'Output of the script' });
   private readonly errors = h('div', { className: 'errors' });
@@ -50,16 +56,7 @@ export class OutputPane {
     }
     if (this.drawn.expectations !== run.expectations.length) {
       this.drawn.expectations = run.expectations.length;
-      this.expectations.replaceChildren(
-        ...run.expectations.map((e) =>
-          h(
-            'li',
-            { className: e.held ? 'held' : 'failed' },
-            h('b', {}, e.held ? '✓ held: ' : '✗ not held: '),
-            prose(e.text),
-          ),
-        ),
-      );
+      this.expectations.replaceChildren(...run.expectations.map(expectationItem));
     }
     const pane = this.element;
     const atEnd = fresh || pane.scrollHeight - pane.scrollTop - pane.clientHeight < 40;

@@ -11,6 +11,7 @@ import { h, prose } from './dom';
 import { pictureClass, pictureType } from './files_pane';
 import { lightInk } from './ink';
 import { knobText } from './knobs';
+import { expectationItem } from './output_pane';
 import type { PicturePane } from './picture_pane';
 import { statusText, type Run } from './run';
 import { sequencesOf } from './saved/sequences';
@@ -53,6 +54,14 @@ export interface Sources {
   recorded: Run[]; // this run, and those beside it at other values of the knobs
 }
 
+/** What a run's results are put in with: at most so many drawings, their reliefs exaggerated by `steps`. */
+interface Filling {
+  from: Sources;
+  missing: string[]; // what could not be had is told here
+  most: number;
+  steps: Map<string, number>;
+}
+
 /** The file's text, and what could not be put in. */
 export async function savedRun(run: Run, from: Sources): Promise<{ html: string; missing: string[] }> {
   const missing: string[] = [];
@@ -85,7 +94,7 @@ export async function savedRun(run: Run, from: Sources): Promise<{ html: string;
     if (one === run) results.dataset.first = '';
     if (several) results.append(h('h2', {}, `Recorded at ${valuesText(one)}`), aboutOf(one, ''));
     const lacking: string[] = [];
-    await addResults(results, one, from, lacking, most, steps);
+    await addResults(results, one, { from, missing: lacking, most, steps });
     missing.push(...lacking.map((m) => (several ? `${m} (${valuesText(one)})` : m)));
     body.append(results);
   }
@@ -126,14 +135,8 @@ function knobsOf(run: Run, recorded: Run[]): HTMLElement[] {
 }
 
 /** What one run gave: errors, output, expectations, notebooks and their charts, pictures. */
-async function addResults(
-  body: HTMLElement,
-  run: Run,
-  from: Sources,
-  missing: string[],
-  most: number,
-  steps: Map<string, number>,
-): Promise<void> {
+async function addResults(body: HTMLElement, run: Run, filling: Filling): Promise<void> {
+  const { from, missing } = filling;
   for (const e of run.errors) {
     body.append(
       h(
@@ -157,21 +160,7 @@ async function addResults(
     );
   }
   if (run.expectations.length > 0) {
-    body.append(
-      h('h2', {}, 'Expectations'),
-      h(
-        'ul',
-        {},
-        ...run.expectations.map((e) =>
-          h(
-            'li',
-            { className: e.held ? 'held' : 'failed' },
-            h('b', {}, e.held ? '✓ held: ' : '✗ not held: '),
-            prose(e.text),
-          ),
-        ),
-      ),
-    );
+    body.append(h('h2', {}, 'Expectations'), h('ul', {}, ...run.expectations.map(expectationItem)));
   }
   const { drawChart } = await from.charts.library();
   const charts = from.charts.chartsFor(run);
@@ -199,7 +188,7 @@ async function addResults(
     );
   }
   await addFiles(body, run, from, missing);
-  await addViews(body, run, from, missing, most, steps);
+  await addViews(body, run, filling);
 }
 
 function scriptOf(run: Run): HTMLElement {
@@ -233,14 +222,7 @@ async function addFiles(body: HTMLElement, run: Run, from: Sources, missing: str
   }
 }
 
-async function addViews(
-  body: HTMLElement,
-  run: Run,
-  from: Sources,
-  missing: string[],
-  most: number,
-  steps: Map<string, number>,
-): Promise<void> {
+async function addViews(body: HTMLElement, run: Run, { from, missing, most, steps }: Filling): Promise<void> {
   if (run.views.length === 0) return;
   if (run.views.length > most)
     missing.push(`the first ${run.views.length - most} of ${run.views.length} surfaces and contacts`);
