@@ -11,8 +11,7 @@ namespace {
 constexpr std::array<ChangedLaw, law_count> table_of_laws{{
     {Law::last_digits, "0.2.0", "last digits",
      "sine, cosine, exponential, logarithm and powers were the C library's, which rounds by the processor, "
-     "and "
-     "transforms chose by the processor",
+     "and transforms chose by the processor",
      "elementary functions are correctly rounded and transforms go one way, the same on every processor",
      "the last digits of every surface and of what is computed from it, and so all digests"},
     {Law::overlap, "0.2.0", "bodies that do not cover each other",
@@ -25,8 +24,7 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
      "plastic events of two bodies of unlike hardness or modulus, or that harden, and all that follows them"},
     {Law::tilt_weight, "0.2.0", "heavy weights on the tilt stage",
      "on a half-space friction at the probe pressures was taken for that at the weight, also where the "
-     "weight "
-     "presses harder than they do",
+     "weight presses harder than they do",
      "such a weight is solved for itself, and as the stage is raised what is left of it",
      "angles, mu and area per load of such trials"},
     {Law::approach_control, "0.2.0", "control by approach",

@@ -300,8 +300,7 @@ class VerdictWords {
     if (f_.at.noisy)
       of_.warnings.push_back(
           "the fit ended where the noise of the model hides the least sum of squares: let the model be "
-          "computed to a "
-          "closer tolerance, or give `step` of the parameters a larger share");
+          "computed to a closer tolerance, or give `step` of the parameters a larger share");
     if (f_.begun_again > 0)
       of_.warnings.push_back("the sum of squares has more than one least place; the fit was begun again " +
                              std::to_string(f_.begun_again) + (f_.begun_again == 1 ? " time" : " times") +

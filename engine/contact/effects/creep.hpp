@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Creep: the longer a load dwells, the lower the hardness that limits the pressure,
-// H(t) = H (1 + b ln(1 + t_ref/t_c)) / (1 + b ln(1 + t/t_c)). It scales the limit that plasticity gives and
-// costs nothing else.
+// Creep: the longer a load dwells, the lower the hardness that limits the pressure, H(t) = H (1 + b ln(1 +
+// t_ref/t_c)) / (1 + b ln(1 + t/t_c)). It scales the limit that plasticity gives and costs nothing else.
 #pragma once
 
 #include "engine/contact/effect.hpp"
