@@ -85,10 +85,15 @@ function laboratory.area_per_load(surface, hardness)
 end
 
 -- What the spots of an elastic touch on quartz carry at the probe pressure, in the specimen's own hardness: in the
--- mean over the real area, and at the highest node. Above 1 the specimen would yield.
+-- mean over the real area, and at the highest node. Above 1 the specimen would yield. Then the share of the load that
+-- stands on nodes above it, and how many nodes touch.
 function laboratory.over_hardness(surface)
   local st, H = laboratory.on_quartz(surface):press{ pressure = laboratory.probe }, surface.material.hardness
-  return st.pressure / st.corrected_area_fraction / H, st.peak_pressure / H
+  local load, above, nodes = 0, 0, 0
+  for _, row in ipairs(st:field("pressure"):values()) do
+    for _, p in ipairs(row) do load, above, nodes = load + p, above + (p > H and p or 0), nodes + (p > 0 and 1 or 0) end
+  end
+  return st.pressure / st.corrected_area_fraction / H, st.peak_pressure / H, above / load, nodes
 end
 
 -- Ra and amplitude (m) over the whole map, and as the paper read them: the mean of five traces of 2 mm by a

@@ -37,6 +37,25 @@ function paper.contact(surface, A)
   }
 end
 
+-- The same surfaces on an elastic half-space, free, at one load (0.006 E): means over `seeds` seeds for each preset and
+-- D = 2.0 and 2.9; friction is that of tau0 = 0.01 E and r = 0.1 without a cap.
+function paper.on_half_space(seeds)
+  local unit = lab.material{ young = 1, poisson = 0 }
+  local rows = lab.ensemble{
+    over = { preset = paper.presets, D = { 2.0, 2.9 }, seed = paper.count(seeds) },
+    run = function(case)
+      local span = require("asperity.paper").spans[case.preset]
+      local s = lab.surface.weierstrass_mandelbrot{ cells = 150, D = case.D, span = span, seed = case.seed, material = unit }
+      local c = lab.contact{ lower = s:scaled{ amplitude = 5 * span }, upper = lab.rigid, boundary = "free",
+                             effects = { elasticity = "half_space" }, accuracy = { tolerance = 1e-5 } }
+      local st = c:press{ pressure = 0.006 }
+      return { area = st.corrected_area_fraction, secant = st.secant_stiffness, spots = st.spots,
+               mu = lab.friction{ tau0 = 0.01, alpha = 0.001 }:on(st).mu }
+    end,
+  }
+  return paper.means(rows, { "preset", "D" })
+end
+
 function paper.count(n)
   local list = {}
   for k = 1, n do list[k] = k end
