@@ -14,7 +14,7 @@ namespace asperity {
 namespace {
 
 // Words of other tables for the columns of log_table.hpp.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 14> other_names{{{"force", "load"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> other_names{{{"force", "load"},
                                                                                      {"kraft", "load"},
                                                                                      {"last", "load"},
                                                                                      {"charge", "load"},
@@ -23,6 +23,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> other_na
                                                                                      {"spannung", "pressure"},
                                                                                      {"zeit", "time"},
                                                                                      {"temps", "time"},
+                                                                                     {"uhrzeit", "time"},
+                                                                                     {"timestamp", "time"},
                                                                                      {"angle", "rotation"},
                                                                                      {"winkel", "angle"},
                                                                                      {"winkel", "rotation"},
@@ -61,6 +63,30 @@ bool means(std::string_view word, std::string_view column) {
 
 bool surely_means(std::string_view word, std::string_view column) {
   return means(word, column) && (word == column || column != "rotation");
+}
+
+std::string past_midnight(double seconds_back) {
+  constexpr double half_a_day = 43200;
+  return seconds_back > half_a_day ? "; times of day that go past midnight need their dates" : "";
+}
+
+std::string_view thousands_in(std::string_view text) {
+  constexpr std::array<std::string_view, 6> blanks{" ", "\xC2\xA0", "\xE2\x80\xAF", "'", ",", "."};
+  text = trimmed(text);
+  if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+  if (text.empty() || text.find_first_not_of("0123456789") == 0) return "";
+  std::string_view first;
+  while (!text.empty()) {
+    text.remove_prefix(std::min(text.find_first_not_of("0123456789"), text.size()));
+    if (text.empty()) break;
+    const auto sign =
+        std::find_if(blanks.begin(), blanks.end(), [&](auto each) { return text.starts_with(each); });
+    if (sign == blanks.end()) return "";
+    text.remove_prefix(sign->size());
+    if (text.empty() || text.find_first_of("0123456789") != 0) return "";
+    if (first.empty()) first = sign - blanks.begin() < 3 ? " " : *sign;
+  }
+  return first;
 }
 
 }  // namespace asperity

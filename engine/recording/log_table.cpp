@@ -443,6 +443,13 @@ std::string LogTable::complaint(std::size_t k, const LogCell& cell) const {
     advice = ": it is a date or a time of day; write times as seconds from the start";
   else if (lines_.separator() == Separator::comma && text.find(',') != std::string::npos)
     advice = ": commas part the cells here; write the decimal sign as a point, or part cells by semicolons";
+  else if (const std::string_view sign = thousands_in(text); !sign.empty())
+    advice = ": if " +
+             std::string(sign == " "   ? "a blank"
+                         : sign == "'" ? "an apostrophe"
+                         : sign == "," ? "a comma"
+                                       : "a point") +
+             " parts thousands, say thousands=\"" + std::string(sign) + "\"";
   return shown(text) + " is no finite number" + advice;
 }
 

@@ -148,4 +148,11 @@ bool means(std::string_view word, std::string_view column);
 // Whether it can mean nothing else: an angle may be that of the stage or a turn by so much.
 bool surely_means(std::string_view word, std::string_view column);
 
+// What a time that runs backwards by so many seconds asks for where it may be a time of day: its date.
+std::string past_midnight(double seconds_back);
+
+// The sign that may part thousands in a text that is no number only because of it ("1.234,5", "1'234",
+// "1 234"): a key `thousands` takes it. "" where there is none.
+std::string_view thousands_in(std::string_view text);
+
 }  // namespace asperity

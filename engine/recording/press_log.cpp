@@ -83,8 +83,9 @@ class LogReader {
     if (!now) {
       if (row_is_good) table_.problem(table_.here(*column), "the time is missing");
     } else if (last_time_ && *now < *last_time_) {
-      table_.problem(table_.here(*column), "the time " + format_short(*now) + " s runs backwards: " +
-                                               format_short(*last_time_) + " s stands before it");
+      table_.problem(table_.here(*column), "the time " + format_short(*now) +
+                                               " s runs backwards: " + format_short(*last_time_) +
+                                               " s stands before it" + past_midnight(*last_time_ - *now));
     } else {
       last_time_ = now;
     }
@@ -155,9 +156,11 @@ class LogReader {
   void warn_if_sampled() const {
     constexpr std::size_t many = 100;
     if (rows_ >= many && rows_with_more_ == 0)
-      monitor_.warn(file_name(file_.path()) + " has " + std::to_string(rows_) +
-                    " rows and neither dwell nor turn: each is taken for an event, so a recording sampled "
-                    "all the time becomes as many presses");
+      monitor_.warn(
+          file_name(file_.path()) + " has " + std::to_string(rows_) +
+          " rows and neither dwell nor turn: each is taken for an event, so a recording sampled "
+          "all the time becomes as many presses" +
+          (table_.find(time) ? "" : "; a recording needs a column of times: columns={ time=\"its head\" }"));
   }
 
   const SourceFile& file_;

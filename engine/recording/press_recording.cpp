@@ -105,7 +105,8 @@ class RecordingReader {
                          (now == last ? "stands in line " + std::to_string(recording_.line.back()) +
                                             " too; write more of its digits, or have such rows spread by "
                                             "equal_times=\"spread\""
-                                      : "runs backwards: " + format_short(last, 10) + " s stands before it"));
+                                      : "runs backwards: " + format_short(last, 10) + " s stands before it" +
+                                            past_midnight(last - now)));
       return;
     }
     if (again) ++equal_rows_;

@@ -80,3 +80,18 @@ refused("pressure [MPa],dwell [s]\n1,1\nTotal\n2,2\n", "put # before a line that
 refused("load [N],load [kN]\n1,1\n", 'begin its title with "result "')
 refused("\x1F\x8B\x08 log", "packed with gzip")
 refused('pressure [MPa],dwell [s]\n"1,500",1\n', "write the decimal sign as a point")
+-- What is wrong is shown as it stands in the file, and what may part thousands is named.
+refused("load [N];dwell [s]\n1\xE2\x80\xAF234,5;1\n", '"1\xE2\x80\xAF234,5" is no finite number: if a blank parts thousands')
+refused("load [N];dwell [s]\n1.234,5;1\n", 'if a point parts thousands, say thousands="."')
+refused("load [N];dwell [s]\n1'234.5;1\n", "if an apostrophe parts thousands")
+refused("time,load [N],dwell [s]\n23:50:00,1,1\n00:05:00,2,1\n", "times of day that go past midnight need their dates")
+-- A logger with a column for the day and one for the time of day.
+do
+  local file <close> = assert(io.open("log.txt", "w"))
+  file:write "Datum;Uhrzeit;Kraft [kN];Winkel [\xC2\xB0]\n"
+  for k = 0, 240 do
+    local load = k < 20 and 0 or k < 90 and 75 or k < 140 and 0 or k < 210 and 50 or 0
+    file:write(("23.11.2026;10:%02d:%02d;%d,%03d;%d\n"):format(k // 60, k % 60, load, 300 + k * 7 % 50, k < 120 and 0 or 90))
+  end
+end
+assert(#lab.protocol.read "log.txt" == 5)

@@ -88,9 +88,11 @@ std::string lower_case(std::string_view text) {
 }
 
 std::string shown(std::string_view text) {
-  std::string result(text.substr(0, 24));
+  std::string_view head = text.substr(0, 24);
+  if (text.size() > 24) head.remove_suffix(unfinished_bytes(head));
+  std::string result = plain_text(std::string(head));
   for (char& c : result)
-    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E) c = '?';
+    if (c == '\n' || c == '\t') c = '?';
   if (text.size() > 24) result += "...";
   return "\"" + result + "\"";
 }

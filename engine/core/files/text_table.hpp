@@ -35,7 +35,7 @@ class LineReader {
 
 std::string_view trimmed(std::string_view text);
 std::string lower_case(std::string_view text);
-// At most 24 bytes of a line, unprintable ones shown as '?', for errors.
+// At most 24 bytes of a line, whole characters of UTF-8, unprintable ones shown as '?', for errors.
 std::string shown(std::string_view text);
 
 // How the cells of a line are parted. With any separator but the comma a decimal comma is read as a
