@@ -138,10 +138,15 @@ void check_answers(std::span<const UncertainInput> inputs, std::span<const std::
     if (points[i].size() != inputs.size())
       throw Error(ErrorCode::bad_value, "a point has " + std::to_string(points[i].size()) +
                                             " coordinates for " + std::to_string(inputs.size()) + " inputs");
-    if (std::isfinite(answers[i])) continue;
+    if (has_square(answers[i])) continue;
     std::string where;
     for (std::size_t j = 0; j < inputs.size(); ++j)
       where += (j == 0 ? "" : ", ") + inputs[j].name + " = " + format_short(inputs[j].at(points[i][j]));
+    if (std::isfinite(answers[i]))
+      throw Error(ErrorCode::bad_value,
+                  "the answer at " + where + " is " + format_short(answers[i]) +
+                      ", whose square leaves the range of numbers",
+                  "return it in another unit");
     throw Error(ErrorCode::bad_value, "the answer at " + where + " is not finite",
                 "a share needs an answer over the whole range of the inputs: make the ranges narrower");
   }
@@ -277,6 +282,11 @@ void require_trust(const PolynomialChaos& chaos) {
                   std::to_string(chaos.runs) + " runs, above " + format_short(100 * rough_below) + " %",
               "give more `runs`, narrower inputs, or an answer without noise and jumps: keep the seed fixed "
               "inside `ask`");
+}
+
+bool has_square(double answer) {
+  constexpr double least = 1e-150, most = 1e150;
+  return answer == 0 || (std::abs(answer) >= least && std::abs(answer) <= most);
 }
 
 }  // namespace asperity

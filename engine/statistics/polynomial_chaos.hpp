@@ -71,4 +71,8 @@ PolynomialChaos polynomial_chaos(std::span<const UncertainInput> inputs,
 // The same, refused: throws Error{not_converged} where the trust in it is refused, with its numbers.
 void require_trust(const PolynomialChaos& chaos);
 
+// Whether a variance can be had of such answers: 0, or neither so large nor so small that its square is no
+// number of full precision.
+bool has_square(double answer);
+
 }  // namespace asperity

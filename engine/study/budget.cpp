@@ -149,6 +149,11 @@ class BudgetRuns {
             ErrorCode::bad_value,
             "the answer of run " + std::to_string(setting.number) + " (" + setting.part + ") is not finite",
             "a budget needs a finite number of every run");
+      if (!has_square(answers[k].value))
+        throw Error(ErrorCode::bad_value,
+                    "the answer of run " + std::to_string(setting.number) + " (" + setting.part + ") is " +
+                        format_short(answers[k].value) + ", whose square leaves the range of numbers",
+                    "return it in another unit");
       sum += answers[k].seconds;
       if (setting.part == "solver")
         loose_seconds = answers[k].seconds;
@@ -324,6 +329,9 @@ void look_at_cells(const BudgetRequest& request, const std::vector<std::vector<d
     found.extrapolated[r] += found.factor_mean * steps[r];
   }
   found.change = average_of(steps);
+  if (std::ranges::all_of(steps, [](double step) { return step == 0; }))
+    budget.warnings.emplace_back(
+        "the two finest grids give the same answer, to the last digit: does `ask` use its `cells`?");
   budget.notes.push_back(
       "cells: the value is corrected by " + format_short(found.factor_mean * found.change, 3) +
       " for an error of order " + format_short(request.order_low) +
@@ -355,6 +363,10 @@ void look_at_sample(const BudgetRequest& request, BudgetFindings& found, Budget&
   budget.sample = sample_mean(found.extrapolated, request.interval, request.confidence);
   budget.warnings.insert(budget.warnings.end(), budget.sample->warnings.begin(),
                          budget.sample->warnings.end());
+  if (std::ranges::all_of(found.extrapolated,
+                          [&](double value) { return value == found.extrapolated.front(); }))
+    budget.warnings.emplace_back(
+        "all replicates give the same answer, to the last digit: does `ask` use what `replicate` names?");
   if (request.interval != MeanInterval::log_normal) return;
   std::vector<double> logs;
   for (const double value : found.extrapolated) logs.push_back(elementary::log(value));
@@ -422,6 +434,8 @@ void look_at_inputs(const BudgetRequest& request, BudgetRuns& runs, BudgetFindin
   const std::vector<double>& answers = chaos.answers;
   // What is rough is said once, as a warning.
   const bool good = budget.chaos->trust() == ChaosTrust::good;
+  if (!(budget.chaos->variance > 0))
+    budget.warnings.emplace_back("the answer does not hang on the inputs: does `ask` use them?");
   budget.notes.push_back("inputs: taken as independent, shares do not hold for correlated ones" +
                          (good ? "; " + budget.chaos->text() : std::string()));
   if (good) return;

@@ -10,6 +10,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/text.hpp"
 #include "engine/statistics/distributions.hpp"
+#include "engine/statistics/polynomial_chaos.hpp"
 #include "engine/study/calibration_problem.hpp"
 #include "engine/study/calibration_profile.hpp"
 #include "engine/study/calibration_verdict.hpp"
@@ -40,6 +41,10 @@ void check_rows(const CalibrationRows& rows) {
   for (std::size_t k = 0; k < n; ++k) {
     if (!std::isfinite(rows.y[k]))
       refuse_calibration("y is not finite in " + row_name(rows, k), "leave the row out");
+    if (!has_square(rows.y[k]))
+      refuse_calibration("y is " + format_short(rows.y[k]) + " in " + row_name(rows, k) +
+                             ", and its square leaves the range of numbers",
+                         "give it in another unit");
     if (!rows.u.empty() && !(std::isfinite(rows.u[k]) && rows.u[k] > 0))
       refuse_calibration("the uncertainty `u` is " + format_short(rows.u[k]) + " in " + row_name(rows, k),
                          "give a finite value above 0, or leave the row out");

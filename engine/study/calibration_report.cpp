@@ -108,6 +108,7 @@ std::string calibration_text(const CalibrationReport& report) {
   const Calibration& found = report.found;
   std::string text =
       "calibration of " + report.y + " over " + counted_as(report.numbers.size(), "row", "rows");
+  if (report.left_out > 0) text += " (" + std::to_string(report.left_out) + " more without numbers)";
   if (!found.specimens.empty()) text += " of " + counted_as(found.specimens.size(), "specimen", "specimens");
   text += ", " + counted_as(found.degrees, "degree", "degrees") + " of freedom";
   if (const std::string scatter = scatter_text(report); !scatter.empty()) text += "; " + scatter;

@@ -234,6 +234,9 @@ std::vector<std::string> alike_columns(const Rows& table, const std::set<std::si
 
 CalibrationInput input_of(const CalibrateKeys& keys) {
   const Rows chosen = rows_of(*keys.data, keys.where.rows(*keys.data));
+  if (chosen.rows() == 0 && !keys.where.empty() && !TableFilter().rows(*keys.data).empty())
+    throw Error(ErrorCode::bad_value, "no row matches `where` " + keys.where.text(),
+                "give values that its columns hold");
   std::vector<std::pair<std::string, std::string>> named = {{"y", keys.y}};
   const std::size_t y = chosen.column(keys.y, "y");
   std::set<std::size_t> told = {y};
