@@ -6,7 +6,10 @@ local keys = { said=true, found=true, of=true, unit=true, near=true }
 
 -- The number in a guess; nil where there is none, or where another unit stands behind it.
 local function number_of(said, unit)
-  if type(said) ~= "string" then return math.type(said) and said or nil end
+  if type(said) ~= "string" then
+    -- Neither infinite nor nan.
+    return math.type(said) and math.abs(said) < math.huge and said or nil
+  end
   local digits, behind = said:match "^%s*([-+]?%d*%.?%d*[eE]?[-+]?%d*)%s*(.-)%s*$"
   local number = digits and tonumber(digits)
   if behind ~= "" and behind ~= unit then return nil end
