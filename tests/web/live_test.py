@@ -118,7 +118,11 @@ def test_mistakes_end_no_session():
         unknown = events(whole(move(server, live, preshure="10 MPa")), "error")[0]["message"]
         assert "did you mean `pressure`" in unknown, unknown
         assert server.ask("POST", f"/api/live/{live}", {"knobs": {"pressure": "much"}}).status == 400
-        assert server.ask("POST", f"/api/live/{live}", {"knobs": 3}).status == 400
+        # Wrong kinds are told by their names.
+        for knobs, words in ((3, "`knobs` is no object"), ({"pressure": 3}, "the value of `pressure` is no text")):
+            answer = server.ask("POST", f"/api/live/{live}", {"knobs": knobs})
+            assert answer.status == 400 and words in answer.json()["error"]["message"], (answer.status, answer.json())
+        assert "`tab` is no text" in server.ask("POST", "/api/live", {"script": script, "tab": 3}).json()["error"]["message"]
 
 
 def test_a_newer_move_ends_an_endless_one():

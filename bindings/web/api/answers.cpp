@@ -30,6 +30,7 @@ Json body_of(const HttpRequest& request) {
 std::string text_member(const Json& body, const std::string& key, std::size_t longest) {
   const Json* found = body.find(key);
   if (found == nullptr) throw Error(ErrorCode::bad_value, "the request has no " + asperity::quoted(key));
+  if (!found->is_string()) throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is no text");
   const std::string& text = found->string();
   if (text.size() > longest)
     throw Error(ErrorCode::bad_value,
@@ -52,6 +53,7 @@ GivenKnobs knobs_member(const Json& body, const std::string& key) {
   constexpr std::size_t most = 100, longest = 100;
   const Json* found = body.find(key);
   if (found == nullptr || found->is_null()) return {};
+  if (!found->is_object()) throw Error(ErrorCode::bad_value, asperity::quoted(key) + " is no object");
   const Json::Members& members = found->members();
   if (members.size() > most)
     throw Error(ErrorCode::bad_value,
@@ -61,6 +63,9 @@ GivenKnobs knobs_member(const Json& body, const std::string& key) {
   for (const auto& [name, value] : members) {
     if (name.find('=') != std::string::npos)
       throw Error(ErrorCode::bad_value, asperity::quoted(name) + " is no name of a knob");
+    if (!value.is_string())
+      throw Error(ErrorCode::bad_value, "the value of " + asperity::quoted(name) + " is no text",
+                  "give it as one that `--knob` takes, such as \"50 MPa\"");
     if (value.string().size() > longest)
       throw Error(ErrorCode::bad_value, "the value of " + asperity::quoted(name) + " is too long");
     add_given_knob(knobs, name + "=" + value.string());
