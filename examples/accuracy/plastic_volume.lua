@@ -3,6 +3,7 @@
 --
 --   asperity run examples/accuracy/plastic_volume.lua
 --   asperity run examples/accuracy/plastic_volume.lua -- budget=300 finest=512
+--   asperity run examples/accuracy/plastic_volume.lua -- events=1
 --
 -- Two rough bodies are put down afresh and pressed eight times; how much is flattened for good in all? The
 -- answer after eight events is no worse than after one: errors do not pile up, for what an event leaves is
