@@ -12,6 +12,7 @@
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/require.hpp"
+#include "engine/core/text.hpp"
 #include "engine/metrology/registration/height_map.hpp"
 #include "engine/metrology/registration/natural_spline.hpp"
 #include "engine/metrology/registration/placement.hpp"
@@ -107,6 +108,11 @@ Registration registered(const Surface& after, const Surface& before, const Regis
   divide_heights(from.map, unit);
   divide_heights(onto.map, unit);
   const HeightMap from_map = without_spikes(from.map), onto_map = without_spikes(onto.map);
+  constexpr double no_wear = 100;  // wear that leaves so little of the heights leaves no ground to go by
+  const double ratio = rms_height(from_map) / rms_height(onto_map);
+  if (ratio > no_wear || ratio < 1 / no_wear)
+    refuse("the heights of the after-map are " + format_short(ratio, 3) + " times those of the before-map",
+           "take two maps of one specimen, and look at the units of both");
 
   const double unbounded = std::numeric_limits<double>::infinity();
   const Placement placement =

@@ -1,6 +1,11 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- Areal and profile parameters as a script reads them: gauges, units, what is not defined, and what is asked wrongly.
 local lab = require "asperity"
+do -- one sample has no parameters
+  local point = lab.surface.from_table{ size="1 um", heights={ { 1e-6 } } }:profile{ row=0 }
+  local ok, message = pcall(point.primary_parameters, point)
+  assert(not ok and message:find("a profile of 1 sample has no parameters", 1, true), message)
+end
 
 local function near(value, wanted, relative, what)
   assert(math.abs(value - wanted) <= relative * math.abs(wanted) + 1e-15, what .. ": " .. tostring(value) .. ", not " .. wanted)

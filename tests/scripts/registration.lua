@@ -33,4 +33,7 @@ refused(function() part:registered_to(before, { at_most=0 }) end, "`at_most` is 
 refused(function() part:registered_to(before, { atmost="5 um" }) end, "(did you mean `at_most`?)")
 refused(function() part:registered_to() end, "before")
 refused(function() print(r.shfit) end, "(did you mean `shift`?)")
+-- Heights of one map in millimetres and of the other in micrometres.
+refused(function() before:scaled{ amplitude=1000 * before.peak_to_valley }:registered_to(before) end,
+  "the heights of the after-map are 1e+03 times those of the before-map", "look at the units of both")
 print "all as it should be"

@@ -169,6 +169,8 @@ Profile primary_profile(const Profile& trace, const std::optional<int>& F, const
   if (S) require_positive("S", *S, "m");
   const double h = trace.spacing();
   const auto n = static_cast<std::size_t>(trace.size());
+  if (n < 2)
+    refuse("a profile of " + std::to_string(n) + " sample has no parameters", "give a longer profile");
   const double cut = S ? std::ceil(*S / h / 2) : 0;
   if (2 * cut + 2 > static_cast<double>(n))
     refuse("nothing is left of the trace of " + metres(trace.length()) + " once half of `S`, " + metres(*S) +
