@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <optional>
 #include <utility>
 
 #include "bindings/lua/registry/case_input.hpp"
@@ -14,80 +13,12 @@
 #include "bindings/lua/registry/placeholder.hpp"
 #include "bindings/lua/registry/registry.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/memory.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/run_directory.hpp"
 
 namespace asperity::lua {
 
 namespace {
-
-// A request of this thread that was refused. Lua collects and asks once more for the same: what follows
-// shows whether the refusal was final.
-thread_local std::optional<std::pair<void*, std::size_t>> refused;
-
-// Where the script was at the last refusal. Lua's own error of memory has no place, and is raised after the
-// stack is gone; a place is written here without asking for memory.
-struct RefusalPlace {
-  char line[96] = "";     // "script.lua:12: "
-  char trace[1024] = "";  // "\n\tscript.lua:12: in main chunk" and so on
-};
-thread_local RefusalPlace refusal_place;
-
-void note_refusal_place(lua_State* L) {
-  RefusalPlace& place = refusal_place;
-  std::size_t used = 0;
-  lua_Debug frame;
-  constexpr int deepest = 16;
-  for (int level = 0; level < deepest && lua_getstack(L, level, &frame) != 0; ++level) {
-    lua_getinfo(L, "Sl", &frame);
-    if (frame.currentline <= 0) continue;
-    if (place.line[0] == '\0')
-      std::snprintf(place.line, sizeof place.line, "%s:%d: ", frame.short_src, frame.currentline);
-    const bool main = frame.what[0] == 'm';
-    const int wrote =
-        main ? std::snprintf(place.trace + used, sizeof place.trace - used, "\n\t%s:%d: in main chunk",
-                             frame.short_src, frame.currentline)
-             : std::snprintf(place.trace + used, sizeof place.trace - used, "\n\t%s:%d: in function <%s:%d>",
-                             frame.short_src, frame.currentline, frame.short_src, frame.linedefined);
-    if (wrote < 0 || static_cast<std::size_t>(wrote) >= sizeof place.trace - used) break;
-    used += static_cast<std::size_t>(wrote);
-  }
-}
-
-// Whether a request may be for a thread's stack, which is no bigger than a million values of 16 bytes and
-// some: while the stack is moved its frames cannot be read.
-bool may_move_a_stack(const void* block, std::size_t old_size, std::size_t new_size) {
-  constexpr std::size_t slot = 16, biggest = 1'100'000 * slot;
-  return block != nullptr && old_size % slot == 0 && new_size % slot == 0 && new_size <= biggest;
-}
-
-// Lua's heap falls under the same limit as the engine's grids. `main` is the state's main thread, null
-// while it is being made.
-void* allocate(void* main, void* block, std::size_t old_size, std::size_t new_size) {
-  const auto held = static_cast<std::int64_t>(block == nullptr ? 0 : old_size);
-  if (new_size == 0) {
-    std::free(block);
-    memory::account(-held);
-    return nullptr;
-  }
-  const std::int64_t change = static_cast<std::int64_t>(new_size) - held;
-  if (!memory::account(change)) {
-    if (refused) memory::note_exceeded();
-    refused = {block, new_size};
-    refusal_place = {};
-    if (main != nullptr && !may_move_a_stack(block, old_size, new_size))
-      note_refusal_place(static_cast<lua_State*>(main));
-    return nullptr;
-  }
-  if (change > 0 && refused) {
-    if (*refused != std::pair(block, new_size)) memory::note_exceeded();
-    refused.reset();
-  }
-  void* moved = std::realloc(block, new_size);
-  if (moved == nullptr) memory::account(-change);
-  return moved;
-}
 
 int open_library(lua_State* L) {
   push_library(L);
@@ -263,28 +194,28 @@ int set_up(lua_State* L) {
   lua_pushboolean(L, session.trusted ? 1 : 0);
   lua_call(L, 2, 0);
   lua_gc(L, LUA_GCRESTART);
+  // As after a collection, the next one begins once there is twice as much.
+  lua_gc(L, LUA_GCSTEP, -lua_gc(L, LUA_GCCOUNT));
   return 0;
 }
 
 }  // namespace
 
-std::string placed_memory_error(const std::string& message) {
-  const RefusalPlace& place = refusal_place;
-  if (message != "not enough memory" || place.line[0] == '\0') return message;
-  return place.line + message + "\nstack traceback:" + place.trace;
+void StateCloser::operator()(lua_State* L) const {
+  const std::unique_ptr<StateHeap> heap(StateHeap::of(L));
+  lua_close(L);
 }
-
-bool memory_limit_met() { return memory::exceeded() || refused.has_value(); }
 
 std::string search_path(const std::string& script_folder) {
   return script_folder + "/?.lua;" + script_folder + "/?/init.lua";
 }
 
 State make_state(Session& session, const std::string& script_folder) {
-  State state(lua_newstate(allocate, nullptr));
+  auto heap = std::make_unique<StateHeap>();
+  State state(lua_newstate(StateHeap::allocate, heap.get()));
   if (state == nullptr) throw Error(ErrorCode::out_of_memory, "there is no memory for a Lua state");
   lua_State* L = state.get();
-  lua_setallocf(L, allocate, L);
+  heap.release()->main = L;  // the state's own from here on
   const std::string path = script_folder.empty() ? std::string() : search_path(script_folder);
   Setup setup{&session, path.c_str()};
   lua_pushcfunction(L, set_up);

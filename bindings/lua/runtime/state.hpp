@@ -9,11 +9,12 @@
 
 #include "bindings/lua/registry/lua_api.hpp"
 #include "bindings/lua/registry/session.hpp"
+#include "bindings/lua/runtime/state_heap.hpp"
 
 namespace asperity::lua {
 
 struct StateCloser {
-  void operator()(lua_State* L) const { lua_close(L); }
+  void operator()(lua_State* L) const;
 };
 using State = std::unique_ptr<lua_State, StateCloser>;
 
@@ -31,16 +32,8 @@ void interrupt(lua_State* L);
 // its speed, so it is for runs with a limit.
 void watch_for_stops(lua_State* L);
 
-// Whether a request for memory of this thread's states, or of the engine, was refused for good since the
-// limit was set, even if the script caught the error.
-bool memory_limit_met();
-
 // An error value as text: a string as it is, anything else as tostring would show it.
 std::string error_text(lua_State* L, int index);
-
-// Lua's own error of memory with the line that was running when memory was last refused and a traceback;
-// any other message as it is.
-std::string placed_memory_error(const std::string& message);
 
 // The message handler of an uncaught error: text of the value, whatever it is, and a traceback.
 int traceback_handler(lua_State* L);
