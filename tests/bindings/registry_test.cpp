@@ -218,5 +218,46 @@ TEST_F(LabModule, GoesThroughPairsAndCannotBeChanged) {
   EXPECT_EQ(value("lab.units.um"), "1e-06");
 }
 
+// Members are made when they are asked for.
+TEST_F(LabModule, GivesTheSameMemberWheneverAndHoweverItIsAskedFor) {
+  EXPECT_EQ(
+      run("local flat, units, rigid = lab.surface.flat, lab.units, lab.rigid\n"
+          "local seen = {} for name, entry in pairs(lab) do seen[name] = entry end\n"
+          "assert(seen.units == units and rawequal(seen.rigid, rigid) and seen.surface == lab.surface)\n"
+          "for name, entry in pairs(lab.surface) do seen[name] = entry end\n"
+          "assert(seen.flat == flat and lab.surface.flat == flat and seen.sine == lab.surface.sine)"),
+      "");
+  EXPECT_EQ(run("local co = coroutine.wrap(function() return lab.surface.self_affine end)\n"
+                "assert(co() == lab.surface.self_affine)"),
+            "");
+}
+
+TEST_F(LabModule, PairsGivesEveryMemberOnceInAFreshState) {
+  std::size_t members = 0;
+  for (const Module* module : modules()) {
+    std::string path = "lab";
+    const std::size_t dot = module->path.find('.');
+    members = module->functions.size() + module->constants.size();
+    for (const Module* inner : modules())
+      if (inner->path.starts_with(module->path + ".") &&
+          inner->path.find('.', module->path.size() + 1) == std::string::npos)
+        ++members;
+    if (dot != std::string::npos) path += module->path.substr(dot);
+    EXPECT_EQ(
+        run("local n, seen = 0, {} for name, entry in pairs(" + path +
+            ") do assert(not seen[name] and entry ~= nil) seen[name] = true n = n + 1 end assert(n == " +
+            std::to_string(members) + ", n)"),
+        "")
+        << path;
+  }
+}
+
+TEST_F(Method, IsTheSameFunctionForEveryValueOfItsClass) {
+  EXPECT_EQ(run("local a, b = lab.surface.flat{ cells=4, size=1 }, lab.surface.flat{ cells=8, size=1 }\n"
+                "assert(a.height == b.height and a.height ~= a.scaled)\n"
+                "assert(a:height(0, 0) == 0)"),
+            "");
+}
+
 }  // namespace
 }  // namespace asperity::lua::registry_test

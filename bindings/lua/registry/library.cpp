@@ -12,24 +12,89 @@ namespace {
 
 const char module_key = 0;  // metatable[module_key] = Module* marks the metatables of modules
 
+// What a module has under a name: one of these, or none. A module within it hides a constant of the same
+// name, and that a function.
+struct Member {
+  const Module* module = nullptr;
+  const Constant* constant = nullptr;
+  const Function* function = nullptr;
+};
+
+// The name of a module within another, or "".
+std::string_view name_within(const Module& outer, const Module& inner) {
+  const std::string_view path = inner.path;
+  const std::size_t dot = path.rfind('.');
+  return dot != std::string_view::npos && path.substr(0, dot) == outer.path ? path.substr(dot + 1)
+                                                                            : std::string_view();
+}
+
+Member member_of(const Module& module, std::string_view name) {
+  for (const Module* inner : modules())
+    if (!name.empty() && name_within(module, *inner) == name) return {.module = inner};
+  for (const Constant& constant : module.constants)
+    if (constant.name == name) return {.constant = &constant};
+  for (const Function& function : module.functions)
+    if (function.name == name) return {.function = &function};
+  return {};
+}
+
+std::vector<std::string> names_of_members(const Module& module) {
+  std::vector<std::string> names;
+  for (const Function& function : module.functions) names.push_back(function.name);
+  for (const Constant& constant : module.constants) names.push_back(constant.name);
+  for (const Module* inner : modules())
+    if (const std::string_view name = name_within(module, *inner); !name.empty()) names.emplace_back(name);
+  return names;
+}
+
+// Pushes a member, which stays in the module's storage under its name: a state makes what it is asked for,
+// for most scripts use few of several hundred functions. Raises.
+void make_member(lua_State* L, int storage, const char* name, const Member& member) {
+  if (member.module != nullptr) {
+    push_proxy(L, *member.module);
+  } else if (member.constant != nullptr) {
+    static const std::string nothing;
+    const auto value = [&member]() -> Values { return {member.constant->value()}; };
+    if (guarded(L, nothing, value) < 0) lua_error(L);
+  } else {
+    push_function(L, *member.function);
+  }
+  lua_pushvalue(L, -1);
+  lua_setfield(L, storage, name);
+}
+
+// Makes what is not there yet of the members of one kind. Raises.
+template <class Named>
+void make_all(lua_State* L, int storage, const Module& module, const std::vector<Named>& members) {
+  for (const Named& named : members) {
+    if (lua_getfield(L, storage, named.name.c_str()) == LUA_TNIL)
+      make_member(L, storage, named.name.c_str(), member_of(module, named.name));
+    lua_settop(L, 1);
+  }
+}
+
 int module_index(lua_State* L) {
+  lua_settop(L, 2);
   lua_pushvalue(L, 2);
   if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;
-  lua_pop(L, 1);
   const Module& module = *static_cast<const Module*>(lua_touserdata(L, lua_upvalueindex(1)));
+  if (lua_type(L, 2) == LUA_TSTRING) {
+    std::size_t length = 0;
+    const char* name = lua_tolstring(L, 2, &length);
+    const Member member = member_of(module, {name, length});
+    if (member.module != nullptr || member.constant != nullptr || member.function != nullptr)
+      return make_member(L, lua_upvalueindex(2), name, member), 1;
+  }
+  lua_pop(L, 1);
   const int results = [&] {
     static const std::string nothing;
     return guarded(L, nothing, [&]() -> Values {
-      std::vector<std::string> names;
-      Argument(L, lua_upvalueindex(2)).each([&](const Argument& key, const Argument&) {
-        names.emplace_back(key.text());
-      });
       const Argument key(L, 2);
       const std::string shown = key.is_text() ? quoted(key.text().substr(0, 40)) : key.describe();
-      throw Error(
-          ErrorCode::unknown_name,
-          module.path + " has no field " + shown + (key.is_text() ? did_you_mean(key.text(), names) : ""),
-          "lab.help \"" + module.path + "\" lists what it has");
+      throw Error(ErrorCode::unknown_name,
+                  module.path + " has no field " + shown +
+                      (key.is_text() ? did_you_mean(key.text(), names_of_members(module)) : ""),
+                  "lab.help \"" + module.path + "\" lists what it has");
     });
   }();
   return results < 0 ? mistaken_field(L) : results;
@@ -47,7 +112,18 @@ int module_next(lua_State* L) {
 }
 
 int module_pairs(lua_State* L) {
-  lua_pushvalue(L, lua_upvalueindex(2));
+  lua_settop(L, 1);
+  const Module& module = *static_cast<const Module*>(lua_touserdata(L, lua_upvalueindex(1)));
+  const int storage = lua_upvalueindex(2);
+  make_all(L, storage, module, module.functions);
+  make_all(L, storage, module, module.constants);
+  for (const Module* inner : modules()) {
+    const std::string_view name = name_within(module, *inner);
+    if (name.empty()) continue;
+    push_proxy(L, *inner);
+    lua_setfield(L, storage, name.data());  // the end of the module's path
+  }
+  lua_pushvalue(L, storage);
   lua_pushcclosure(L, module_next, 1);
   lua_pushvalue(L, 1);
   lua_pushnil(L);
@@ -69,17 +145,9 @@ int module_call(lua_State* L) {
   return lua_gettop(L);
 }
 
-// Pushes the proxy of a module and leaves its storage below it: storage, proxy.
+// Pushes the proxy of a module.
 void push_module(lua_State* L, const Module& module) {
   lua_newtable(L);  // storage
-  for (const Function& function : module.functions) {
-    push_function(L, function);
-    lua_setfield(L, -2, function.name.c_str());
-  }
-  for (const Constant& constant : module.constants) {
-    push(L, constant.value());
-    lua_setfield(L, -2, constant.name.c_str());
-  }
   lua_newtable(L);  // proxy, empty for ever
   lua_pushvalue(L, -2);
   lua_newtable(L);  // its metatable
@@ -99,6 +167,7 @@ void push_module(lua_State* L, const Module& module) {
   lua_rawsetp(L, -2, &module_key);
   lua_remove(L, -2);  // the second reference to storage
   lua_setmetatable(L, -2);
+  lua_remove(L, -2);  // and the first
   lua_pushvalue(L, -1);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &module);
 }
@@ -113,34 +182,14 @@ const Module* module_at(lua_State* L, int index) {
   return module;
 }
 
-void push_proxy(lua_State* L, const Module& module) { lua_rawgetp(L, LUA_REGISTRYINDEX, &module); }
-
-void push_library(lua_State* L) {
+void push_proxy(lua_State* L, const Module& module) {
   luaL_checkstack(L, 16, nullptr);
-  lua_newtable(L);  // path -> storage
-  const int storages = lua_gettop(L);
-  int root = 0;
-  for (const Module* module : modules()) {
-    push_module(L, *module);
-    if (module->path == "lab") {
-      root = lua_gettop(L);
-    } else {
-      const std::string& path = module->path;
-      const std::size_t dot = path.rfind('.');
-      lua_pushlstring(L, path.data(), dot);
-      lua_rawget(L, storages);  // the parent's storage
-      lua_pushvalue(L, -2);
-      lua_setfield(L, -2, path.c_str() + dot + 1);
-      lua_pop(L, 1);
-    }
-    lua_pushvalue(L, -2);  // this module's storage
-    lua_setfield(L, storages, module->path.c_str());
-    if (lua_gettop(L) != root) lua_pop(L, 2);
-  }
-  lua_pushvalue(L, root);
-  lua_replace(L, storages);
-  lua_settop(L, storages);
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &module) != LUA_TNIL) return;
+  lua_pop(L, 1);
+  push_module(L, module);
 }
+
+void push_library(lua_State* L) { push_proxy(L, *modules().front()); }
 
 Session& Call::session() const { return Session::of(L); }
 

@@ -52,11 +52,29 @@ int guarded_field(lua_State* L, const Class& type) {
   });
 }
 
+const Function* method_of(const Class& type, std::string_view name) {
+  for (const Function& method : type.methods)
+    if (method.name == name) return &method;
+  return nullptr;
+}
+
+// A state makes the closure of a method when it is first asked for: scripts use few of those that there are.
 int outer_index(lua_State* L) {
   lua_pushvalue(L, 2);
   if (lua_rawget(L, lua_upvalueindex(2)) != LUA_TNIL) return 1;  // a method
   lua_pop(L, 1);
-  const int results = guarded_field(L, class_at(L));
+  const Class& type = class_at(L);
+  if (lua_type(L, 2) == LUA_TSTRING) {
+    std::size_t length = 0;
+    const char* name = lua_tolstring(L, 2, &length);
+    if (const Function* method = method_of(type, {name, length})) {
+      push_function(L, *method);
+      lua_pushvalue(L, -1);
+      lua_setfield(L, lua_upvalueindex(2), name);
+      return 1;
+    }
+  }
+  const int results = guarded_field(L, type);
   return results < 0 ? mistaken_field(L) : results;
 }
 
@@ -203,11 +221,7 @@ void push_metatable(lua_State* L, const Class& type) {
   lua_pushstring(L, type.name.c_str());
   lua_setfield(L, -2, "__metatable");
   lua_pushlightuserdata(L, const_cast<Class*>(&type));
-  lua_newtable(L);
-  for (const Function& method : type.methods) {
-    push_function(L, method);
-    lua_setfield(L, -2, method.name.c_str());
-  }
+  lua_newtable(L);  // of methods
   lua_pushcclosure(L, outer_index, 2);
   lua_setfield(L, -2, "__index");
   set_class_method(L, "__newindex", outer_new_index, type);
