@@ -230,6 +230,8 @@ void push_function(lua_State* L, const Function& function) {
   lua_pushcclosure(L, outer_function, 1);
 }
 
+bool Call::notes_inputs() const { return !session().is_case; }
+
 void* Call::self_pointer(const Class& type) const {
   const Object* object = Argument(L, 1).as_object(type);
   if (object == nullptr || object->pointer == nullptr)

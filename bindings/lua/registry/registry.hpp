@@ -170,14 +170,15 @@ class Call {
   // The options table in argument k, read against its block; every problem in one Error.
   template <class Options>
   Options options(const Block<Options>& block, int k = 1) const {
-    return block.read(argument(k), function_, &inputs_);
+    return block.read(argument(k), function_, notes_inputs() ? &inputs_ : nullptr);
   }
-  // What options() read, for the journal.
+  // What options() read, for the journal; nothing in a case of an ensemble, which has none.
   const Resolved& inputs() const { return inputs_; }
 
   lua_State* const L;
 
  private:
+  bool notes_inputs() const;
   void* self_pointer(const Class& type) const;
   void* object_pointer(int k, std::string_view name, const Class& type) const;
   const std::string& function_;
