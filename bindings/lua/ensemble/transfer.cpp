@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -62,12 +63,7 @@ std::string kind_of_userdata(const Argument& value) {
 class Packer {
  public:
   Packer(lua_State* state, PackedValue& packed, Cargo cargo, std::string name, std::string hint)
-      : L(state),
-        packed_(packed),
-        cargo_(cargo),
-        name_(std::move(name)),
-        hint_(std::move(hint)),
-        base_(state) {}
+      : L(state), packed_(packed), cargo_(cargo), name_(std::move(name)), hint_(std::move(hint)) {}
 
   void pack_root(int index) { packed_.root_ = pack(index); }
 
@@ -88,7 +84,7 @@ class Packer {
       for (const std::string_view library : base_libraries)
         with_key(globals, library, [&](const Argument& table) {
           const BasePath path{std::string(library), ""};
-          const BasePath* found = table.is_table() ? base_.find(L, table.index()) : nullptr;
+          const BasePath* found = table.is_table() ? base_library().find(L, table.index()) : nullptr;
           if (found != nullptr && *found == path && library != "_G") pack_additions(table, path);
         });
     });
@@ -137,7 +133,7 @@ class Packer {
     const void* identity = lua_topointer(L, -1);
     if (const auto known = seen_.find(identity); known != seen_.end())
       return popped(PackedValue::NodeId{known->second});
-    if (const BasePath* path = base_.find(L, -1)) {
+    if (const BasePath* path = base_library().find(L, -1)) {
       if (cargo_ == Cargo::data) refuse("a part of Lua's library");
       return popped(base(*path));
     }
@@ -195,6 +191,12 @@ class Packer {
       return popped(add_node(identity, std::move(whole)));
     }
     refuse(kind_of_userdata(value));
+  }
+
+  // Most values that are packed are numbers and never ask.
+  const BaseLibrary& base_library() {
+    if (!base_library_) base_library_.emplace(L);
+    return *base_library_;
   }
 
   template <class T>
@@ -370,7 +372,7 @@ class Packer {
   }
 
   // What a fresh state has under the same name anyway.
-  bool is_original(const Argument& value, const std::string& library, const Argument& key) const {
+  bool is_original(const Argument& value, const std::string& library, const Argument& key) {
     if (!key.is_text()) return false;
     const BasePath own{library, std::string(key.text())};
     if (value.is_function()) {
@@ -378,7 +380,7 @@ class Packer {
       const BasePath* path = base_function(lua_tocfunction(L, value.index()));
       return path != nullptr && *path == own;
     }
-    const BasePath* path = base_.find(L, value.index());
+    const BasePath* path = base_library().find(L, value.index());
     return path != nullptr && (*path == own || (library == "_G" && *path == BasePath{own.key, ""}));
   }
 
@@ -395,7 +397,7 @@ class Packer {
   PackedValue& packed_;
   Cargo cargo_;
   std::string name_, hint_;
-  BaseLibrary base_;
+  std::optional<BaseLibrary> base_library_;
   std::vector<Frame> frames_;
   std::unordered_map<const void*, std::uint32_t> seen_, cell_of_;
   std::vector<const void*> order_, cell_order_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings/lua/runtime/base_library.hpp"
 
+#include <algorithm>
+#include <unordered_map>
+
 #include "bindings/lua/registry/argument.hpp"
 #include "bindings/lua/runtime/state.hpp"
 #include "engine/core/error.hpp"
@@ -8,6 +11,8 @@
 namespace asperity::lua {
 
 namespace {
+
+using FunctionPaths = std::unordered_map<lua_CFunction, BasePath>;
 
 template <class Use>
 void with_base_table(lua_State* L, std::string_view library, Use&& use) {
@@ -18,8 +23,6 @@ void with_base_table(lua_State* L, std::string_view library, Use&& use) {
     });
   });
 }
-
-using FunctionPaths = std::unordered_map<lua_CFunction, BasePath>;
 
 FunctionPaths read_function_paths() {
   const State state(luaL_newstate());
@@ -56,25 +59,49 @@ const BasePath* base_function(lua_CFunction function) {
 BaseLibrary::BaseLibrary(lua_State* L) {
   const Argument::StackGuard guard(L);
   lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
-  paths_[lua_topointer(L, -1)] = {"_G", ""};
-  for (const std::string_view library : base_libraries)
-    with_base_table(L, library, [&](const Argument& table) {
-      paths_.try_emplace(lua_topointer(L, table.index()), BasePath{std::string(library), ""});
-      if (library != "io" && library != "package") return;
+  paths_.reserve(32);
+  paths_.emplace_back(lua_topointer(L, -1), BasePath{"_G", ""});
+  // In one go through what is loaded: every case of an ensemble comes here. Of two paths to one table the
+  // first counts, in the order of the names of libraries.
+  struct Library {
+    const void* table = nullptr;
+    std::vector<std::pair<const void*, std::string>> parts;
+  };
+  std::array<Library, base_libraries.size()> found;
+  with_key(Argument(L, LUA_REGISTRYINDEX), LUA_LOADED_TABLE, [&](const Argument& loaded) {
+    if (!loaded.is_table()) return;
+    loaded.each([&](const Argument& name, const Argument& table) {
+      if (!name.is_text() || !table.is_table()) return;
+      const auto* const at = std::ranges::find(base_libraries, name.text());
+      if (at == base_libraries.end()) return;
+      Library& library = found[static_cast<std::size_t>(at - base_libraries.begin())];
+      library.table = lua_topointer(L, table.index());
+      if (*at != "io" && *at != "package") return;
       table.each([&](const Argument& key, const Argument& value) {
         const int kind = lua_type(L, value.index());
-        const bool part = library == "io" ? kind == LUA_TUSERDATA : kind == LUA_TTABLE;
+        const bool part = *at == "io" ? kind == LUA_TUSERDATA : kind == LUA_TTABLE;
         if (part && key.is_text())
-          paths_.try_emplace(lua_topointer(L, value.index()),
-                             BasePath{std::string(library), std::string(key.text())});
+          library.parts.emplace_back(lua_topointer(L, value.index()), std::string(key.text()));
       });
     });
+  });
+  const auto add = [&](const void* table, std::string_view library, std::string key) {
+    if (table != nullptr && path_at(table) == nullptr)
+      paths_.emplace_back(table, BasePath{std::string(library), std::move(key)});
+  };
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    add(found[k].table, base_libraries[k], "");
+    for (auto& [pointer, key] : found[k].parts) add(pointer, base_libraries[k], std::move(key));
+  }
 }
 
-const BasePath* BaseLibrary::find(lua_State* L, int index) const {
-  const auto found = paths_.find(lua_topointer(L, index));
-  return found == paths_.end() ? nullptr : &found->second;
+const BasePath* BaseLibrary::path_at(const void* table) const {
+  for (const auto& [known, path] : paths_)
+    if (known == table) return &path;
+  return nullptr;
 }
+
+const BasePath* BaseLibrary::find(lua_State* L, int index) const { return path_at(lua_topointer(L, index)); }
 
 bool is_sandbox_function(lua_State* L, int index) {
   if (!lua_isfunction(L, index) || lua_iscfunction(L, index)) return false;

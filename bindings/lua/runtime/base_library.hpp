@@ -7,7 +7,8 @@
 #include <array>
 #include <string>
 #include <string_view>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "bindings/lua/registry/lua_api.hpp"
 
@@ -33,7 +34,8 @@ class BaseLibrary {
   const BasePath* find(lua_State* L, int index) const;
 
  private:
-  std::unordered_map<const void*, BasePath> paths_;
+  const BasePath* path_at(const void* table) const;
+  std::vector<std::pair<const void*, BasePath>> paths_;  // some twenty
 };
 
 // Whether a Lua function came with the program: the reduced library of scripts/sandbox.lua.
