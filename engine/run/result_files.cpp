@@ -224,12 +224,14 @@ void ResultFiles::keep_in_log(const std::string& name, const std::string& bytes)
   try {
     {
       const std::lock_guard lock(mutex_);
-      ready_folder();
+      if (!ready_for_log_) ready_folder();
+      ready_for_log_ = true;  // the log makes its folders again where they are gone
       if (!has_room(static_cast<std::int64_t>(bytes.size()) + ResultLog::bytes_beside)) return;
     }
     const fs::path file = log_.keep(name, bytes);  // which waits for the disk at times: not under the lock
     const std::lock_guard lock(mutex_);
-    used_.insert(file.lexically_relative(setup_.folder).string());
+    if (file != log_file_) used_.insert(file.lexically_relative(setup_.folder).string());
+    log_file_ = file;
     ++counts_.kept;
   } catch (const Error& error) {
     const std::lock_guard lock(mutex_);

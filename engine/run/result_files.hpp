@@ -72,8 +72,10 @@ class ResultFiles final : public ResultStore {
 
   const ResultFilesSetup setup_;
   bool needed_on_disk_ = false;
-  mutable std::mutex mutex_;    // of what follows but logs, and of the folder as far as this process goes
-  std::set<std::string> used_;  // by this run, as named in the folder: never removed to make room
+  mutable std::mutex mutex_;        // of what follows but logs, and of the folder as far as this process goes
+  std::set<std::string> used_;      // by this run, as named in the folder: never removed to make room
+  std::filesystem::path log_file_;  // into which the last record went
+  bool ready_for_log_ = false;
   std::int64_t added_ = 0;
   std::int64_t room_ = 0, added_since_ = 0;  // when the folder was last gone through, and since
   std::vector<std::pair<std::string, std::string>> notices_;

@@ -134,16 +134,16 @@ ResultLog::~ResultLog() { leave_file(); }
 
 std::optional<ResultLog::Found> ResultLog::find(const std::string& name) {
   const std::lock_guard lock(mutex_);
-  for (int tries = 0; tries < 2; ++tries) {
+  for (bool looked = false;; looked = true) {
     if (const auto at = places_.find(name); at != places_.end()) {
       const Place place = at->second;
       if (std::optional<std::string> bytes = record_at(place, name))
         return Found{*std::move(bytes), files_[static_cast<std::size_t>(place.file)].path};
       places_.erase(at);  // its file was taken away, or altered
     }
+    if (looked) return {};
     look();
   }
-  return {};
 }
 
 // What others have made or appended since the last look. The folder's time tells of new files, but for those
