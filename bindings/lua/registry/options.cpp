@@ -165,8 +165,11 @@ void read_table(const Argument& table, const std::string& caller,
                 caller + " takes one table of named keys, and was given " + table.describe(),
                 "write " + caller + "{ ... }");
   Problems unknown, problems;
-  std::vector<std::string> names;
-  for (const OptionInfo* option : options) names.push_back(option->name);
+  const auto names = [&] {
+    std::vector<std::string> all;
+    for (const OptionInfo* option : options) all.push_back(option->name);
+    return all;
+  };
   std::vector<bool> seen(options.size(), false);
   // Lua gives the keys in no fixed order; the values are read in the order of the block.
   if (table.is_table()) {
@@ -177,11 +180,11 @@ void read_table(const Argument& table, const std::string& caller,
                                           : "a key is " + key.describe() + "; keys are names");
         return;
       }
-      const auto found = std::find(names.begin(), names.end(), key.text());
-      if (found == names.end())
-        unknown.push_back("unknown key " + quoted(key.text().substr(0, 40)) + meant_by(key.text(), names));
+      const auto found = std::ranges::find(options, key.text(), &OptionInfo::name);
+      if (found == options.end())
+        unknown.push_back("unknown key " + quoted(key.text().substr(0, 40)) + meant_by(key.text(), names()));
       else
-        seen[static_cast<std::size_t>(found - names.begin())] = true;
+        seen[static_cast<std::size_t>(found - options.begin())] = true;
     });
     std::sort(unknown.begin(), unknown.end());
     constexpr std::size_t enough = 12;
@@ -191,21 +194,22 @@ void read_table(const Argument& table, const std::string& caller,
       unknown.push_back("and " + std::to_string(more) + " more unknown keys");
     }
   }
-  if (!unknown.empty()) unknown.push_back("the keys are " + joined(names, " and "));
+  if (!unknown.empty()) unknown.push_back("the keys are " + joined(names(), " and "));
   Variation* variation = variation_of(table.state());
   for (std::size_t k = 0; k < options.size(); ++k) {
     const Argument::StackGuard guard(table.state());
-    if (variation != nullptr && variation->replaces(table.state(), caller, names[k], seen[k])) {
+    const std::string& name = options[k]->name;
+    if (variation != nullptr && variation->replaces(table.state(), caller, name, seen[k])) {
       seen[k] = true;
       const std::size_t before = problems.size();
       read(k, Argument(table.state(), lua_gettop(table.state())), problems);
-      if (problems.size() > before) variation->note_refused(caller, names[k], problems.back());
+      if (problems.size() > before) variation->note_refused(caller, name, problems.back());
       continue;
     }
     if (!seen[k]) continue;
     // A raw look-up of a known key without allocating: walk the table again.
     table.each([&](const Argument& key, const Argument& value) {
-      if (key.is_text() && key.text() == names[k]) read(k, value, problems);
+      if (key.is_text() && key.text() == name) read(k, value, problems);
     });
   }
   for (std::size_t k = 0; k < options.size(); ++k) {
@@ -213,7 +217,7 @@ void read_table(const Argument& table, const std::string& caller,
     std::string example = options[k]->dimension == dimension::number
                               ? ""
                               : ", e.g. \"" + example_quantity(options[k]->dimension) + "\"";
-    problems.push_back(quoted(names[k]) + " is missing: " + options[k]->sentence + example);
+    problems.push_back(quoted(options[k]->name) + " is missing: " + options[k]->sentence + example);
   }
   if (problems.empty() && unknown.empty()) finish(problems);
   problems.insert(problems.end(), unknown.begin(), unknown.end());
