@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/core/text.hpp"
 #include "engine/recording/log_table.hpp"
 #include "engine/statistics/table_head.hpp"
 #include "engine/statistics/time_stamp.hpp"
