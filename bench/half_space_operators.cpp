@@ -16,6 +16,7 @@
 #include "engine/contact/elasticity/half_space/preconditioner/contact_preconditioner.hpp"
 #include "engine/core/arithmetic/random.hpp"
 #include "engine/core/fourier/fourier_filter.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace {
@@ -58,11 +59,12 @@ void bare_pair(benchmark::State& run) {
 void compliance(benchmark::State& run, Boundary boundary) {
   const auto n = static_cast<int>(run.range(0));
   set_thread_count(static_cast<int>(run.range(1)));
-  HalfSpaceCompliance k(n, n, 1, boundary);
   const Array<double> p = smooth_heights(n);
   Array<double> u(p.size());
+  const std::int64_t before = memory::held();
+  HalfSpaceCompliance k(n, n, 1, boundary);
   for (auto _ : run) k.apply(p, u);
-  run.counters["bytes"] = static_cast<double>(HalfSpaceCompliance::bytes(n, n, boundary));
+  run.counters["bytes"] = static_cast<double>(memory::held() - before);
   set_thread_count(0);
 }
 
@@ -84,12 +86,13 @@ struct FreeSet {
 void preconditioner(benchmark::State& run) {
   const auto n = static_cast<int>(run.range(0));
   set_thread_count(static_cast<int>(run.range(1)));
-  ContactPreconditioner m(n, n, 1, Boundary::periodic);
   const FreeSet set(n);
-  m.set_free(set.free);
   Array<double> z(set.residual.size());
+  const std::int64_t before = memory::held();
+  ContactPreconditioner m(n, n, 1, Boundary::periodic);
+  m.set_free(set.free);
   for (auto _ : run) m.apply(set.residual, z);
-  run.counters["bytes"] = static_cast<double>(ContactPreconditioner::bytes(n, n, 1, Boundary::periodic));
+  run.counters["bytes"] = static_cast<double>(memory::held() - before);
   set_thread_count(0);
 }
 
