@@ -149,6 +149,17 @@ State State::chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const {
   return result;
 }
 
+State State::with_outline(double modulus) const {
+  State result = *this;
+  result.outline_.reset();
+  if (!geometry().overhangs()) {
+    const std::shared_ptr<const Solution> solution = shared_->now();
+    result.outline_ =
+        outline_area(solution->pressure_field(), solution->gap_field(), grid(), modulus, shared_->wraps());
+  }
+  return result;
+}
+
 void State::close(const Watch& watch) {
   const std::shared_ptr<Shared> shared = watch.lock();
   if (!shared) return;
@@ -240,6 +251,7 @@ const AlgebraicError& State::algebraic_error() const {
 }
 
 double State::corrected_area_fraction() const {
+  if (outline_) return outline_->fraction;
   return shared_->corrected.get([&] {
     // A node that touches counts as a whole cell though its cell touches in part: on average over the
     // directions of an outline each edge counts this share of a cell too much. Source: Yastrebov,

@@ -15,6 +15,7 @@
 #include "engine/contact/algebraic_error.hpp"
 #include "engine/contact/distribution.hpp"
 #include "engine/contact/effect.hpp"
+#include "engine/contact/outline_area.hpp"
 #include "engine/contact/solution.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/surface/surface.hpp"
@@ -55,8 +56,9 @@ class State {
   // Share of the tile's nodes at which the bodies face each other; below 1 only where, on a free boundary,
   // the upper body is turned so that it does not cover the lower one.
   double overlap_fraction() const;
-  double corrected_area_fraction() const;  // less (π−1+ln 2)/24 of a cell for every edge of the outline
-  std::int64_t contacts() const;           // nodes with p > 0
+  // Less (π−1+ln 2)/24 of a cell for every edge of the outline; that within outline(), where it was found.
+  double corrected_area_fraction() const;
+  std::int64_t contacts() const;  // nodes with p > 0
   const Grid& grid() const;
   std::int64_t spots() const;              // regions of contact joined by an edge
   std::int64_t spots8() const;             // … or by a corner
@@ -91,6 +93,10 @@ class State {
   const std::shared_ptr<const ChosenAccuracy>& chosen() const { return chosen_; }
   State beside(std::shared_ptr<const CompanionGrids> companion_grids) const;
   State chosen_as(std::shared_ptr<const ChosenAccuracy> chosen) const;
+  // The same press with an outline between the nodes, of half-spaces of this E* in Pa that do not attract
+  // each other; with none where it says nothing or a body does not lie over all of the tile.
+  State with_outline(double modulus) const;
+  const std::optional<OutlineArea>& outline() const { return outline_; }
   // Of pressures, load and approach, and of what earlier events left that effects read and no solve does.
   const std::string& digest() const;
 
@@ -136,6 +142,7 @@ class State {
   std::shared_ptr<const StateCost> cost_;
   std::shared_ptr<const CompanionGrids> companion_grids_;
   std::shared_ptr<const ChosenAccuracy> chosen_;
+  std::optional<OutlineArea> outline_;
 };
 
 }  // namespace asperity
