@@ -2,8 +2,11 @@
 // Cells and tolerance chosen for an error that was asked for: the same press of the same surfaces on grids
 // from coarse to fine, each twice the cells of the one before, until the estimate of the discretisation error
 // (accuracy/discretisation_error.hpp), times the margin that covers 19 scenes in 20, and the algebraic bound
-// together are within what was asked for. Of the corrected area the estimate goes by the edges of its outline
-// and by how far successive grids agree, and of the bound on an area a tenth counts. Grids begin at 16 cells;
+// together are within what was asked for. The corrected area of half-spaces that do not attract each other is
+// that within an outline between the nodes (contact/outline_area.hpp), better than the same press gives
+// without; its estimate is the doubt of that outline and a share of how far it moved from the grid before. Of
+// others it goes by the edges of the outline and by how far successive grids agree. Of the bound on an area a
+// tenth counts, of that within an outline between the nodes a thirtieth. Grids begin at 16 cells;
 // none under 32, of anything but areas 64, is believed. The grids before a grid are the coarser ones its
 // estimate needs, so nothing is solved twice. How often errors are met and what that costs:
 // bench/asked_errors.lua. Surfaces that generators made are made again with all their waves and features;
@@ -45,7 +48,8 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
 
 // The error of a later press on the cells that were chosen, recorded in the state. Throws
 // Error{not_converged} where it is above what was asked for, unless `scene` takes the best there is.
-State held_to(const State& state, const ChosenAccuracy& chosen, const Scene& scene);
+// `plan` is that of the press.
+State held_to(const State& state, const ChosenAccuracy& chosen, const Scene& scene, const Plan& plan);
 
 // The tolerance that a choice begins with.
 double first_tolerance(const AskedError& asked);

@@ -14,8 +14,11 @@ std::string percent_text(double share) {
 }
 
 std::string ChosenAccuracy::reason() const {
-  std::string result = percent_text(asked.error) + " of " + joined(asked.of, " and ") +
-                       " was asked for; on " + cells_text(nx, ny) + " it comes to " + percent_text(error);
+  std::string result =
+      percent_text(asked.error) + " of " + joined(asked.of, " and ") + " was asked for; on " +
+      cells_text(nx, ny) +
+      (outline_between_nodes ? ", with the outline between the nodes, it comes to " : " it comes to ") +
+      percent_text(error);
   if (asked.of.size() > 1) result += " of " + of;
   // The last grid that was not enough.
   const TriedGrid* before = nullptr;

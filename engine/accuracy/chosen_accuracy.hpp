@@ -32,7 +32,8 @@ struct ChosenAccuracy {
   std::string why_precision;  // in a few words
   double error = 0;           // of this state, as in TriedGrid
   std::string of;
-  std::string source;  // how the bodies were put on these cells
+  std::string source;                  // how the bodies were put on these cells
+  bool outline_between_nodes = false;  // the corrected area is that within contact/outline_area.hpp
   std::vector<TriedGrid> tried;
   // Of the quantities asked for, at the press that chose. A later value below 1e-9 of it counts as zero (what
   // has yielded once yields no more under less load), and its error against this one.

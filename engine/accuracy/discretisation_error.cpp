@@ -233,6 +233,10 @@ DiscretisationEstimate discretisation_estimate(const State& state, std::string_v
       break;
     }
     case Kind::corrected:
+      if (state.outline()) {
+        result.error = state.outline()->doubt * result.value / result.margin;
+        break;
+      }
       result.error = std::max(share_beside_outline * d.error,
                               share_of_outline * std::abs(state.area_fraction() - result.value));
       break;

@@ -96,7 +96,8 @@ const StateQuantity of_every_state[] = {
      .cells = CellError{1.5, 1.25, 1, 1.25, Kind::raw_area, nullptr, "; most of it is its stepped outline"}},
     {.name = "corrected_area_fraction",
      .called = "the corrected area fraction",
-     .sentence = "area fraction less the excess of its stepped outline",
+     .sentence = "area fraction less the excess of its stepped outline; of half-spaces pressed with "
+                 "accuracy={ error= }, the share of the tile within an outline between the nodes",
      .value = quantity_value<&S::corrected_area_fraction>,
      .bound = quantity_bound<&E::corrected_area_fraction>,
      .cells = CellError{1.5, 2.25, 1, 1.5, Kind::corrected}},

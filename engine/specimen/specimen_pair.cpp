@@ -43,7 +43,7 @@ State with_estimate(const Scene& scene, const ContactGeometry& geometry, const P
   state = state.beside(scene.accuracy.estimate == Accuracy::Estimate::finer
                            ? solve_finer(scene, geometry, plan, request, monitor)
                            : solve_coarser(scene, geometry, plan, request, monitor));
-  if (chosen != nullptr) state = held_to(state, *chosen, scene);
+  if (chosen != nullptr) state = held_to(state, *chosen, scene, plan);
   const Cost cost = scope.so_far();
   return state.costing_also({cost, {{"estimate", cost}}});
 }
