@@ -8,7 +8,7 @@
 // A corrected area of half-spaces lies within an outline between the nodes (contact/outline_area.hpp), whose
 // doubt says how far that is from the area on ever finer cells, so that no finer grid has to confirm it. How
 // far it moved from the grid before counts as well, in full on cells that miss the shortest waves, where the
-// outline is sharp and wrong, three tenths of it on others. Doubt, these shares and that of the bound
+// outline is sharp and wrong, six tenths of it on others. Doubt, these shares and that of the bound
 // are those that met 98 in 100 errors of 84 scenes at little cost (bench/asked_errors.lua, seeds 701 to 712).
 //
 // Where there is no such outline, what the cells leave wrong in a corrected area follows the one of edges. Of
@@ -170,7 +170,7 @@ bool waves_are_missed(const State& state) {
 // Of the corrected area fraction: what its error, relative, stays within in 19 scenes of 20.
 double corrected_area_error(const State& state) {
   if (state.outline()) {
-    const double of_a_step = waves_are_missed(state) ? 1 : 0.3;
+    const double of_a_step = waves_are_missed(state) ? 1 : 0.6;
     const double fine = state.corrected_area_fraction();
     const double coarser = state.companion_grids()->levels().front().state.corrected_area_fraction();
     const double least = std::min(fine, coarser);

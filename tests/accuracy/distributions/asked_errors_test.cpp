@@ -162,7 +162,11 @@ TEST(AskedErrors, N6AreMetByScenesOfAllKinds) {
         if (off > error)
           std::printf("  missed: %s, seed %d, %g by %.2f times\n", kind.name.c_str(), static_cast<int>(seed),
                       error, off / error);
-        if (cheapest.contains(error)) ratios.push_back(cost_of(state) / cheapest[error]);
+        if (!cheapest.contains(error)) continue;
+        ratios.push_back(cost_of(state) / cheapest[error]);
+        if (ratios.back() > 50)
+          std::printf("  dear: %s, seed %d, %g: %.0f times; %s\n", kind.name.c_str(), static_cast<int>(seed),
+                      error, ratios.back(), state.chosen()->text().c_str());
       }
     }
   }
