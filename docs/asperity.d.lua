@@ -1131,7 +1131,7 @@ function Contact:close() end
 ---@field overlap_fraction number share of the tile on which the bodies face each other: 1 unless, on a free boundary, the upper body is turned so that it does not cover the lower one. `pressure` and fractions are of the whole tile
 ---@field area number real contact area (m^2)
 ---@field area_fraction number nodes in contact over all nodes
----@field corrected_area_fraction number area fraction less the excess of its stepped outline
+---@field corrected_area_fraction number area fraction less the excess of its stepped outline; of half-spaces pressed with accuracy={ error= }, the share of the tile within an outline between the nodes
 ---@field contacts integer nodes in contact
 ---@field spots integer regions of contact joined by an edge
 ---@field spots8 integer regions of contact joined by an edge or a corner
