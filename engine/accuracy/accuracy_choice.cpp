@@ -233,13 +233,20 @@ Judged judged(const State& state, const AskedError& asked, const std::vector<dou
   return result;
 }
 
-// With the outline between the nodes where a corrected area is asked for and such an outline is known.
+// With outlines between the nodes, on the coarser grids as well, where a corrected area is asked for and such
+// an outline is known.
 State outlined(State state, const Plan& plan, const AskedError& asked) {
   const auto* const half_spaces = std::get_if<HalfSpaceOperator>(&plan.elasticity);
   if (half_spaces == nullptr || half_spaces->share || plan.attracts() ||
       std::none_of(asked.of.begin(), asked.of.end(), is_corrected_area))
     return state;
-  return state.with_outline(half_spaces->modulus);
+  const double modulus = half_spaces->modulus;
+  const CompanionGrids& coarser = *state.companion_grids();
+  std::vector<CompanionGrids::Level> levels(coarser.levels().begin(), coarser.levels().end());
+  for (CompanionGrids::Level& level : levels)
+    if (!level.state.outline()) level.state = level.state.with_outline(modulus);
+  return state.beside(std::make_shared<const CompanionGrids>(coarser.request(), std::move(levels)))
+      .with_outline(modulus);
 }
 
 struct Trial {

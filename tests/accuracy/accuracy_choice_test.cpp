@@ -151,6 +151,29 @@ TEST(AccuracyChoice, CellsThatMissTheShortestWavesAreHeldToTheirWholeStep) {
   EXPECT_GE(counted, 2);
 }
 
+// A step from an area by edges to one within an outline between the nodes tells nothing of either.
+TEST(AccuracyChoice, LaterPressesAreComparedWithOutlinesOfTheirKind) {
+  const PressRequest request{PressBy::pressure, 1e7, {}};
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const Surface surface = rough(256, seed);
+    SpecimenPair pair(asking(surface, rigid_material(), Boundary::periodic, 0.05));
+    pair.press(request);
+    pair.release();
+    const State again = pair.press(request);
+    const int half = again.grid().nx / 2;
+    const double coarser = SpecimenPair({at_cells(surface, half, half).surface, rigid_material(),
+                                         Boundary::periodic, HalfSpaceOptions{}, Accuracy{}})
+                               .press(request)
+                               .with_outline(1e9)
+                               .corrected_area_fraction();
+    const double area = again.corrected_area_fraction();
+    const double step = std::abs(area - coarser) / std::min(area, coarser), doubt = again.outline()->doubt;
+    const double error = again.chosen()->error;
+    const double in_part = std::max(doubt, 0.6 * step), in_full = std::max(doubt, step);
+    EXPECT_LT(std::min(std::abs(error - in_part), std::abs(error - in_full)), 0.02 * error) << seed;
+  }
+}
+
 TEST(AccuracyChoice, OtherAreasThanThoseOfHalfSpacesGoByEdges) {
   // Not asked for: the energy alone.
   const State energy = SpecimenPair(asking(rough(128), rigid_material(), Boundary::periodic, 0.3, {"energy"}))
