@@ -379,6 +379,7 @@ class MeasuredTable {
       const auto plain = plain_number(text, number_form_);
       whole = number.kind == CellKind::hole || (plain && whole_number(*plain));
     }
+    warn_of_names(k, whole);
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const std::string text = text_of(cell(row, k));
       const TextCell number = read_number(text, number_form_);
@@ -392,6 +393,32 @@ class MeasuredTable {
         rows[row].emplace_back(number.value);
     }
     return "";
+  }
+
+  // Numbers that look like names: three digits and more, as many in every cell, with zeros before them; or
+  // more digits than a number keeps.
+  void warn_of_names(std::size_t k, bool whole) {
+    constexpr std::size_t kept = 15, digits_of_names = 3;
+    std::optional<std::size_t> zero, last, longest;
+    bool alike = true;
+    std::size_t digits = 0;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const std::string text = text_of(cell(row, k));
+      if (text.empty()) continue;
+      const bool whole_text = text.find_first_not_of("0123456789") == std::string::npos;
+      if (!last) digits = text.size();
+      alike = alike && whole_text && text.size() == digits;
+      last = row;
+      if (!zero && whole_text && text.front() == '0' && text.size() > 1) zero = row;
+      if (!longest && !whole && whole_text && text.size() > kept) longest = row;
+    }
+    const auto warn = [&](std::size_t row, const char* lost) {
+      monitor_.warn(file_name(file_.path()) + " " + place(row, k) + ": " + shown(text_of(cell(row, k))) +
+                    " is read as a number, which loses " + lost + "; text={ \"" +
+                    plain_text(columns_[k].name) + "\" } keeps it as it stands");
+    };
+    if (longest) warn(*longest, "digits");
+    if (zero && alike && digits >= digits_of_names) warn(*zero, "its zeros");
   }
 
   // In the unit of the column, exact in SI; a cell may bring its own.
