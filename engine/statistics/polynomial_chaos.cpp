@@ -285,7 +285,7 @@ void require_trust(const PolynomialChaos& chaos) {
 }
 
 bool has_square(double answer) {
-  constexpr double least = 1e-150, most = 1e150;
+  constexpr double least = 1e-153, most = 1e153;
   return answer == 0 || (std::abs(answer) >= least && std::abs(answer) <= most);
 }
 
