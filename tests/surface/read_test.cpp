@@ -211,6 +211,10 @@ TEST(Read, ProfileFromEveryShape) {
               read_profile(scratch.write("uneven.csv", "0,1\n2,2\n9,3\n"), both);
             }).find("not evenly spaced at sample"),
             std::string::npos);
+  EXPECT_NE(message_of([&] {
+              read_profile(scratch.write("one.csv", "x [um],z [nm]\n0,1\n"), {});
+            }).find("and one row; a profile takes two samples or more"),
+            std::string::npos);
   EXPECT_NE(
       message_of([&] { read_profile(sample("instrument.txt")); }).find("holds a surface of 4 x 3 heights"),
       std::string::npos);

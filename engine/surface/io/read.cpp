@@ -204,6 +204,9 @@ void into_metres(HeightMap& map, const SourceFile& file, double unit, double hx,
 // Two columns, position and height, become a trace; positions are evenly spaced.
 void fold_positions(HeightMap& map, const SourceFile& file) {
   const int n = map.heights.ny();
+  if (n < 2)
+    refuse_file(file, "has two columns, position and height, and one row",
+                "a profile takes two samples or more");
   Field heights(n, 1);
   for (int k = 0; k < n; ++k) heights(k, 0) = map.heights(1, k);
   const double spacing = (map.heights(0, n - 1) - map.heights(0, 0)) / (n - 1);
