@@ -92,8 +92,8 @@ const Effect& adhesion_effect() {
       .name = "adhesion",
       .sentence =
           "the surfaces attract each other across the gap; loads and approaches may be below zero. A press "
-          "takes many transforms: of 60 contacts, balls and rough ground on 64 x 64 cells, 55 to 3628 by "
-          "approach, 161 in the middle, and 73 to 1588 by pressure, 228 in the middle; contact:explain tells "
+          "takes many transforms: of 240 contacts, balls and rough ground on 64 x 64 cells, 32 to 2397 by "
+          "approach, 94 in the middle, and 66 to 8708 by pressure, 136 in the middle; contact:explain tells "
           "those of one",
       .acts = Effect::Acts::adds_term,
       .defaults = O{},
