@@ -477,6 +477,13 @@ std::vector<std::string> draw(const LineChart& chart, const std::filesystem::pat
 std::vector<std::string> draw(std::span<const LineChart> panels, const std::filesystem::path& file) {
   std::vector<std::string> warnings;
   const std::string script = chart_script(panels, picture_format(file), warnings);
+  constexpr std::size_t many = 100000;
+  std::size_t points = 0;
+  for (const LineChart& panel : panels)
+    for (const ChartSeries& series : panel.series) points += series.x.size();
+  if (points > many && picture_format(file) != PictureFormat::png)
+    warnings.push_back(std::to_string(points) +
+                       " points are drawn, and the file holds each: a .png holds what is seen of them");
   const GnuplotResult drawn = run_gnuplot(script);
   write_atomically(file, drawn.picture);
   const std::vector<std::string> complaints = complaints_of(drawn, file);
