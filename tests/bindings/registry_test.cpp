@@ -232,6 +232,20 @@ TEST_F(LabModule, GivesTheSameMemberWheneverAndHoweverItIsAskedFor) {
             "");
 }
 
+TEST_F(LabModule, AStateHasNoMemberThatNobodyAskedFor) {
+  EXPECT_EQ(run("collectgarbage 'stop'\n"
+                "local function all() for _, m in ipairs{ lab, lab.surface, lab.units, lab.profile, "
+                "lab.table } do\n"
+                "  for _ in pairs(m) do end end end\n"
+                "local before = collectgarbage 'count'\n"
+                "all()\n"
+                "local made = collectgarbage 'count' - before\n"
+                "all()\n"
+                "local again = collectgarbage 'count' - before - made\n"
+                "assert(made > 8 and again < 2, made .. ' and ' .. again .. ' KiB')"),
+            "");
+}
+
 TEST_F(LabModule, PairsGivesEveryMemberOnceInAFreshState) {
   std::size_t members = 0;
   for (const Module* module : modules()) {

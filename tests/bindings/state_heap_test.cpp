@@ -156,6 +156,17 @@ TEST_F(StateMemory, ManySmallObjectsMeetTheLimitAndLeaveNothing) {
   EXPECT_LE(memory::held(), before);
 }
 
+// What a state is made of is small: few blocks of it are outside the region.
+TEST_F(StateMemory, AFreshStateIsForTheMostPartInItsRegion) {
+  if (sanitized) GTEST_SKIP() << "a sanitizer sees every block: there is no region";
+  state.reset();
+  const std::int64_t before = memory::held();
+  state = make_state(session, "");
+  const std::int64_t outside = memory::held() - before - static_cast<std::int64_t>(StateHeap::region_bytes);
+  EXPECT_GE(outside, 0);
+  EXPECT_LT(outside, 24 << 10);
+}
+
 // A small script never collects what was made before it: a state begins as after a collection.
 TEST_F(StateMemory, TheFirstCollectionWaitsUntilThereIsTwiceAsMuch) {
   EXPECT_EQ(run("local gone = false\n"
