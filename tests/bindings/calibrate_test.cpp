@@ -149,8 +149,9 @@ TEST_F(CalibrateTest, WhatIsAskedWronglyIsRefused) {
   EXPECT_TRUE(refuses("fit{ confidence=1 }", "confidence"));
   EXPECT_TRUE(refuses("fit{ scatter='some' }", "absolute"));
   EXPECT_TRUE(refuses("fit{ basis='specimens' }", "specimen"));
-  EXPECT_TRUE(refuses("fit{ where={ specimen='S9' } }", "rows"));
-  EXPECT_TRUE(refuses("fit{ parameters={ a=1, b=1, c=1 }, where={ c=0 } }", "0 rows for 3 parameters"));
+  EXPECT_TRUE(refuses("fit{ where={ specimen='S9' } }", "no row matches `where` `specimen` = S9"));
+  EXPECT_TRUE(refuses("fit{ parameters={ a=1, b=1, c=1, d=1, e=1 }, where={ specimen='S1' } }",
+                      "4 rows for 5 parameters"));
   EXPECT_TRUE(refuses("lab.calibrate()", "model"));
 }
 
