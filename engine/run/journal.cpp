@@ -160,8 +160,11 @@ std::string results_remain(const std::filesystem::path& journal) {
 }  // namespace
 
 JournalLines read_journal(const std::filesystem::path& path, bool may_be_torn) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
+  std::error_code missing;
+  std::ifstream file;
+  // A pipe that stands in its place would keep whoever opens it.
+  if (std::filesystem::is_regular_file(path, missing)) file.open(path, std::ios::binary);
+  if (!file.is_open())
     throw Error(ErrorCode::bad_file, "there is no " + quoted(path.string()) + " that can be read",
                 "give the directory of a run, such as runs/quick_start-1");
   JournalLines read;

@@ -22,8 +22,11 @@ namespace {
 constexpr const char* unhashed = "unhashed";
 
 std::string whole_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || fs::is_directory(path))
+  std::error_code missing;
+  std::ifstream file;
+  // A pipe that stands in its place would keep whoever opens it.
+  if (fs::is_regular_file(path, missing)) file.open(path, std::ios::binary);
+  if (!file.is_open())
     throw Error(ErrorCode::bad_file, "there is no " + quoted(path.string()) + " that can be read",
                 "give the directory of a run, such as runs/quick_start-1");
   std::ostringstream text;

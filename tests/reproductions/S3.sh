@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # S3: a journal that was made a link to somebody's file, and a store that was made a link to a folder, are refused; nothing
-# is written there.
+# is written there. Nor does a pipe in the place of a file keep anybody.
 set -eu
 . "$(dirname "$0")/beginning.sh"
 echo 'local b = require "asperity".notebook "n" b:write{ a=1 } error "half-way"' > n.lua
@@ -19,3 +19,11 @@ rm -rf hs/store
 ln -s "$PWD/elsewhere" hs/store
 ends 2 "is a link" "$program" run --resume hs
 [ -z "$(ls elsewhere)" ] || fail "results were written elsewhere"
+for file in journal.jsonl manifest.json script.lua; do
+  cp -a h0 hp
+  rm "hp/$file"
+  mkfifo "hp/$file"
+  ends 2 "$file" timeout 20 "$program" run --resume hp
+  ends 2 "$file" timeout 20 "$program" replay hp
+  rm -rf hp
+done
