@@ -18,8 +18,8 @@ constexpr double near_the_end = 0.3;   // of the end there was at first
 constexpr double usual_power = 1.5, least_power = 1e-9;
 }  // namespace
 
-void BracketedSecant::take(Point found, bool sure) {
-  if (taken_ == 0 || found.at != last_.at) {
+void BracketedSecant::take(Point found, bool sure, bool instead) {
+  if (taken_ == 0 || (found.at != last_.at && !instead)) {
     earlier_ = before_;
     before_ = last_;
     ++taken_;
@@ -103,7 +103,7 @@ double BracketedSecant::chord() const {
 
 std::optional<double> BracketedSecant::next() {
   double place = secant();
-  const auto inside = [&](double x) { return x > low_.at && x < high_.at; };
+  const auto inside = [&](double x) { return holds(x); };
   if (!std::isfinite(high_.at)) {
     // A step for each that fell short is one more of those that grow.
     if (short_of_it_ > few_short && place > last_.at)

@@ -26,7 +26,10 @@ class BracketedSecant {
                            Scale scale = Scale::linear)
       : wanted_(wanted), scale_(scale), low_(low), high_(high), end_(high) {}
 
-  void take(Point found, bool sure);
+  // `instead`: of the last one, which was rougher and at about the same place.
+  void take(Point found, bool sure, bool instead = false);
+  // Whether the place lies between the two sides.
+  bool holds(double place) const { return place > low_.at && place < high_.at; }
   // The next place to try; none where no double is left between the two sides.
   std::optional<double> next();
 

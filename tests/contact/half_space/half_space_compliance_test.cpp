@@ -207,6 +207,18 @@ TEST(PeriodicCompliance, PressureToDisplacementToPressure) {  // case V7
   }
 }
 
+// K p + s p = u, the mean too.
+TEST(PeriodicCompliance, AnInverseWithSpringsIsThatOfTheSum) {
+  for (const double softer : {1e-3, 1.0, 1e6}) {
+    HalfSpaceCompliance compliance(37, 50, 0.7, Boundary::periodic);
+    const Field p = noise(37, 50, 1);
+    Field u = applied(compliance, p), back(37, 50);
+    for (std::size_t k = 0; k < u.size(); ++k) u[k] += softer * p[k];
+    compliance.apply_inverse(u.values(), back.values(), softer);
+    EXPECT_LT(relative_distance(back, p), 1e-11) << softer;
+  }
+}
+
 // Case V7: ½ p·u against ½ Σ |p̂|² · 2/|q| / n by the sum that defines p̂.
 TEST(PeriodicCompliance, EnergyInFourierSpaceIsThatInRealSpace) {
   const int n = 16;

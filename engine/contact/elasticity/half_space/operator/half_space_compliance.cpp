@@ -372,18 +372,19 @@ void HalfSpaceCompliance::apply_in_double(const Source& source, const Sink& sink
   });
 }
 
-void HalfSpaceCompliance::apply_inverse(std::span<const double> u, std::span<double> p) {
+void HalfSpaceCompliance::apply_inverse(std::span<const double> u, std::span<double> p, double softer) {
   if (parts_->boundary == Boundary::free)
     throw Error(ErrorCode::internal, "a free half-space has no inverse filter");
-  apply_period_inverse(u, p);
+  apply_period_inverse(u, p, softer);
 }
 
-void HalfSpaceCompliance::apply_period_inverse(std::span<const double> u, std::span<double> p) {
+void HalfSpaceCompliance::apply_period_inverse(std::span<const double> u, std::span<double> p,
+                                               double softer) {
   Parts& parts = *parts_;
   FourierFilter filter(parts.nx, parts.ny, parts.period_x, parts.period_y);
   filter.apply(u, p, [&](int a, std::span<double> factors) {
     parts.factors_of(a, factors);
-    for (double& factor : factors) factor = factor > 0 ? 1 / factor : 0;
+    for (double& factor : factors) factor = factor + softer > 0 ? 1 / (factor + softer) : 0;
   });
   cost::count_transforms(2 * parts.weight);
 }

@@ -82,12 +82,13 @@ class HalfSpaceCompliance {
   void apply_rounded(const Source& source, const Sink& sink, std::span<double> u);
 
   // Periodic only: the pressure of mean 0 whose displacement is u, but for the mean of u: |q|/2. Where the
-  // mean moves the tile, with that. Costs the same. Throws Error{internal} on a free boundary.
-  void apply_inverse(std::span<const double> u, std::span<double> p);
+  // mean moves the tile, with that. Costs the same. Throws Error{internal} on a free boundary. `softer` >= 0
+  // is added to K at every wave, as by a row of springs.
+  void apply_inverse(std::span<const double> u, std::span<double> p, double softer = 0);
 
   // The inverse of the operator on its own period: as apply_inverse where the tile is periodic; on a free
   // boundary that of the padded one, p of it giving Σ u p no less than Σ u K⁻¹ u. Costs the same.
-  void apply_period_inverse(std::span<const double> u, std::span<double> p);
+  void apply_period_inverse(std::span<const double> u, std::span<double> p, double softer = 0);
 
   // What the multiplier says of every node alike; of a periodic tile whose mean moves nothing, without
   // it. O(n).
