@@ -274,6 +274,69 @@ TEST(FlatteningSolve, V1_TheLeastLoadOfFullContactIsOne) {
   EXPECT_NEAR(solve(problem, full).approach, approach_of_full_contact(problem), 1e-8 * problem.rms);
 }
 
+// Entry V1: between the least load of full contact and one that makes everything yield all is flat, and the
+// contact is a linear one.
+TEST(FlatteningSolve, V1_AllOfHardeningGroundIsPressedAwayInAFewSolves) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+    for (const double yield : {1e-3, .02, 1.0})
+      for (const double hardening : {1e-3, .1, 10.0}) {
+        HalfSpaceProblem problem = rough_problem(48, boundary, 4, 1e-6);
+        problem.yield.cap = yield;
+        problem.yield.hardening = hardening / problem.grid.hx();
+        const HalfSpaceAnswer flat = solve_at_flattening(problem, 1, Monitor::silent());
+        const std::string scene = std::string(name(boundary)) + ", yield " + std::to_string(yield) +
+                                  ", hardening " + std::to_string(hardening);
+        EXPECT_TRUE(flat.converged) << scene;
+        EXPECT_NEAR(flattened(problem, flat), 1, 1e-6) << scene;
+        EXPECT_EQ(flat.contacts, static_cast<std::int64_t>(problem.grid.nodes())) << scene;
+        EXPECT_LE(flat.iterations, 60) << scene;
+        if (boundary == Boundary::free) continue;
+        // No more than elastic ground takes, and no less than what leaves something of the heights.
+        HalfSpaceProblem elastic = problem;
+        elastic.yield = {};
+        EXPECT_LE(flat.mean_pressure, pressure_of_full_contact(elastic).value() * (1 + 1e-9)) << scene;
+        EXPECT_LT(flattened(problem, solve(problem, .1 * flat.mean_pressure)), 1 - 1e-3) << scene;
+      }
+}
+
+// Entry V1: deep pits, whose depth the rms height is many times of what is pressed away. Solves as exact as
+// what is asked for leave that too rough.
+TEST(FlatteningSolve, V1_AFewThousandthsOfPittedGroundAreFoundBack) {
+  HalfSpaceProblem problem = rough_problem(48, Boundary::free, 6, 1e-10);
+  Field heights = *problem.heights;
+  for (const std::size_t k : {100u, 1111u, 2000u}) heights[k] -= 400 * problem.rms;
+  problem = problem_of(problem.grid, heights, Boundary::free, problem.modulus, 1e-10);
+  for (const double pressure : {.3, 3.0}) {
+    const HalfSpaceAnswer there = solve(problem, pressure);
+    const double pressed = flattened(problem, there);
+    const HalfSpaceAnswer back = solve_at_flattening(problem, pressed, Monitor::silent());
+    EXPECT_TRUE(back.converged);
+    EXPECT_NEAR(flattened(problem, back), pressed, 1e-10 * pressed);
+    EXPECT_LE(back.iterations, 10 * there.iterations + 30) << pressed;
+  }
+}
+
+// Entry V1: long cells just below full contact.
+TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
+  const HalfSpaceProblem problem = problem_from(
+      make_grid(40, 30, 40, 30 * 400.0), Boundary::periodic,
+      [](double x, double y) {
+        return .01 * std::cos(2 * pi * x / 8) + .004 * std::cos(2 * pi * y / 1200 + .3 * x);
+      },
+      1, 1e-8);
+  const double full = pressure_of_full_contact(problem).value();
+  for (const double share : {.3, .8}) {
+    const HalfSpaceAnswer there = solve(problem, share * full);
+    const HalfSpaceAnswer back = by_approach(problem, there.approach);
+    EXPECT_TRUE(back.converged);
+    EXPECT_NEAR(back.approach, there.approach, 1e-8 * there.approach);
+    EXPECT_LE(back.iterations, 10 * there.iterations + 30) << share;
+    const HalfSpaceAnswer flat = solve_at_flattening(problem, flattened(problem, there), Monitor::silent());
+    EXPECT_TRUE(flat.converged);
+    EXPECT_LE(flat.iterations, 10 * there.iterations + 30) << share;
+  }
+}
+
 }  // namespace
 
 }  // namespace asperity::displacement_control_test

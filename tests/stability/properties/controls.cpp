@@ -74,7 +74,8 @@ Verdict compare(const Trial& trial, const State& by_pressure, PressBy by, double
       if (beyond_doubles(trial, by, value)) return {};
       ++counts().presses[flattens];
       ++(has_long_cells(trial) ? counts().lost_there : counts().lost[flattens]);
-      std::printf("controls: not solved by %s: %s\n", key.c_str(), error.what());
+      std::printf("controls: scene %llu not solved by %s: %s\n",
+                  static_cast<unsigned long long>(scene_in_turn), key.c_str(), error.what());
       return {};
     }
     return Broken{"pressed by " + key + " to what a pressure brought", error.what(), line};
@@ -91,9 +92,10 @@ Verdict compare(const Trial& trial, const State& by_pressure, PressBy by, double
   if (taken > most_times * before + most_beside) {
     ++counts().dear[flattens];
     if (counts_scenes)
-      std::printf("controls: dear by %s: %.0f transforms, by pressure %.0f; cells 1:%.3g; %s; %s\n",
-                  key.c_str(), taken, before, again.grid().hy() / again.grid().hx(), trial.heights.c_str(),
-                  again.solver().c_str());
+      std::printf(
+          "controls: scene %llu dear by %s: %.0f transforms, by pressure %.0f; cells 1:%.3g; %s; %s\n",
+          static_cast<unsigned long long>(scene_in_turn), key.c_str(), taken, before,
+          again.grid().hy() / again.grid().hx(), trial.heights.c_str(), again.solver().c_str());
   }
   if (before > 0) counts().times.push_back(taken / before);
   const auto bytes = static_cast<double>(again.cost().total.bytes);

@@ -24,6 +24,7 @@
 namespace asperity::stability {
 
 bool counts_scenes = true;
+std::uint64_t scene_in_turn = 0;
 
 namespace {
 
@@ -117,6 +118,7 @@ int run(const Family& family, const Settings& settings) {
     const std::uint64_t index = settings.first + static_cast<std::uint64_t>(n);
     const std::uint64_t salt = splitmix64(settings.seed, index);
     const Trial trial = draw_trial(settings.seed, index, family.wanted);
+    scene_in_turn = index;
     const Verdict verdict = judged(family, trial, salt, beyond);
     if (!verdict) continue;
     ++count;

@@ -38,6 +38,8 @@ struct Family {
 
 // Whether what `after` is told of counts: not while a scene is made smaller.
 extern bool counts_scenes;
+// The scene that is checked, for what is printed of it.
+extern std::uint64_t scene_in_turn;
 
 extern const Family conditions, monotony, rescaling, symmetry, events, events_of_elements, threads, controls,
     explain;

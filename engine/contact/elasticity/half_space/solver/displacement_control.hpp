@@ -2,12 +2,12 @@
 // A contact under displacement control: pressed by its approach, or by how much it flattens. At a given
 // approach the problem is convex without a load to keep, and is solved as such (offset_descent.cpp): no load
 // is sought, which soft ground hardly lets tell approaches apart. Where that descent does not end, as on some
-// cells much longer than wide, the load is sought after all. A flattening is sought in the approach, begun
-// where a coarser grid ends, or near full contact of a periodic tile in the load. The certificate's load
-// entry is the relative error of what was prescribed. All of a periodic half-space touches, elastically, at
-// an approach of max h − mean h, for nothing but the mean of the heights is left to move; the least load that
-// brings it there follows from one exact filter, p = (E*|q|/2) h. A layer goes on being compressed, by K(0)
-// p̄. Ground that does not harden comes to an end where every node is at its cap.
+// cells much longer than wide, the load is sought after all (load_search.hpp). A flattening (flattening.cpp)
+// is sought in the approach, begun where a coarser grid ends, or near full contact in the load. The
+// certificate's load entry is the relative error of what was prescribed. All of a periodic half-space
+// touches, elastically, at an approach of max h − mean h, for nothing but the mean of the heights is left to
+// move; the least load that brings it there follows from one exact filter, p = (E*|q|/2) h. A layer goes on
+// being compressed, by K(0) p̄. Ground that does not harden comes to an end where every node is at its cap.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,9 @@ namespace asperity {
 // once the pressure would hide all heights), or where every node is at the cap.
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor);
 
-// The share of the peak-to-valley of h pressed away, 0 … 1: 1 − span(h − u − w)/span(h), w what yielded.
+// The share of the peak-to-valley of h pressed away, 0 … 1: 1 − span(h − u − w)/span(h), w what yielded. All
+// of it: under the least load of full contact; where ground hardens or a tile is free, under one that is
+// enough.
 HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double fraction, Monitor& monitor);
 
 // That share for an answer; 0 for flat heights. One application of K where the approach is less than a

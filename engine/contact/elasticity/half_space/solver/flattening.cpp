@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pressed by how much of the peak-to-valley goes. What is pressed away never falls as approach or load grow:
+// it is sought in the approach, where only the displacement of the lowest point keeps the two apart, and
+// where that tells little, in the load (load_search.hpp).
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "engine/contact/elasticity/half_space/operator/half_space_compliance.hpp"
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
+#include "engine/contact/elasticity/half_space/solver/descent.hpp"
+#include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_search.hpp"
+#include "engine/core/arithmetic/bracketed_secant.hpp"
+#include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/constants.hpp"
+#include "engine/core/require.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+namespace {
+
+// What a node past its yield pressure has given way.
+double hardened(const YieldLaw& law, const HalfSpaceAnswer& answer, std::size_t k) {
+  return law.hardens() ? std::max(0.0, answer.pressure[k] - law.yields_at(k)) / law.hardening : 0.0;
+}
+
+// How far the highest point and the lowest of h − u − w lie below those of h, from u itself: sums of small
+// terms where a light load moves little. One application.
+double sunk_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, double approach,
+                    Range span) {
+  const Field& h = *problem.heights;
+  const Grid& grid = problem.grid;
+  HalfSpaceCompliance compliance(grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, problem.weight,
+                                 false, multiplier_of(problem));
+  Array<double> u(h.size());
+  compliance.apply(answer.pressure.values(), u);
+  const double length = grid.hx() / problem.modulus;  // per unit of pressure in cell units
+  const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
+    const double down = length * u[k] + hardened(problem.yield, answer, k);
+    const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
+    const double high = capped ? approach : (span.max - h[k]) + down;
+    const double low = capped ? span.span() - approach : (h[k] - span.min) - down;
+    v[0] = problem.faces(k) ? high : infinity;
+    v[1] = problem.faces(k) ? low : infinity;
+  });
+  return ends[0] + ends[1];
+}
+
+// How deep node k lies below the ground that touches, m: −(h − u − w) − δ, w what yielded.
+double depth(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, std::size_t k) {
+  const bool capped = problem.yield.caps() && answer.pressure[k] >= problem.yield.cap;
+  return capped ? std::max(0.0, answer.gap[k]) : answer.gap[k] + hardened(problem.yield, answer, k);
+}
+
+// An approach so small beside the heights that gaps have few digits of what it presses away.
+bool presses_lightly(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer, Range span) {
+  constexpr double few_digits = 1e-4;
+  // What compresses a layer as a whole presses nothing away.
+  const double approach = answer.approach - uniform_compliance(problem) * answer.mean_pressure;
+  return approach < few_digits * span.span();
+}
+
+}  // namespace
+
+double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
+  const Field& h = *problem.heights;
+  const Range span = known_range(h.values());
+  if (!(span.span() > 0) || answer.contacts == 0) return 0;
+  if (presses_lightly(problem, answer, span)) {
+    const double approach = answer.approach - uniform_compliance(problem) * answer.mean_pressure;
+    return sunk_lightly(problem, answer, approach, span) / span.span();
+  }
+  // Nothing is to be said of where nothing faces the ground.
+  const auto ends = over_nodes<0, 2>(h.size(), [&](std::size_t k, double* v) {
+    const double low = depth(problem, answer, k);
+    v[0] = problem.faces(k) ? low : infinity;
+    v[1] = problem.faces(k) ? -low : infinity;
+  });
+  return 1 - (-ends[1] - ends[0]) / span.span();
+}
+
+namespace {
+
+// On the line of depths through two answers the deepest node is as deep as a share pressed away asks for: how
+// often the difference past the second. The deepest of nodes that each go straight on bends one way only, so
+// that secants come to it from one side.
+std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, const HalfSpaceAnswer& last,
+                                            const HalfSpaceAnswer& before, double wanted) {
+  constexpr int most_looks = 8;
+  constexpr double close = 1e-12;
+  const Range span = known_range(problem.heights->values());
+  if (presses_lightly(problem, last, span) || presses_lightly(problem, before, span)) return {};
+  const auto deepest = [&](double share) {
+    return -over_nodes<0, 1>(last.gap.size(), [&](std::size_t k, double* v) {
+      const double from = depth(problem, before, k);
+      v[0] = problem.faces(k) ? -(from + share * (depth(problem, last, k) - from)) : infinity;
+    })[0];
+  };
+  const double target = (1 - wanted) * span.span();
+  double at = 1, at_before = 0, found = deepest(1), found_before = deepest(0);
+  for (int look = 0; look < most_looks && std::abs(found - target) > close * span.span(); ++look) {
+    const double next = at + (target - found) * (at - at_before) / (found - found_before);
+    if (!std::isfinite(next)) return {};
+    at_before = std::exchange(at, next);
+    found_before = std::exchange(found, deepest(next));
+  }
+  return at;
+}
+
+// A load, Pa, that presses all of the height of a periodic tile away: the least that makes all nodes yield
+// where ground hardens, by one exact filter, (K + 1/K_h) p = h + Y/K_h + δ; or that of full contact without
+// yield, which pressures that yield on the peaks only bring about the sooner. On a free tile about the same
+// without its rims. One application or two.
+std::optional<double> load_of_all(const HalfSpaceProblem& problem) {
+  const Grid& grid = problem.grid;
+  const Field& h = *problem.heights;
+  const YieldLaw& law = problem.yield;
+  if (problem.overhangs || !(problem.rms > 0)) return {};
+  HalfSpaceCompliance compliance(
+      grid.nx, grid.ny, grid.hy() / grid.hx(), Boundary::periodic, problem.weight, false,
+      problem.boundary == Boundary::periodic ? multiplier_of(problem) : ComplianceMultiplier{});
+  const double unit = problem.modulus * (problem.rms / grid.hx());  // Pa, of pressures in cell units
+  const double middle = mean(h.values());
+  Array<double> p(h.size());
+  const auto greatest = [&](auto&& value) {
+    return -over_nodes<0, 1>(p.size(), [&](std::size_t k, double* v) { v[0] = -value(k); })[0];
+  };
+  for_nodes(h.size(), [&](std::size_t k) { p[k] = (h[k] - middle) / problem.rms; });
+  compliance.apply_inverse(p, p);
+  double least = unit * greatest([&](std::size_t k) { return -p[k]; });
+  if (law.hardens()) {
+    const double softer = problem.modulus / (law.hardening * grid.hx());  // 1/K_h in cell units
+    for_nodes(h.size(), [&](std::size_t k) {
+      p[k] = (h[k] - middle) / problem.rms + softer * (law.yields_at(k) / unit);
+    });
+    compliance.apply_inverse(p, p, softer);
+    const double mean_of_it = mean(p);
+    const double yielding =
+        unit * greatest([&](std::size_t k) { return law.yields_at(k) / unit - (p[k] - mean_of_it); });
+    least = std::min(least, yielding);
+  }
+  constexpr double a_little_more = 1 + 1e-12;
+  return least > 0 && std::isfinite(least) ? std::optional(least * a_little_more) : std::nullopt;
+}
+
+// The end of a bracket in which a flattening of a periodic tile is sought by its load.
+std::optional<double> pressure_that_flattens(const HalfSpaceProblem& problem) {
+  if (problem.boundary != Boundary::periodic) return {};
+  return problem.yield.hardens() ? load_of_all(problem) : pressure_of_full_contact(problem);
+}
+
+// Coarser grids find about where to begin; those of fewer nodes than this are not worth it.
+constexpr std::size_t coarse_nodes = 64 * 64;
+
+// The same contact on the next coarser grid.
+std::optional<HalfSpaceProblem> coarser_problem(const HalfSpaceProblem& problem) {
+  const Grid& grid = problem.grid;
+  if (grid.nodes() <= coarse_nodes) return {};
+  const LevelShape fine{grid.nx, grid.ny, grid.hy() / grid.hx(), problem.boundary, 1};
+  const auto next = coarser(fine);
+  if (!next) return {};
+  HalfSpaceProblem result = problem;
+  const int nx = next->shape.nx, ny = next->shape.ny;
+  result.grid = {nx, ny, nx * next->pitch_x * grid.hx(), ny * next->pitch_y * grid.hy()};
+  auto on_coarse = [&](const Field& field) {
+    Field values(nx, ny);
+    const Array<double> restricted = restrict_to(fine, *next, field.values());
+    std::copy(restricted.begin(), restricted.end(), values.values().begin());
+    return std::make_shared<const Field>(std::move(values));
+  };
+  result.heights = on_coarse(*problem.heights);
+  if (!(known_range(result.heights->values()).span() > 0)) return {};  // all that differs lies between
+  if (problem.yield.yield) result.yield.yield = on_coarse(*problem.yield.yield);
+  const auto work = [](const Grid& of) {
+    const auto n = static_cast<double>(of.nodes());
+    return n * elementary::log(n);
+  };
+  result.weight = problem.weight * work(result.grid) / work(grid);
+  return result;
+}
+
+// Pressures and gaps on the line through two answers, further along it by `steps` from the second to the
+// first; in place of the second. None where that is too far to mean anything.
+HalfSpaceAnswer further_along(const HalfSpaceAnswer& last, HalfSpaceAnswer before, double steps) {
+  constexpr double furthest_guess = 2;
+  if (before.pressure.size() != last.pressure.size() || !(std::abs(steps) <= furthest_guess)) {
+    before.pressure = last.pressure;
+    before.gap = last.gap;
+  } else {
+    for_nodes(last.pressure.size(), [=, apart = last.approach - before.approach, p = last.pressure.data(),
+                                     g = last.gap.data(), to_p = before.pressure.data(),
+                                     to_g = before.gap.data()](std::size_t k) {
+      to_p[k] = p[k] == to_p[k] ? p[k] : p[k] + steps * (p[k] - to_p[k]);
+      to_g[k] = g[k] + steps * ((g[k] - to_g[k]) + apart);  // of K p − h, from the approach of `last`
+    });
+  }
+  before.approach = last.approach;
+  return before;
+}
+
+// Whether a search had better go by the load: near full contact of a periodic tile, where an approach hardly
+// tells gaps apart, unless most of it yields, where a load does not.
+bool load_tells_more(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
+  return problem.boundary == Boundary::periodic && 2 * answer.yielded < answer.contacts &&
+         2 * answer.contacts > static_cast<std::int64_t>(problem.grid.nodes());
+}
+
+// All of the height is pressed away from full contact on: just before it, where full contact is within the
+// accuracy of what is asked for.
+double wanted_share(double fraction, double accuracy) {
+  return fraction >= 1 - 0.9 * accuracy ? 1 - 0.4 * accuracy : fraction;
+}
+
+// The answer that flattens by a share, to `accuracy` of it, the search begun at an approach: what is pressed
+// away never falls as the approach grows, and nothing but the displacement of the lowest point keeps the two
+// apart. Where the load should be sought instead, an answer that did not converge.
+// `met`: the loads on either side that it passed.
+HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double fraction,
+                                    std::optional<double> guess, double accuracy, LoadsMet& met,
+                                    Monitor& monitor) {
+  constexpr int most_solves = 60;
+  // After so many solves, or fewer where they leave as much as `far`, or after many applications, the load is
+  // sought from what they met.
+  constexpr int most_by_approach = 8, few_by_approach = 4, many_by_approach = 60;
+  constexpr double far = 1e-2, decades = 1e2;
+  constexpr double loosest = 1e-2, near = 0.3, least_tolerance = 1e-13;
+  constexpr double cautious = 20;  // an error, of the certificate there is
+  const auto heights = problem.heights->values();
+  const Range ends = known_range(heights);
+  const double span = ends.span();
+  const double wanted = wanted_share(fraction, accuracy) * span;
+  double approach = guess.value_or(wanted), most = infinity;
+  BracketedSecant bracket(wanted);
+  if (problem.boundary == Boundary::periodic) {
+    const double full = approach_of_full_contact(problem);
+    if (!guess) approach = wanted * (1 - wanted / span * (1 - full / span));
+    if (!problem.yield.hardens()) {
+      most = problem.yield.caps() ? span : full;
+      bracket = BracketedSecant(wanted, {0, 0}, {most, span});
+      approach = std::min(approach, most * (1 - 1e-6));
+    }
+  }
+  BracketedSecant root = bracket;
+  HalfSpaceProblem now = problem;
+  now.tolerance = std::max(accuracy, loosest);
+  HalfSpaceAnswer answer, before;
+  double pressed = 0;
+  double gain = 1;  // of what is pressed away, or of an error in it, per approach; at least 1
+  bool afresh = false, stalled = false, by_load = false;
+  int applications = 0;
+  for (int solve = 0; solve < most_solves; ++solve) {
+    HalfSpaceAnswer start;
+    if (solve > 0 && std::abs(approach / answer.approach - 1) < near) {
+      const double steps = (approach - answer.approach) / (answer.approach - before.approach);
+      start = further_along(answer, std::move(before), steps);
+    }
+    before = std::move(answer);
+    const ChainEffort effort = afresh ? ChainEffort::full : ChainEffort::brief;
+    const bool warm = !start.pressure.empty();
+    answer = solve_at_offset(now, approach, 0.5 * wanted, warm ? &start : nullptr, effort, monitor);
+    applications += answer.iterations;
+    if (warm && !answer.converged && now.tolerance > accuracy) {  // it may have been too far off after all
+      answer = solve_at_offset(now, approach, 0.5 * wanted, nullptr, effort, monitor);
+      applications += answer.iterations;
+    }
+    const double pressed_before = std::exchange(pressed, flattened(problem, answer) * span);
+    if (solve > 0 && approach != before.approach)
+      gain = std::max(1.0, std::abs((pressed - pressed_before) / (approach - before.approach)));
+    const double error = std::abs(pressed - wanted) / wanted;
+    const bool sure = error > std::min(now.tolerance, cautious * answer.certificate.worst()) * gain;
+    // A residual is of the rms height, which may be many times what is pressed away.
+    const double rough = cautious * answer.certificate.worst() * std::max(1.0, problem.rms / wanted);
+    if (sure && answer.converged)
+      met.take({{answer.mean_pressure, pressed / span}, error > LoadsMet::certain * rough}, wanted / span);
+    if (load_tells_more(problem, answer)) break;
+    const double tightest = std::max(least_tolerance, accuracy / gain);
+    const bool loose = now.tolerance > tightest;
+    // Tighter than asked for, rounding may be in the way.
+    stalled = !answer.converged && (now.tolerance > accuracy || answer.certificate.worst() > accuracy);
+    if (stalled) break;
+    const bool near_enough = error <= 0.5 * accuracy;
+    const bool too_far = near_enough && most_at_the_cap(problem, answer);
+    if (too_far && now.tolerance > least_tolerance) {  // perhaps by what the tolerance left
+      now.tolerance = std::max(least_tolerance, 0.01 * now.tolerance);
+      continue;
+    }
+    if (near_enough && !loose && !too_far) {
+      if (afresh) break;
+      afresh = true;
+      continue;
+    }
+    // Where all is pressed away any more approach says the same.
+    const bool nothing_more = too_far || (pressed > wanted && span - pressed < 0.1 * (span - wanted));
+    root.take({approach, nothing_more ? infinity : pressed}, sure || nothing_more);
+    now.tolerance = std::max(tightest, std::min(now.tolerance, (sure ? 0.05 * error : 0.02 * error) / gain));
+    if (near_enough && !too_far) continue;  // the same again, by a tighter solve
+    // Decades of the load within a hair of the approach.
+    const bool steep = met.below && met.above && met.above->at > decades * met.below->at &&
+                       std::abs(approach / before.approach - 1) < near;
+    const bool long_enough = solve + 1 >= (error > far ? few_by_approach : most_by_approach) ||
+                             (solve > 0 && applications > many_by_approach);
+    by_load = steep || ((met.below || met.above) && long_enough);
+    if (by_load) break;
+    const std::optional<double> next = root.next();
+    if (!next && !loose) break;
+    if (!next) {  // a loose solve was put on the wrong side
+      now.tolerance = std::max(tightest, 0.01 * now.tolerance);
+      root = bracket;
+    }
+    approach = next.value_or(approach);
+  }
+  if (stalled || by_load || load_tells_more(problem, answer)) {
+    answer.converged = false;
+    answer.iterations = applications;
+    return answer;
+  }
+  if (!afresh) {
+    answer.gap = {};
+    HalfSpaceAnswer start = std::move(answer);
+    answer = solve_at_offset(now, approach, 0.5 * wanted, &start, ChainEffort::full, monitor);
+    applications += answer.iterations;
+  }
+  answer.iterations = applications;
+  answer.certificate.load =
+      std::max(answer.certificate.load, std::abs(flattened(problem, answer) / fraction - 1));
+  answer.converged = answer.converged && answer.certificate.worst() <= problem.tolerance;
+  return answer;
+}
+
+// The same by its load, from what was `begun`.
+HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer begun,
+                                const LoadsMet& met, Monitor& monitor) {
+  SoughtByLoad sought;
+  sought.met = met;
+  sought.measure = [&](const HalfSpaceAnswer& found) { return flattened(problem, found); };
+  sought.wanted = wanted_share(fraction, problem.tolerance);
+  sought.on_the_line = [&, wanted = sought.wanted](const HalfSpaceAnswer& last,
+                                                   const HalfSpaceAnswer& before) {
+    return flattened_on_the_line(problem, last, before, wanted);
+  };
+  sought.most = 1;
+  sought.length = fraction * known_range(problem.heights->values()).span();
+  if (const auto full = pressure_that_flattens(problem)) sought.above = {*full, 1};
+  return solve_by_load(problem, sought, std::move(begun), monitor);
+}
+
+// Just below full contact of an elastic periodic tile contacts go on growing over decades of what an approach
+// lacks of it, and hardly with the load. The load to begin with; none where the approach is as good.
+std::optional<double> load_near_full_contact(const HalfSpaceProblem& problem, double fraction) {
+  constexpr double mostly = 0.5;
+  if (problem.boundary != Boundary::periodic || fraction < mostly) return {};
+  const auto full = pressure_of_full_contact(problem);
+  // About as the square of what the load lacks goes what is left of the heights.
+  return full ? std::optional(*full * (1 - std::sqrt(1 - fraction))) : std::nullopt;
+}
+
+// All of the height pressed away, where ground hardens or a free tile has rims: more load than is needed does
+// it, too, and more easily than the least. None where that does not come out.
+std::optional<HalfSpaceAnswer> press_all_away(const HalfSpaceProblem& problem, double fraction,
+                                              Monitor& monitor) {
+  constexpr int tries = 3;
+  constexpr double more = 4;  // load, for another try
+  constexpr double to_a_rim =
+      2;  // a punch carries half of its mean pressure in the middle, and most at its rim
+  if (problem.yield.caps()) return {};
+  auto pressure = load_of_all(problem);
+  if (!pressure) return {};
+  const bool periodic = problem.boundary == Boundary::periodic;
+  HalfSpaceProblem now = problem;
+  now.brief = now.best_effort = true;
+  double load = periodic ? *pressure : to_a_rim * *pressure;
+  int applications = 0;
+  for (int n = 0; n < tries; ++n, load *= more) {
+    HalfSpaceAnswer answer = solve_at_pressure(now, load, nullptr, monitor);
+    applications += answer.iterations;
+    const double missed = std::abs(flattened(problem, answer) / fraction - 1);
+    if (!answer.converged || missed > problem.tolerance) continue;
+    answer.iterations = applications;
+    answer.certificate.load = std::max(answer.certificate.load, missed);
+    return answer;
+  }
+  return {};
+}
+
+// About where to begin.
+struct FlatteningGuess {
+  std::optional<double> approach;  // m
+  std::optional<double> pressure;  // Pa, where the load is to be sought
+};
+
+FlatteningGuess guess_on_coarser_grid(const HalfSpaceProblem& problem, double fraction) {
+  constexpr double about = 1e-2;
+  std::optional<HalfSpaceProblem> coarse;
+  for (auto next = coarser_problem(problem); next; next = coarser_problem(*coarse)) coarse = std::move(next);
+  if (!coarse) return {};
+  coarse->tolerance = about;
+  LoadsMet met;
+  HalfSpaceAnswer there;
+  if (const auto load = load_near_full_contact(*coarse, fraction)) {
+    there.mean_pressure = *load;
+    there = flatten_by_load(*coarse, fraction, std::move(there), met, Monitor::silent());
+    if (there.converged) return {{}, there.mean_pressure};
+  }
+  there = flatten_by_approach(*coarse, fraction, {}, about, met, Monitor::silent());
+  const bool by_load = load_tells_more(*coarse, there) || (!there.converged && (met.below || met.above));
+  if (by_load) there = flatten_by_load(*coarse, fraction, std::move(there), met, Monitor::silent());
+  if (by_load && there.converged) return {{}, there.mean_pressure};
+  // Coarser grids miss the highest node. Where that is much of the approach they say little.
+  const double higher =
+      known_range(problem.heights->values()).max - known_range(coarse->heights->values()).max;
+  if (!(there.approach > 2 * higher)) return {};
+  return {there.approach + higher, {}};
+}
+
+}  // namespace
+
+HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double fraction, Monitor& monitor) {
+  require(fraction >= 0 && fraction <= 1, "flatten", fraction, "", "it is a share from 0 to 1");
+  if (fraction == 0) return solve_at_pressure(problem, 0, nullptr, monitor);
+  if (const double uniform = uniform_compliance(problem); uniform > 0) {
+    HalfSpaceProblem stiff = problem;
+    stiff.share->uniform = 0;
+    HalfSpaceAnswer answer = solve_at_flattening(stiff, fraction, monitor);
+    answer.approach += uniform * answer.mean_pressure;
+    answer.offset += uniform * answer.mean_pressure;
+    return answer;
+  }
+  if (fraction >= 1 - 0.9 * problem.tolerance) {
+    if (const auto pressure = pressure_of_full_contact(problem))
+      return solve_at_full_contact(problem, *pressure, 1 - fraction, monitor);
+    if (auto flat = press_all_away(problem, fraction, monitor)) return std::move(*flat);
+  }
+  const FlatteningGuess guess = guess_on_coarser_grid(problem, fraction);
+  HalfSpaceAnswer answer;
+  LoadsMet loads;
+  const auto load = guess.pressure ? guess.pressure : load_near_full_contact(problem, fraction);
+  if (load) {
+    answer.mean_pressure = *load;
+    answer = flatten_by_load(problem, fraction, std::move(answer), loads, monitor);
+  }
+  if (!answer.converged) {
+    const int before = answer.iterations;
+    answer = flatten_by_approach(problem, fraction, guess.approach, problem.tolerance, loads, monitor);
+    answer.iterations += before;
+  }
+  if (!answer.converged) answer = flatten_by_load(problem, fraction, std::move(answer), loads, monitor);
+  return met(problem, std::move(answer), "a flattening of " + format_short(fraction));
+}
+
+}  // namespace asperity

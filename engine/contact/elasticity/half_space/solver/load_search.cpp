@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The search is an inexact Newton method (Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19, 1982) by
+// secants. Near full contact of a periodic tile the load is the well-posed way: there the deepest gap goes as
+// a power below one of what the approach lacks, and above one of what the load does. Where the contact hardly
+// changes from one load to the next, pressures and gaps go straight on with the load, and so does all that is
+// measured of them, but for the node that is the deepest: the line through two answers is followed then.
+#include "engine/contact/elasticity/half_space/solver/load_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "engine/contact/elasticity/half_space/operator/node_loop.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
+#include "engine/core/constants.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/quantity.hpp"
+#include "engine/core/text.hpp"
+
+namespace asperity {
+
+std::optional<double> most_at_the_cap(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer) {
+  if (!problem.yield.caps() ||
+      answer.yielded != static_cast<std::int64_t>(known_count(problem.heights->values())))
+    return {};
+  const auto least = over_nodes<0, 1>(answer.gap.size(), [&](std::size_t k, double* v) {
+    v[0] = problem.faces(k) ? -answer.gap[k] : infinity;
+  });
+  return answer.approach - least[0];
+}
+
+HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double mean_pressure, double missed,
+                                      Monitor& monitor) {
+  HalfSpaceAnswer answer = solve_at_pressure(problem, mean_pressure, nullptr, monitor);
+  answer.certificate.load = std::max(answer.certificate.load, missed);
+  return answer;
+}
+
+HalfSpaceAnswer met(const HalfSpaceProblem& problem, HalfSpaceAnswer answer, const std::string& what) {
+  if (const auto most = most_at_the_cap(problem, answer))
+    throw Error(ErrorCode::infeasible,
+                what + " is not reached: all of the " + (problem.overhangs ? "overlap" : "tile") +
+                    " is at its hardness at " + metres(*most) + ", and no more can be had",
+                "ask for less, or press by `pressure`");
+  if (answer.converged || problem.best_effort) return answer;
+  throw Error(ErrorCode::not_converged,
+              what + " was sought to a residual of " + format_short(answer.certificate.worst(), 3) +
+                  " where `tolerance` asks for " + format_short(problem.tolerance, 3) + ", in " +
+                  std::to_string(answer.iterations) + " applications of the half-space",
+              unconverged_hint(problem.grid, answer.certificate.worst(), rounding_residual(problem, answer)));
+}
+
+namespace {
+
+BracketedSecant::Point upper_end(const HalfSpaceProblem& problem, const SoughtByLoad& sought) {
+  BracketedSecant::Point end = sought.above;
+  if (problem.yield.caps()) {
+    const double facing = static_cast<double>(known_count(problem.heights->values()));
+    const double cap = problem.yield.cap * (1 - 1e-12) * (facing / static_cast<double>(problem.grid.nodes()));
+    // Far from all that there is, that all of it is measured there says nothing of the way.
+    constexpr double far = 0.5;
+    if (!(end.at < cap)) end = {cap, sought.wanted < far * sought.most ? infinity : sought.most};
+  }
+  return end;
+}
+
+// What `length` takes on a tile that is one punch, or less.
+double small_load(const HalfSpaceProblem& problem, double length) {
+  return 0.1 * problem.modulus * length / std::max(problem.grid.size_x, problem.grid.size_y);
+}
+
+class LoadSearch {
+ public:
+  LoadSearch(const HalfSpaceProblem& problem, const SoughtByLoad& sought, HalfSpaceAnswer begun,
+             Monitor& monitor)
+      : problem_(problem),
+        sought_(sought),
+        monitor_(monitor),
+        end_(upper_end(problem, sought)),
+        // A residual of 1, in what is wanted.
+        unit_(problem.rms > 0 ? std::min(problem.rms / sought.length, 1.0) : 1.0),
+        bracket_(sought.wanted, {0, 0}, end_, BracketedSecant::Scale::logarithmic),
+        root_(bracket_),
+        now_(problem),
+        least_(problem.tolerance),
+        answer_(std::move(begun)),
+        applications_(answer_.iterations) {
+    now_.best_effort = true;
+    now_.tolerance = std::max(problem.tolerance, loosest);
+  }
+
+  HalfSpaceAnswer run();
+
+ private:
+  static constexpr int most_solves = 60, most_applications = 6000;
+  static constexpr int most_doubts = 4;      // of a bracket
+  static constexpr double good_start = 0.1;  // a certificate whose pressures are worth beginning from
+  static constexpr double near_start = 0.3;  // of the load, that pressures are taken along
+  static constexpr double near_if_easy = 2;  // the same, where solves are easy: those take few applications
+  static constexpr int few_applications = 40;
+  static constexpr double loosest = 5e-3;     // tolerance of a solve
+  static constexpr double next_error = 2e-3;  // of the error there is, that the next solve may leave
+  // A residual r may leave the deepest gap off by so many times r: complementarity averages over the load,
+  // and penetration says nothing of nodes that are open. Seen: 20.
+  static constexpr double gap_per_residual = 20;
+  // A step so much smaller than the error closes a bracket that does not hold what is wanted.
+  static constexpr double least_step = 0.01;
+  // Tolerances below the one asked for, where that leaves the measure too rough.
+  static constexpr double tighter = 0.1, tightest_of_all = 1e-3, least_tolerance = 1e-13;
+  // Answers whose numbers of nodes in contact differ by no more lie on a line.
+  static constexpr double same_contact = 0.1;
+  static constexpr double furthest_along = 3;  // a line is followed, in steps between its answers
+  static constexpr double enough_gain = 0.5;   // of an error, that a line may leave
+
+  struct Measured {
+    double pressure = 0, found = 0, certificate = infinity;
+    std::int64_t contacts = 0, yielded = 0;
+  };
+
+  // The two greatest loads that fall short: where all that there is is measured from some load on, the line
+  // through them says from which.
+  struct ShortOfAll {
+    BracketedSecant::Point last{}, before{};
+    void take(BracketedSecant::Point found) {
+      if (found.at <= last.at) return;
+      before = std::exchange(last, found);
+    }
+    // None where that is about as far as the load that was tried.
+    std::optional<double> go_on(double wanted, double tried) const {
+      constexpr double less = 0.9;
+      if (!(before.at > 0) || !(last.value > before.value)) return {};
+      const double step = (wanted - last.value) * (last.at - before.at) / (last.value - before.value);
+      return step < less * (tried - last.at) ? std::optional(last.at + step) : std::nullopt;
+    }
+  };
+
+  struct Told {
+    BracketedSecant::Point point;
+    bool certainly;
+  };
+
+  double first_load();
+  void solve(double pressure);
+  HalfSpaceAnswer beginning(double pressure);
+  std::optional<double> along_the_line() const;
+  double error_of(double found) const { return std::abs(found / sought_.wanted - 1); }
+  bool tells(double error, double residual) const { return error > gap_per_residual * unit_ * residual; }
+  double floor() const {
+    return std::max(least_tolerance, tightest_of_all * problem_.tolerance / std::max(1.0, unit_));
+  }
+  void set_unit();
+  void doubt(BracketedSecant::Point found);
+  HalfSpaceAnswer ended(double error, bool converged);
+
+  const HalfSpaceProblem& problem_;
+  const SoughtByLoad& sought_;
+  Monitor& monitor_;
+  const BracketedSecant::Point end_;
+  double unit_;
+  const BracketedSecant bracket_;
+  BracketedSecant root_;
+  HalfSpaceProblem now_;
+  double least_;
+  HalfSpaceAnswer answer_, before_;
+  Measured last_, previous_;
+  ShortOfAll short_of_all_;
+  std::vector<Told> told_;
+  int applications_;
+  bool easy_ = false, hard_ = false;  // whether the last solve took few applications, or the last resort
+  // Whether the last measure was too rough to tell a side, and the next takes its place.
+  bool rough_ = false, in_place_ = false;
+};
+
+double LoadSearch::first_load() {
+  // A descent that stalled at the approach has told about how much load that takes.
+  double pressure = std::max(answer_.mean_pressure, small_load(problem_, sought_.length));
+  for (const auto& met : {sought_.met.below, sought_.met.above})
+    if (met && met->at < end_.at) {
+      root_.take(*met, true);
+      told_.push_back({*met, met->certainly});
+    }
+  if (sought_.met.below || sought_.met.above) pressure = root_.next().value_or(pressure);
+  return pressure < end_.at ? pressure : 0.5 * end_.at;
+}
+
+// Gaps are measured by the rms height or, where the contact is light, by the approach (nested_descent.cpp).
+void LoadSearch::set_unit() {
+  constexpr double light = 0.01;
+  if (!sought_.on_the_line || !(problem_.rms > 0)) return;
+  unit_ = (answer_.approach < light * problem_.rms ? answer_.approach : problem_.rms) / sought_.length;
+}
+
+// A solve was put on the wrong side: of those before only what no roughness of theirs brings over counts.
+void LoadSearch::doubt(BracketedSecant::Point found) {
+  root_ = bracket_;
+  for (const Told& before : told_) root_.take(before.point, before.certainly);
+  root_.take(found, false);
+}
+
+// Pressures and gaps to begin from, in place of the last answer or the one before.
+HalfSpaceAnswer LoadSearch::beginning(double pressure) {
+  in_place_ = false;
+  if (!sought_.on_the_line) return std::move(answer_);
+  const double apart = answer_.mean_pressure - before_.mean_pressure;
+  const double steps = (pressure - answer_.mean_pressure) / apart;
+  const bool line = before_.pressure.size() == answer_.pressure.size() && apart != 0;
+  if (!line || !(std::abs(steps) <= furthest_along)) {
+    in_place_ = line && rough_;
+    if (in_place_) return std::move(answer_);
+    before_ = answer_;
+    return std::move(answer_);
+  }
+  in_place_ = rough_;
+  HalfSpaceAnswer& target = in_place_ ? answer_ : before_;
+  for_nodes(
+      answer_.pressure.size(),
+      [steps, p = answer_.pressure.data(), g = answer_.gap.data(), p0 = before_.pressure.data(),
+       g0 = before_.gap.data(), to_p = target.pressure.data(), to_g = target.gap.data()](std::size_t k) {
+        to_p[k] = p[k] == p0[k] ? p[k] : p[k] + steps * (p[k] - p0[k]);
+        to_g[k] = g[k] + steps * (g[k] - g0[k]);
+      });
+  HalfSpaceAnswer start = std::move(target);
+  start.mean_pressure = pressure;
+  if (!in_place_) before_ = std::move(answer_);
+  return start;
+}
+
+void LoadSearch::solve(double pressure) {
+  const double ratio = pressure / answer_.mean_pressure;
+  const double near = easy_ ? near_if_easy : near_start;
+  const bool warm = answer_.certificate.worst() < good_start && ratio > 1 / (1 + near) && ratio < 1 + near &&
+                    !answer_.pressure.empty();
+  HalfSpaceAnswer start;
+  if (warm) {
+    start = beginning(pressure);
+  } else {
+    before_ = {};
+    in_place_ = rough_;
+  }
+  // On long cells descents more often need the last resort, and would take all that they took before it
+  // again.
+  const bool long_cells = keeps_line_loads(problem_.grid.hy() / problem_.grid.hx());
+  const bool loose = sought_.on_the_line && now_.tolerance > problem_.tolerance && !long_cells;
+  const bool tight = now_.tolerance < problem_.tolerance;
+  now_.brief = (warm && easy_) || ((loose || tight) && !hard_);
+  answer_ = solve_at_pressure(now_, pressure, warm ? &start : nullptr, monitor_);
+  applications_ += answer_.iterations;
+  // The pressures it began with may have been in the way; what tells the side will do for the time being.
+  set_unit();
+  const auto will_do = [&] {
+    const double residual = answer_.certificate.worst();
+    return (tight && residual <= problem_.tolerance) ||
+           (loose && tells(error_of(sought_.measure(answer_)), residual));
+  };
+  if (now_.brief && !answer_.converged && !will_do()) {
+    now_.brief = false;
+    hard_ = loose;
+    answer_ = solve_at_pressure(now_, pressure, nullptr, monitor_);
+    applications_ += answer_.iterations;
+  }
+  easy_ = answer_.converged && answer_.iterations <= few_applications;
+  if (!in_place_) previous_ = last_;
+  last_ = {pressure, sought_.measure(answer_), answer_.certificate.worst(), answer_.contacts,
+           answer_.yielded};
+}
+
+// The next load, where the last two contacts are about the same.
+std::optional<double> LoadSearch::along_the_line() const {
+  const auto alike = [](std::int64_t a, std::int64_t b) {
+    return static_cast<double>(std::abs(a - b)) <= same_contact * static_cast<double>(std::max(a, b));
+  };
+  if (!sought_.on_the_line) return {};
+  if (!(previous_.pressure > 0) || !alike(last_.contacts, previous_.contacts) ||
+      !alike(last_.yielded, previous_.yielded)) {
+    // Nearly all touches: straight to the load that brings the rest.
+    const auto nodes = static_cast<std::int64_t>(problem_.grid.nodes());
+    if (end_.at != sought_.above.at || !(end_.value < infinity) || !alike(last_.contacts, nodes) ||
+        !(last_.found < sought_.wanted))
+      return {};
+    return last_.pressure +
+           (sought_.wanted - last_.found) * (end_.at - last_.pressure) / (end_.value - last_.found);
+  }
+  const double rough = sought_.wanted * unit_ * (last_.certificate + previous_.certificate);
+  if (!(std::abs(last_.found - previous_.found) > gap_per_residual * rough)) return {};
+  std::optional<double> share = (sought_.wanted - previous_.found) / (last_.found - previous_.found);
+  if (before_.mean_pressure == previous_.pressure) share = sought_.on_the_line(answer_, before_);
+  if (!share || !(std::abs(*share - 1) <= furthest_along)) return {};
+  return previous_.pressure + *share * (last_.pressure - previous_.pressure);
+}
+
+HalfSpaceAnswer LoadSearch::ended(double error, bool converged) {
+  answer_.iterations = applications_;
+  answer_.certificate.load = std::max(answer_.certificate.load, error);
+  answer_.converged = converged;
+  if (converged) answer_.solver += ", load sought";
+  return std::move(answer_);
+}
+
+HalfSpaceAnswer LoadSearch::run() {
+  double pressure = first_load(), error = infinity, error_before = infinity;
+  int doubts = 0;
+  bool by_line = false;
+  for (int solve_count = 0; solve_count < most_solves && pressure > 0 && std::isfinite(pressure);
+       ++solve_count) {
+    solve(pressure);
+    const double found = last_.found;
+    error_before = std::exchange(error, error_of(found));
+    const bool near_enough = error <= 0.5 * problem_.tolerance;
+    if (near_enough && answer_.certificate.worst() <= problem_.tolerance) return ended(error, true);
+    const bool tightest = now_.tolerance <= least_, no_tighter = least_ <= floor();
+    if (applications_ > most_applications || (near_enough && tightest)) break;
+    const double residual = std::max(answer_.certificate.worst(), tightest ? 0.0 : now_.tolerance);
+    const bool told = tells(error, residual);
+    rough_ = !told;
+    const bool kept = !sought_.on_the_line || no_tighter;
+    const bool sure = told || (tightest && kept && answer_.converged);
+    if (tightest && !told && !near_enough && !kept) least_ = std::max(floor(), tighter * least_);
+    // Of full contact any more load says the same.
+    const bool nothing_more =
+        found > sought_.wanted && sought_.most - found < 0.1 * (sought_.most - sought_.wanted);
+    root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more, in_place_);
+    now_.tolerance = std::clamp(next_error * error / unit_, least_, now_.tolerance);
+    if (near_enough) continue;  // the same again, by a tighter solve
+    const bool line_fails = by_line && error > enough_gain * error_before;
+    std::optional<double> next;
+    if (nothing_more)
+      next = short_of_all_.go_on(sought_.wanted, pressure);
+    else if (!line_fails)
+      next = along_the_line();
+    if (next && !root_.holds(*next)) next = {};
+    by_line = next.has_value();
+    if (!nothing_more && sure && found < sought_.wanted) short_of_all_.take({pressure, found});
+    if (!next) next = root_.next();
+    const double room = std::min(pressure, end_.at - pressure);  // that a step is measured by
+    if (!next || std::abs(*next - pressure) < least_step * std::min(error, 1.0) * room) {
+      if (++doubts > most_doubts || (tightest && kept && !next)) break;
+      if (tightest && !kept) least_ = std::max(floor(), tighter * least_);
+      now_.tolerance = std::max(least_, least_step * now_.tolerance);
+      if (doubts > 1) told_.clear();  // not even of the certain is that true
+      doubt({pressure, found});
+    } else if (!in_place_) {
+      told_.push_back({{pressure, nothing_more ? infinity : found},
+                       error > LoadsMet::certain * gap_per_residual * unit_ * residual});
+    }
+    pressure = next.value_or(pressure);
+  }
+  return ended(error, false);
+}
+
+}  // namespace
+
+HalfSpaceAnswer solve_by_load(const HalfSpaceProblem& problem, const SoughtByLoad& sought,
+                              HalfSpaceAnswer begun, Monitor& monitor) {
+  return LoadSearch(problem, sought, std::move(begun), monitor).run();
+}
+
+}  // namespace asperity
