@@ -122,7 +122,8 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
     if (const auto pressure = pressure_of_full_contact(problem))
       return solve_at_full_contact(problem, *pressure, std::abs(full / approach - 1), monitor);
   // Elastic ground on long cells, where a descent that stalls goes downhill for long.
-  const bool quick = !problem.yield.limits() && keeps_line_loads(problem.grid.hy() / problem.grid.hx());
+  const bool long_cells = keeps_line_loads(problem.grid.hy() / problem.grid.hx());
+  const bool quick = !problem.yield.limits() && long_cells;
   SoughtByLoad sought;
   sought.measure = [](const HalfSpaceAnswer& found) { return found.approach; };
   sought.wanted = sought.length = approach;
@@ -131,14 +132,17 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
       if (const auto pressure = pressure_of_full_contact(problem)) sought.above = {*pressure, full};
   };
   HalfSpaceAnswer answer;
-  // Just below full contact the approach hardly moves, and the descent at it mostly stalls on such cells.
-  constexpr double nearly = 0.9, begin_at = 0.35;
-  if (quick && approach > nearly * full) bound_by_full_contact();
-  if (sought.above.at < infinity) {
-    answer.mean_pressure = begin_at * sought.above.at;
-    answer = solve_by_load(problem, sought, std::move(answer), monitor);
-    if (answer.converged) return answer;
-  }
+  // About full contact the approach hardly moves, and the descent at it mostly stalls on such cells.
+  // Not where most of it is at the cap then, and a load tells no more.
+  constexpr double nearly = 0.9, begin_at = 0.35, well_below = 0.5;
+  if (problem.boundary == Boundary::periodic && long_cells && !problem.yield.hardens() &&
+      approach > nearly * full && uniform_compliance(problem) == 0)
+    if (const auto load = load_of_all(problem); load && *load < well_below * problem.yield.cap) {
+      bound_by_full_contact();
+      answer.mean_pressure = (approach < full ? begin_at : 1) * *load;
+      answer = solve_by_load(problem, sought, std::move(answer), monitor);
+      if (answer.converged) return answer;
+    }
   const int so_far = answer.iterations;
   answer = solve_at_offset(problem, approach, infinity, nullptr,
                            quick ? ChainEffort::quick : ChainEffort::full, monitor);

@@ -37,4 +37,10 @@ double approach_of_full_contact(const HalfSpaceProblem& problem);
 // there is no such pressure. One application.
 std::optional<double> pressure_of_full_contact(const HalfSpaceProblem& problem);
 
+// A load, Pa, that presses all of the height of a periodic tile away: the least that makes all nodes yield
+// where ground hardens, by one exact filter, (K + 1/K_h) p = h + Y/K_h + δ; or that of full contact without
+// yield, which pressures that yield on the peaks only bring about the sooner. On a free tile about the same
+// without its rims. Whatever a cap limits. None where that is no load. One application or two.
+std::optional<double> load_of_all(const HalfSpaceProblem& problem);
+
 }  // namespace asperity

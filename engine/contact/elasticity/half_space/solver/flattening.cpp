@@ -83,38 +83,6 @@ double flattened(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer)
   return 1 - (-ends[1] - ends[0]) / span.span();
 }
 
-namespace {
-
-// On the line of depths through two answers the deepest node is as deep as a share pressed away asks for: how
-// often the difference past the second. The deepest of nodes that each go straight on bends one way only, so
-// that secants come to it from one side.
-std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, const HalfSpaceAnswer& last,
-                                            const HalfSpaceAnswer& before, double wanted) {
-  constexpr int most_looks = 8;
-  constexpr double close = 1e-12;
-  const Range span = known_range(problem.heights->values());
-  if (presses_lightly(problem, last, span) || presses_lightly(problem, before, span)) return {};
-  const auto deepest = [&](double share) {
-    return -over_nodes<0, 1>(last.gap.size(), [&](std::size_t k, double* v) {
-      const double from = depth(problem, before, k);
-      v[0] = problem.faces(k) ? -(from + share * (depth(problem, last, k) - from)) : infinity;
-    })[0];
-  };
-  const double target = (1 - wanted) * span.span();
-  double at = 1, at_before = 0, found = deepest(1), found_before = deepest(0);
-  for (int look = 0; look < most_looks && std::abs(found - target) > close * span.span(); ++look) {
-    const double next = at + (target - found) * (at - at_before) / (found - found_before);
-    if (!std::isfinite(next)) return {};
-    at_before = std::exchange(at, next);
-    found_before = std::exchange(found, deepest(next));
-  }
-  return at;
-}
-
-// A load, Pa, that presses all of the height of a periodic tile away: the least that makes all nodes yield
-// where ground hardens, by one exact filter, (K + 1/K_h) p = h + Y/K_h + δ; or that of full contact without
-// yield, which pressures that yield on the peaks only bring about the sooner. On a free tile about the same
-// without its rims. One application or two.
 std::optional<double> load_of_all(const HalfSpaceProblem& problem) {
   const Grid& grid = problem.grid;
   const Field& h = *problem.heights;
@@ -145,6 +113,34 @@ std::optional<double> load_of_all(const HalfSpaceProblem& problem) {
   }
   constexpr double a_little_more = 1 + 1e-12;
   return least > 0 && std::isfinite(least) ? std::optional(least * a_little_more) : std::nullopt;
+}
+
+namespace {
+
+// On the line of depths through two answers the deepest node is as deep as a share pressed away asks for: how
+// often the difference past the second. The deepest of nodes that each go straight on bends one way only, so
+// that secants come to it from one side.
+std::optional<double> flattened_on_the_line(const HalfSpaceProblem& problem, const HalfSpaceAnswer& last,
+                                            const HalfSpaceAnswer& before, double wanted) {
+  constexpr int most_looks = 8;
+  constexpr double close = 1e-12;
+  const Range span = known_range(problem.heights->values());
+  if (presses_lightly(problem, last, span) || presses_lightly(problem, before, span)) return {};
+  const auto deepest = [&](double share) {
+    return -over_nodes<0, 1>(last.gap.size(), [&](std::size_t k, double* v) {
+      const double from = depth(problem, before, k);
+      v[0] = problem.faces(k) ? -(from + share * (depth(problem, last, k) - from)) : infinity;
+    })[0];
+  };
+  const double target = (1 - wanted) * span.span();
+  double at = 1, at_before = 0, found = deepest(1), found_before = deepest(0);
+  for (int look = 0; look < most_looks && std::abs(found - target) > close * span.span(); ++look) {
+    const double next = at + (target - found) * (at - at_before) / (found - found_before);
+    if (!std::isfinite(next)) return {};
+    at_before = std::exchange(at, next);
+    found_before = std::exchange(found, deepest(next));
+  }
+  return at;
 }
 
 // The end of a bracket in which a flattening of a periodic tile is sought by its load.
