@@ -141,6 +141,24 @@ TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
       }
 }
 
+// N9: nor does a press by flattening, by its approach or by its load, take more than is said beside that.
+TEST(Plan, N9MemoryOfAFlatteningIsNotExceeded) {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+    for (const bool hardens : {false, true})
+      for (const double share : {.3, .9}) {
+        Material metal = elastic(1e11);
+        metal.hardness = 2e10;
+        Scene scene =
+            scene_of(random_surface(256, 192, 1).with_material(metal), rigid_material(), {}, boundary);
+        scene.elasticity = HalfSpaceOptions{};
+        if (hardens) scene.effects.set(PlasticityOptions{{}, 1e16});
+        const Plan plan = plan_of(scene);
+        const State state = test::press(scene, PressBy::flatten, share);
+        EXPECT_LE(state.cost().total.bytes, plan.bytes_peak() + plan.bytes_to_flatten)
+            << name(boundary) << (hardens ? ", hardening, " : ", ") << share;
+      }
+}
+
 TEST(Plan, ExplainsItself) {
   const std::string text =
       plan_of(scene_of(row_of({0, 1, 3, 8}).with_material(elastic(16)), rigid_material())).text();

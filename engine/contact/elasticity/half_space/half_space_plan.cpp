@@ -59,9 +59,9 @@ void plan_half_space(const ContactGeometry& geometry, Plan& plan) {
   const std::int64_t per_row = smooth ? 512 : 1536;
   plan.buffers.push_back({"rows and threads at work",
                           always + per_row * (grid.nx + grid.ny) * (periodic ? 1 : 2), false, false});
-  // The last two answers and what the next begins from, while the approach that flattens by so much is
-  // sought.
-  plan.bytes_to_flatten = grids(5.5);
+  // The last two answers and what the next begins from, while the approach or the load that flattens by so
+  // much is sought.
+  plan.bytes_to_flatten = grids(7.5);
   const double aspect = grid.hy() / grid.hx();
   if (keeps_line_loads(aspect)) {
     laws_met().meet(Law::long_cells);
