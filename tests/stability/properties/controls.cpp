@@ -5,8 +5,8 @@
 // longer than wide or wider than long. Of 3000 scenes, seeds 1 to 10, all were solved; more than ten times
 // and sixty transforms took 4 of 5605 presses by approach or indentation and 2 of 2815 by flattening, all on
 // cells over ninety times longer than wide; no more than two of a seed. Of 1200 more, seeds 9201 to 9204, on
-// which nothing was tried, 8 presses by approach or indentation and 1 by flattening were as dear, on cells
-// over ten and over a hundred times longer than wide. Known to be lost by flattening: scene 183 of seed 14
+// which nothing was tried, 8 presses by approach or indentation and 2 by flattening were as dear, on cells
+// over ten and over ninety times longer than wide. Known to be lost by flattening: scene 183 of seed 14
 // (soft ground that hardens, cells 144 times longer than wide) and scene 2 of seed 11 (948 times).
 #include <algorithm>
 #include <cmath>

@@ -347,7 +347,7 @@ HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction
 // Just below full contact of an elastic periodic tile contacts go on growing over decades of what an approach
 // lacks of it, and hardly with the load. The load to begin with; none where the approach is as good.
 std::optional<double> load_near_full_contact(const HalfSpaceProblem& problem, double fraction) {
-  constexpr double mostly = 0.5;
+  constexpr double mostly = 0.6;
   if (problem.boundary != Boundary::periodic || fraction < mostly) return {};
   const auto full = pressure_of_full_contact(problem);
   // About as the square of what the load lacks goes what is left of the heights.
