@@ -56,12 +56,13 @@ TEST(SmallBlocks, OfNoRegionHaveNoRoom) {
   EXPECT_FALSE(blocks.holds(&blocks));
 }
 
-TEST(SmallBlocks, TheByteAfterTheRegionIsNotOfIt) {
-  Region region;
-  EXPECT_TRUE(region.blocks.holds(region.bytes));
-  EXPECT_TRUE(region.blocks.holds(region.bytes + sizeof region.bytes - 1));
-  EXPECT_FALSE(region.blocks.holds(region.bytes + sizeof region.bytes));
-  EXPECT_FALSE(region.blocks.holds(region.bytes - 1));
+TEST(SmallBlocks, TheBytesBesideTheRegionAreNotOfIt) {
+  alignas(16) std::byte bytes[1024];
+  const SmallBlocks blocks(bytes + 16, sizeof bytes - 32);
+  EXPECT_TRUE(blocks.holds(bytes + 16));
+  EXPECT_TRUE(blocks.holds(bytes + sizeof bytes - 17));
+  EXPECT_FALSE(blocks.holds(bytes + sizeof bytes - 16));
+  EXPECT_FALSE(blocks.holds(bytes + 15));
 }
 
 class Heap : public testing::Test {

@@ -185,6 +185,7 @@ void LiveSession::follow() {
   }
   process.send(SIGKILL);
   while (!process.ended()) ::poll(nullptr, 0, 1);
+  take_answers(socket);
   finish(why);
 }
 
@@ -201,15 +202,16 @@ void LiveSession::ask(int socket) {
 // False where the process is gone or says what is no answer. Waits for nothing: half an answer is kept.
 bool LiveSession::take_answers(int socket) {
   std::string piece(std::size_t{1} << 18, '\0');
-  for (int most = 16; most > 0; --most) {
+  bool there = true;  // what it said before it went is an answer still
+  for (int most = 16; there && most > 0; --most) {
     const ssize_t got = ::recv(socket, piece.data(), piece.size(), MSG_DONTWAIT);
-    if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) return false;
-    if (got < 0) break;
+    there = got > 0 || (got < 0 && (errno == EAGAIN || errno == EINTR));
+    if (got <= 0) break;
     arrived_.append(piece, 0, static_cast<std::size_t>(got));
   }
   try {
     while (const auto texts = take_frame(arrived_, longest_answer)) take(*texts);
-    return true;
+    return there;
   } catch (const Error&) {
     return false;
   }

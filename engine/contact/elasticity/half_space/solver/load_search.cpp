@@ -17,6 +17,7 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/require.hpp"
 #include "engine/core/text.hpp"
 
 namespace asperity {
