@@ -36,6 +36,7 @@
 #include "engine/contact/quantities.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/laws_met.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/core/part_monitor.hpp"
 #include "engine/core/text.hpp"
@@ -338,6 +339,7 @@ Grid finest_grid(const Grid& given, const Plan& plan) {
 
 AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geometry,
                                const PressRequest& request, Monitor& monitor) {
+  laws_met().meet(Law::asked_error);
   const AskedError& asked = *scene.accuracy.asked;
   const Grid& given = geometry.grid();
   const std::vector<Grid> grids =

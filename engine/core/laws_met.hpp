@@ -26,8 +26,9 @@ enum class Law : int {
   point_units,       // units in the heads of x y z and x z files
   alike_readings,    // recordings in which a filter made neighbouring readings alike
   whole_numbers,     // whole numbers in columns of notebooks
+  asked_error,       // cells and tolerance chosen for an error
 };
-inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::whole_numbers) + 1;
+inline constexpr std::size_t law_count = static_cast<std::size_t>(Law::asked_error) + 1;
 
 // Thread-safe.
 class LawsMet {

@@ -51,6 +51,12 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
      "rows() gave every number with a point, 1.0, and tables had 1e+05",
      "an integer of the script stays one, and tables have 100000",
      "files of such columns, and what a script prints of them"},
+    {Law::asked_error, "0.2.0", "errors that are asked for",
+     "`error` of `accuracy` was judged by two grids that agree, from 64 cells on, and a corrected area was "
+     "that of the nodes less the same for every edge",
+     "grids are tried from 16 cells on, and a corrected area of half-spaces lies within an outline between "
+     "the nodes",
+     "cells, tolerance and costs of such presses, their corrected areas, and all that follows them"},
 }};
 
 constexpr bool each_in_its_place() {

@@ -138,6 +138,20 @@ of_version 0.1.0 pair rough
 sed -i '/"notebook":"before"/s/"Ra":[0-9.e-]*/"Ra":0.5/' rough/journal.jsonl
 ends 1 "rough: one difference that no changed law explains" "$program" replay rough --out rough-again
 
+# The corrected area of an error that is asked for lies within an outline since.
+cat > asked.lua <<'LUA'
+local lab = require "asperity"
+local ball = lab.surface.sphere{ cells = 64, size = 1e-3, radius = 0.03, material = lab.material{ young = 1e11, poisson = 0 } }
+local c = lab.contact{ lower = ball, upper = lab.rigid, boundary = "free", effects = { elasticity = "half_space" },
+  accuracy = { error = 0.1 } }
+lab.notebook "after":write{ area = c:press{ pressure = 4e7 }.corrected_area_fraction }
+LUA
+"$program" run asked.lua --out asked > printed 2>&1
+of_version 0.1.0 asked other
+sed -i '/"notebook":"after"/s/"area":[0-9.e-]*/"area":0.1/' other/journal.jsonl
+ends 0 "other: one difference that a changed law explains" "$program" replay other --out other-again
+says "by        errors that are asked for" output
+
 # Two versions never write one record.
 of_version 0.1.0 run begun
 sed -i 's/"status": "done"/"status": "running"/' begun/manifest.json
