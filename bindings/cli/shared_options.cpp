@@ -97,7 +97,17 @@ std::optional<double> seconds_of(const std::string& text) {
 
 GivenKnobs knobs_of(const std::vector<std::string>& texts) {
   GivenKnobs knobs;
-  for (const std::string& text : texts) add_given_knob(knobs, text);
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error(ErrorCode::bad_value, "`--knob` is " + asperity::quoted(text),
+                  "give a name and its value, as in --knob pressure=\"50 MPa\"");
+    try {
+      give_knob(knobs, text.substr(0, equals), text.substr(equals + 1));
+    } catch (const Error& error) {
+      throw Error(error.code(), "`--knob`: " + error.sentence(), error.hint());
+    }
+  }
   return knobs;
 }
 

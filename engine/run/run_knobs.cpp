@@ -57,20 +57,19 @@ std::string bounds_text(const RunKnob& knob) {
   return shown_knob_value(knob.from, knob.dimension) + " to " + shown_knob_value(knob.to, knob.dimension);
 }
 
-void add_given_knob(GivenKnobs& given, const std::string& text) {
-  const std::size_t equals = text.find('=');
-  const std::string name = text.substr(0, equals);
-  if (equals == std::string::npos || !is_knob_name(name))
-    throw Error(ErrorCode::bad_value, "`--knob` is " + quoted(text),
-                "give a name and its value, as in --knob pressure=\"50 MPa\"");
-  const std::string value = without_quotes(text.substr(equals + 1));
+void give_knob(GivenKnobs& given, const std::string& name, const std::string& text) {
+  if (!is_knob_name(name))
+    throw Error(ErrorCode::bad_value, quoted(name.substr(0, longest_name)) + " is no name of a knob",
+                "a name has at most 60 characters, without =, quotes and blanks at its ends");
+  const std::string value = without_quotes(text);
   try {
     (void)parse_quantity(value);
   } catch (const Error& error) {
-    throw Error(ErrorCode::bad_value, "`--knob` " + name + ": " + error.sentence(), error.hint());
+    throw Error(ErrorCode::bad_value, "the knob " + quoted(name) + ": " + error.sentence(), error.hint());
   }
   if (!given.emplace(name, value).second)
-    throw Error(ErrorCode::bad_value, "`--knob` " + name + " is given twice", "leave one of them out");
+    throw Error(ErrorCode::bad_value, "the knob " + quoted(name) + " is given twice",
+                "leave one of them out");
 }
 
 GivenKnobs given_knobs(const Json& recorded) {
@@ -169,7 +168,7 @@ void RunKnobs::check_all_made() const {
   for (const auto& [name, given] : given_) {
     if (met_.contains(name) || std::ranges::find(names, name) != names.end()) continue;
     throw Error(ErrorCode::unknown_name,
-                "`--knob` gave " + quoted(name) + ", and no line of the script made such a knob" +
+                "the knob " + quoted(name) + " was set, and no line of the script made such a knob" +
                     did_you_mean(name, names),
                 names.empty() ? "the script made no knobs" : "its knobs are " + joined(listed, " and "));
   }

@@ -35,9 +35,9 @@ std::string bounds_text(const RunKnob& knob);
 
 // Values that were given, by the names of their knobs, as text: "50 MPa", or a plain number, which is SI.
 using GivenKnobs = std::map<std::string, std::string>;
-// "pressure=50 MPa" or "pressure=\"50 MPa\"". Throws Error{bad_value} for a text without `=` or name, for a
-// value that is no quantity, and for a name that was given before.
-void add_given_knob(GivenKnobs& given, const std::string& text);
+// Sets one; `text` may stand in quotes. Throws Error{bad_value} for what can be no name, for a text that is
+// no quantity, and for a name that was given before.
+void give_knob(GivenKnobs& given, const std::string& name, const std::string& text);
 // Of the member `knobs` of a manifest.
 GivenKnobs given_knobs(const Json& recorded);
 // As given_knobs() reads it: each with its value alone.

@@ -94,7 +94,7 @@ TEST_F(KnobTest, OneThatWasGivenAndNotMadeIsAnError) {
   } catch (const Error& error) {
     EXPECT_STREQ(
         error.what(),
-        "`--knob` gave `presure`, and no line of the script made such a knob (did you mean `pressure`?); "
+        "the knob `presure` was set, and no line of the script made such a knob (did you mean `pressure`?); "
         "its knobs are pressure (1 MPa to 200 MPa)");
   }
 }
@@ -181,13 +181,30 @@ TEST_F(KnobTest, IsRecordedWithItsBounds) {
   EXPECT_EQ(given_knobs(*knobs), (GivenKnobs{{"pressure", "5e+07"}}));
 }
 
-TEST(GivenKnobTest, IsReadFromACommandLine) {
+TEST(GivenKnobTest, HasANameAndAQuantity) {
   GivenKnobs given;
-  add_given_knob(given, "pressure=\"50 MPa\"");
-  add_given_knob(given, "n=3");
+  give_knob(given, "pressure", "\"50 MPa\"");
+  give_knob(given, "n", "3");
   EXPECT_EQ(given, (GivenKnobs{{"n", "3"}, {"pressure", "50 MPa"}}));
-  for (const char* bad : {"pressure", "=3", "n=4", "m=", "m=fast", "m=5 Mpp"})
-    EXPECT_THROW(add_given_knob(given, bad), Error) << bad;
+  const auto refusal = [&](const std::string& name, const std::string& text) -> std::string {
+    try {
+      give_knob(given, name, text);
+      return "no error";
+    } catch (const Error& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refusal("n", "4"), "the knob `n` is given twice; leave one of them out");
+  EXPECT_EQ(refusal("", "3"),
+            "`` is no name of a knob; a name has at most 60 characters, without =, quotes and blanks at its "
+            "ends");
+  for (const char* bad : {"m=1", " m", "m\n", "\"m\""})
+    EXPECT_NE(refusal(bad, "3").find("is no name of a knob"), std::string::npos) << bad;
+  for (const char* bad : {"", "fast", "5 Mpp"}) {
+    // Who gives it by the page or in the prompt knows no options.
+    EXPECT_TRUE(refusal("m", bad).starts_with("the knob `m`: ")) << refusal("m", bad);
+    EXPECT_EQ(refusal("m", bad).find("--"), std::string::npos) << refusal("m", bad);
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the page asks and is told.
 import base64
+import json
 import os
 import struct
 import time
@@ -107,9 +108,13 @@ def test_knobs_are_given_with_a_run():
         run = begun({"q": "1"}).json()["id"]
         end = finished(server.events(run))
         assert end["status"] == "failed", end
+        # Who moves a slider knows no options of a command line.
+        told = [end["reason"]] + [event["message"] for event in of_type(server.events(run), "error")]
+        assert "the knob `q` was set" in told[0] and not any("--" in words for words in told), told
         for wrong in ([], "p", {"p": 5}, {"p": "fast"}, {"p=q": "1"}, {"": "1"}, {"p": "1" * 200},
                       {f"p{k}": "1" for k in range(101)}):
-            assert begun(wrong).status == 400, wrong
+            answer = begun(wrong)
+            assert answer.status == 400 and "--" not in json.dumps(answer.json()), (wrong, answer.json())
 
 
 def test_views_are_block_means_and_say_so():

@@ -61,14 +61,12 @@ GivenKnobs knobs_member(const Json& body, const std::string& key) {
                 "give at most " + std::to_string(most));
   GivenKnobs knobs;
   for (const auto& [name, value] : members) {
-    if (name.find('=') != std::string::npos)
-      throw Error(ErrorCode::bad_value, asperity::quoted(name) + " is no name of a knob");
     if (!value.is_string())
       throw Error(ErrorCode::bad_value, "the value of " + asperity::quoted(name) + " is no text",
-                  "give it as one that `--knob` takes, such as \"50 MPa\"");
+                  "give a number with its unit in quotes, such as \"50 MPa\"");
     if (value.string().size() > longest)
       throw Error(ErrorCode::bad_value, "the value of " + asperity::quoted(name) + " is too long");
-    add_given_knob(knobs, name + "=" + value.string());
+    give_knob(knobs, name, value.string());
   }
   return knobs;
 }

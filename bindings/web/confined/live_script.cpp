@@ -70,8 +70,7 @@ Question question_in(const std::string& text) {
   };
   Question question;
   question.move = static_cast<std::int64_t>(member("move").number());
-  for (const auto& [name, value] : member("knobs").members())
-    add_given_knob(question.knobs, name + "=" + value.string());
+  for (const auto& [name, value] : member("knobs").members()) give_knob(question.knobs, name, value.string());
   question.view = member("view").string();
   return question;
 }
