@@ -125,6 +125,39 @@ def test_mistakes_end_no_session():
         assert "`tab` is no text" in server.ask("POST", "/api/live", {"script": script, "tab": 3}).json()["error"]["message"]
 
 
+# Its status, what it had printed and warned of, and its tables; another move is answered by the same process.
+def test_a_script_that_ends_itself_is_answered():
+    with Server(runner.program) as server:
+        live = begin(server, pressed + """
+io.write("no newline")
+if p > 1.5e8 then os.exit(3) end
+if p > 1.2e8 then os.exit() end
+if p > 1.1e8 then pcall(os.exit, false) end
+if p > 1.0e8 then coroutine.wrap(function() pcall(os.exit, 4) while true do end end)() end
+print(" and its end")
+""")
+        first = whole(move(server, live))
+        process = children_of(server.process.pid)
+        assert "exit" not in first and not events(first, "error"), first
+        assert events(first, "output")[0]["text"] == "at\t20000000.0\nno newline and its end\n", first
+        for pressure, status in (("160 MPa", 3), ("130 MPa", 0), ("115 MPa", 1), ("105 MPa", 4), ("160 MPa", 3)):
+            ended = whole(move(server, live, pressure=pressure))
+            assert ended["exit"] == status, ended
+            value = float(pressure.split()[0]) * 1e6
+            assert events(ended, "output")[0]["text"] == f"at\t{value}\nno newline", ended
+            assert events(ended, "row")[0]["row"]["p"] == value, ended
+            assert ended["knobs"]["pressure"]["value"] == value, ended
+            assert ended["view"]["name"] == "press-1" and len(ended["numbers"][0]) == 64 * 64
+            messages = [event["message"] for event in events(ended, "error")]
+            assert messages == ([f"the script ended itself by os.exit({status})"] if status else []), ended
+        assert (ended["computed"], ended["recalled"]) == (0, 2), "computed before, and in memory"
+        assert whole(move(server, live, pressure="20 MPa"))["recalled"] == 2
+        assert children_of(server.process.pid) == process
+        # One that names a knob it does not make is told so, however it ends.
+        unmade = whole(move(server, begin(server, "print(1) os.exit()"), n="1"))
+        assert unmade["exit"] == 0 and "`n`" in events(unmade, "error")[0]["message"], unmade
+
+
 def test_a_newer_move_ends_an_endless_one():
     with Server(runner.program) as server:
         live = begin(server, endless)

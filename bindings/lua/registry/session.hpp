@@ -72,7 +72,9 @@ class Session {
   std::shared_ptr<Mistakes> mistakes;
   // What the calls of this state cost; the states of an ensemble's cases share the ledger of the ensemble.
   std::shared_ptr<Ledger> ledger = std::make_shared<Ledger>();
-  std::function<void(int)> exit_hook;      // what os.exit(code) does before the process ends
+  // What os.exit(code) does before the process ends; where it throws Error{interrupted} the process does not,
+  // and the script must have been interrupted.
+  std::function<void(int)> exit_hook;
   bool with_other_ranks = false;           // in a function that other ranks wait for: os.exit is an error
   std::FILE* output = stdout;              // where print goes; a buffer in a case
   std::map<std::string, int> studies;      // names given to studies of work and precision, and how often

@@ -117,7 +117,7 @@ int mistaken(lua_State* L) {
   return 2;
 }
 
-// Ends the process; where it must not, why.
+// Ends the process; where it must not, or the hook ends the script alone, why.
 const char* exit_body(lua_State* L, int code) {
   const Session& session = Session::of(L);
   if (session.is_case) return "a case of an ensemble cannot end the run";
@@ -125,6 +125,10 @@ const char* exit_body(lua_State* L, int code) {
     return "this function cannot end the run: other ranks wait for what it gives; raise an error in it";
   try {
     if (session.exit_hook) session.exit_hook(code);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::interrupted) return "interrupted";
+    std::fprintf(stderr, "asperity: %s\n", error.what());
+    if (code == 0) code = 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "asperity: %s\n", error.what());
     if (code == 0) code = 1;

@@ -236,6 +236,7 @@ class LiveScript {
     std::vector<Seen> seen;
     std::size_t left_out = 0;
     std::string failure;
+    std::optional<int> exit;  // what the script gave os.exit
   };
 
   void answer(const Question& question) {
@@ -316,7 +317,7 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
   const ResultMemory::Counts now = memory_.counts();
   if (pass.factor == 1 && (seconds > whole_seconds_ || now.missed > before.missed))
     whole_seconds_ = std::exchange(first_, false) ? 0 : seconds;
-  if (stopped == StopReason::interrupt) {
+  if (stopped == StopReason::interrupt && !found.exit) {
     say_outdated(question);
     return true;
   }
@@ -333,14 +334,15 @@ bool LiveScript::pass(const Question& question, const Pass& pass) {
   }
   // On cells that the script does not name a mistake may be of the cells: the whole answer says.
   if (pass.factor < 1 && !found.failure.empty()) return false;
-  say(question, pass, std::move(found),
-      Json::object({{"move", question.move},
-                    {"part", pass.factor < 1 ? "coarse" : "whole"},
-                    {"factor", pass.factor},
-                    {"seconds", seconds},
-                    {"computed", now.missed - before.missed},
-                    {"recalled", now.found - before.found},
-                    {"knobs", std::move(knobs)}}));
+  Json answer = Json::object({{"move", question.move},
+                              {"part", pass.factor < 1 ? "coarse" : "whole"},
+                              {"factor", pass.factor},
+                              {"seconds", seconds},
+                              {"computed", now.missed - before.missed},
+                              {"recalled", now.found - before.found},
+                              {"knobs", std::move(knobs)}});
+  if (found.exit) answer.set("exit", *found.exit);
+  say(question, pass, std::move(found), std::move(answer));
   return true;
 }
 
@@ -382,19 +384,13 @@ std::string LiveScript::run_script(const Question& question, const Pass& pass, L
         ++found.left_out;
     }
   };
+  // The script ends and the process does not: the next move finds what it has computed.
+  lua_State* running_state = nullptr;
   session.exit_hook = [&](int code) {
-    // The process ends with the script; who moves a knob again starts another.
-    if (const std::string text = printed_.text(); !text.empty())
-      found.events.push_back(output_event("out", text));
-    say(question, pass, std::move(found),
-        Json::object({{"move", question.move},
-                      {"part", "whole"},
-                      {"factor", pass.factor},
-                      {"seconds", 0},
-                      {"computed", 0},
-                      {"recalled", 0},
-                      {"knobs", session.knobs->json()}}));
-    std::_Exit(code);
+    found.exit = code;
+    stop_flag().raise(StopReason::interrupt);
+    lua::interrupt(running_state);
+    throw Error(ErrorCode::interrupted, "the script ended itself");
   };
   if (pass.factor < 1) {
     session.refinement = std::make_shared<lua::Refinement>();
@@ -409,11 +405,15 @@ std::string LiveScript::run_script(const Question& question, const Pass& pass, L
     send(Json::object({{"move", question.move}, {"part", "ended"}, {"why", limit_text()}}), {});
   });
   const lua::State state = cli::make_state(session, command);
+  running_state = state.get();
   const cli::Watchdog::Watching watching(watchdog, state.get());
   const Questions::Running running(questions_, state.get(), pass.makes_way);
   const bool good = cli::execute(state.get(), command, request_.script, 0) == LUA_OK;
   knobs = session.knobs->json();
-  return good ? cli::unmade_knobs(session) : lua::placed_memory_error(lua::error_text(state.get(), -1));
+  if (found.exit && *found.exit != 0)
+    return "the script ended itself by os.exit(" + std::to_string(*found.exit) + ")";
+  return good || found.exit ? cli::unmade_knobs(session)
+                            : lua::placed_memory_error(lua::error_text(state.get(), -1));
 }
 
 void LiveScript::say(const Question& question, const Pass&, Found found, Json answer) {

@@ -7,8 +7,10 @@
 // precision: {move, part, factor, cells, seconds, computed, recalled, events, views, view}. `part` is
 // "coarse" where every `cells` of the script was multiplied by `factor`, after which the whole answer
 // follows; "whole"; or "outdated" where a newer question ended the run. `events` are those of a run
-// (event_channel.hpp). What does not show is left out: no picture is drawn by gnuplot, nothing is recorded,
-// and what the script writes is gone with the next run.
+// (event_channel.hpp). A script that ends itself by os.exit(n) is answered with what it found until then and
+// `exit`, n; where n is not 0, an error among the events says so. Its process stays, and the next move runs
+// the script again. What does not show is left out: no picture is drawn by gnuplot, nothing is recorded, and
+// what the script writes is gone with the next run.
 #pragma once
 
 #include "bindings/web/confined/confined.hpp"
