@@ -1,7 +1,9 @@
 -- SPDX-License-Identifier: GPL-3.0-or-later
 -- A prediction beside what was found, in one line: `require "asperity.guess"{ said = my_guess.percent, found = 0.26,
 -- of = "the share that touches", unit = "%" }`. Where nothing was said, nothing is printed. A guess is a number, or
--- a string with one and perhaps its unit ("10 %"); what is no number is answered, not passed over.
+-- a string with one and perhaps its unit ("10 %"); what is no number is answered, not passed over. Of several guesses
+-- in a table `guess.names(my_guess, "percent", "growth")` says their names: another key is an error before anything is
+-- computed, as nobody would compare it.
 local keys = { said=true, found=true, of=true, unit=true, near=true }
 
 -- The number in a guess; nil where there is none, or where another unit stands behind it.
@@ -23,7 +25,7 @@ local function verdict(number, found, near)
   return ratio > 1 and ("%.2g times too much"):format(ratio) or ("%.2g times too little"):format(1 / ratio)
 end
 
-return function(guess)
+local function compare(_, guess)
   for key in pairs(guess) do
     if not keys[key] then error("a guess has no key `" .. tostring(key) .. "`", 2) end
   end
@@ -38,3 +40,23 @@ return function(guess)
   print(("You said %g%s of %s: it is %.3g%s, %s."):format(number, unit, guess.of, guess.found, unit,
     verdict(number, guess.found, guess.near or 0.2)))
 end
+
+local function names(said, ...)
+  local known = { ... }
+  local form = "{ " .. table.concat(known, "=, ") .. "= }"
+  if type(said) ~= "table" then
+    error(("my_guess is %s; give its numbers by name, as in %s"):format(tostring(said), form), 2)
+  end
+  local asked, strange = {}, {}
+  for _, name in ipairs(known) do asked[name] = true end
+  for key in pairs(said) do
+    if not asked[key] then strange[#strange + 1] = math.type(key) and ("[%s]"):format(key) or tostring(key) end
+  end
+  table.sort(strange)
+  if #strange > 0 then
+    error(("my_guess has `%s`, which the lesson does not ask for; its names are %s"):format(
+      table.concat(strange, "` and `"), table.concat(known, " and ")), 2)
+  end
+end
+
+return setmetatable({ names=names }, { __call=compare })

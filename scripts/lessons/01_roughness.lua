@@ -26,6 +26,7 @@ local guess = require "asperity.guess"
 local prose = require "asperity.prose"
 local um = lab.units.um
 local my_guess = { Ra=nil, slope=nil } -- shares between 0 and 1
+guess.names(my_guess, "Ra", "slope")
 local scanned, hurst = "fine", 0.5
 
 -- 1. Three faces, 100 um wide, with Ra = 0.5 um. They differ in their

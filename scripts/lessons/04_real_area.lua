@@ -29,6 +29,7 @@ local guess = require "asperity.guess"
 local prose = require "asperity.prose"
 local MPa, um = lab.units.MPa, lab.units.um
 local my_guess = { percent=nil, growth=nil }
+guess.names(my_guess, "percent", "growth")
 local metal = lab.material "Al-2011"
 local slope = 0.1
 assert(metal.hardness, "this material has no hardness: choose another,"

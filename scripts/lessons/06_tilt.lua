@@ -28,6 +28,7 @@ local guess = require "asperity.guess"
 local prose = require "asperity.prose"
 local MPa, deg = lab.units.MPa, lab.units.deg
 local my_guess = { halved=nil, heavy=nil } -- in degrees
+guess.names(my_guess, "halved", "heavy")
 local alpha = 0.1
 local law = lab.friction{ tau0="300 MPa", alpha=alpha }
 local aluminium, quartz = lab.material "Al-2011", lab.material "quartz"

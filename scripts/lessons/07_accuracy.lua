@@ -27,6 +27,7 @@
 local lab = require "asperity"
 local guess = require "asperity.guess"
 local my_guess = { scatter=nil, cells=nil } -- both in per cent
+guess.names(my_guess, "scatter", "cells")
 local quantity = "approach" -- or "corrected_area_fraction", "energy"
 local steel = lab.material "steel"
 

@@ -31,6 +31,7 @@ local guess = require "asperity.guess"
 local prose = require "asperity.prose"
 local um, MPa = lab.units.um, lab.units.MPa
 local my_guess = { lightly=nil, hard=nil } -- area, honed over cast
+guess.names(my_guess, "lightly", "hard")
 local cut, seed = 0.5, 3
 
 -- 1. A face whose hills are cut away, with a finer one on top, and its
