@@ -15,7 +15,7 @@ local arguments = require "asperity.arguments"
 local options = arguments({ budget = 30 }, ...)
 local radius, modulus, load, side = 20, 102, 15, 5
 local exact = lab.exact.hertz{ radius = radius, modulus = modulus, load = load }
-local body = lab.material{ young = modulus, poisson = 0 }
+local body = lab.material{ young = modulus .. " Pa", poisson = 0 } -- any unit: ratios alone count
 
 local function approach(knobs)
   local ball <close> = lab.surface.sphere{
