@@ -23,27 +23,70 @@ bool is_failed_cell(std::string_view text) {
   return std::ranges::any_of(failed, [text](std::string_view word) { return text.starts_with(word); });
 }
 
-// Cells with their quotes taken off; a doubled quote inside stands for one. `open` tells whether the last
-// one's quote is not closed.
-std::vector<TableCell> split_at(std::string_view line, Separator separator, bool* open = nullptr) {
+// Where cells begin as far as the separators are known: the quote that begins a cell holds line ends too.
+class QuoteScan {
+ public:
+  // `marks` part the cells.
+  explicit QuoteScan(std::string_view marks) : marks_(marks) {}
+  void take(std::string_view text) {
+    for (std::size_t k = 0; k < text.size(); ++k) {
+      const char c = text[k];
+      if (inside_) {
+        if (c != '"') continue;
+        if (k + 1 < text.size() && text[k + 1] == '"')
+          ++k;
+        else
+          inside_ = false;
+      } else if (marks_.find(c) != std::string_view::npos) {
+        begins_ = true;
+      } else if (c == '"' && begins_) {
+        inside_ = true;
+        begins_ = false;
+      } else if (!is_space(c)) {
+        begins_ = false;
+      }
+    }
+  }
+  bool is_inside() const { return inside_; }
+
+ private:
+  std::string_view marks_;
+  bool inside_ = false, begins_ = true;
+};
+
+// Cells with their quotes taken off; a doubled quote inside stands for one, and an end of a line for \n.
+// `open`: the quote of the last cell is not closed; `words_after`: one is closed before its cell ends.
+struct Quotes {
+  bool open = false, words_after = false;
+};
+std::vector<TableCell> split_at(std::string_view line, Separator separator, Quotes* quotes = nullptr) {
   const bool blanks = separator == Separator::blank;
   const auto parts = [&](char c) { return blanks ? is_space(c) : c == mark_of(separator); };
   std::vector<TableCell> cells(1);
   std::string plain;
-  bool inside = false;
+  bool inside = false, words_after = false;
   const auto finish = [&] {
-    if (!cells.back().quoted) cells.back().text = std::string(trimmed(plain));
+    if (!cells.back().quoted)
+      cells.back().text = std::string(trimmed(plain));
+    else if (!trimmed(plain).empty())
+      words_after = true;
     plain.clear();
   };
   for (std::size_t k = 0; k < line.size(); ++k) {
     TableCell& cell = cells.back();
     if (inside) {
-      if (line[k] != '"')
+      if (line[k] == '\r') {
+        // CRLF and CR CRLF are one end, CR alone is one each; looked for once a run.
+        const std::size_t end = std::min(line.find_first_not_of('\r', k), line.size());
+        if (end == line.size() || line[end] != '\n') cell.text.append(end - k, '\n');
+        k = end - 1;
+      } else if (line[k] != '"') {
         cell.text += line[k];
-      else if (k + 1 < line.size() && line[k + 1] == '"')
+      } else if (k + 1 < line.size() && line[k + 1] == '"') {
         cell.text += line[++k];
-      else
+      } else {
         inside = false;
+      }
     } else if (line[k] == '"' && trimmed(plain).empty() && !cell.quoted) {
       inside = cell.quoted = true;
     } else if (parts(line[k])) {
@@ -55,7 +98,7 @@ std::vector<TableCell> split_at(std::string_view line, Separator separator, bool
     }
   }
   finish();
-  if (open) *open = inside;
+  if (quotes) *quotes = {inside, words_after};
   if (blanks && cells.size() > 1 && cells.back().text.empty() && !cells.back().quoted) cells.pop_back();
   return cells;
 }
@@ -147,15 +190,37 @@ std::vector<TableCell> TableLines::heads_between_blanks(std::string_view line, s
   return joined;
 }
 
+bool TableLines::next_record(LineReader& lines, std::string_view& record, std::size_t& number) const {
+  if (!lines.next(record)) return false;
+  number = lines.number();
+  if (record.find('"') == std::string_view::npos || is_comment(record)) return true;
+  QuoteScan scan(!marks_known_                        ? ",;\t"
+                 : separator_ == Separator::blank     ? " \t"
+                 : separator_ == Separator::tab       ? "\t"
+                 : separator_ == Separator::semicolon ? ";"
+                                                      : ",");
+  scan.take(without_comment(record));
+  LineReader ahead = lines;
+  for (std::string_view more; scan.is_inside() && ahead.next(more);) {
+    scan.take(more);
+    if (scan.is_inside()) continue;
+    record = {record.data(), static_cast<std::size_t>(more.data() + more.size() - record.data())};
+    lines = ahead;
+  }
+  return true;
+}
+
 bool TableLines::read_heads() {
   const auto holds = [](std::string_view text, char mark) {
     return find_unquoted(text, mark) != std::string_view::npos;
   };
   std::string_view line;
   LineReader before = lines_;
+  if (form_.separator) separator_ = *form_.separator;
+  marks_known_ = form_.separator.has_value();
   do {
     before = lines_;
-    if (!lines_.next(line)) return false;
+    if (!next_record(lines_, line, line_)) return false;
     if (lower_case(trimmed(line)).starts_with("sep=")) line = {};  // a note of spreadsheets to themselves
   } while (is_comment(line));
   line = without_comment(line);
@@ -163,14 +228,14 @@ bool TableLines::read_heads() {
   if (heads_are_given()) {
     next = line;
     lines_ = before;
+    line_ = lines_.number();
   } else {
-    for (LineReader ahead = lines_; ahead.next(next) && is_comment(next); next = {}) {
+    std::size_t number = 0;
+    for (LineReader ahead = lines_; next_record(ahead, next, number) && is_comment(next); next = {}) {
     }
     next = without_comment(next);
   }
-  if (form_.separator) {
-    separator_ = *form_.separator;
-  } else {
+  if (!form_.separator) {
     separator_ = holds(line, ';')    ? Separator::semicolon
                  : holds(line, '\t') ? Separator::tab
                                      : Separator::comma;
@@ -186,6 +251,7 @@ bool TableLines::read_heads() {
         (heads_are_given() || (!holds(next, ',') || separator_of(next) == Separator::blank)))
       separator_ = Separator::blank;
   }
+  marks_known_ = true;
   head_line_ = line;
   if (heads_are_given()) {
     for (const std::string& head : form_.heads) heads_.push_back({head, false});
@@ -193,7 +259,10 @@ bool TableLines::read_heads() {
     return true;
   }
   heads_ = separator_ == Separator::blank ? heads_between_blanks(line, next) : split(line);
-  for (TableCell& head : heads_) head.text = utf8_or_latin1(head.text);
+  for (TableCell& head : heads_) {
+    head.text = utf8_or_latin1(head.text);
+    std::ranges::replace(head.text, '\n', ' ');  // "load", and "[kN]" in a second line of the cell
+  }
   while (!heads_.empty() && heads_.back().text.empty()) heads_.pop_back();
   below_ = split(next);
   return true;
@@ -201,33 +270,49 @@ bool TableLines::read_heads() {
 
 void TableLines::skip_below() {
   std::string_view line;
-  while (lines_.next(line) && is_comment(line)) {
+  while (next_record(lines_, line, line_) && is_comment(line)) {
   }
 }
 
 bool TableLines::next_row(std::vector<TableCell>& cells) {
-  for (std::string_view line; lines_.next(line);) {
+  for (std::string_view line; next_record(lines_, line, line_);) {
     if (is_comment(line)) continue;
     // A # begins a comment unless the row is only whole with what follows it: "sample #3".
-    bool open = false;
-    cells = split_at(without_comment(line), separator_, &open);
-    if (cells.size() != heads_.size()) cells = split_at(line, separator_, &open);
-    if (open && (cells.size() == heads_.size() || !at_end_of_table()))
-      refuse_file(file_, "has a quote in " + here() + " that is not closed there",
-                  "write the table without line ends inside its cells");
-    if (is_blank(cells)) continue;
+    Quotes quotes;
+    cells = split_at(without_comment(line), separator_, &quotes);
+    if (cells.size() != heads_.size()) cells = split_at(line, separator_, &quotes);
+    if (is_blank(cells) && !quotes.open) continue;
     while (cells.size() > heads_.size() && cells.back().text.empty()) cells.pop_back();
+    const bool whole = cells.size() == heads_.size();
+    if (quotes.open && (whole || !at_end_of_table()))
+      refuse_file(file_, "has a quote in " + here() + " that is closed nowhere",
+                  "close it at the end of its cell, or take it out");
+    if (lines_.number() > line_ && (whole ? quotes.words_after : !at_end_of_table()))
+      refuse_file(file_,
+                  "has a quote in " + here() + " that is closed in line " + std::to_string(lines_.number()) +
+                      " only, where " +
+                      (whole ? "no cell ends"
+                             : "the row has " + std::to_string(cells.size()) + " cells under " +
+                                   std::to_string(heads_.size()) + (heads_.size() == 1 ? " head" : " heads")),
+                  "close the quote at the end of its cell, or take it out");
     return true;
   }
   return false;
 }
 
+bool TableLines::next_line(std::string_view& line) {
+  const bool there = lines_.next(line);
+  line_ = lines_.number();
+  return there;
+}
+
 bool TableLines::at_end_of_table() const {
   if (line() < whole_row_) return false;
   LineReader ahead = lines_;
-  for (std::string_view line; ahead.next(line);)
+  std::size_t number = 0;
+  for (std::string_view line; next_record(ahead, line, number);)
     if (!is_comment(line) && split(without_comment(line)).size() == heads_.size()) {
-      whole_row_ = ahead.number();
+      whole_row_ = number;
       return false;
     }
   return true;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The lines of a table in a text file, taken apart into cells: UTF-8, UTF-16 or one byte a character;
-// comments
-// (#) and blank lines left out; a line of heads, or heads that were given; cells parted by semicolons, tabs,
-// commas or blanks, whichever the heads are, and quoted where need be. What the cells mean is for its users.
+// comments (#) and blank lines left out; a line of heads, or heads that were given; cells parted by
+// semicolons, tabs, commas or blanks, whichever the heads are, and quoted where need be, over several lines
+// too (RFC 4180). What the cells mean is for its users.
 #pragma once
 
 #include <cstddef>
@@ -39,17 +39,19 @@ class TableLines {
   void skip_below();
 
   // The next row as it stands, parted and without empty cells beyond the heads; blank lines and comments are
-  // left out. False at the end.
+  // left out. False at the end. Throws Error{bad_file} where a quote is not closed, or so late that the row
+  // has not as many cells as there are heads.
   bool next_row(std::vector<TableCell>& cells);
   // The next line, whatever it is; false at the end.
-  bool next_line(std::string_view& line) { return lines_.next(line); }
+  bool next_line(std::string_view& line);
   // Whether nothing that follows has as many cells as there are heads: what is left stands below the table.
   // In all linear in the lines.
   bool at_end_of_table() const;
   // Whether a line that follows holds nothing but numbers, two or more. Linear in what follows.
   bool numbers_follow() const;
 
-  std::size_t line() const { return lines_.number(); }
+  // In which the last row begins.
+  std::size_t line() const { return line_; }
   std::size_t position() const { return lines_.position(); }
   std::string here() const { return "line " + std::to_string(line()); }
   // Cells of a line, parted by the separator.
@@ -60,12 +62,17 @@ class TableLines {
 
  private:
   std::vector<TableCell> heads_between_blanks(std::string_view line, std::string_view next) const;
+  // The next line and those into which its quoted cells go on; `number` is that of the first. A quote that is
+  // closed nowhere ends with its line. False at the end.
+  bool next_record(LineReader& lines, std::string_view& record, std::size_t& number) const;
 
   const SourceFile& file_;
   const TableForm& form_;
   std::optional<std::string> decoded_;
   LineReader lines_;
+  std::size_t line_ = 0;
   Separator separator_ = Separator::comma;
+  bool marks_known_ = false;  // that separator_ is the table's
   std::string_view head_line_;
   std::vector<TableCell> heads_, below_;
   mutable std::size_t whole_row_ = 0;  // a line that is known to be one

@@ -226,6 +226,11 @@ std::string table_text(const Table& table, std::size_t most) {
                                               : short_text(cell));
     }
   }
+  // A cell of several lines stands in one, or the columns part.
+  for (std::vector<std::string>& line : lines)
+    for (std::string& cell : line)
+      std::ranges::replace_if(
+          cell, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
   std::string text = table.name() + ": " + std::to_string(table.rows()) +
                      (table.rows() == 1 ? " row of " : " rows of ") + std::to_string(table.columns().size()) +
                      (table.columns().size() == 1 ? " column" : " columns");

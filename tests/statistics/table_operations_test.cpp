@@ -94,6 +94,8 @@ TEST(TableOperations, TextIsInReadableUnitsAndEnds) {
   EXPECT_EQ(
       table_text(Table({{"N", ""}, {"load", "N"}}, {{std::int64_t{1}, 2500.0}, {std::int64_t{10}, Cell()}})),
       "the notebook: 2 rows of 2 columns\n   N load [kN]\n   1       2.5\n  10          ");
+  EXPECT_EQ(table_text(Table({{"a", ""}, {"b", ""}}, {{std::string("x\ny"), std::string("z")}})),
+            "the notebook: 1 row of 2 columns\n    a b\n  x y z");
   EXPECT_EQ(table_text(Table({{"N", ""}}, {{1.0}, {2.0}, {3.0}}), 1),
             "the notebook: 3 rows of 1 column\n  N\n  1\n  and 2 more");
 }

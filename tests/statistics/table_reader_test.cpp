@@ -193,13 +193,54 @@ TEST(TableReader, NoRowIsLostToWhatASpreadsheetWrites) {
             "line 3, column 2 (b): \"#VALUE!\" is no nu");
   EXPECT_EQ(csv("a,b\n1,2\n3,#N/A\n#N/A,4\n"), "a,b\n1,2\n3,\n,4\n");
   EXPECT_EQ(csv("a,b\n1,2\n# 3,4\n5,6\n"), "a,b\n1,2\n5,6\n");
-  // A cell of two lines, and lines above a table that look like one of one column.
-  EXPECT_EQ(
-      refusal("a,b\n1,\"x\ny\"\n2,z\n"),
-      "has a quote in line 2 that is not closed there; write the table without line ends inside its cells");
+  // Lines above a table that look like one of one column.
   EXPECT_EQ(refusal("Machine\nOp Li\n\na [N],b\n1,2\n").substr(0, 100),
             "has 2 problems\n  line 4: there are 2 cells under 1 head; lines above the heads are left out by "
             "skip=");
+}
+
+TEST(TableReader, QuotedCellsGoOnOverLines) {
+  const std::string table = "a,b\n1,\"x\ny\"\n2,z\n";
+  EXPECT_EQ(csv("a,b\n1,\"x\ny\"\n2,z\n"), table);
+  EXPECT_EQ(csv("a,b\r\n1,\"x\r\ny\"\r\n2,z\r\n"), table);
+  EXPECT_EQ(csv("a,b\r\n1,\"x\ny\"\r\n2,z\r\n"), table);
+  EXPECT_EQ(csv("a,b\r1,\"x\ry\"\r2,z\r"), table);
+  EXPECT_EQ(csv("a;b\n1; \"x\ny\" # why\n2;z"), table);
+  EXPECT_EQ(csv("a\tb\n1\t\"x\ny\"\n2\tz\n"), table);
+  EXPECT_EQ(read(utf16("a,b\n1,\"x\ny\"\n2,z\n", true)).csv(), table);
+  EXPECT_EQ(csv("a,b\r\r\n1,\"x\r\r\ny\"\r\r\n2,z\r\r\n"), table);
+  // Separators, doubled quotes, # and empty lines are of the cell; two such cells, and the first of its row.
+  const std::string all = "n,words,more\n1,\"x, \"\"y\"\"\n\n# no comment; z\",\"u\nv\"\n2,w,w\n";
+  EXPECT_EQ(csv(all), all);
+  EXPECT_EQ(csv("words,n\n\"x\ny\",1\n"), "words,n\n\"x\ny\",1\n");
+  // What a table writes it reads.
+  EXPECT_EQ(std::get<std::string>(read(csv("a,b\n1,\"\r\n x\n\"\n")).cell(0, 1)), "\n x\n");
+}
+
+TEST(TableReader, HeadsGoOnOverLines) {
+  EXPECT_EQ(csv("N,\"load\n[kN]\",\"d\r\n(um)\"\n1,0.1,250\n"), "N,load [N],d [m]\n1,100,0.00025\n");
+  EXPECT_EQ(csv("N;\"load\n[kN]\"\n1;0,1\n"), "N,load [N]\n1,100\n");
+  EXPECT_EQ(csv("N\t\"load\n[kN]\"\n1\t0.1\n"), "N,load [N]\n1,100\n");
+}
+
+TEST(TableReader, LinesAfterACellOfSeveralAreCountedRight) {
+  EXPECT_EQ(refusal("a [N],\"b\nc\"\n1,\"x\n\ny\"\nfast,z\n"), "line 6, column 1 (a): \"fast\" is no number");
+  EXPECT_EQ(refusal("a [N],b\n1,\"x\ny\"\nfast,\"u\nv\"\n"), "line 4, column 1 (a): \"fast\" is no number");
+  EXPECT_EQ(refusal("a [N],b\n1,\"x\ny\"\n2,z,3\n").substr(0, 39), "line 4: there are 3 cells under 2 heads");
+}
+
+TEST(TableReader, AQuoteThatIsClosedNowhereOrFarBelowIsRefused) {
+  const std::string cure = "; close it at the end of its cell, or take it out";
+  EXPECT_EQ(refusal("a,b\n1,\"x\n2,z\n"), "has a quote in line 2 that is closed nowhere" + cure);
+  const std::string far = "; close the quote at the end of its cell, or take it out";
+  EXPECT_EQ(refusal("a,b\n1,\"x\n2,y\n3,\"z\"\n"),
+            "has a quote in line 2 that is closed in line 4 only, where no cell ends" + far);
+  EXPECT_EQ(
+      refusal("a,b\n1,\"x\n2,y\n3,z\",4\n5,w\n"),
+      "has a quote in line 2 that is closed in line 4 only, where the row has 3 cells under 2 heads" + far);
+  // Inches are no quotes, and words below the table may be.
+  EXPECT_EQ(csv("a,b\n1,5\" pipe\n2,z\n"), "a,b\n1,\"5\"\" pipe\"\n2,z\n");
+  EXPECT_EQ(csv("a,b\n1,2\n\"measured\nby Li\"\n"), "a,b\n1,2\n");
 }
 
 // Lines above a table of other separators look like one of their own; a footer of words is none.
