@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/files/atomic_file.hpp"
 #include "engine/core/files/disk.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/timed_lock.hpp"
@@ -29,6 +30,11 @@ std::unique_ptr<Journal> Journal::again(std::filesystem::path path) {
   if (journal->descriptor_ < 0 && errno == ELOOP)
     throw Error(ErrorCode::bad_file, quoted(path.string()) + " is a link",
                 "a run writes its own files where they are; take the link away");
+  if (journal->descriptor_ < 0) throw_file_error("take up", path, errno);
+  // A copy of the directory by hard links (cp -al) keeps the bytes that it was made with.
+  part_from_other_names(path);
+  ::close(std::exchange(journal->descriptor_, -1));
+  journal->descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (journal->descriptor_ < 0) throw_file_error("take up", path, errno);
   JournalLines recorded = read_journal(path, true);
   const auto ended = [&] {

@@ -2,6 +2,7 @@
 #include "engine/run/run_lock.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -157,39 +158,63 @@ std::shared_ptr<RunLock> RunLock::inherited(const fs::path& folder, int descript
 
 std::shared_ptr<RunLock> RunLock::open(const fs::path& folder, int flags, const Ask& ask) {
   const fs::path file = folder / file_name;
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | flags, 0666);
-  if (descriptor < 0 && errno == ENOENT && flags == 0) return nullptr;
-  if (descriptor < 0 && errno == ELOOP)
-    throw Error(ErrorCode::bad_file, asperity::quoted(file.string()) + " is a link",
-                "a run writes its own files where they are; take the link away");
-  if (descriptor < 0) throw_file_error("lock", file, errno);
-  const std::shared_ptr<RunLock> lock(new RunLock(folder, descriptor));
-  const int reason = ask(descriptor);
-  if (reason == 0) {
-    lock->write_name();
-    return lock;
-  }
-  if (reason == EAGAIN || reason == EACCES) {
-    // Whoever has the lock writes the name next: until then the file may name one that has ended. And a child
-    // that inherited it from a holder that was killed dies a moment after that one.
-    std::optional<LockHolder> holder;
-    for (int tries = 0; tries < 50; ++tries) {
-      holder = holder_in(file);
-      if (holder && !has_ended(*holder)) break;
-      holder.reset();
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      if (ask(descriptor) != 0) continue;
+  for (int times = 0; times < 20; ++times) {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | flags, 0666);
+    if (descriptor < 0 && errno == ENOENT && flags == 0) return nullptr;
+    if (descriptor < 0 && errno == ELOOP)
+      throw Error(ErrorCode::bad_file, asperity::quoted(file.string()) + " is a link",
+                  "a run writes its own files where they are; take the link away");
+    if (descriptor < 0) throw_file_error("lock", file, errno);
+    const std::shared_ptr<RunLock> lock(new RunLock(folder, descriptor));
+    const int reason = lock->ask_patiently(ask);
+    if (reason != 0) {
+      lock->hold_by_name();
+      lock->notice_ =
+          "the file system of " + asperity::quoted(folder.string()) +
+          " gives no locks: that no two processes write there is known by the name of the last one alone";
+      return lock;
+    }
+    if (lock->is_of_this_folder_alone()) {
       lock->write_name();
       return lock;
     }
-    ::close(std::exchange(lock->descriptor_, -1));  // its name is another's: release() would take it away
-    throw_held(folder, holder, true);
   }
-  lock->hold_by_name();
-  lock->notice_ =
-      "the file system of " + asperity::quoted(folder.string()) +
-      " gives no locks: that no two processes write there is known by the name of the last one alone";
-  return lock;
+  throw Error(ErrorCode::bad_file, asperity::quoted(file.string()) + " is replaced again and again",
+              "see which other program writes there");
+}
+
+// 0 where the lock is held now; a reason where the file system gives none. Throws where another process has
+// it.
+int RunLock::ask_patiently(const Ask& ask) {
+  const fs::path file = folder_ / file_name;
+  const int reason = ask(descriptor_);
+  if (reason != EAGAIN && reason != EACCES) return reason;
+  // Whoever has the lock writes the name next: until then the file may name one that has ended. And a child
+  // that inherited it from a holder that was killed dies a moment after that one.
+  std::optional<LockHolder> holder;
+  for (int tries = 0; tries < 50; ++tries) {
+    holder = holder_in(file);
+    if (holder && !has_ended(*holder)) break;
+    holder.reset();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (ask(descriptor_) == 0) return 0;
+  }
+  ::close(std::exchange(descriptor_, -1));  // its name is another's: release() would take it away
+  throw_held(folder_, holder, true);
+}
+
+// A file with another name, as in a copy of the folder by hard links, makes room for one of its own; what was
+// replaced before it was locked locks nothing. False for both, and nothing is held then.
+bool RunLock::is_of_this_folder_alone() {
+  const fs::path file = folder_ / file_name;
+  struct ::stat held {
+  }, named{};
+  const bool same = ::fstat(descriptor_, &held) == 0 && ::lstat(file.c_str(), &named) == 0 &&
+                    held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+  if (same && held.st_nlink < 2) return true;
+  if (same) write_atomically(file, "");
+  ::close(std::exchange(descriptor_, -1));  // without release(), which would empty it under its other name
+  return false;
 }
 
 // Two that come at the same moment both put their names there: the later name stands, and a moment later both

@@ -46,6 +46,8 @@ class RunLock {
  private:
   RunLock(std::filesystem::path folder, int descriptor);
   static std::shared_ptr<RunLock> open(const std::filesystem::path& folder, int flags, const Ask& ask);
+  int ask_patiently(const Ask& ask);
+  bool is_of_this_folder_alone();
   void hold_by_name();
   void write_name();
 

@@ -173,6 +173,29 @@ TEST_F(JournalTest, S3ALinkIsNotTakenUp) {
   EXPECT_EQ(content_of(folder / "victim"), before);
 }
 
+// As in a copy of a run directory by hard links: the copy stays as it is, and the journal is whole.
+TEST_F(JournalTest, S3AnotherNameOfTheFileKeepsItsBytes) {
+  const std::filesystem::path file = folder / "j.jsonl", copy = folder / "copy";
+  {
+    Journal journal(file);
+    journal.write("row");
+    journal.close("end", {}, 1s);
+  }
+  const std::string before = content_of(file);
+  std::filesystem::create_hard_link(file, copy);
+  {
+    const auto journal = Journal::again(file);
+    journal->write("row");
+    journal->write("row");
+    EXPECT_FALSE(journal->is_lost());
+  }
+  EXPECT_EQ(content_of(copy), before);
+  const std::vector<Json> lines = read_journal(file, false).lines;
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(*lines[1].find("n"), Json(2));
+  EXPECT_EQ(std::filesystem::hard_link_count(file), 1U);
+}
+
 TEST_F(JournalTest, WhatIsNoJournalIsNotTakenUp) {
   EXPECT_NE(error_of([&] { Journal::again(folder / "none.jsonl"); }), "");
   std::ofstream(folder / "j.jsonl") << "{\"n\":2,\"event\":\"x\"}\n";

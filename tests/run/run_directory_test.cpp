@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "engine/run/recorded_run.hpp"
 #include "engine/run/run_facts.hpp"
 #include "engine/run/run_folder.hpp"
+#include "engine/run/run_lock.hpp"
 #include "tests/support/run_fixture.hpp"
 
 namespace asperity::run_directory_test {
@@ -587,6 +589,53 @@ TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToThroughALink) {
   fs::create_symlink(folder / "victim", run.path() / "book.csv");
   run.notebook("book")->write(row);
   EXPECT_EQ(content_of(folder / "victim"), "mine\n");
+  EXPECT_EQ(content_of(run.path() / "book.csv"), "k\n1\n1\n");
+}
+
+// S3: a copy of the directory by hard links (cp -al), of which either is taken up while the other stays as it
+// is.
+TEST_F(RunDirectoryTest, S3ACopyByHardLinksIsAnotherRun) {
+  RunSetup s = setup();
+  s.out = folder / "r";
+  std::vector<Entry> row = {{"k", 1.0}};
+  {
+    RunDirectory run(s);
+    run.notebook("book")->write(row);
+    EXPECT_TRUE(run.finish(RunStatus::interrupted));
+  }
+  for (const char* taken : {"copy", "r"}) {
+    fs::remove_all(folder / "copy");
+    fs::copy(folder / "r", folder / "copy",
+             fs::copy_options::recursive | fs::copy_options::create_hard_links);
+    EXPECT_EQ(fs::hard_link_count(folder / "r/.lock"), 2U);
+    const fs::path other = folder / (std::string(taken) == "r" ? "copy" : "r");
+    std::map<fs::path, std::string> before;
+    for (const auto& entry : fs::directory_iterator(other))
+      if (entry.is_regular_file()) before[entry.path()] = content_of(entry.path());
+    EXPECT_TRUE(before.contains(other / "journal.jsonl") && before.contains(other / "book.csv"));
+    RunSetup again = setup();
+    again.resume = folder / taken;
+    RunDirectory run(again);
+    run.notebook("book")->write(row);
+    run.notebook("book")->write(row);
+    // Each has a lock of its own.
+    EXPECT_EQ(error_of([&] { RunLock::take(other); }), "");
+    EXPECT_NE(error_of([&] { RunLock::take(folder / taken); }), "");
+    EXPECT_TRUE(run.finish(RunStatus::interrupted));
+    EXPECT_EQ(content_of(run.path() / "book.csv"), "k\n1\n1\n");
+    before.erase(other / ".lock");
+    for (const auto& [file, bytes] : before) EXPECT_EQ(content_of(file), bytes) << file;
+  }
+}
+
+// S3: a table with another name is written anew, too.
+TEST_F(RunDirectoryTest, S3ATableIsNotAppendedToUnderItsOtherName) {
+  RunDirectory run(setup());
+  std::vector<Entry> row = {{"k", 1.0}};
+  run.notebook("book")->write(row);
+  fs::create_hard_link(run.path() / "book.csv", folder / "copy.csv");
+  run.notebook("book")->write(row);
+  EXPECT_EQ(content_of(folder / "copy.csv"), "k\n1\n");
   EXPECT_EQ(content_of(run.path() / "book.csv"), "k\n1\n1\n");
 }
 

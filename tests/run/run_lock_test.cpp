@@ -226,6 +226,32 @@ TEST_F(RunLockTest, S3IsNoLink) {
   EXPECT_EQ(content_of(folder / "victim"), "mine");
 }
 
+TEST_F(RunLockTest, S3AnotherNameOfItsFileKeepsItsBytes) {
+  std::ofstream(folder / "victim") << "mine";
+  fs::create_hard_link(folder / "victim", folder / ".lock");
+  {
+    const std::shared_ptr<RunLock> lock = RunLock::take(folder);
+    EXPECT_NE(content_of(folder / ".lock"), "mine");
+    EXPECT_NE(error_of([&] { RunLock::take(folder); }), "");
+  }
+  EXPECT_EQ(content_of(folder / "victim"), "mine");
+  EXPECT_EQ(error_of([&] { RunLock::take(folder); }), "");
+}
+
+// The file may be replaced between its opening and the lock.
+TEST_F(RunLockTest, OfAFileThatWasReplacedLocksTheNewOne) {
+  int asked = 0;
+  const std::shared_ptr<RunLock> lock = RunLock::take(folder, [&](int descriptor) {
+    if (++asked == 1) {
+      std::ofstream(folder / "new") << "";
+      fs::rename(folder / "new", folder / ".lock");
+    }
+    return RunLock::ask_system(descriptor);
+  });
+  EXPECT_EQ(asked, 2);
+  EXPECT_NE(error_of([&] { RunLock::take(folder); }), "");
+}
+
 TEST_F(RunLockTest, IsNotMadeWhereOnlyAskedFor) {
   EXPECT_EQ(RunLock::take_if_known(folder), nullptr);
   EXPECT_EQ(files_in(folder), 0U);

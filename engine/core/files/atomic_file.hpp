@@ -54,6 +54,10 @@ class AtomicFile {
 void write_atomically(const std::filesystem::path& target, std::string_view content,
                       Durable durable = Durable::no, unsigned mode = 0666);
 
+// A file that has other names (hard links) is copied into its own place, so that what is written to it leaves
+// them as they are. Any other file stays as it is. Throws Error{bad_file} where it cannot be copied.
+void part_from_other_names(const std::filesystem::path& file);
+
 // A name beside `target` that no other writer has, at most 255 bytes long. The extension stays last, because
 // some writers choose their format by it.
 std::filesystem::path part_beside(const std::filesystem::path& target);

@@ -2,6 +2,7 @@
 #include "engine/core/files/disk.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cctype>
@@ -69,6 +70,8 @@ bool append_to_existing(const std::filesystem::path& path, std::string_view cont
   const Open file{::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC)};
   if (file.descriptor < 0 && (errno == ENOENT || errno == ELOOP)) return false;
   if (file.descriptor < 0) throw_file_error("write", path, errno);
+  struct ::stat facts {};
+  if (::fstat(file.descriptor, &facts) == 0 && facts.st_nlink > 1) return false;
   append_whole(file.descriptor, content, path);
   return true;
 }

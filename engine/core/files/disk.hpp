@@ -21,8 +21,8 @@ int write_all(int descriptor, std::string_view bytes);
 // the file ends with a whole line. Throws Error{bad_file} naming `path`.
 void append_whole(int descriptor, std::string_view content, const std::filesystem::path& path);
 
-// Appends in one piece to a file that exists; returns false if it does not, or is a link. Throws as
-// append_whole.
+// Appends in one piece to a file that exists; returns false if it does not, is a link or has another name (a
+// hard link). Throws as append_whole.
 bool append_to_existing(const std::filesystem::path& path, std::string_view content);
 
 // Until the disk has what was written to this file, or the names in this folder. Milliseconds. Throws
