@@ -333,6 +333,56 @@ for (const [width, height, columns] of [
       await on.assertAccessible(page, `${width} x ${height}`);
     }));
 
+// What became of a run, and what the page has to say, is read wherever the page is scrolled to.
+for (const [width, height] of [
+  [1280, 720],
+  [960, 540],
+  [390, 844],
+])
+  test(`Window, StatusAndBannerAreReadAt${width}x${height}`, () =>
+    visit({ width, height }, async (page) => {
+      await page.click('.lessons button');
+      await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+      await charted(page, 'local book -- mock.rows 1200 mock.file ' + 'long_'.repeat(40) + '.svg\nfor N = 1, 8 do end\n', 1200);
+      await page.click('#tab-files');
+      await on.until(page, () => document.querySelector('.previews figcaption'), 'the drawing should come');
+      const seen = await page.evaluate(() => {
+        const inside = (e) => {
+          const { left, right } = e.getBoundingClientRect();
+          return left >= 0 && right <= innerWidth;
+        };
+        const status = document.querySelector('#status');
+        return {
+          status: status.scrollWidth <= status.clientWidth && inside(status),
+          wide: document.scrollingElement.scrollWidth,
+          tabs: [...document.querySelectorAll('#tabs button')].every(inside),
+          names: [...document.querySelectorAll('.previews figcaption')].every(inside),
+        };
+      });
+      assert.deepEqual(seen, { status: true, wide: width, tabs: true, names: true });
+      await on.run(page, 'while true do end\n');
+      await on.until(page, () => document.querySelector('#status').textContent.startsWith('Running'), 'it should run');
+      for (const fill of [false, true]) {
+        if (fill) await page.$eval('#fill', (e) => e.click());
+        else await page.evaluate(() => scrollTo(0, document.scrollingElement.scrollHeight));
+        await on.chord(page, 'Control', 'Enter');
+        await on.until(page, () => !document.querySelector('#banner').hidden, 'it should say that a script runs');
+        const found = await page.evaluate(() => {
+          const { left, top, right, bottom } = document.querySelector('#banner').getBoundingClientRect();
+          return document.elementFromPoint((left + right) / 2, (top + bottom) / 2)?.closest('#banner')?.id;
+        });
+        assert.equal(found, 'banner', fill ? 'over results that fill the window' : 'at the end of the page');
+        await page.$eval('#banner button', (e) => e.click());
+      }
+      if (width === 960) {
+        const { top } = await page.$eval('#stop', (e) => e.getBoundingClientRect().toJSON());
+        assert.ok(top >= 0 && top < 100, `Stop is at ${top} px`);
+      }
+      await page.keyboard.press('Escape');
+      await page.keyboard.press('Escape');
+      await on.finished(page, 'Stopped');
+    }));
+
 test('Results, FillTheWindowByKeysAndGoBack', () =>
   visit({ width: 960, height: 540 }, async (page) => {
     await charted(page, 'for N = 1, 8 do end\n', 16);

@@ -111,7 +111,7 @@ export function divider(
   });
 }
 
-/** A button that lets an element fill the window and puts it back; meanwhile nothing else can be reached. */
+/** A button that lets an element fill the window and puts it back; meanwhile nothing else but the banner can be reached. */
 export class Filling {
   constructor(
     private readonly button: HTMLButtonElement,
@@ -130,7 +130,7 @@ export class Filling {
     this.button.setAttribute('aria-pressed', String(on));
     for (let e: HTMLElement | null = this.element; e && e !== document.body; e = e.parentElement) {
       for (const other of e.parentElement?.children ?? []) {
-        if (other !== e && other instanceof HTMLElement && !other.matches('script, dialog, [aria-live]')) other.inert = on;
+        if (other !== e && other instanceof HTMLElement && !other.matches('script, dialog, [aria-live], [role=alert]')) other.inert = on;
       }
     }
     this.changed(on);
