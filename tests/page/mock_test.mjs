@@ -77,6 +77,38 @@ test('Lesson, OpenedEditedKeptReset', () =>
     assert.equal(await page.$eval('#reset', (e) => e.hidden), true);
   }));
 
+test('Lesson, BackGoesToTheListAndForwardToTheLesson', () =>
+  visit({}, async (page) => {
+    const { address } = mock;
+    const lesson = () => on.until(page, () => document.querySelector('.lesson'), 'the lesson should be open');
+    const list = () => on.until(page, () => document.querySelector('.lessons li'), 'the list should be there');
+    await page.click('.lessons button');
+    await lesson();
+    await (await page.$('>>> .cm-content')).focus();
+    await page.keyboard.type('-- mine');
+    await page.goBack();
+    await list();
+    assert.equal(page.url(), `${address}/`, 'it is the page still');
+    await page.click('.lessons li:nth-child(2) button');
+    await on.until(page, () => /Fractal/.test(document.querySelector('#lessons h2').textContent), 'the second should open');
+    await page.click('.back');
+    await list();
+    await page.goBack();
+    await on.until(page, () => /Fractal/.test(document.querySelector('#lessons h2').textContent), 'the second again');
+    await page.goBack();
+    await list();
+    await page.goForward();
+    await lesson();
+    await page.reload();
+    await lesson();
+    assert.equal(await on.text(page, '#script-title'), 'Fractal dimension and its traps');
+    await page.click('.back');
+    await list();
+    await page.click('.lessons li:first-child button');
+    await lesson();
+    assert.match(await on.editorText(page), /-- mine/, 'what was written is kept');
+  }));
+
 test('Lesson, PredictedBeforeItsTextIsRead', () =>
   visit({}, async (page) => {
     await page.click('.lessons button');

@@ -2,7 +2,7 @@
 // The lessons beside the editor: a list with their questions, and the one that is open. Its question comes
 // first, then what to predict with a place for the reader's own prediction, and only then the text that
 // begins to answer. Edits of a lesson's script and words of predictions are kept by name in the browser; reset
-// brings the lesson's own script back.
+// brings the lesson's own script back. The browser's Back goes from a lesson to the list it was opened from.
 
 import type { Api, Lesson, LessonEntry } from './api';
 import { h } from './dom';
@@ -32,7 +32,18 @@ export class LessonsPane {
     private readonly script: ScriptAtHand,
     private readonly predicted: (lesson: string, guesses: Guess[]) => void,
     private readonly failed: (error: unknown) => void,
-  ) {}
+  ) {
+    addEventListener('popstate', () => {
+      const name = (history.state as { lesson?: string } | null)?.lesson;
+      void (name ? this.show(name, true) : this.list(true));
+    });
+  }
+
+  /** As a person asks for it: a step that Back takes back. The address stays as it is. */
+  private go(lesson: string): void {
+    history.pushState({ lesson }, '');
+    void (lesson ? this.show(lesson, true) : this.list(true));
+  }
 
   async list(focus = false): Promise<void> {
     try {
@@ -51,7 +62,7 @@ export class LessonsPane {
           {},
           h(
             'button',
-            { type: 'button', onclick: () => void this.show(e.name, true) },
+            { type: 'button', onclick: () => this.go(e.name) },
             h('strong', {}, e.title),
             e.question ? h('span', {}, e.question) : null,
             h(
@@ -94,7 +105,7 @@ export class LessonsPane {
       this.open({ key, title: lesson.title, script: keptScript(key) ?? lesson.script, original: lesson.script });
       this.prediction = new PredictionBox(name, lesson.script, this.script, this.predicted);
       this.element.replaceChildren(
-        h('button', { type: 'button', className: 'back', onclick: () => void this.list(true) }, '← All lessons'),
+        h('button', { type: 'button', className: 'back', onclick: () => this.go('') }, '← All lessons'),
         h('h2', { tabIndex: -1 }, lesson.title),
         ...(question ? [calledOut('Question', question)] : []),
         ...(lesson.predict ? [calledOut('Predict', lesson.predict)] : []),
