@@ -190,6 +190,30 @@ for (const [width, height] of [
       await on.assertAccessible(page, 'drawings among the files');
     }));
 
+test('Table, OfARunThatIsOverBeginsWithItsFirstRow', () =>
+  visit({}, async (page) => {
+    const rows = async (script) => {
+      const before = await page.evaluate(() => sessionStorage.getItem('asperity.run'));
+      await on.run(page, script);
+      await on.until(page, (b) => sessionStorage.getItem('asperity.run') !== b, 'it should begin', before);
+      await on.finished(page);
+    };
+    const place = () => page.$eval('.scroll.table', (e) => [e.scrollTop, e.scrollHeight - e.clientHeight - e.scrollTop < 2]);
+    const script = '-- mock.rows 90\n';
+    for (const other of [script, `${script}-- another\n`]) {
+      await page.click('#tab-output');
+      await rows(other);
+      await page.click('#tab-table');
+      await page.waitForSelector('#table tbody tr');
+      assert.deepEqual(await place(), [0, false], other);
+      await page.$eval('.scroll.table', (e) => (e.scrollTop = 200));
+      await page.click('#tab-output');
+      await rows(other);
+      await page.click('#tab-table');
+      assert.deepEqual(await place(), [200, false], 'the same script again is looked at where it was');
+    }
+  }));
+
 test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
   visit({}, async (page) => {
     const selected = () => page.$eval('#tabs [aria-selected=true]', (e) => e.id);
@@ -452,6 +476,8 @@ test('Prediction, IsANumberOfTheScriptAndIsJudged', () =>
     await on.finished(page);
     await on.until(page, () => !document.querySelector('.judged').hidden, 'it should be judged');
     assert.equal(await on.text(page, '.judged'), verdict);
+    const judged = await (await page.$('.judged')).boundingBox();
+    assert.ok(judged.y + judged.height < 720, 'it is seen without scrolling');
     await on.assertAccessible(page, 'a prediction that is judged');
     await on.write(page, 'print "no guess"\n');
     assert.equal(await page.$eval('.guesses input', (e) => e.disabled), true);

@@ -50,12 +50,12 @@ export class PredictionBox {
             ),
             guesses.note ? h('p', { className: 'hint' }, guesses.note) : '',
             this.missing,
+            this.judged,
           ]
         : []),
       h('label', {}, h('span', {}, guesses ? 'And why' : 'In words'), words),
       h('p', { className: 'hint', id: 'prediction-hint' }, 'Kept here and with a saved run.'),
       guesses ? h('p', { className: 'hint' }, 'Numbers stand in the script, and its run compares them.') : '',
-      this.judged,
     );
     this.read();
   }

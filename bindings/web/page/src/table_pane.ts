@@ -95,7 +95,7 @@ export function csvOf(notebook: Notebook): string {
 export class TablePane {
   private chosen = '';
   private run: Run | undefined;
-  private drawn: { notebook: Notebook | undefined; rows: number } = { notebook: undefined, rows: -1 };
+  private drawn: { notebook: Notebook | undefined; rows: number; of: string } = { notebook: undefined, rows: -1, of: '' };
   private readonly which = new Choice('Notebook', (name) => {
     this.chosen = name;
     this.show(this.run);
@@ -131,9 +131,12 @@ export class TablePane {
     const notebook = run!.notebooks.get(this.chosen)!;
     if (this.drawn.notebook === notebook && this.drawn.rows === notebook.rows.length) return;
     if (this.element.offsetParent === null) return;
+    const of = `${notebook.name}\n${run!.script}`;
+    const whole = !run!.active && of !== this.drawn.of;
     const atEnd = this.table.scrollHeight - this.table.scrollTop - this.table.clientHeight < 40;
-    this.drawn = { notebook, rows: notebook.rows.length };
+    this.drawn = { notebook, rows: notebook.rows.length, of };
     this.table.replaceChildren(tableOf(notebook, shownRows));
-    if (atEnd) this.table.scrollTop = this.table.scrollHeight;
+    if (whole) this.table.scrollTop = 0;
+    else if (atEnd) this.table.scrollTop = this.table.scrollHeight;
   }
 }
