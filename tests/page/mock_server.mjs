@@ -73,9 +73,10 @@ const field = (name, unit, n, values, reduction = 'mean of 8 x 8 nodes', from = 
 
 function viewOf(name) {
   const n = 128;
-  const z = wave(n, 1.2e-6);
+  const deep = name.startsWith('deep') ? 20 : 1;
+  const z = wave(n, 1.2e-6 * deep);
   if (name.startsWith('surface')) return { title: 'Surface 1', event: 1, fields: [field('height', 'm', n, z)] };
-  const top = 1.9e-6 - 2e-7 * Number(/^state-(\d+)$/.exec(name)?.[1] ?? 0);
+  const top = 1.9e-6 * deep - 2e-7 * Number(/^state-(\d+)$/.exec(name)?.[1] ?? 0);
   return {
     title: 'Press 1',
     event: 2,
@@ -136,8 +137,8 @@ function knobIn(line, given) {
   };
 }
 
-/** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`,
-    `mock.file NAME`, `mock.names N`, `mock.waits N`, `mock.views N`, `mock.knob NAME FROM TO VALUE UNIT`. */
+/** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`, `mock.wide N`,
+    `mock.file NAME`, `mock.names N`, `mock.waits N`, `mock.views N`, `mock.deep`, `mock.knob NAME FROM TO VALUE UNIT`. */
 function* eventsOf(script, knobs = {}) {
   const lines = script.split('\n');
   const waits = Number(/mock\.waits (\d+)/.exec(script)?.[1] ?? 0);
@@ -178,6 +179,12 @@ function* eventsOf(script, knobs = {}) {
     const rows = Number(/mock\.rows (\d+)/.exec(line)?.[1] ?? 0);
     for (let i = 1; i <= rows; ++i)
       yield { type: 'row', notebook: 'big', row: { level: 0.3 + i * 1e-14, i, v: i * i * 1e-6 }, units: { v: 'm' } };
+    const wide = Number(/mock\.wide (\d+)/.exec(line)?.[1] ?? 0);
+    for (let i = 1; i <= wide; ++i) {
+      const row = { i };
+      for (let k = 0; k < wide; ++k) row[`column ${k}`] = i * 1e-6 * (k + 1);
+      yield { type: 'row', notebook: 'wide', row, units: Object.fromEntries(Object.keys(row).slice(1).map((c) => [c, 'm'])) };
+    }
     const views = Number(/mock\.views (\d+)/.exec(line)?.[1] ?? 0);
     for (let v = 1; v <= views; ++v) yield { type: 'view', name: `state-${v}`, title: `contact:press at ${v} MPa` };
     for (const [, name] of line.matchAll(/mock\.file (\S+)/g))
@@ -227,7 +234,7 @@ function* eventsOf(script, knobs = {}) {
       }
     }
   }
-  yield { type: 'view', name: 'press-1', title: 'Press 1: 152.8 MPa' };
+  yield { type: 'view', name: /mock\.deep/.test(script) ? 'deep-1' : 'press-1', title: 'Press 1: 152.8 MPa' };
   yield { type: 'views_left_out', count: 7 };
   yield { type: 'file', name: 'tips.csv', bytes: 512, kind: 'table' };
   yield { type: 'file', name: 'chart.svg', bytes: chart.length, kind: 'chart' };

@@ -195,17 +195,18 @@ test('Run, TablesAreNotWrappedAndScrollByKeys', () =>
     await on.finished(page);
     const sizes = await page.$eval('.output', (e) => ({
       lines: Math.round(e.clientHeight / parseFloat(getComputedStyle(e).lineHeight)),
-      scrolls: e.scrollWidth > e.clientWidth,
-      inside: document.querySelector('#output').scrollWidth <= document.querySelector('#output').clientWidth,
+      scrolls: document.querySelector('#output').scrollWidth > document.querySelector('#output').clientWidth,
+      bar: document.querySelector('#output').getBoundingClientRect().bottom <= innerHeight, // of the scroll bar
     }));
-    assert.deepEqual(sizes, { lines: 2, scrolls: true, inside: true });
+    assert.deepEqual(sizes, { lines: 2, scrolls: true, bar: true });
     await page.focus('.output');
-    const left = () => page.$eval('.output', (e) => e.scrollLeft);
+    const left = () => page.$eval('#output', (e) => e.scrollLeft);
     for (let k = 0; k < 20 && (await left()) === 0; ++k) {
       await page.keyboard.press('ArrowRight');
       await on.pause(100);
     }
     assert.ok((await left()) > 0, 'arrow keys should scroll it');
+    await page.$eval('#output', (e) => (e.scrollLeft = 0));
     await on.assertFits(page, 'a wide table');
     await on.assertAccessible(page, 'a wide table');
     // Sentences after an empty line are read without scrolling.
@@ -479,6 +480,27 @@ test('Picture, DrawnTurnedExaggeratedAndHonest', () =>
       'the surface should come',
     );
     assert.match(await on.text(page, '.key'), /height\[µm\]/);
+  }));
+
+test('Picture, OfAnotherScriptHasAFactorOfItsOwn', () =>
+  visit({}, async (page) => {
+    const factor = async (script) => {
+      const before = await page.evaluate(() => sessionStorage.getItem('asperity.run'));
+      await on.run(page, script);
+      await on.until(page, (b) => sessionStorage.getItem('asperity.run') !== b, 'it should begin', before);
+      await on.finished(page);
+      await tab(page, 'picture');
+      await on.until(page, () => !document.querySelector('.pictures').hidden, 'the picture should come');
+      await on.pause(400);
+      return /× (\d+) ·/.exec(await on.text(page, '.pictures .caption'))?.[1];
+    };
+    assert.equal(await factor('-- a face\n'), '50');
+    assert.equal(await factor('-- mock.deep\n'), '2');
+    await page.focus('.choices input[type=range]');
+    await page.keyboard.press('ArrowRight');
+    const byHand = /× (\d+) ·/.exec(await on.text(page, '.pictures .caption'))?.[1];
+    assert.notEqual(byHand, '2');
+    assert.equal(await factor('-- mock.deep\n'), byHand, 'of the same script it stays as chosen');
   }));
 
 test('Picture, OfARunOneAfterTheOtherByKeysAlone', () =>

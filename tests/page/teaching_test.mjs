@@ -78,6 +78,38 @@ test('Chart, EachColumnThatTheScriptChartsIsALine', () =>
     await on.assertAccessible(page, 'a chart with its axes');
   }));
 
+test('Chart, AxesHaveTheScriptsWordsAndNoneIsCut', () =>
+  visit({ width: 1280, height: 577 }, async (page) => {
+    const words = 'how much of it there is, and of all that is around it, and so on and on and on';
+    await charted(page, book(9, `x="i", y={ "v" }, x_label="place along the way", y_label="${words}"`), 9);
+    const labels = () =>
+      page.evaluate(() => {
+        const around = document.querySelector('.chart svg').getBoundingClientRect();
+        return [...document.querySelectorAll('.chart .text text')].map((e) => {
+          const { left, right, top, bottom } = e.getBoundingClientRect();
+          return {
+            text: e.textContent,
+            outside: [around.left - left, right - around.right, around.top - top, bottom - around.bottom].filter((by) => by > 1),
+          };
+        });
+      });
+    const [x, y] = await labels();
+    assert.deepEqual(x, { text: 'place along the way', outside: [] });
+    assert.match(y.text, /^how much of it.*… \[µm\]$/, 'the unit is not cut');
+    assert.deepEqual(y.outside, []);
+    // Chosen by hand, an axis has the name of its column.
+    await page.click('.axes summary');
+    const [along] = (await page.$$('.axes select')).slice(0, 1);
+    await along.select('level');
+    const [other, same] = await labels();
+    assert.equal(other.text, 'level');
+    assert.match(same.text, /^how much of it/);
+    // Names of many columns are cut, too, and not the unit.
+    const many = Array.from({ length: 9 }, (_, k) => `"column ${k}"`).join(', ');
+    await charted(page, `-- mock.wide 9\nlocal book = lab.notebook "wide"\nbook:chart{ x="i", y={ ${many} } }\n`, 81);
+    assert.ok((await labels()).slice(0, 2).every((l) => l.outside.length === 0), JSON.stringify(await labels()));
+  }));
+
 test('Chart, OfAStudyIsErrorAgainstSeconds', () =>
   visit({}, async (page) => {
     await charted(page, 'local study = lab.work_precision{ try={} } -- mock.file work_precision.csv\nstudy:chart "cost.svg"\n', 3);
@@ -487,6 +519,27 @@ test('Prediction, IsANumberOfTheScriptAndIsJudged', () =>
       ['', false],
       ['', false],
     ]);
+  }));
+
+test('Prediction, TypedBesideTheScriptLeavesItWhereItIs', () =>
+  visit({}, async (page) => {
+    await page.click('.lessons button');
+    await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+    const lines = (n) => '-- a line\n'.repeat(n);
+    await on.write(page, `${lines(60)}local my_guess = { Ra=nil, slope=nil } -- shares\n${lines(60)}`);
+    const scroller = (act) =>
+      page.evaluate((to) => {
+        const e = document.querySelector('#editor').shadowRoot.querySelector('.cm-scroller');
+        if (to !== null) e.scrollTop = to;
+        return e.scrollTop;
+      }, act);
+    await scroller(1200);
+    await on.pause(300);
+    const before = await scroller(null);
+    await page.type('.guesses input', '0.25');
+    await on.pause(300);
+    assert.equal(await scroller(null), before);
+    assert.match(await on.editorText(page), /^local my_guess = \{ Ra=0\.25, slope=nil \} -- shares$/m);
   }));
 
 test('Room, TheTeacherSeesPredictionsRunsAndWhoAsksForHelp', async () => {

@@ -110,8 +110,18 @@ export function drawChart(notebook: Notebook, asked: ChartChoice, width: number,
         ...(turned ? { tickRotate: -90 } : {}),
       }),
       ruleY([y.domain[0]], { stroke: ink.muted }),
-      text([label(choice.x, scaleX)], { ...words, frameAnchor: 'bottom', dy: margin.bottom - 8 }),
-      text([yLabel(choice, scaleY)], { ...words, frameAnchor: 'left', rotate: -90, dx: 16 - margin.left }),
+      text([fittedLabel(choice.xLabel || choice.x, scaleX, inside)], {
+        ...words,
+        frameAnchor: 'bottom',
+        dy: margin.bottom - 8,
+      }),
+      text([fittedLabel(choice.yLabel || choice.y.join(', '), scaleY, height - Math.abs(margin.bottom - margin.top) - 8)], {
+        ...words,
+        frameAnchor: 'left',
+        textAnchor: 'middle',
+        rotate: -90,
+        dx: 16 - margin.left,
+      }),
       ...drawn,
       ...legendMarks(legend, margin.top, ink),
     ],
@@ -253,6 +263,12 @@ function shortened(name: string, room = 220): string {
   let text = [...name];
   while (text.length > 1 && widthOf(`${text.join('').trimEnd()}…`) > room) text = text.slice(0, -1);
   return `${text.join('').trimEnd()}…`;
+}
+
+/** A label with its unit whole, and as much of the words as has room. */
+function fittedLabel(words: string, scale: Scale, room: number): string {
+  const unit = label('', scale);
+  return shortened(words, room - widthOf(unit)) + unit;
 }
 
 const ruler = document.createElement('canvas').getContext('2d');

@@ -12,6 +12,8 @@ export interface ChartChoice {
   per: string; // a line for each value of this column; empty for one line
   logX: boolean;
   logY: boolean;
+  xLabel?: string; // along the axis instead of the columns' names
+  yLabel?: string;
   where?: Record<string, Cell[]>; // rows whose columns have one of these values
   points?: boolean; // false: lines alone
   spread?: boolean; // bars of a standard deviation of the rows that share an x

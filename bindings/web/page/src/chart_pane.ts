@@ -104,7 +104,9 @@ export class ChartPane {
 
   private set(change: Partial<ChartChoice>): void {
     const present = this.shown();
-    if (present) this.choices.set(present.name, { ...present.choice, ...change });
+    // The script's words for an axis are for what the script has along it.
+    const words = { ...(change.x ? { xLabel: '' } : {}), ...(change.y ? { yLabel: '' } : {}) };
+    if (present) this.choices.set(present.name, { ...present.choice, ...words, ...change });
     this.draw();
   }
 

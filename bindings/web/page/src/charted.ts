@@ -15,6 +15,8 @@ export interface Charted {
   logX: boolean;
   logY: boolean;
   title: string;
+  xLabel: string; // instead of the columns' names
+  yLabel: string;
   where: Record<string, Cell[]>;
   points: boolean;
   spread: boolean;
@@ -27,7 +29,7 @@ interface Token {
 
 type Field = string | boolean | string[] | Record<string, Cell[]>;
 
-const study = { x: 'seconds', y: ['error'], per: 'way', logX: true, logY: true, where: {}, points: true, spread: false };
+const study = { xLabel: '', yLabel: '', x: 'seconds', y: ['error'], per: 'way', logX: true, logY: true, where: {}, points: true, spread: false };
 
 export function chartedIn(script: string): Charted[] {
   const tokens = tokensOf(script);
@@ -49,7 +51,7 @@ export function chartedIn(script: string): Charted[] {
       const notebook = studies.get(holder)!;
       found.push({ ...study, notebook, title: `${notebook}: error against time` });
     } else if (is(past, '{')) {
-      const { one_line_per: per, log_x, log_y, title, where, points, spread } = fieldsOf(tokens, past);
+      const { one_line_per: per, log_x, log_y, title, x_label, y_label, where, points, spread } = fieldsOf(tokens, past);
       const all = columnsOf(tokens, past, variables);
       for (const { x, y } of all)
         found.push({
@@ -57,6 +59,8 @@ export function chartedIn(script: string): Charted[] {
           x,
           y,
           per: typeof per === 'string' ? per : '',
+          xLabel: typeof x_label === 'string' ? x_label : '',
+          yLabel: typeof y_label === 'string' ? y_label : '',
           logX: log_x === true,
           logY: log_y === true,
           title: typeof title === 'string' && all.length === 1 ? title : '',

@@ -203,11 +203,16 @@ export class Editor {
     this.checkSoon(0);
   }
 
-  /** A change that Ctrl-Z takes back. */
+  /** A change that Ctrl-Z takes back, of what differs alone: the cursor and what is in sight stay. */
   replace(text: string): void {
+    const old = this.text;
+    const most = Math.min(old.length, text.length);
+    let same = 0;
+    while (same < most && old[same] === text[same]) ++same;
+    let behind = 0;
+    while (behind < most - same && old[old.length - 1 - behind] === text[text.length - 1 - behind]) ++behind;
     this.view.dispatch({
-      changes: { from: 0, to: this.view.state.doc.length, insert: text },
-      selection: { anchor: 0 },
+      changes: { from: same, to: old.length - behind, insert: text.slice(same, text.length - behind) },
     });
   }
 

@@ -90,8 +90,8 @@ function asCharted(charted: Charted, notebook: Notebook): ChartChoice | undefine
   if (known.length === 0) return undefined;
   const alike = columnsLike(notebook, known[0]);
   const per = notebook.columns.includes(charted.per) ? charted.per : '';
-  const { x, logX, logY, where, points, spread } = charted;
-  return { x, y: known.filter((c) => alike.includes(c)), per, logX, logY, where, points, spread };
+  const { x, logX, logY, xLabel, yLabel, where, points, spread } = charted;
+  return { x, y: known.filter((c) => alike.includes(c)), per, logX, logY, xLabel, yLabel, where, points, spread };
 }
 
 /** A chart without a name of its own is in the file <notebook>-<y>-<x>.svg, with any further y between. */

@@ -107,6 +107,11 @@ export class PicturePane {
 
   show(run: Run | undefined): void {
     if (run !== this.run) {
+      if (run?.script !== this.run?.script) {
+        // The heights of another script have a factor of their own.
+        this.fields = [];
+        this.relief = undefined;
+      }
       this.run = run;
       this.scrubber.pause();
       this.maps.clear();

@@ -16,6 +16,7 @@ export class PredictionBox {
   readonly element: HTMLElement;
   private readonly fields: { name: string; input: HTMLInputElement }[];
   private readonly missing = h('p', { className: 'hint', hidden: true }, 'The script has no my_guess any more; Reset brings it back.');
+  private said = '';
   private readonly judged = h('div', { className: 'judged', hidden: true });
 
   constructor(
@@ -76,7 +77,14 @@ export class PredictionBox {
   judge(run: Run | undefined): void {
     const verdicts = run && !run.active ? verdictsOf(run) : [];
     this.judged.hidden = verdicts.length === 0;
+    const said = verdicts.join('\n');
+    if (said === this.said) return;
+    this.said = said;
     this.judged.replaceChildren(...verdicts.map((v) => h('p', {}, v)));
+    const pane = this.element.closest('.pane');
+    if (!pane || pane.scrollHeight <= pane.clientHeight) return; // in one column it is the page that scrolls
+    const below = this.judged.getBoundingClientRect().bottom - pane.getBoundingClientRect().bottom;
+    if (said && below > 0) pane.scrollTop += below + 12;
   }
 
   private put(name: string): void {
