@@ -137,7 +137,7 @@ function knobIn(line, given) {
   };
 }
 
-/** Lines of the script that say what to do: `error "…"`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`, `mock.wide N`,
+/** Lines of the script that say what to do: `error "…"`, `os.exit(3)`, `mock.plain`, `while true`, `mock.limit`, `mock.flood`, `mock.rows N`, `mock.wide N`, `mock.columns NAME`,
     `mock.file NAME`, `mock.names N`, `mock.waits N`, `mock.views N`, `mock.deep`, `mock.knob NAME FROM TO VALUE UNIT`. */
 function* eventsOf(script, knobs = {}) {
   const lines = script.split('\n');
@@ -147,7 +147,7 @@ function* eventsOf(script, knobs = {}) {
     yield 800;
   }
   yield { type: 'started' };
-  yield { type: 'view', name: 'surface-1', title: 'Surface 1: weierstrass_mandelbrot' };
+  if (!/mock\.plain/.test(script)) yield { type: 'view', name: 'surface-1', title: 'Surface 1: weierstrass_mandelbrot' };
   for (const [k, line] of lines.entries()) {
     const failing = /^\s*error\s*"(.*)"/.exec(line);
     if (failing) {
@@ -179,10 +179,15 @@ function* eventsOf(script, knobs = {}) {
     const rows = Number(/mock\.rows (\d+)/.exec(line)?.[1] ?? 0);
     for (let i = 1; i <= rows; ++i)
       yield { type: 'row', notebook: 'big', row: { level: 0.3 + i * 1e-14, i, v: i * i * 1e-6 }, units: { v: 'm' } };
+    if (/os\.exit\(3\)/.test(line)) {
+      yield { type: 'finished', status: 'failed', exit: 3, seconds: 0.1, reason: 'os.exit(3)' };
+      return;
+    }
     const wide = Number(/mock\.wide (\d+)/.exec(line)?.[1] ?? 0);
+    const columns = /mock\.columns (\S+)/.exec(line)?.[1] ?? 'column ';
     for (let i = 1; i <= wide; ++i) {
       const row = { i };
-      for (let k = 0; k < wide; ++k) row[`column ${k}`] = i * 1e-6 * (k + 1);
+      for (let k = 0; k < wide; ++k) row[`${columns}${k}`] = i * 1e-6 * (k + 1);
       yield { type: 'row', notebook: 'wide', row, units: Object.fromEntries(Object.keys(row).slice(1).map((c) => [c, 'm'])) };
     }
     const views = Number(/mock\.views (\d+)/.exec(line)?.[1] ?? 0);
@@ -234,8 +239,9 @@ function* eventsOf(script, knobs = {}) {
       }
     }
   }
-  yield { type: 'view', name: /mock\.deep/.test(script) ? 'deep-1' : 'press-1', title: 'Press 1: 152.8 MPa' };
-  yield { type: 'views_left_out', count: 7 };
+  if (!/mock\.plain/.test(script))
+    yield { type: 'view', name: /mock\.deep/.test(script) ? 'deep-1' : 'press-1', title: 'Press 1: 152.8 MPa' };
+  if (!/mock\.plain/.test(script)) yield { type: 'views_left_out', count: 7 };
   yield { type: 'file', name: 'tips.csv', bytes: 512, kind: 'table' };
   yield { type: 'file', name: 'chart.svg', bytes: chart.length, kind: 'chart' };
   yield { type: 'expectation', text: 'Ra falls with N', held: true };

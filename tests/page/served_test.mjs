@@ -177,6 +177,26 @@ test('Knob, OfATextThatIsNoMoreHasNoSlider', () =>
     await on.until(page, () => document.querySelector('.knobs').hidden, 'the slider should go');
   }));
 
+test('Knob, OfAScriptWithoutPicturesShowsNoneOfAnother', () =>
+  visit({}, async (page) => {
+    await on.run(page, 'local lab = require "asperity"\nlab.surface.sine{ cells=16, size="1 mm", amplitude="1 um" }\n');
+    await on.finished(page);
+    await page.click('#tab-picture');
+    await on.until(page, () => document.querySelector('.pictures .caption').textContent, 'the picture should come');
+    await on.write(page, 'local lab = require "asperity"\nprint(lab.knob{ name="n", from=1, to=2, value=1 })\n');
+    await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    await page.focus('.knobs input');
+    await page.keyboard.press('ArrowRight');
+    await on.until(page, () => document.querySelector('#status').textContent.startsWith('Live in'), 'it should follow');
+    const seen = () => page.$$eval('.pictures, #picture .empty', (all) => all.map((e) => [e.className, e.hidden]));
+    assert.deepEqual(await seen(), [
+      ['empty', false],
+      ['pictures', true],
+    ]);
+    await on.finished(page);
+    assert.equal((await seen())[1][1], true);
+  }));
+
 test('Knob, CoarseAnswerFirstWhereTheWholeTakesLonger', () =>
   visit({}, async (page) => {
     await on.write(page, pressed.replace('cells=256', 'cells=1024').replace('20 um', '80 um').replace('print("area",', 'print("at " .. p / 1e6 .. " MPa\\n",'));

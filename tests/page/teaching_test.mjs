@@ -246,6 +246,17 @@ test('Table, OfARunThatIsOverBeginsWithItsFirstRow', () =>
     }
   }));
 
+test('Table, LongNamesOfColumnsTakeLines', () =>
+  visit({}, async (page) => {
+    await on.run(page, '-- mock.wide 3 mock.columns name_of_a_column_that_somebody_made_of_a_whole_sentence_\n');
+    await on.finished(page);
+    await page.click('#tab-table');
+    await page.waitForSelector('#table tbody tr');
+    const widths = await page.$$eval('#table thead th', (all) => all.map((th) => th.getBoundingClientRect().width));
+    assert.equal(widths.length, 5);
+    assert.ok(widths.every((w) => w < 300), widths.join());
+  }));
+
 test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
   visit({}, async (page) => {
     const selected = () => page.$eval('#tabs [aria-selected=true]', (e) => e.id);
@@ -264,6 +275,9 @@ test('Results, WhatWasMadeIsShownUnlessATabWasChosen', () =>
     assert.equal(await ran('-- mock.views 2\n'), 'tab-picture');
     assert.equal(await ran('-- mock.views 2\nprint "a"\n'), 'tab-output');
     assert.equal(await ran(`${made}error "at the end"\n`), 'tab-output');
+    assert.equal(await ran(made), 'tab-chart');
+    assert.equal(await ran(`${made}os.exit(3)\n`), 'tab-output');
+    assert.match(await on.text(page, '#output .end'), /^Failed after 100 ms: os\.exit\(3\)\.$/);
     // A tab that was chosen stays, until another script is opened.
     await page.click('#tab-table');
     assert.equal(await ran(made), 'tab-table');

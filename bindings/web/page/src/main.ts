@@ -356,6 +356,7 @@ function ended(done: Run): void {
   if (tabs.selected === 'output') output.show(done); // whole, before another tab is shown
   if (done.errors.length > 0 || (done.status === 'limit' && done.notebooks.size === 0)) tabs.select('output');
   else if (done.status === 'done') tabs.offer(madeBy(done));
+  else if (done.status === 'failed') tabs.offer('output'); // by its exit status alone
   const first = done.errors[0];
   if (runOf === opened.key) showResults();
   say(

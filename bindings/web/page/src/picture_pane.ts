@@ -107,12 +107,7 @@ export class PicturePane {
 
   show(run: Run | undefined): void {
     if (run !== this.run) {
-      if (run?.script !== this.run?.script) {
-        // The heights of another script have a factor of their own.
-        this.fields = [];
-        this.relief = undefined;
-      }
-      this.run = run;
+      this.take(run);
       this.scrubber.pause();
       this.maps.clear();
       this.shown = '';
@@ -124,8 +119,8 @@ export class PicturePane {
     this.empty.textContent = run?.active
       ? 'No surface or contact yet.'
       : 'Surfaces and contacts that a script makes are drawn here: run one that presses or generates a surface.';
+    this.body.hidden = views.length === 0;
     if (views.length === 0) return;
-    this.body.hidden = false;
     const more = run?.viewsLeftOut ?? 0;
     this.leftOut.hidden = more === 0;
     this.leftOut.textContent = `${more} more were made and not drawn, so as not to hold up the run.`;
@@ -150,7 +145,7 @@ export class PicturePane {
   /** The same script at other values: what is seen stays until the new picture is there. */
   succeed(run: Run, picture?: LivePicture, began?: number): void {
     this.scrubber.pause();
-    this.run = run;
+    this.take(run);
     this.maps.clear();
     if (picture) this.maps.set(picture.name, Promise.resolve(picture.fields));
     this.kept = run.views.some((v) => v.name === this.shown) ? this.shown : '';
@@ -165,6 +160,15 @@ export class PicturePane {
       }, rested);
     }
     this.show(run);
+  }
+
+  private take(run: Run | undefined): void {
+    if (run?.script !== this.run?.script) {
+      // The heights of another script have a factor of their own.
+      this.fields = [];
+      this.relief = undefined;
+    }
+    this.run = run;
   }
 
   private resting = 0;

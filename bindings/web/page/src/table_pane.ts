@@ -8,6 +8,8 @@ import { label, numberText, scaleFor, type Scale } from './units';
 import type { Cell } from './api';
 
 const shownRows = 500;
+const longName = 24; // letters, of a column's name that is broken into lines
+const longText = 60;
 
 export function columnScales(notebook: Notebook): Map<string, Scale> {
   const scales = new Map<string, Scale>();
@@ -52,7 +54,7 @@ export function tableOf(notebook: Notebook, most = Infinity): HTMLTableElement {
         ...notebook.columns.map((c) =>
           h(
             'th',
-            { scope: 'col', className: scales.has(c) ? 'number' : '' },
+            { scope: 'col', className: (scales.has(c) ? 'number' : '') + (c.length > longName ? ' long' : '') },
             label(c, scales.get(c) ?? { factor: 1, unit: '' }),
           ),
         ),
@@ -70,7 +72,7 @@ export function tableOf(notebook: Notebook, most = Infinity): HTMLTableElement {
             h(
               'td',
               {
-                className: scales.has(c) ? 'number' : '',
+                className: (scales.has(c) ? 'number' : '') + (String(row[c] ?? '').length > longText ? ' long' : ''),
                 title: typeof row[c] === 'number' ? String(row[c]) : undefined,
               },
               cellText(row[c], scales.get(c)),
