@@ -128,6 +128,11 @@ TEST_F(BudgetTest, SaysWhatIsWrongAndWhere) {
   EXPECT_TRUE(refuses("lab.budget{ ask=print, inputs={ h={ value=1, u='1 m' } } }",
                       "give both in units of one kind"));
   EXPECT_TRUE(refuses("lab.sensitivity{ ask=print }", "`inputs` is missing"));
+  EXPECT_TRUE(refuses(
+      "lab.ensemble{ over={ n={ 1 } }, run=function(case) lab.budget{ ask=function(x) return x.seed end, "
+      "replicate={ seed={ 1, 2 } } } end }",
+      "a case of an ensemble cannot make a budget, which takes times: other cases run beside it; go "
+      "over the cases in a `for` loop, one budget after the other"));
 }
 
 TEST_F(BudgetTest, SensitivityRanksInputsAndRefusesNoise) {

@@ -280,8 +280,9 @@ Values make_budget(Call& call) {
   BudgetKeys keys = call.options(budget_block());
   Session& session = call.session();
   if (session.is_case)
-    throw Error(ErrorCode::not_permitted, "a case of an ensemble times nothing: other cases run beside it",
-                "make the budget outside the ensemble");
+    throw Error(ErrorCode::not_permitted,
+                "a case of an ensemble cannot make a budget, which takes times: other cases run beside it",
+                "go over the cases in a `for` loop, one budget after the other");
   return with_key(call.argument(1), "ask", [&](const Argument& function) -> Values {
     if (session.dry_run) return dry_budget(call, keys, AskedFunction(call, function));
     AskedRuns ask(call, function);

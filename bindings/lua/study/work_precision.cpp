@@ -263,8 +263,9 @@ Values work_precision(Call& call) {
   StudyKeys keys = call.options(study_block());
   Session& session = call.session();
   if (session.is_case)
-    throw Error(ErrorCode::not_permitted, "a case of an ensemble times nothing: other cases run beside it",
-                "make the study outside the ensemble");
+    throw Error(ErrorCode::not_permitted,
+                "a case of an ensemble cannot make a study, which takes times: other cases run beside it",
+                "go over the cases in a `for` loop, one study after the other");
   return with_key(call.argument(1), "ask", [&](const Argument& ask) -> Values {
     if (session.dry_run) return dry_study(call, keys, ask);
     auto study = std::make_shared<Study>();
