@@ -7,9 +7,11 @@
 
 #include "engine/core/files/source_file.hpp"
 #include "engine/surface/io/read.hpp"
+#include "engine/surface/io/write.hpp"
 #include "tests/surface/files.hpp"
 #include "tests/surface/little_endian.hpp"
 #include "tests/surface/optical_files.hpp"
+#include "tests/surface/warnings.hpp"
 
 namespace asperity::file_lengths_test {
 namespace {
@@ -147,6 +149,31 @@ TEST(FileLengths, F13TrailersAndFurtherObjectsAreNoBytesOver) {
   EXPECT_NE(refusal("a.sur", testing::SurExample{.objects = 2, .nx = 4, .ny = 4}(twenty) + one)
                 .find("holds 2 objects, and no second one after the 4 x 4 heights"),
             std::string::npos);
+}
+
+// Files that state their own end: what is appended moves no height, and is not passed over in silence.
+TEST(FileLengths, F13BytesAfterTheEndThatAFileStatesAreWarnedOf) {
+  const testing::Scratch scratch;
+  write_surface(Surface(Grid{3, 2, 3e-6, 2e-6}, Field(3, 2, 1e-6)), scratch.path("a.h5"));
+  const std::string gwy = testing::gwy_example(testing::gwy_inner("/0/data", testing::GwyField().object()));
+  for (const auto& [name, whole] :
+       {std::pair{std::string("a.gwy"), gwy},
+        std::pair{std::string("a.h5"), testing::bytes_of(scratch.path("a.h5"))}}) {
+    const auto warnings = [&](const std::string& more) {
+      testing::Warnings heard;
+      const Surface found = read_surface(SourceFile(name, whole + more), {}, heard);
+      EXPECT_EQ(found.digest(), read_surface(SourceFile(name, whole)).digest());
+      return heard.all;
+    };
+    EXPECT_TRUE(warnings("").empty()) << name;
+    const std::string said = "\"" + name + "\" goes on for ",
+                      cause =
+                          " after the end that it states; they are not read: something was appended to "
+                          "it, or it was written over a longer file";
+    EXPECT_EQ(warnings("x"), std::vector<std::string>{said + "1 byte" + cause});
+    EXPECT_EQ(warnings(whole),
+              std::vector<std::string>{said + std::to_string(whole.size()) + " bytes" + cause});
+  }
 }
 
 // With 555 columns for 563 it was read, sheared.

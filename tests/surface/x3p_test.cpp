@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <bit>
+#include <cctype>
 #include <cmath>
 
 #include "engine/core/memory.hpp"
@@ -7,6 +8,7 @@
 #include "engine/surface/io/read.hpp"
 #include "engine/surface/io/write.hpp"
 #include "tests/surface/files.hpp"
+#include "tests/surface/warnings.hpp"
 
 namespace asperity::x3p_test {
 namespace {
@@ -15,6 +17,7 @@ using testing::measured;
 using testing::message_of;
 using testing::raw;
 using testing::Scratch;
+using testing::Warnings;
 using testing::zip_of;
 
 std::string incremental(const std::string& increment) {
@@ -199,7 +202,9 @@ TEST(X3p, Md5IsCompared) {
   std::string wrong = right;
   wrong[0] = wrong[0] == '0' ? '1' : '0';
   recipe.content = link + wrong + "</MD5ChecksumPointData></DataLink>";
-  EXPECT_NE(message_of([&] { read_with(recipe, six); }).find("is damaged: the MD5 of its data is " + right),
+  EXPECT_NE(message_of([&] {
+              read_with(recipe, six);
+            }).find("is damaged: the MD5 of its data, the entry \"bindata/data.bin\", is " + right),
             std::string::npos);
 }
 
@@ -232,14 +237,71 @@ TEST(X3p, F5EveryByteOfItsBinaryEntriesCounts) {
   for (std::size_t k = 0; k < six.size(); ++k) {
     std::string damaged = six;
     damaged[k] = static_cast<char>(damaged[k] ^ 0x10);
-    EXPECT_NE(message(damaged, mask).find("is damaged: the MD5 of its data is "), std::string::npos) << k;
+    EXPECT_NE(
+        message(damaged, mask).find("is damaged: the MD5 of its data, the entry \"bindata/data.bin\", is "),
+        std::string::npos)
+        << k;
   }
   for (const char flip : {'\x01', '\x04', '\xFF'}) {
     const std::string damaged(1, static_cast<char>(mask[0] ^ flip));
-    EXPECT_NE(
-        message(six, damaged)
-            .find("is damaged: the MD5 of its valid points is " + md5_of(damaged) + ", not " + md5_of(mask)),
-        std::string::npos);
+    EXPECT_NE(message(six, damaged)
+                  .find("is damaged: the MD5 of its valid points, the entry \"bindata/valid.bin\", is " +
+                        md5_of(damaged) + ", not " + md5_of(mask)),
+              std::string::npos);
+  }
+}
+
+// main.xml holds sizes and scales: with another one the heights stand, and their scale may not.
+TEST(X3p, F5TheSumOfMainXmlIsCompared) {
+  const std::string xml = Recipe{}.xml(), sum = md5_of(xml);
+  const auto warnings = [](const std::vector<std::pair<std::string, std::string>>& entries) {
+    Warnings heard;
+    const Scratch scratch;
+    expect_ramp(read_surface(scratch.write("map.x3p", zip_of(entries)), {}, heard));
+    // The ramp of metres over micrometres is warned of, too.
+    std::erase_if(heard.all, [](const std::string& text) { return text.find("MD5") == std::string::npos; });
+    return heard.all;
+  };
+  const auto with = [&](const std::string& main, const std::string& hex) {
+    return warnings({{"main.xml", main}, {"bindata/data.bin", six}, {"md5checksum.hex", hex}});
+  };
+  for (const std::string& right : {sum + " *main.xml\n", sum + "  main.xml", sum, " " + sum + "\r\n"})
+    EXPECT_TRUE(with(xml, right).empty()) << right;
+  std::string upper = sum;
+  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  EXPECT_TRUE(with(xml, upper + " *main.xml\n").empty());
+  const std::string altered = xml + " ";
+  const std::vector<std::string> told = with(altered, sum + " *main.xml\n");
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("map.x3p\": the MD5 of its main.xml is " + md5_of(altered) +
+                         ", and the entry \"md5checksum.hex\" says " + sum + "; main.xml may "),
+            std::string::npos)
+      << told[0];
+  // What is no sum says nothing, and neither does a file that is not there.
+  for (const std::string& none : {std::string(), std::string("main.xml"), sum.substr(1), sum + "0"})
+    EXPECT_TRUE(with(altered, none).empty()) << none;
+  EXPECT_TRUE(warnings({{"main.xml", altered}, {"bindata/data.bin", six}}).empty());
+  // Under the name that main.xml gives, in its folder.
+  Recipe named;
+  named.content += "</@Record3><@Record4><@ChecksumFile>sum.hex</@ChecksumFile></@Record4><@Record3>";
+  EXPECT_EQ(warnings({{"a/main.xml", named.xml()}, {"a/bindata/data.bin", six}, {"a/sum.hex", sum}}).size(),
+            1U);
+  EXPECT_TRUE(warnings({{"a/main.xml", named.xml()},
+                        {"a/bindata/data.bin", six},
+                        {"a/sum.hex", md5_of(named.xml())},
+                        {"a/md5checksum.hex", sum}})
+                  .empty());
+}
+
+TEST(X3p, DamageIsToldWithTheEntryThatHasIt) {
+  const std::vector<std::pair<std::string, std::string>> entries{{"main.xml", Recipe{}.xml()},
+                                                                 {"bindata/data.bin", six}};
+  for (const auto& [name, bytes] : entries) {
+    std::string damaged = zip_of(entries);
+    damaged[damaged.find(bytes) + bytes.size() / 2] ^= 0x04;
+    const std::string message = message_of([&] { read_x3p(damaged); });
+    EXPECT_NE(message.find("is damaged: the entry \"" + name + "\" cannot be unpacked"), std::string::npos)
+        << message;
   }
 }
 

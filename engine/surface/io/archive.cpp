@@ -9,6 +9,7 @@
 #include <array>
 
 #include "engine/core/files/text_table.hpp"
+#include "engine/core/text.hpp"
 
 namespace asperity {
 
@@ -95,6 +96,11 @@ std::int64_t Archive::find(std::string_view name) const {
   return -1;
 }
 
+std::string Archive::entry_text(std::int64_t index) const {
+  const char* const name = zip_get_name(state_->zip, static_cast<zip_uint64_t>(index), ZIP_FL_ENC_RAW);
+  return "the entry \"" + plain_text(name == nullptr ? "?" : name) + "\"";
+}
+
 std::uint64_t Archive::claimed_size(std::int64_t index) const {
   zip_stat_t stat;
   zip_stat_init(&stat);
@@ -103,13 +109,14 @@ std::uint64_t Archive::claimed_size(std::int64_t index) const {
       (stat.valid & ZIP_STAT_COMP_METHOD) == 0)
     refuse_file(file_, "has a damaged zip directory");
   if (stat.comp_method != ZIP_CM_STORE && stat.comp_method != ZIP_CM_DEFLATE)
-    refuse_file(file_, "is packed by zip method " + std::to_string(stat.comp_method),
+    refuse_file(file_,
+                "has " + entry_text(index) + " packed by zip method " + std::to_string(stat.comp_method),
                 "pack it again, stored or deflated");
   // Deflate makes at most 1032 bytes of one; nothing is packed smaller than it is in this file.
   constexpr std::uint64_t greatest_ratio = 1032;
   if (stat.comp_size > file_.bytes().size() || stat.size / greatest_ratio > stat.comp_size)
     refuse_file(file_,
-                "has an entry of " + std::to_string(stat.size) + " bytes packed in " +
+                "has " + entry_text(index) + " of " + std::to_string(stat.size) + " bytes packed in " +
                     std::to_string(stat.comp_size) + ", which cannot be",
                 "the file is cut short or damaged");
   return stat.size;
@@ -118,7 +125,7 @@ std::uint64_t Archive::claimed_size(std::int64_t index) const {
 Array<char> Archive::contents(std::int64_t index, std::uint64_t limit) const {
   const std::uint64_t size = claimed_size(index);
   if (size > limit)
-    refuse_file(file_, "has an entry of " + std::to_string(size) + " bytes where at most " +
+    refuse_file(file_, "has " + entry_text(index) + " of " + std::to_string(size) + " bytes where at most " +
                            std::to_string(limit) + " make sense");
   Array<char> bytes(static_cast<std::size_t>(size));
   ArchiveEntry entry(*this, index);
@@ -135,24 +142,26 @@ struct ArchiveEntry::Handle {
 };
 
 ArchiveEntry::ArchiveEntry(const Archive& archive, std::int64_t index)
-    : archive_(archive), handle_(std::make_unique<Handle>()) {
+    : archive_(archive), index_(index), handle_(std::make_unique<Handle>()) {
   handle_->file = zip_fopen_index(archive.state_->zip, static_cast<zip_uint64_t>(index), 0);
   if (handle_->file == nullptr)
-    refuse_file(archive.file_, std::string("cannot be unpacked (") + zip_strerror(archive.state_->zip) + ")",
-                "the file is cut short or damaged");
+    refuse(std::string("cannot be unpacked (") + zip_strerror(archive.state_->zip) + ")");
 }
 
 ArchiveEntry::~ArchiveEntry() = default;
+
+void ArchiveEntry::refuse(const std::string& finding) const {
+  refuse_file(archive_.file_, "is damaged: " + archive_.entry_text(index_) + " " + finding,
+              "copy the file again from its source");
+}
 
 void ArchiveEntry::read(std::span<char> bytes) {
   std::size_t filled = 0;
   while (filled < bytes.size()) {
     const zip_int64_t got = zip_fread(handle_->file, bytes.data() + filled, bytes.size() - filled);
     if (got <= 0)
-      refuse_file(archive_.file_,
-                  got == 0 ? "holds less data than it says"
-                           : std::string("cannot be unpacked (") + zip_file_strerror(handle_->file) + ")",
-                  "the file is cut short or damaged");
+      refuse(got == 0 ? "holds less data than it says"
+                      : std::string("cannot be unpacked (") + zip_file_strerror(handle_->file) + ")");
     filled += static_cast<std::size_t>(got);
   }
   md5_.add(bytes);
@@ -161,10 +170,8 @@ void ArchiveEntry::read(std::span<char> bytes) {
 void ArchiveEntry::expect_end() {
   char extra = 0;
   const zip_int64_t got = zip_fread(handle_->file, &extra, 1);
-  if (got > 0) refuse_file(archive_.file_, "holds more data than it says", "the file is damaged");
-  if (got < 0)
-    refuse_file(archive_.file_, std::string("cannot be unpacked (") + zip_file_strerror(handle_->file) + ")",
-                "the file is cut short or damaged");
+  if (got > 0) refuse("holds more data than it says");
+  if (got < 0) refuse(std::string("cannot be unpacked (") + zip_file_strerror(handle_->file) + ")");
 }
 
 }  // namespace asperity

@@ -45,6 +45,8 @@ class Archive {
   // The folder, with its stroke, in which the one entry called so lies; empty where it lies at the top,
   // nowhere, or in several folders.
   std::string folder_of(std::string_view name) const;
+  // As the directory has it, for errors: `the entry "main.xml"`.
+  std::string entry_text(std::int64_t index) const;
   // Bytes of entry `index` unpacked, as the directory says. Throws Error{bad_file} when no packing
   // could have made so much of so little, or the packing is neither stored nor deflated.
   std::uint64_t claimed_size(std::int64_t index) const;
@@ -72,7 +74,10 @@ class ArchiveEntry {
   Md5& md5() { return md5_; }
 
  private:
+  [[noreturn]] void refuse(const std::string& finding) const;
+
   const Archive& archive_;
+  const std::int64_t index_;
   struct Handle;
   std::unique_ptr<Handle> handle_;
   Md5 md5_;

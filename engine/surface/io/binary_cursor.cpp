@@ -52,4 +52,12 @@ void require_exactly(const SourceFile& file, std::uint64_t nx, std::uint64_t ny,
                 "its header is wrong or the file is damaged: read so, its lines would be shifted");
 }
 
+void warn_of_bytes_over(const SourceFile& file, std::uint64_t over, Monitor& monitor) {
+  if (over == 0) return;
+  monitor.warn(file_name(file.path()) + " goes on for " + std::to_string(over) +
+               (over == 1 ? " byte" : " bytes") +
+               " after the end that it states; they are not read: something was appended to it, or it was "
+               "written over a longer file");
+}
+
 }  // namespace asperity

@@ -70,6 +70,9 @@ void require_numbers(const SourceFile& file, std::uint64_t nx, std::uint64_t ny,
 void require_exactly(const SourceFile& file, std::uint64_t nx, std::uint64_t ny, std::uint64_t width,
                      std::uint64_t present);
 
+// For files that state their own end, after which the heights are whole and nothing is read.
+void warn_of_bytes_over(const SourceFile& file, std::uint64_t over, Monitor& monitor);
+
 struct NoHoles {
   bool operator()(auto) const { return false; }
 };

@@ -159,7 +159,7 @@ struct Channel {
 };
 
 // The maps of the container by their numbers: of "/0/data", "/0/data/title" and "/0/mask".
-std::map<std::uint32_t, Channel> read_channels(const SourceFile& file) {
+std::map<std::uint32_t, Channel> read_channels(const SourceFile& file, Monitor& monitor) {
   if (!file.bytes().starts_with(mark))
     refuse_file(file, "is not a GWY file: it does not start with GWYP",
                 "if it is another format, name it with `format`");
@@ -167,6 +167,7 @@ std::map<std::uint32_t, Channel> read_channels(const SourceFile& file) {
   const Object container = take_object(cursor);
   if (container.name != "GwyContainer")
     refuse_file(file, "holds an object " + shown(container.name) + " instead of a GwyContainer");
+  warn_of_bytes_over(file, cursor.left(), monitor);
   std::map<std::uint32_t, Channel> channels;
   for_each(file, container.content, [&](const Component& part) {
     if (!part.name.starts_with('/')) return;
@@ -240,7 +241,7 @@ void take_out_holes(const SourceFile& file, const Channel& entry, const std::str
 }
 
 HeightMap read_gwy_channel(const SourceFile& file, const std::string& channel, Monitor& monitor) {
-  const auto channels = read_channels(file);
+  const auto channels = read_channels(file, monitor);
   const auto& [number, entry] = *chosen(file, channels, channel);
   const DataField field = read_field(file, entry.field);
   const auto side = [](std::int32_t count) { return count < 0 ? 0 : static_cast<std::uint64_t>(count); };

@@ -4,9 +4,10 @@
 // lie in one folder. x runs fastest; z = raw * Increment + Offset, in metres; data types I, L (signed
 // 16 and 32 bits), F and D. An absolute x or y axis stores its coordinate with every point; it must be
 // evenly spaced. NaN, an infinite height (as Alicona writes), an empty datum or a cleared bit of the
-// valid-points file is a hole. The MD5 that main.xml gives of its binary files are compared;
-// md5checksum.hex, wrong in many files, is not. Offsets of x and y, rotation, layers and point clouds
-// are not read.
+// valid-points file is a hole. The MD5 that main.xml gives of its binary files must be theirs; where that of
+// main.xml itself, in md5checksum.hex as md5sum writes it (Record4), is another, a warning says so: main.xml
+// is edited by hand, and some programs write another sum. Offsets of x and y, rotation, layers and point
+// clouds are not read.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -162,6 +163,22 @@ std::int64_t linked_entry(const Archive& archive, const std::string& folder, std
   return index < 0 ? archive.find(name) : index;
 }
 
+// `found` is that of main.xml. An entry that is not there, or holds no sum, says nothing.
+void compare_own_md5(const SourceFile& file, const Archive& archive, const std::string& folder,
+                     std::string_view name, const std::string& found, Monitor& monitor) {
+  constexpr std::uint64_t longest = 4096;  // a sum and the name of a file
+  const std::int64_t index = linked_entry(archive, folder, name.empty() ? "md5checksum.hex" : name);
+  if (index < 0 || archive.claimed_size(index) > longest) return;
+  const Array<char> text = archive.contents(index, longest);
+  const std::string_view line = trimmed(std::string_view(text.data(), text.size()));
+  const std::size_t digits = std::min(line.find_first_not_of("0123456789abcdefABCDEF"), line.size());
+  if (digits != found.size() || lower_case(line.substr(0, digits)) == found) return;
+  monitor.warn(file_name(file.path()) + ": the MD5 of its main.xml is " + found + ", and " +
+               archive.entry_text(index) + " says " + lower_case(line.substr(0, digits)) +
+               "; main.xml may have been altered: compare the size and the unit of height with those that "
+               "were measured");
+}
+
 void read_binary(const SourceFile& file, const Archive& archive, const std::string& folder,
                  pugi::xml_node link, Map& map, Monitor& monitor) {
   const std::string name(text_of(child(link, "PointDataLink")));
@@ -192,7 +209,8 @@ void read_binary(const SourceFile& file, const Archive& archive, const std::stri
     task.advance();
   }
   entry.expect_end();
-  compare_md5(file, entry.md5(), text_of(child(link, "MD5ChecksumPointData")), "data");
+  compare_md5(file, entry.md5(), text_of(child(link, "MD5ChecksumPointData")),
+              "data, " + archive.entry_text(index) + ",");
 
   const std::string_view valid = text_of(child(link, "ValidPointsLink"));
   if (valid.empty()) return;
@@ -203,7 +221,8 @@ void read_binary(const SourceFile& file, const Archive& archive, const std::stri
   if (mask.size() < (points + 7) / 8) refuse_file(file, "has too few bits in its valid-points entry");
   Md5 md5;
   md5.add(mask);
-  compare_md5(file, md5, text_of(child(link, "MD5ChecksumValidPoints")), "valid points");
+  compare_md5(file, md5, text_of(child(link, "MD5ChecksumValidPoints")),
+              "valid points, " + archive.entry_text(mask_index) + ",");
   for (std::uint64_t k = 0; k < points; ++k)
     if ((static_cast<unsigned char>(mask[k / 8]) >> (k % 8) & 1) == 0)
       map.heights[k] = std::numeric_limits<double>::quiet_NaN();
@@ -298,6 +317,9 @@ HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
   // Text packs no better than some twenty times; more is not a list of numbers.
   const std::uint64_t limit = (std::uint64_t{1} << 20) + 32 * static_cast<std::uint64_t>(file.bytes().size());
   Array<char> xml = archive.contents(index, limit);
+  Md5 md5;
+  md5.add(xml);
+  const std::string xml_md5 = md5.hex();  // before it is parsed, in place
   const TreeMemory tree(xml);
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer_inplace(
@@ -331,6 +353,9 @@ HeightMap read_x3p(const SourceFile& file, Monitor& monitor) {
   } else {
     refuse_file(file, "has neither a DataLink nor a DataList, so it holds no heights");
   }
+
+  compare_own_md5(file, archive, folder, text_of(child(child(root, "Record4"), "ChecksumFile")), xml_md5,
+                  monitor);
 
   HeightMap result;
   result.heights = std::move(map.heights);

@@ -14,6 +14,7 @@
 #include "engine/core/files/source_file.hpp"
 #include "engine/core/loaded_part.hpp"
 #include "engine/core/text.hpp"
+#include "engine/surface/io/binary_cursor.hpp"
 #include "engine/surface/io/hdf5/write_call.hpp"
 #include "engine/surface/io/hdf5_reader/hdf5_objects.hpp"
 
@@ -110,7 +111,9 @@ const T* named(const std::vector<std::pair<std::string, T>>& pairs, std::string_
 class Reader {
  public:
   Reader(const SourceFile& file, Monitor& monitor)
-      : file_(open_hdf5(file)), room_(file_.bytes.size()), monitor_(monitor) {}
+      : file_(open_hdf5(file)), room_(file_.bytes.size()), monitor_(monitor) {
+    warn_of_bytes_over(file, file_.over, monitor);
+  }
 
   Hdf5Content read() {
     visit("", file_.root, 0);

@@ -276,6 +276,7 @@ Hdf5Bytes open_hdf5(const SourceFile& file) {
                 "is cut short: it says that it has " + std::to_string(length) + " bytes and has " +
                     std::to_string(bytes.bytes.size()),
                 "copy it again from where it was whole");
+  bytes.over = bytes.bytes.size() - length;
   bytes.bytes = bytes.bytes.substr(0, static_cast<std::size_t>(length));
   return bytes;
 }

@@ -32,6 +32,7 @@ struct Hdf5Bytes {
   std::string_view bytes;  // from the base address on, to the end that the superblock states
   std::uint64_t address_width = 8, length_width = 8;
   std::uint64_t root = 0;  // the address of the root group's header
+  std::uint64_t over = 0;  // how many bytes of the file come after that end
 
   // A piece of the file. Throws Error{bad_file} naming `what` unless it lies within.
   std::string_view piece(std::uint64_t at, std::uint64_t length, const char* what) const;
