@@ -90,6 +90,22 @@ TEST_F(PressLog, WhatSpreadsheetsAddIsReadOver) {
             "press 1.5 MPa for 2.5 s\npress 2 MPa\n");
 }
 
+TEST_F(PressLog, QuotedCellsGoOnOverLinesWhichAreCounted) {
+  const std::string log =
+      "\"time\n[s]\",\"pressure\n[MPa]\",note\n0,10,\"pressed\nat noon\"\n60,0,\"x\"\n120,20,y\n";
+  EXPECT_EQ(read(log).text(),
+            "protocol of 3 events\n"
+            "  1  press 10 MPa (at 0 s, log.csv line 4)\n"
+            "  2  release (at 60 s, log.csv line 6)\n"
+            "  3  press 20 MPa (at 120 s, log.csv line 7)");
+  EXPECT_NE(refusal("time [s],load [kN],note\n0,1,\"a\nb\"\n10,2,\"x\n\"\n20,fast,z\n")
+                .find("line 6, column 2 (load): \"fast\" is no finite number"),
+            std::string::npos);
+  EXPECT_NE(refusal("time [s];load [kN];note\n0;1;\"a\nb\n10;2;x\n")
+                .find("has a quote in line 2 that is closed nowhere"),
+            std::string::npos);
+}
+
 TEST_F(PressLog, DegreesAsSpreadsheetsWriteThem) {
   for (const char* unit : {"deg", "\xC2\xB0", "\xB0"})
     EXPECT_EQ(events("pressure [MPa],rotation [" + std::string(unit) + "]\n1,90\n"),
