@@ -308,6 +308,7 @@ bool TableLines::next_line(std::string_view& line) {
 
 bool TableLines::at_end_of_table() const {
   if (line() < whole_row_) return false;
+  if (ended_) return true;
   LineReader ahead = lines_;
   std::size_t number = 0;
   for (std::string_view line; next_record(ahead, line, number);)
@@ -315,6 +316,7 @@ bool TableLines::at_end_of_table() const {
       whole_row_ = number;
       return false;
     }
+  ended_ = true;
   return true;
 }
 

@@ -76,6 +76,7 @@ class TableLines {
   std::string_view head_line_;
   std::vector<TableCell> heads_, below_;
   mutable std::size_t whole_row_ = 0;  // a line that is known to be one
+  mutable bool ended_ = false;         // no line that follows is one
 };
 
 // Where a character first stands outside quotes.

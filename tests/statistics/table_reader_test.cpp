@@ -243,6 +243,13 @@ TEST(TableReader, AQuoteThatIsClosedNowhereOrFarBelowIsRefused) {
   EXPECT_EQ(csv("a,b\n1,2\n\"measured\nby Li\"\n"), "a,b\n1,2\n");
 }
 
+// Whether a row follows is looked for once, not at each quote: minutes otherwise.
+TEST(TableReader, ManyQuotesAreGoneOverOnce) {
+  std::string quotes = "a,b\n";
+  for (int k = 0; k < 200000; ++k) quotes += "\"\n";
+  EXPECT_NE(refusal(quotes).find("line 2: there is 1 cell under 2 heads"), std::string::npos);
+}
+
 // Lines above a table of other separators look like one of their own; a footer of words is none.
 TEST(TableReader, ATableBelowWordsIsNotTakenForAFooter) {
   EXPECT_EQ(
