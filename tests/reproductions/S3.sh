@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # S3: a journal that was made a link to somebody's file, and a store that was made a link to a folder, are refused; nothing
-# is written there. Nor does a pipe in the place of a file keep anybody.
+# is written there. A copy by hard links is another run, and what it was copied from stays as it is. Nor does a pipe in the place of a file keep anybody.
 set -eu
 . "$(dirname "$0")/beginning.sh"
 echo 'local b = require "asperity".notebook "n" b:write{ a=1 } error "half-way"' > n.lua
@@ -27,3 +27,10 @@ for file in journal.jsonl manifest.json script.lua; do
   ends 2 "$file" timeout 20 "$program" replay hp
   rm -rf hp
 done
+sed -i 's/b:write{ a=1 }/b:write{ a=1 } b:write{ a=os.getenv "ROW" }/' n.lua
+ROW=2 "$program" run n.lua --out o > /dev/null 2>&1 || true
+cp -a o kept
+cp -al o copy
+ROW=3 "$program" run --resume copy > output 2>&1 || true
+grep -q '"a":"\?3' copy/journal.jsonl || { cat output copy/journal.jsonl; fail "the copy was not taken up"; }
+diff -r --exclude=.lock o kept > output || { cat output; fail "the run that was copied changed along"; }
