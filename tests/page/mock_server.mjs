@@ -40,7 +40,7 @@ const lessons = [
     minutes: 10,
     question: 'Do five methods agree?',
     text: 'Plain text.',
-    script: '-- two\nlocal lab = require "asperity"\nprint(2)\n',
+    script: '-- two\n' + '-- its head\n'.repeat(30) + 'local lab = require "asperity"\nprint(2)\n' + '-- its end\n'.repeat(60),
   },
 ];
 

@@ -77,6 +77,26 @@ test('Lesson, OpenedEditedKeptReset', () =>
     assert.equal(await page.$eval('#reset', (e) => e.hidden), true);
   }));
 
+for (const [width, height] of [
+  [1280, 720],
+  [960, 540],
+  [390, 844],
+])
+  test(`Lesson, BeginsWithItsQuestionAndItsCodeAt${width}x${height}`, () =>
+    visit({ width, height }, async (page) => {
+      await page.click('.lessons li:nth-child(2) button');
+      await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
+      await on.pause(400);
+      const { top, bottom } = await page.$eval('#lessons .called', (e) => e.getBoundingClientRect().toJSON());
+      assert.ok(top >= 0 && bottom <= height, `the question is at ${top} to ${bottom}`);
+      const first = await page.evaluate(() => {
+        const root = document.querySelector('#editor').shadowRoot;
+        const from = root.querySelector('.cm-scroller').getBoundingClientRect().top;
+        return [...root.querySelectorAll('.cm-line')].find((l) => l.getBoundingClientRect().bottom > from + 4).textContent;
+      });
+      assert.match(first, /^local lab/);
+    }));
+
 test('Lesson, BackGoesToTheListAndForwardToTheLesson', () =>
   visit({}, async (page) => {
     const { address } = mock;

@@ -176,6 +176,7 @@ export class Editor {
   private timer = 0;
   private checking: AbortController | undefined;
   private quiet = false;
+  private within = -1; // the place that is scrolled to in the editor alone
 
   constructor(
     host: HTMLElement,
@@ -227,9 +228,10 @@ export class Editor {
     this.view.focus();
   }
 
-  /** Brings a line to the top without going there. */
+  /** Brings a line to the top without going there; what the page is scrolled to stays. */
   showLine(line: number): void {
     const at = this.view.state.doc.line(Math.min(Math.max(1, line), this.view.state.doc.lines));
+    this.within = at.from;
     this.view.dispatch({ effects: EditorView.scrollIntoView(at.from, { y: 'start' }) });
   }
 
@@ -293,6 +295,13 @@ export class Editor {
         highlightActiveLine(),
         highlightSelectionMatches(),
         EditorView.lineWrapping,
+        EditorView.scrollHandler.of((_, { head }) => {
+          // The editor scrolls what is around it, too, which is put back before it is seen.
+          const { scrollX, scrollY } = window;
+          if (head === this.within) queueMicrotask(() => scrollTo(scrollX, scrollY));
+          this.within = -1;
+          return false;
+        }),
         hanging,
         hangingLook,
         typingOver,
