@@ -553,7 +553,8 @@ test('Prediction, TypedBesideTheScriptLeavesItWhereItIs', () =>
     await page.type('.guesses input', '0.25');
     await on.pause(300);
     assert.equal(await scroller(null), before);
-    assert.match(await on.editorText(page), /^local my_guess = \{ Ra=0\.25, slope=nil \} -- shares$/m);
+    const kept = await page.evaluate(() => localStorage.getItem('asperity.script.lesson.01_roughness'));
+    assert.match(kept, /^local my_guess = \{ Ra=0\.25, slope=nil \} -- shares$/m);
   }));
 
 test('Room, TheTeacherSeesPredictionsRunsAndWhoAsksForHelp', async () => {
