@@ -541,18 +541,32 @@ test('Prediction, TypedBesideTheScriptLeavesItWhereItIs', () =>
     await on.until(page, () => document.querySelector('.lesson'), 'the lesson should open');
     const lines = (n) => '-- a line\n'.repeat(n);
     await on.write(page, `${lines(60)}local my_guess = { Ra=nil, slope=nil } -- shares\n${lines(60)}`);
-    const scroller = (act) =>
-      page.evaluate((to) => {
+    const scrolled = (to) =>
+      page.evaluate((top) => {
         const e = document.querySelector('#editor').shadowRoot.querySelector('.cm-scroller');
-        if (to !== null) e.scrollTop = to;
+        if (top !== null) e.scrollTop = top;
         return e.scrollTop;
-      }, act);
-    await scroller(1200);
+      }, to);
+    // What was written is followed to its end, and only then something else is looked at.
+    for (let k = 0; k < 100 && (await scrolled(null)) < 1300; ++k) await on.pause(50);
     await on.pause(300);
-    const before = await scroller(null);
+    await scrolled(1200);
+    const seen = (words) =>
+      on.until(
+        page,
+        (text) => {
+          const root = document.querySelector('#editor').shadowRoot;
+          const around = root.querySelector('.cm-scroller').getBoundingClientRect();
+          const line = [...root.querySelectorAll('.cm-line')].find((l) => l.textContent.includes(text))?.getBoundingClientRect();
+          return line && line.top >= around.top && line.bottom <= around.bottom;
+        },
+        `it should be in sight: ${words}`,
+        words,
+      );
+    await seen('Ra=nil');
     await page.type('.guesses input', '0.25');
     await on.pause(300);
-    assert.equal(await scroller(null), before);
+    await seen('Ra=0.25');
     const kept = await page.evaluate(() => localStorage.getItem('asperity.script.lesson.01_roughness'));
     assert.match(kept, /^local my_guess = \{ Ra=0\.25, slope=nil \} -- shares$/m);
   }));
