@@ -444,6 +444,11 @@ for (const [width, height] of [
         assert.equal(found, 'banner', fill ? 'over results that fill the window' : 'at the end of the page');
         await page.$eval('#banner button', (e) => e.click());
       }
+      if (width === 390) {
+        const { height: bar } = await (await page.$('.bar')).boundingBox();
+        assert.ok(bar < 150, `the bar takes ${bar} px`);
+        assert.deepEqual(await page.$$eval('.bar kbd, .tip', (all) => all.filter((e) => e.checkVisibility()).length), 0);
+      }
       if (width === 960) {
         const { top } = await page.$eval('#stop', (e) => e.getBoundingClientRect().toJSON());
         assert.ok(top >= 0 && top < 100, `Stop is at ${top} px`);
