@@ -43,7 +43,7 @@ end
 
 local function names(said, ...)
   local known = { ... }
-  local form = "{ " .. table.concat(known, "=, ") .. "= }"
+  local form = "{ " .. table.concat(known, "=nil, ") .. "=nil }"
   if type(said) ~= "table" then
     error(("my_guess is %s; give its numbers by name, as in %s"):format(tostring(said), form), 2)
   end

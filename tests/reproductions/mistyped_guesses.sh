@@ -22,7 +22,7 @@ for lesson in "$root"/scripts/lessons/*.lua; do
     done
     sed 's/^local my_guess = {.*}/local my_guess = 5/' "$lesson" > lesson.lua
     ! "$program" check lesson.lua > output 2>&1 || fail "a number for $lesson"
-    says "my_guess is 5; give its numbers by name, as in { $first=, " output
+    says "my_guess is 5; give its numbers by name, as in { $first=nil, " output
   done
   # As the page writes them.
   sed "s/^\(local my_guess = { \)$first=nil/\1$first=0.5/" "$lesson" > lesson.lua
