@@ -213,7 +213,7 @@ def test_cells_that_a_script_does_not_take_are_not_tried_again():
 
 
 def test_barriers_hold_while_a_knob_moves():
-    with Server(runner.program) as server:
+    with Server(runner.program, "--limit-memory", "500M") as server:
         live = begin(server, 'local f, why = io.open("/etc/passwd")\nprint(f, why)\nprint(pcall(os.execute, "true"))\n')
         text = events(whole(move(server, live)), "output")[0]["text"]
         assert text.startswith("nil\t") and "root:" not in text, text

@@ -36,7 +36,7 @@ class SystemCalls : public testing::Test {
 
 // The undefined-behaviour sanitizer looks at the type of a thread's state when the thread begins, and ends
 // the process where it cannot.
-TEST_F(SystemCalls, AThreadBeginsBehindTheFilter) {
+TEST_F(SystemCalls, WorkBesideTheMainOneBeginsBehindTheFilter) {
   EXPECT_EQ(confined([] {
               int sum = 0;
               std::thread adding([&sum] { sum = 7; });
