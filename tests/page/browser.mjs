@@ -220,3 +220,13 @@ export const focused = (page) =>
     while (e?.shadowRoot?.activeElement) e = e.shadowRoot.activeElement;
     return e?.id || e?.getAttribute('aria-label') || e?.textContent.trim().slice(0, 60) || e?.className || e?.tagName;
   });
+
+/** What the page had fetched when it became interactive, and when that was: { requests, bytes (unpacked), ms }. */
+export function start(page) {
+  return page.evaluate(() => {
+    const ms = performance.getEntriesByName('asperity-ready')[0].startTime;
+    const fetched = [...performance.getEntriesByType('navigation'), ...performance.getEntriesByType('resource')]
+      .filter((entry) => entry.responseStart > 0 && entry.responseStart <= ms);
+    return { requests: fetched.length, bytes: fetched.reduce((sum, entry) => sum + entry.decodedBodySize, 0), ms };
+  });
+}

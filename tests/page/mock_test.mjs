@@ -39,16 +39,15 @@ async function visit(options, act) {
   }
 }
 
-test('Start, UnderOneSecond', async () => {
-  const times = [];
-  for (let k = 0; k < 5; ++k) {
-    const page = await on.openPage(browser, mock.url);
-    await ready(page);
-    times.push(await page.evaluate(() => performance.getEntriesByName('asperity-ready')[0].startTime));
-    await page.done();
-  }
-  console.log(`interactive after ${times.map((t) => `${Math.round(t)} ms`).join(', ')}`);
-  assert.ok(Math.min(...times) < 1000, times.join());
+// How long that takes is the machine's: it is printed.
+test('Start, OfFewRequestsAndBytes', async () => {
+  const page = await on.openPage(browser, mock.url);
+  await ready(page);
+  const { requests, bytes, ms } = await on.start(page);
+  console.log(`interactive after ${requests} requests, ${bytes} bytes, ${Math.round(ms)} ms`);
+  assert.ok(requests >= 2 && requests <= 6, `${requests} requests`);
+  assert.ok(bytes > 100_000 && bytes < 650_000, `${bytes} bytes`);
+  await page.done();
 });
 
 test('Token, LeavesTheAddressAndOutlivesAReload', () =>
