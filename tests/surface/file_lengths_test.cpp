@@ -159,7 +159,7 @@ TEST(FileLengths, F13BytesAfterTheEndThatAFileStatesAreWarnedOf) {
   for (const auto& [name, whole] :
        {std::pair{std::string("a.gwy"), gwy},
         std::pair{std::string("a.h5"), testing::bytes_of(scratch.path("a.h5"))}}) {
-    const auto warnings = [&](const std::string& more) {
+    const auto warnings = [&, &name = name, &whole = whole](const std::string& more) {
       testing::Warnings heard;
       const Surface found = read_surface(SourceFile(name, whole + more), {}, heard);
       EXPECT_EQ(found.digest(), read_surface(SourceFile(name, whole)).digest());
