@@ -221,12 +221,13 @@ export const focused = (page) =>
     return e?.id || e?.getAttribute('aria-label') || e?.textContent.trim().slice(0, 60) || e?.className || e?.tagName;
   });
 
-/** What the page had fetched when it became interactive, and when that was: { requests, bytes (unpacked), ms }. */
+/** The page's own files that it had fetched when it became interactive, and when that was: { requests, bytes (unpacked), ms }.
+    What it asks the server is not among them: how much of that is answered by then hangs on the machine. */
 export function start(page) {
   return page.evaluate(() => {
     const ms = performance.getEntriesByName('asperity-ready')[0].startTime;
     const fetched = [...performance.getEntriesByType('navigation'), ...performance.getEntriesByType('resource')]
-      .filter((entry) => entry.responseStart > 0 && entry.responseStart <= ms);
+      .filter((entry) => entry.initiatorType !== 'fetch' && entry.responseStart > 0 && entry.responseStart <= ms);
     return { requests: fetched.length, bytes: fetched.reduce((sum, entry) => sum + entry.decodedBodySize, 0), ms };
   });
 }
