@@ -52,7 +52,18 @@ export async function openPage(browser, url, { scheme = 'light', width = 1280, h
     );
   });
   if (url) await page.goto(url);
-  return Object.assign(page, { complaints, done: () => context.close() });
+  // Found and read at one time: between two calls the page may draw anew, and what is drawn no more has no size.
+  const atOnce = (found, act, args) => page.evaluate(`(${act})(${found}, ...${JSON.stringify(args)})`);
+  const inShadows = page.$$eval.bind(page);
+  return Object.assign(page, {
+    complaints,
+    done: () => context.close(),
+    $eval: (selector, act, ...args) => atOnce(`document.querySelector(${JSON.stringify(selector)})`, act, args),
+    $$eval: (selector, act, ...args) =>
+      selector.startsWith('>>>')
+        ? inShadows(selector, act, ...args)
+        : atOnce(`[...document.querySelectorAll(${JSON.stringify(selector)})]`, act, args),
+  });
 }
 
 export async function assertQuiet(page) {
@@ -62,15 +73,51 @@ export async function assertQuiet(page) {
 
 export const pause = (ms) => new Promise((r) => setTimeout(r, ms));
 
+/** Waits until what matches is no longer drawn anew. */
+export async function settled(page, selector) {
+  const seen = () => page.$$eval(selector, (all) => all.map((e) => e.outerHTML).join());
+  for (let now = await seen(), before; now !== before; now = await seen()) {
+    before = now;
+    await pause(300);
+  }
+}
+
 /** Waits until `test` is true of the page. */
 export async function until(page, test, what, ...args) {
   try {
     await page.waitForFunction(test, { timeout: 20_000, polling: 50 }, ...args);
   } catch {
+    const said = await page.evaluate(() => JSON.stringify(window.said ?? []));
     const seen = await page.evaluate(() => document.body.innerText.slice(0, 1500));
-    assert.fail(`${what}; the page shows:\n${seen}`);
+    assert.fail(`${what}; it said ${said}; the page shows:\n${seen}`);
   }
 }
+
+/**
+ * Notes from here on what the status says, beside what the picture shows: a word may go before it is asked for. A knob
+ * counts as at rest, and its values are run and recorded, after ten times as long: no machine is too slow to answer before.
+ */
+export const listen = (page) =>
+  page.evaluate(() => {
+    window.said = [];
+    const wait = (window.plainTimeout ??= window.setTimeout);
+    window.setTimeout = (act, ms, ...args) => wait(act, ms === 900 ? 10 * ms : ms, ...args);
+    const [status, relief] = ['#status', '.relief'].map((s) => document.querySelector(s));
+    const note = () => window.said.push({ status: status.textContent, picture: relief.getAttribute('aria-label') ?? '' });
+    const observer = new MutationObserver(note);
+    observer.observe(status, { childList: true, characterData: true, subtree: true });
+    observer.observe(relief, { attributes: true, attributeFilter: ['aria-label'] });
+  });
+
+/** Waits until the status has said this since `listen`, at a time when the picture's title began so. */
+export const untilSaid = (page, status, picture = '') =>
+  until(
+    page,
+    (s, p) => window.said.some((e) => new RegExp(s).test(e.status) && e.picture.startsWith(p)),
+    `the status should have said ${status} ${picture && `of ${picture}`}`,
+    status.source,
+    picture,
+  );
 
 export const inEditor = (page, selector) =>
   until(
@@ -96,8 +143,8 @@ export const editorText = (page) =>
 /** Puts a script into the editor as a paste does, which closes no brackets by itself. */
 export async function write(page, script) {
   await (await page.$('>>> .cm-content')).focus();
-  await chord(page, 'Control', 'a');
-  await page.keyboard.press('Backspace');
+  await chord(page, 'Control', 'a'); // what is pasted replaces it: an empty script would be checked and shown too
+  if (!script) return page.keyboard.press('Backspace');
   await page.evaluate((t) => {
     const data = new DataTransfer();
     data.setData('text/plain', t);

@@ -128,17 +128,11 @@ test('Knob, ScriptFollowsItInAProcessThatStaysAlive', () =>
     page.on('request', (r) => r.method() === 'POST' && begun.push(new URL(r.url()).pathname));
     const before = processes();
     await page.focus('.knobs input');
-    const whole = (counts) =>
-      on.until(
-        page,
-        (c) => {
-          const [status, pressure] = ['#status', '.knobs output'].map((s) => document.querySelector(s).textContent);
-          const title = document.querySelector('.relief').getAttribute('aria-label') ?? '';
-          return status.startsWith('Live in') && status.includes(c) && title.startsWith(`contact:press at ${pressure}:`);
-        },
-        `the whole answer should be there, ${counts}`,
-        counts,
-      );
+    await on.listen(page);
+    const whole = async (counts) => {
+      const pressure = await on.text(page, '.knobs output');
+      await on.untilSaid(page, new RegExp(`^Live in .*${counts}`), `contact:press at ${pressure}:`);
+    };
     // The first move makes the surface.
     await page.keyboard.press('ArrowRight');
     await whole('2 computed, 0 from memory');
@@ -182,9 +176,10 @@ test('Knob, OfAScriptWithoutPicturesShowsNoneOfAnother', () =>
     await on.until(page, () => document.querySelector('.pictures .caption').textContent, 'the picture should come');
     await on.write(page, 'local lab = require "asperity"\nprint(lab.knob{ name="n", from=1, to=2, value=1 })\n');
     await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    await on.listen(page);
     await page.focus('.knobs input');
     await page.keyboard.press('ArrowRight');
-    await on.until(page, () => document.querySelector('#status').textContent.startsWith('Live in'), 'it should follow');
+    await on.untilSaid(page, /^Live in/);
     const seen = () => page.$$eval('.pictures, #picture .empty', (all) => all.map((e) => [e.className, e.hidden]));
     assert.deepEqual(await seen(), [
       ['empty', false],
@@ -198,13 +193,7 @@ test('Knob, CoarseAnswerFirstWhereTheWholeTakesLonger', () =>
   visit({}, async (page) => {
     await on.write(page, pressed.replace('cells=256', 'cells=1024').replace('20 um', '80 um').replace('print("area",', 'print("at " .. p / 1e6 .. " MPa\\n",'));
     await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
-    await page.evaluate(() => {
-      window.said = [];
-      new MutationObserver(() => window.said.push(document.querySelector('#status').textContent)).observe(
-        document.querySelector('#status'),
-        { childList: true, characterData: true, subtree: true },
-      );
-    });
+    await on.listen(page);
     await page.focus('.knobs input');
     // The first makes the surface, and the second tells how long the whole takes.
     for (let k = 0; k < 3; ++k) {
@@ -214,13 +203,13 @@ test('Knob, CoarseAnswerFirstWhereTheWholeTakesLonger', () =>
         page,
         (p) =>
           document.querySelector('.output').textContent.includes(`at ${p}\n`) &&
-          document.querySelector('#status').textContent.startsWith('Live in'),
+          window.said.some((e) => e.status.startsWith('Live in')),
         'the whole should be answered',
         await on.text(page, '.knobs output'),
       );
     }
-    const coarse = await page.evaluate(() => window.said.find((s) => s.startsWith('Live, coarse')));
-    assert.match(coarse, /^Live, coarse: 1\/\d+ of the cells a side; the whole follows/);
+    const coarse = await page.evaluate(() => window.said.find((e) => e.status.startsWith('Live, coarse')));
+    assert.match(coarse?.status, /^Live, coarse: 1\/\d+ of the cells a side; the whole follows/);
   }));
 
 test('Knob, ItsProcessGoesWithTheTab', async () => {
@@ -228,9 +217,10 @@ test('Knob, ItsProcessGoesWithTheTab', async () => {
   await visit({}, async (page) => {
     await on.write(page, 'local lab = require "asperity"\nprint(lab.knob{ name="n", from=1, to=2, value=1 })\n');
     await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
+    await on.listen(page);
     await page.focus('.knobs input');
     await page.keyboard.press('ArrowRight');
-    await on.until(page, () => document.querySelector('#status').textContent.startsWith('Live in'), 'it should follow');
+    await on.untilSaid(page, /^Live in/);
     await on.finished(page);
     const alive = processes().filter((p) => !before.includes(p));
     assert.equal(alive.length, 1);
@@ -247,12 +237,8 @@ test('Knob, AProcessThatHasEndedIsBegunAgain', () =>
     await on.write(page, pressed.replace('cells=256', 'cells=64').replace('20 um', '80 um'));
     await on.until(page, () => document.querySelector('.knobs input'), 'a slider should come');
     const before = processes();
-    const answered = () =>
-      on.until(
-        page,
-        () => document.querySelector('#status').textContent.includes('2 computed, 0 from memory'),
-        'a process should begin with nothing in memory',
-      );
+    const answered = () => on.untilSaid(page, /^Live in .*2 computed, 0 from memory/); // nothing is in its memory
+    await on.listen(page);
     await page.focus('.knobs input');
     await page.keyboard.press('ArrowRight');
     await answered();
@@ -260,6 +246,7 @@ test('Knob, AProcessThatHasEndedIsBegunAgain', () =>
     const [alive] = processes().filter((p) => !before.includes(p));
     process.kill(Number(alive), 'SIGKILL');
     for (let k = 0; k < 100 && processes().includes(alive); ++k) await on.pause(50);
+    await on.listen(page);
     await page.keyboard.press('ArrowRight');
     await answered();
     assert.equal(await page.$eval('#banner', (e) => e.hidden), true);
@@ -273,12 +260,9 @@ test('Knob, MovesThePictureAndEndsInAnErrorAtOneValue', () =>
     await page.click('#tab-picture');
     await titled(page, 'contact:press at 20 MPa');
     await page.focus('.knobs input');
+    await on.listen(page);
     await page.keyboard.press('End');
-    await on.until(
-      page,
-      () => document.querySelector('#status').textContent.startsWith('Live: line 6: more than'),
-      'the mistake should be told at once',
-    );
+    await on.untilSaid(page, /^Live: line 6: more than/);
     await on.finished(page, 'Failed');
     await page.focus('.knobs input');
     await page.keyboard.press('Home');

@@ -144,7 +144,7 @@ test('Chart, OfNamesAlongXWritesThemApart', () =>
       await page.setViewport({ width, height });
       for (const n of [2, 5, 60]) {
         await charted(page, script(n), 2 * n);
-        await on.pause(250); // a window of another size is drawn anew
+        await on.settled(page, '.chart svg'); // a window of another size is drawn anew
         const labels = await ticks(page, 'x');
         assert.ok(labels.length >= 2 && labels.length <= n, `${width}: ${labels.length} of ${n} names`);
         if (n <= 5) assert.equal(labels.length, n, `${width}: every one of ${n} names`);
