@@ -300,6 +300,7 @@ Plan plan_of_press(const Scene& scene, const ContactGeometry& geometry, const Pl
   Plan result = plan;
   const ExpectedTransforms expected = expected_transforms(scene, geometry, plan, request);
   result.press = "by " + quoted(name(request.by));
+  if (request.by == PressBy::flatten) hold_flattening(result);
   if (!std::holds_alternative<HalfSpaceOperator>(plan.elasticity)) return result;
   const Grid& grid = expected.tried_on;
   if (!expected.refused.empty()) {

@@ -58,6 +58,12 @@ std::int64_t Plan::bytes_grown() const {
   return sum;
 }
 
+void hold_flattening(Plan& plan) {
+  if (plan.bytes_to_flatten == 0) return;
+  plan.buffers.push_back({"while what flattens so much is sought", plan.bytes_to_flatten, false});
+  plan.bytes_to_flatten = 0;
+}
+
 std::string Plan::text() const {
   std::string result = "contact of " + title + "\n";
   if (overlap < 1)

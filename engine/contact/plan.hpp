@@ -80,6 +80,9 @@ struct Plan {
   std::string text() const;          // several lines, each ended
 };
 
+// The plan of a press by flattening: what that holds beyond the others is among its buffers.
+void hold_flattening(Plan& plan);
+
 // Throws Error that names effect and body when an effect lacks a property of a material, or a default
 // cannot be formed (a flat has no peak-to-valley to set the stiffness by). O(1).
 Plan make_plan(const Scene& scene, const ContactGeometry& geometry);

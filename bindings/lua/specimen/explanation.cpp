@@ -127,7 +127,9 @@ std::string Explanation::text() const {
     const Expected expected = planned.together();
     transforms += expected.transforms;
     seconds += expected.seconds;
-    bytes = std::max(bytes, planned.plan.bytes_peak());
+    const bool flattens = std::any_of(planned.calls.begin(), planned.calls.end(),
+                                      [](const Calls& calls) { return calls.by == PressBy::flatten; });
+    bytes = std::max(bytes, planned.plan.bytes_peak() + (flattens ? planned.plan.bytes_to_flatten : 0));
     solves += planned.solves();
   }
   return result + unplanned + "together: " + std::to_string(solves) + (solves == 1 ? " press" : " presses") +

@@ -87,9 +87,11 @@ void plan_yield_of_boxes(const ContactGeometry& geometry, Plan& plan) {
   plan.solver = "closed form (sorted elements)";
   plan.buffers.push_back(
       {"sums over the elements in the order in which they yield", YieldingElements::bytes(nodes)});
+  const auto fields = [&](int count) { return static_cast<std::int64_t>(count * nodes * sizeof(double)); };
   if (plan.yield->hardens())
-    plan.buffers.push_back({"elements of bodies that have hardened, in order",
-                            static_cast<std::int64_t>(3 * nodes * sizeof(double))});
+    plan.buffers.push_back({"elements of bodies that have hardened, in order", fields(3)});
+  else  // what yields takes the room that sorting has left
+    plan.buffers.push_back({"bodies as they have yielded", fields(geometry.upper_is_flat() ? 1 : 2), false});
 }
 
 void check_rigid(const std::any&, const Scene& scene) {
