@@ -304,7 +304,7 @@ export class PicturePane {
       (this.flat ? ' · this browser has no WebGL, so nothing can be turned' : '');
     this.canvas.setAttribute(
       'aria-label',
-      `${this.title()}: ${describe(colour)}. ${this.caption.textContent}. Arrow keys turn it.`,
+      `${[this.title(), describe(colour)].filter(Boolean).join(': ')}. ${this.caption.textContent}. Arrow keys turn it.`,
     );
     const colours = coloursOf(colour.name, colour.values, range);
     const { width, height } = this.room();
@@ -359,7 +359,8 @@ export class PicturePane {
   }
 
   private title(): string {
-    return this.run?.views.find((v) => v.name === this.shown)?.title ?? this.shown;
+    const name = this.shown || this.kept; // what stays in sight until the next has come
+    return this.run?.views.find((v) => v.name === name)?.title ?? name;
   }
 
   private room(): { width: number; height: number } {
