@@ -109,6 +109,7 @@ enum class ChainEffort {
   start,  // of a finer grid: pressures may end outside their bounds, with gaps as the steps left them
   brief,  // an answer, or none without the last resort
   quick,  // at an offset: the same, its gap computed afresh
+  less,   // at an offset: an answer, with fewer passes downhill
   full    // an answer, down to thousands of projected gradients
 };
 

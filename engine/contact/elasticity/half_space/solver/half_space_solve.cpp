@@ -375,6 +375,23 @@ HalfSpaceAnswer in_si(const HalfSpaceProblem& problem, const CellUnits& units, d
   return answer;
 }
 
+// The problem under a load in cell units, all of it facing the ground.
+CellProblem cells_under_load(const HalfSpaceProblem& problem, const CellUnits& units, double mean_pressure,
+                             bool flat) {
+  CellProblem cell;
+  cell.shape = level_shape(problem, false);
+  cell.heights = problem.heights->values();
+  cell.origin = units.origin;
+  cell.factor = 1 / units.height;
+  cell.limit = cell_limit(problem.yield, units);
+  cell.mean_pressure = mean_pressure / units.pressure;
+  if (flat) cell.length = std::sqrt(static_cast<double>(cell.shape.nodes()) * cell.shape.aspect);
+  // A little less, so that what rounding adds on the way to pascals stays within it.
+  cell.tolerance = 0.99 * problem.tolerance;
+  cell.effort = problem.brief ? ChainEffort::brief : ChainEffort::full;
+  return cell;
+}
+
 // A warm start in cell units.
 struct Start {
   Array<double> pressure, gap;
@@ -499,6 +516,18 @@ std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& proble
 
 }  // namespace
 
+std::optional<HalfSpaceAnswer> solve_if_full(const HalfSpaceProblem& problem, double mean_pressure,
+                                             Monitor& monitor) {
+  check(problem, mean_pressure);
+  const bool flat = !rough(problem, mean_pressure);
+  if (problem.boundary != Boundary::periodic || flat || mean_pressure == 0) return {};
+  const CellUnits units = cell_units(problem, mean_pressure, flat);
+  CellAnswer found = full_contact(cells_under_load(problem, units, mean_pressure, flat), monitor);
+  if (!found.converged) return {};
+  HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, std::move(found));
+  return answer.converged ? std::optional(std::move(answer)) : std::nullopt;
+}
+
 HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,
                                   const HalfSpaceAnswer* start, Monitor& monitor) {
   check(problem, mean_pressure);
@@ -508,22 +537,13 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   const CellUnits units = cell_units(problem, mean_pressure, flat);
   const Grid& grid = problem.grid;
 
-  CellProblem cell;
-  cell.shape = level_shape(problem, false);
+  CellProblem cell = cells_under_load(problem, units, mean_pressure, flat);
   Field out_of_the_way;
   if (problem.overhangs) {
     cell.lowest = known_range(problem.heights->values()).min;
     out_of_the_way = with_ground_out_of_reach(problem, cell.lowest, mean_pressure);
+    cell.heights = out_of_the_way.values();
   }
-  cell.heights = (problem.overhangs ? out_of_the_way : *problem.heights).values();
-  cell.origin = units.origin;
-  cell.factor = 1 / units.height;
-  cell.limit = cell_limit(problem.yield, units);
-  cell.mean_pressure = mean_pressure / units.pressure;
-  if (flat) cell.length = std::sqrt(static_cast<double>(cell.shape.nodes()) * cell.shape.aspect);
-  // A little less, so that what rounding adds on the way to pascals stays within it.
-  cell.tolerance = 0.99 * problem.tolerance;
-  cell.effort = problem.brief ? ChainEffort::brief : ChainEffort::full;
 
   CellAnswer found;
   const bool may_be_full = problem.boundary == Boundary::periodic &&

@@ -34,7 +34,16 @@ std::optional<double> most_at_the_cap(const HalfSpaceProblem& problem, const Hal
 
 HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double mean_pressure, double missed,
                                       Monitor& monitor) {
-  HalfSpaceAnswer answer = solve_at_pressure(problem, mean_pressure, nullptr, monitor);
+  // A hardness far above the load weighs what rounding leaves of the gaps by how far: under more load, which
+  // moves nothing, it does so less.
+  constexpr int tries = 4;
+  constexpr double more = 10;
+  std::optional<HalfSpaceAnswer> full;
+  double load = mean_pressure;
+  for (int n = 0; n < tries && !full && load < problem.yield.cap; ++n, load *= more)
+    full = solve_if_full(problem, load, monitor);
+  HalfSpaceAnswer answer =
+      full ? std::move(*full) : solve_at_pressure(problem, mean_pressure, nullptr, monitor);
   answer.certificate.load = std::max(answer.certificate.load, missed);
   return answer;
 }
@@ -87,7 +96,8 @@ class LoadSearch {
         now_(problem),
         least_(problem.tolerance),
         answer_(std::move(begun)),
-        applications_(answer_.iterations) {
+        applications_(answer_.iterations),
+        long_cells_(keeps_line_loads(problem.grid.hy() / problem.grid.hx())) {
     now_.best_effort = true;
     now_.tolerance = std::max(problem.tolerance, loosest);
   }
@@ -169,6 +179,7 @@ class LoadSearch {
   ShortOfAll short_of_all_;
   std::vector<Told> told_;
   int applications_;
+  const bool long_cells_;
   bool easy_ = false, hard_ = false;  // whether the last solve took few applications, or the last resort
   // Whether the last measure was too rough to tell a side, and the next takes its place.
   bool rough_ = false, in_place_ = false;
@@ -242,8 +253,7 @@ void LoadSearch::solve(double pressure) {
   }
   // On long cells descents more often need the last resort, and would take all that they took before it
   // again.
-  const bool long_cells = keeps_line_loads(problem_.grid.hy() / problem_.grid.hx());
-  const bool loose = sought_.on_the_line && now_.tolerance > problem_.tolerance && !long_cells;
+  const bool loose = sought_.on_the_line && now_.tolerance > problem_.tolerance && !long_cells_;
   const bool tight = now_.tolerance < problem_.tolerance;
   now_.brief = (warm && easy_) || ((loose || tight) && !hard_);
   answer_ = solve_at_pressure(now_, pressure, warm ? &start : nullptr, monitor_);
@@ -322,8 +332,11 @@ HalfSpaceAnswer LoadSearch::run() {
     const bool nothing_more =
         found > sought_.wanted && sought_.most - found < 0.1 * (sought_.most - sought_.wanted);
     root_.take({pressure, nothing_more ? infinity : found}, sure || nothing_more, in_place_);
+    const double solved_to = now_.tolerance;
     now_.tolerance = std::clamp(next_error * error / unit_, least_, now_.tolerance);
     if (near_enough) continue;  // the same again, by a tighter solve
+    // On long cells a step the wrong way is dear: the same again, until the side is told.
+    if (long_cells_ && !sought_.on_the_line && !told && !tightest && now_.tolerance < solved_to) continue;
     const bool line_fails = by_line && error > enough_gain * error_before;
     std::optional<double> next;
     if (nothing_more)

@@ -434,15 +434,17 @@ bool offset_descent(ContactLevel& level, DescentFields& fields, double offset, d
 
 DescentEnd run_offset_chain(ContactLevel& level, DescentFields& fields, double offset, double tolerance,
                             ChainEffort effort, bool gap_known) {
-  constexpr int quick = 150, careful = 80;
+  constexpr int quick = 150, careful = 80, less_careful = 34;
   DescentEnd end;
   end.stage = "preconditioned descent at a given approach";
   end.converged = offset_descent(level, fields, offset, tolerance, quick, effort, false, gap_known);
   if (end.converged || effort == ChainEffort::start) return end;
   // On long cells the load is found sooner.
-  if (effort != ChainEffort::full && keeps_line_loads(level.shape.aspect)) return end;
+  if (effort != ChainEffort::full && effort != ChainEffort::less && keeps_line_loads(level.shape.aspect))
+    return end;
   end.stage = "preconditioned descent at a given approach, downhill";
-  end.converged = offset_descent(level, fields, offset, tolerance, careful, effort, true, false);
+  end.converged = offset_descent(level, fields, offset, tolerance,
+                                 effort == ChainEffort::less ? less_careful : careful, effort, true, false);
   return end;
 }
 
