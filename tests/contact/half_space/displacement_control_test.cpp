@@ -337,6 +337,40 @@ TEST(ApproachSolve, V1_LongCellsJustBelowFullContactAreSoughtByTheirLoad) {
   }
 }
 
+// Entry V1: a hardness far above the least load of full contact weighs what rounding leaves of the gaps by
+// how far. More load is taken then, no more than twice one that does not do, and the answer says so.
+TEST(FlatteningSolve, V1_FullContactThatRoundingHidesIsFoundUnderLittleMoreLoad) {
+  HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);
+  const double least = pressure_of_full_contact(problem).value();
+  problem.yield.cap = 1e7 * least;
+  const HalfSpaceAnswer under_least = solve_if_full(problem, least, Monitor::silent());
+  ASSERT_FALSE(under_least.converged);
+  ASSERT_FALSE(under_least.pressure.empty());  // all touches
+  const HalfSpaceAnswer flat = solve_at_flattening(problem, 1, Monitor::silent());
+  EXPECT_TRUE(flat.converged);
+  EXPECT_LE(flat.certificate.worst(), 1e-9);
+  EXPECT_GT(flat.mean_pressure, least);
+  EXPECT_FALSE(solve_if_full(problem, flat.mean_pressure / 2, Monitor::silent()).converged);
+  EXPECT_NE(flat.solver.find("under more than the least load"), std::string::npos) << flat.solver;
+  EXPECT_LE(flat.iterations, 20);
+  const HalfSpaceAnswer near = by_approach(problem, approach_of_full_contact(problem) * (1 - 1e-12));
+  EXPECT_EQ(near.mean_pressure, flat.mean_pressure);
+}
+
+// The least load does where no hardness weighs anything, and where rounding leaves little of it.
+TEST(FlatteningSolve, V1_FullContactThatIsSeenTakesTheLeastLoad) {
+  HalfSpaceProblem problem = rough_problem(64, Boundary::periodic, 5, 1e-9);
+  const double least = pressure_of_full_contact(problem).value();
+  for (const double cap : {0.0, 10 * least}) {
+    if (cap > 0) problem.yield.cap = cap;
+    const HalfSpaceAnswer flat = solve_at_flattening(problem, 1, Monitor::silent());
+    EXPECT_TRUE(flat.converged);
+    EXPECT_EQ(flat.mean_pressure, least);
+    EXPECT_EQ(flat.solver, "exact filter (full contact)");
+    EXPECT_EQ(flat.iterations, 2);
+  }
+}
+
 }  // namespace
 
 }  // namespace asperity::displacement_control_test

@@ -516,16 +516,17 @@ std::optional<HalfSpaceAnswer> sought_by_approach(const HalfSpaceProblem& proble
 
 }  // namespace
 
-std::optional<HalfSpaceAnswer> solve_if_full(const HalfSpaceProblem& problem, double mean_pressure,
-                                             Monitor& monitor) {
+HalfSpaceAnswer solve_if_full(const HalfSpaceProblem& problem, double mean_pressure, Monitor& monitor) {
   check(problem, mean_pressure);
   const bool flat = !rough(problem, mean_pressure);
   if (problem.boundary != Boundary::periodic || flat || mean_pressure == 0) return {};
   const CellUnits units = cell_units(problem, mean_pressure, flat);
   CellAnswer found = full_contact(cells_under_load(problem, units, mean_pressure, flat), monitor);
-  if (!found.converged) return {};
-  HalfSpaceAnswer answer = in_si(problem, units, mean_pressure, std::move(found));
-  return answer.converged ? std::optional(std::move(answer)) : std::nullopt;
+  constexpr int as_far_as_gaps = 2;  // applications
+  if (found.applications == as_far_as_gaps) return in_si(problem, units, mean_pressure, std::move(found));
+  HalfSpaceAnswer none;
+  none.iterations = found.applications;
+  return none;
 }
 
 HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,

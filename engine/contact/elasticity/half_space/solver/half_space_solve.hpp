@@ -84,10 +84,10 @@ ComplianceMultiplier multiplier_of(const HalfSpaceProblem& problem, bool with_me
 HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,
                                   const HalfSpaceAnswer* start, Monitor& monitor);
 
-// The same where all of a periodic tile touches and nothing yields, by the exact filter alone; none where
-// that is not so, or not to the tolerance. Two applications.
-std::optional<HalfSpaceAnswer> solve_if_full(const HalfSpaceProblem& problem, double mean_pressure,
-                                             Monitor& monitor);
+// The same where all of a periodic tile touches and nothing yields, by the exact filter alone, converged or
+// not: what it lacks of the tolerance is rounding. Where that is not so, no pressures, only the count of
+// applications, two at most.
+HalfSpaceAnswer solve_if_full(const HalfSpaceProblem& problem, double mean_pressure, Monitor& monitor);
 
 // How far ground that nothing faces is put below the lowest that something does, m: as bodies with Σ p of
 // `mean_pressure` over all nodes come no nearer than u + w at the one node that carries it all, twice that

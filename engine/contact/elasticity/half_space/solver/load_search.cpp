@@ -32,18 +32,62 @@ std::optional<double> most_at_the_cap(const HalfSpaceProblem& problem, const Hal
   return answer.approach - least[0];
 }
 
+namespace {
+
+// Full contact by the exact filter under a load not far above the least: the first of the loads that are each
+// ten times the one before under which it ends within the tolerance, brought down again towards the last that
+// did not, until the two are within a factor of two. Did not converge where none of the loads did.
+HalfSpaceAnswer full_under_more(const HalfSpaceProblem& problem, double least, Monitor& monitor) {
+  constexpr int tries = 3;
+  constexpr double more = 10, near = 2;
+  int applications = 0;
+  const auto take = [&](double load) {
+    HalfSpaceAnswer found = solve_if_full(problem, load, monitor);
+    applications += found.iterations;
+    return found;
+  };
+  double short_of_it = least;
+  HalfSpaceAnswer full;
+  for (int n = 0; n < tries && !full.converged && more * short_of_it < problem.yield.cap; ++n) {
+    full = take(more * short_of_it);
+    if (!full.converged) short_of_it *= more;
+  }
+  while (full.converged && full.mean_pressure > near * short_of_it) {
+    const double between = std::sqrt(full.mean_pressure * short_of_it);
+    if (HalfSpaceAnswer found = take(between); found.converged)
+      full = std::move(found);
+    else
+      short_of_it = between;
+  }
+  full.iterations = applications;
+  if (full.converged) full.solver += ", under more than the least load";
+  return full;
+}
+
+}  // namespace
+
 HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double mean_pressure, double missed,
                                       Monitor& monitor) {
-  // A hardness far above the load weighs what rounding leaves of the gaps by how far: under more load, which
-  // moves nothing, it does so less.
-  constexpr int tries = 4;
-  constexpr double more = 10;
-  std::optional<HalfSpaceAnswer> full;
-  double load = mean_pressure;
-  for (int n = 0; n < tries && !full && load < problem.yield.cap; ++n, load *= more)
-    full = solve_if_full(problem, load, monitor);
-  HalfSpaceAnswer answer =
-      full ? std::move(*full) : solve_at_pressure(problem, mean_pressure, nullptr, monitor);
+  int applications = 0;
+  const auto counted = [&](HalfSpaceAnswer found) {
+    applications += found.iterations;
+    return found;
+  };
+  // A hardness far above the load weighs what rounding leaves of the gaps by how far, and no descent betters
+  // that: under more load, which moves nothing, it weighs less.
+  HalfSpaceAnswer answer;
+  if (problem.yield.caps()) {
+    answer = counted(solve_if_full(problem, mean_pressure, monitor));
+    const bool rounding_alone = !answer.converged && !answer.pressure.empty();
+    if (!answer.converged && !rounding_alone) {
+      HalfSpaceProblem brief = problem;
+      brief.brief = brief.best_effort = true;
+      answer = counted(solve_at_pressure(brief, mean_pressure, nullptr, monitor));
+    }
+    if (!answer.converged) answer = counted(full_under_more(problem, mean_pressure, monitor));
+  }
+  if (!answer.converged) answer = counted(solve_at_pressure(problem, mean_pressure, nullptr, monitor));
+  answer.iterations = applications;
   answer.certificate.load = std::max(answer.certificate.load, missed);
   return answer;
 }
