@@ -12,6 +12,7 @@
 #include "engine/contact/elasticity/half_space/solver/contact_level.hpp"
 #include "engine/contact/elasticity/half_space/solver/descent.hpp"
 #include "engine/contact/elasticity/half_space/solver/displacement_control.hpp"
+#include "engine/contact/elasticity/half_space/solver/load_projection.hpp"
 #include "engine/contact/elasticity/half_space/solver/load_search.hpp"
 #include "engine/core/arithmetic/bracketed_secant.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
@@ -327,6 +328,77 @@ HalfSpaceAnswer flatten_by_approach(const HalfSpaceProblem& problem, double frac
   return answer;
 }
 
+// The same, in the approach, from a contact that was solved under some load: each descent begins from the
+// last that converged, no further from that than such descents go, and half as far where one stalls. Ground
+// that yields, on long cells, takes a few passes so, where under a load it takes the last resort. Within
+// about so many applications; did not converge where that does not come out, and is the last contact that did
+// then.
+HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer answer,
+                                     int most_applications, Monitor& monitor) {
+  constexpr int most_solves = 40, most_stalls = 5;
+  constexpr double furthest = 0.3;  // of the approach, that a step goes
+  constexpr double more = 4;        // than the step before, while one side alone is known
+  constexpr double good = 0.1;      // a certificate whose pressures are worth beginning from
+  constexpr double loosest = 1e-2, next_error = 0.05, least_tolerance = 1e-13;
+  constexpr double cautious = 20;  // an error, of the certificate there is
+  if (answer.pressure.empty() || !(answer.approach > 0)) return answer;
+  certify(problem, answer);
+  answer.converged = false;
+  answer.iterations = 0;
+  if (!(answer.certificate.worst() < good)) return answer;
+  const double span = known_range(problem.heights->values()).span();
+  const double wanted = wanted_share(fraction, problem.tolerance) * span;
+  // A residual is of the rms height, which may be many times what is pressed away.
+  const double unit = std::max(1.0, problem.rms / wanted);
+  const double tightest = std::max(least_tolerance, problem.tolerance / unit);
+  BracketedSecant root(wanted);
+  HalfSpaceProblem now = problem;
+  now.tolerance = std::max(problem.tolerance, loosest);
+  double reach = furthest;
+  bool below = false, above = false;
+  int applications = 0, stalls = 0;
+  for (int solve = 0; solve < most_solves; ++solve) {
+    const double pressed = flattened(problem, answer) * span;
+    const double error = std::abs(pressed - wanted) / wanted;
+    const bool told = error > cautious * answer.certificate.worst() * unit;
+    const bool sure = told || (solve > 0 && now.tolerance <= tightest);
+    const bool near_enough = solve > 0 && error <= 0.5 * problem.tolerance;
+    if (near_enough && now.tolerance <= problem.tolerance && !most_at_the_cap(problem, answer)) {
+      const double missed = std::max(answer.certificate.load, std::abs(pressed / span / fraction - 1));
+      answer.converged = std::max(answer.certificate.worst(), missed) <= problem.tolerance;
+      if (answer.converged) answer.certificate.load = missed;
+      if (answer.converged) break;
+    }
+    if (sure) {
+      root.take({answer.approach, pressed}, true);
+      (pressed < wanted ? below : above) = true;
+    }
+    if (below && above) reach = furthest;
+    now.tolerance = std::clamp(next_error * error, tightest, now.tolerance);
+    // The same again, by a tighter solve, where no side is told or it is near enough.
+    const double next = sure && !near_enough ? root.next().value_or(0) : answer.approach;
+    if (!(next > 0)) break;
+    double approach = std::clamp(next, answer.approach / (1 + reach), answer.approach * (1 + reach));
+    HalfSpaceAnswer found;
+    for (;;) {
+      HalfSpaceAnswer start = answer;
+      found = solve_at_offset(now, approach, 0.5 * wanted, &start, ChainEffort::full, monitor);
+      applications += found.iterations;
+      if (found.converged || approach == answer.approach || ++stalls > most_stalls ||
+          applications > most_applications)
+        break;
+      approach = 0.5 * (approach + answer.approach);
+    }
+    if (!found.converged) break;
+    if (approach != answer.approach)
+      reach = std::min(furthest, more * std::abs(approach / answer.approach - 1));
+    answer = std::move(found);
+    answer.converged = false;
+  }
+  answer.iterations = applications;
+  return answer;
+}
+
 // The same by its load, from what was `begun`.
 HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction, HalfSpaceAnswer begun,
                                 const LoadsMet& met, Monitor& monitor) {
@@ -341,14 +413,19 @@ HalfSpaceAnswer flatten_by_load(const HalfSpaceProblem& problem, double fraction
   sought.most = 1;
   sought.length = fraction * known_range(problem.heights->values()).span();
   if (const auto full = pressure_that_flattens(problem)) sought.above = {*full, 1};
+  if (problem.yield.limits() && keeps_line_loads(problem.grid.hy() / problem.grid.hx()))
+    sought.other_way = [&](HalfSpaceAnswer found, int most_applications) {
+      return flatten_step_by_step(problem, fraction, std::move(found), most_applications, monitor);
+    };
   return solve_by_load(problem, sought, std::move(begun), monitor);
 }
 
 // Just below full contact of an elastic periodic tile contacts go on growing over decades of what an approach
 // lacks of it, and hardly with the load. The load to begin with; none where the approach is as good.
 std::optional<double> load_near_full_contact(const HalfSpaceProblem& problem, double fraction) {
-  constexpr double mostly = 0.6;
-  if (problem.boundary != Boundary::periodic || fraction < mostly) return {};
+  constexpr double mostly = 0.6, on_long_cells = 0.3;
+  const bool long_cells = keeps_line_loads(problem.grid.hy() / problem.grid.hx());
+  if (problem.boundary != Boundary::periodic || fraction < (long_cells ? on_long_cells : mostly)) return {};
   const auto full = pressure_of_full_contact(problem);
   // About as the square of what the load lacks goes what is left of the heights.
   return full ? std::optional(*full * (1 - std::sqrt(1 - fraction))) : std::nullopt;

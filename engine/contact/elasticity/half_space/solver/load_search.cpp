@@ -150,7 +150,8 @@ class LoadSearch {
 
  private:
   static constexpr int most_solves = 60, most_applications = 6000;
-  static constexpr int most_doubts = 4;      // of a bracket
+  static constexpr int many_applications = 300, last_applications = 2000;  // before another way, and on it
+  static constexpr int most_doubts = 4;                                    // of a bracket
   static constexpr double good_start = 0.1;  // a certificate whose pressures are worth beginning from
   static constexpr double near_start = 0.3;  // of the load, that pressures are taken along
   static constexpr double near_if_easy = 2;  // the same, where solves are easy: those take few applications
@@ -207,6 +208,7 @@ class LoadSearch {
   }
   void set_unit();
   void doubt(BracketedSecant::Point found);
+  bool go_the_other_way(int most_applications);
   HalfSpaceAnswer ended(double error, bool converged);
 
   const HalfSpaceProblem& problem_;
@@ -227,6 +229,7 @@ class LoadSearch {
   bool easy_ = false, hard_ = false;  // whether the last solve took few applications, or the last resort
   // Whether the last measure was too rough to tell a side, and the next takes its place.
   bool rough_ = false, in_place_ = false;
+  bool went_the_other_way_ = false;
 };
 
 double LoadSearch::first_load() {
@@ -353,6 +356,15 @@ HalfSpaceAnswer LoadSearch::ended(double error, bool converged) {
   return std::move(answer_);
 }
 
+// Whether another way led to what is wanted: `answer_` is it then, and what is gone on from otherwise.
+bool LoadSearch::go_the_other_way(int most_applications) {
+  before_ = {};
+  answer_ = sought_.other_way(std::move(answer_), most_applications);
+  applications_ += answer_.iterations;
+  answer_.iterations = applications_;
+  return answer_.converged;
+}
+
 HalfSpaceAnswer LoadSearch::run() {
   double pressure = first_load(), error = infinity, error_before = infinity;
   int doubts = 0;
@@ -366,6 +378,10 @@ HalfSpaceAnswer LoadSearch::run() {
     if (near_enough && answer_.certificate.worst() <= problem_.tolerance) return ended(error, true);
     const bool tightest = now_.tolerance <= least_, no_tighter = least_ <= floor();
     if (applications_ > most_applications || (near_enough && tightest)) break;
+    if (sought_.other_way && !went_the_other_way_ && applications_ > many_applications) {
+      went_the_other_way_ = true;
+      if (go_the_other_way(applications_)) return std::move(answer_);
+    }
     const double residual = std::max(answer_.certificate.worst(), tightest ? 0.0 : now_.tolerance);
     const bool told = tells(error, residual);
     rough_ = !told;
@@ -403,6 +419,10 @@ HalfSpaceAnswer LoadSearch::run() {
                        error > LoadsMet::certain * gap_per_residual * unit_ * residual});
     }
     pressure = next.value_or(pressure);
+  }
+  if (sought_.other_way) {
+    if (go_the_other_way(last_applications)) return std::move(answer_);
+    error = error_of(sought_.measure(answer_));
   }
   return ended(error, false);
 }

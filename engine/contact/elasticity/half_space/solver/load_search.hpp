@@ -45,6 +45,10 @@ struct SoughtByLoad {
   // A load, Pa, under which more is known to be measured, and how much.
   BracketedSecant::Point above = {BracketedSecant::unknown, BracketedSecant::unknown};
   LoadsMet met{};
+  // Another way to what is wanted, from what was found under a load, of about so many applications: gone once
+  // where many have gone into loads, and once more before the search ends in vain. Where it did not converge
+  // either, what it ended with is gone on from.
+  std::function<HalfSpaceAnswer(HalfSpaceAnswer found, int most_applications)> other_way{};
 };
 
 // `begun`: what was found on the way, from whose pressures and mean pressure the search begins if they are
