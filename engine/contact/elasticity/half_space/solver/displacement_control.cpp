@@ -134,13 +134,16 @@ HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approa
   };
   HalfSpaceAnswer answer;
   // About full contact the approach hardly moves, and the descent at it mostly stalls on such cells.
-  // Not where most of it is at the cap then, and a load tells no more.
-  constexpr double nearly = 0.9, begin_at = 0.35, well_below = 0.5;
+  // Not where most of it is at the cap then, and a load tells no more, but for what lies just past full
+  // contact.
+  constexpr double nearly = 0.9, just_past = 1.02, begin_at = 0.35, well_below = 0.5;
+  const bool past = approach > full && approach < just_past * full;
   if (problem.boundary == Boundary::periodic && long_cells && !problem.yield.hardens() &&
       approach > nearly * full && uniform_compliance(problem) == 0)
-    if (const auto load = load_of_all(problem); load && *load < well_below * problem.yield.cap) {
+    if (const auto load = load_of_all(problem); load && (past || *load < well_below * problem.yield.cap)) {
       bound_by_full_contact();
-      answer.mean_pressure = (approach < full ? begin_at : 1) * *load;
+      answer.mean_pressure =
+          (approach < full ? begin_at : 1) * std::min(*load, well_below * problem.yield.cap);
       answer = solve_by_load(problem, sought, std::move(answer), monitor);
       if (answer.converged) return answer;
     }
