@@ -150,8 +150,9 @@ class LoadSearch {
 
  private:
   static constexpr int most_solves = 60, most_applications = 6000;
-  static constexpr int many_applications = 300, last_applications = 2000;  // before another way, and on it
-  static constexpr int most_doubts = 4;                                    // of a bracket
+  // Before another way is gone; on it, so many times those; and the last time.
+  static constexpr int many_applications = 300, share_of_the_other_way = 3, last_applications = 2000;
+  static constexpr int most_doubts = 4;      // of a bracket
   static constexpr double good_start = 0.1;  // a certificate whose pressures are worth beginning from
   static constexpr double near_start = 0.3;  // of the load, that pressures are taken along
   static constexpr double near_if_easy = 2;  // the same, where solves are easy: those take few applications
@@ -380,7 +381,7 @@ HalfSpaceAnswer LoadSearch::run() {
     if (applications_ > most_applications || (near_enough && tightest)) break;
     if (sought_.other_way && !went_the_other_way_ && applications_ > many_applications) {
       went_the_other_way_ = true;
-      if (go_the_other_way(applications_)) return std::move(answer_);
+      if (go_the_other_way(share_of_the_other_way * applications_)) return std::move(answer_);
     }
     const double residual = std::max(answer_.certificate.worst(), tightest ? 0.0 : now_.tolerance);
     const bool told = tells(error, residual);
