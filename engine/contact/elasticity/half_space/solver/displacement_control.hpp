@@ -22,8 +22,8 @@ namespace asperity {
 HalfSpaceAnswer solve_at_approach(const HalfSpaceProblem& problem, double approach, Monitor& monitor);
 
 // The share of the peak-to-valley of h pressed away, 0 … 1: 1 − span(h − u − w)/span(h), w what yielded. All
-// of it: under the least load of full contact; where ground hardens or a tile is free, under one that is
-// enough.
+// of it: under the least load of full contact, or little more where a hardness far above it lets rounding
+// hide full contact, as `solver` says then; where ground hardens or a tile is free, under one that is enough.
 HalfSpaceAnswer solve_at_flattening(const HalfSpaceProblem& problem, double fraction, Monitor& monitor);
 
 // That share for an answer; 0 for flat heights. One application of K where the approach is less than a

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pressed by how much of the peak-to-valley goes. What is pressed away never falls as approach or load grow:
 // it is sought in the approach, where only the displacement of the lowest point keeps the two apart, and
-// where that tells little, in the load (load_search.hpp).
+// where that tells little, in the load (load_search.hpp), from where on long cells of ground that yields it
+// may go on step by step in the approach.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -381,6 +382,7 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
     double approach = std::clamp(next, answer.approach / (1 + reach), answer.approach * (1 + reach));
     HalfSpaceAnswer found;
     for (;;) {
+      found = {};  // no more answers at a time than the search in the approach holds
       HalfSpaceAnswer start = answer;
       found = solve_at_offset(now, approach, 0.5 * wanted, &start, ChainEffort::full, monitor);
       applications += found.iterations;

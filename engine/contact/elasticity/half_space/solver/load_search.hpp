@@ -60,7 +60,8 @@ HalfSpaceAnswer solve_by_load(const HalfSpaceProblem& problem, const SoughtByLoa
 // them just touching.
 std::optional<double> most_at_the_cap(const HalfSpaceProblem& problem, const HalfSpaceAnswer& answer);
 
-// The contact under a load of full contact. `missed`: of what was prescribed, relative to it.
+// The contact under the least load of full contact, or where rounding hides it there under at most twice a
+// load at which it still does. `missed`: of what was prescribed, relative to it.
 HalfSpaceAnswer solve_at_full_contact(const HalfSpaceProblem& problem, double mean_pressure, double missed,
                                       Monitor& monitor);
 
