@@ -8,8 +8,12 @@
 // A corrected area of half-spaces lies within an outline between the nodes (contact/outline_area.hpp), whose
 // doubt says how far that is from the area on ever finer cells, so that no finer grid has to confirm it. How
 // far it moved from the grid before counts as well, in full on cells that miss the shortest waves, where the
-// outline is sharp and wrong, six tenths of it on others. Doubt, these shares and that of the bound
+// outline is sharp and wrong, six tenths of it on others, of a grid of half the cells; of grids closer
+// together or further apart, more or less of it. Doubt, these shares and that of the bound
 // are those that met 98 in 100 errors of 84 scenes at little cost (bench/asked_errors.lua, seeds 701 to 712).
+// The doubt, sqrt(edges)/nodes, falls as the cells a side to the power 3/2, so one grid tells which may be
+// fine enough: what lies between is left out, and half as many cells again as a grid of the doubling sequence
+// are enough where they do.
 //
 // Where there is no such outline, what the cells leave wrong in a corrected area follows the one of edges. Of
 // the correction c = A - A_c, relative to A_c, a tenth is wrong on every grid and the rest by chance, the
@@ -168,12 +172,21 @@ bool waves_are_missed(const State& state) {
   return mean_square(2) < smooth_enough * mean_square(1);
 }
 
+// How much of a step from a grid of `ratio` times wider cells counts. What chance leaves falls as the cells a
+// side to the power 3/2, and a step holds that of both grids.
+double share_of_step(double ratio, bool waves_missed) {
+  constexpr double of_half_the_cells = 0.6, steeper = 3.2;
+  if (waves_missed) return std::max(1.0, 1 + steeper * (2 - ratio));
+  return of_half_the_cells * std::sqrt(9 / (1 + ratio * ratio * ratio));
+}
+
 // Of the corrected area fraction: what its error, relative, stays within in 19 scenes of 20.
 double corrected_area_error(const State& state) {
   if (state.outline()) {
-    const double of_a_step = waves_are_missed(state) ? 1 : 0.6;
+    const CompanionGrids::Level& before = state.companion_grids()->levels().front();
+    const double of_a_step = share_of_step(before.ratio, waves_are_missed(state));
     const double fine = state.corrected_area_fraction();
-    const double coarser = state.companion_grids()->levels().front().state.corrected_area_fraction();
+    const double coarser = before.state.corrected_area_fraction();
     const double least = std::min(fine, coarser);
     return least > 0 ? std::max(state.outline()->doubt, of_a_step * std::abs(fine - coarser) / least)
                      : std::numeric_limits<double>::infinity();
@@ -234,12 +247,17 @@ Judged judged(const State& state, const AskedError& asked, const std::vector<dou
   return result;
 }
 
+// Of half-spaces that do not attract each other: where an outline between the nodes may be known.
+const HalfSpaceOperator* operator_of_outlines(const Plan& plan) {
+  const auto* const half_spaces = std::get_if<HalfSpaceOperator>(&plan.elasticity);
+  return half_spaces == nullptr || half_spaces->share || plan.attracts() ? nullptr : half_spaces;
+}
+
 // With outlines between the nodes, on the coarser grids as well, where a corrected area is asked for and such
 // an outline is known.
 State outlined(State state, const Plan& plan, const AskedError& asked) {
-  const auto* const half_spaces = std::get_if<HalfSpaceOperator>(&plan.elasticity);
-  if (half_spaces == nullptr || half_spaces->share || plan.attracts() ||
-      std::none_of(asked.of.begin(), asked.of.end(), is_corrected_area))
+  const HalfSpaceOperator* const half_spaces = operator_of_outlines(plan);
+  if (half_spaces == nullptr || std::none_of(asked.of.begin(), asked.of.end(), is_corrected_area))
     return state;
   const double modulus = half_spaces->modulus;
   const CompanionGrids& coarser = *state.companion_grids();
@@ -273,23 +291,62 @@ Trial make_trial(Placed placed, double tolerance) {
   return trial;
 }
 
-// Coarse to fine, through the cells given.
-std::vector<Grid> grids_to_try(const Grid& given, const Grid& finest) {
+struct GridToTry {
+  Grid grid;
+  bool half_way = false;  // half as many cells again as one of the doubling sequence
+};
+
+// Coarse to fine, through the cells given, each twice the cells of the one before, and with `half_ways` those
+// half-way between.
+std::vector<GridToTry> grids_to_try(const Grid& given, const Grid& finest, bool half_ways) {
   Grid grid = given;
   while (grid.nx % 2 == 0 && grid.ny % 2 == 0 && std::max(grid.nx, grid.ny) / 2 >= fewest_cells_to_begin &&
          !coarser_grids({grid.nx / 2, grid.ny / 2, grid.size_x, grid.size_y}).empty()) {
     grid.nx /= 2;
     grid.ny /= 2;
   }
-  std::vector<Grid> grids;
-  for (; grid.nx <= finest.nx && grid.ny <= finest.ny; grid.nx *= 2, grid.ny *= 2) grids.push_back(grid);
+  std::vector<GridToTry> grids;
+  for (; grid.nx <= finest.nx && grid.ny <= finest.ny; grid.nx *= 2, grid.ny *= 2) {
+    grids.push_back({grid});
+    const Grid between{grid.nx / 2 * 3, grid.ny / 2 * 3, grid.size_x, grid.size_y};
+    if (half_ways && grid.nx % 2 == 0 && grid.ny % 2 == 0 && between.nx < finest.nx)
+      grids.push_back({between, true});
+  }
   return grids;
 }
 
-// The trial before, and the finer of the two grids that it was compared with.
-std::shared_ptr<const CompanionGrids> coarser_than(const PressRequest& request, const State& before) {
-  std::vector<CompanionGrids::Level> levels{{before.beside(nullptr), 2.0},
-                                            before.companion_grids()->levels().front()};
+// On half-way cells a body under a flat alone lies as it did, and the doubt of an outline alone is known to
+// fall as it should.
+bool takes_half_ways(const Scene& scene, const Plan& plan) {
+  const std::vector<std::string>& of = scene.accuracy.asked->of;
+  return std::all_of(of.begin(), of.end(), is_corrected_area) && operator_of_outlines(plan) != nullptr &&
+         !std::holds_alternative<Surface>(scene.upper);
+}
+
+// The grid to try after that of this state, at place `k`, of which the outline, where the choice goes by it,
+// tells how many cells would do; else twice the cells. The last where none is fine enough.
+std::size_t next_to_try(const std::vector<GridToTry>& grids, std::size_t k, const State& state, double error,
+                        int fewest, bool by_outline) {
+  constexpr double falls = 2.0 / 3, most_times = 16, rounding = 0.999;
+  const int nx = grids[k].grid.nx;
+  std::size_t next = k + 1;
+  if (by_outline && state.outline()) {
+    const double times = elementary::pow(std::max(1.0, state.outline()->doubt / error), falls);
+    const double wanted = rounding * std::min(most_times, times) * nx;
+    while (next + 1 < grids.size() &&
+           (grids[next].grid.nx < wanted || std::max(grids[next].grid.nx, grids[next].grid.ny) < fewest))
+      ++next;
+  } else {
+    while (next < grids.size() && grids[next].half_way) ++next;
+  }
+  return next;
+}
+
+// The trial before on a grid of `nx` cells, and the finer of the two grids that it was compared with.
+std::shared_ptr<const CompanionGrids> coarser_than(int nx, const PressRequest& request, const State& before) {
+  std::vector<CompanionGrids::Level> levels{
+      {before.beside(nullptr), static_cast<double>(nx) / before.grid().nx},
+      before.companion_grids()->levels().front()};
   return std::make_shared<const CompanionGrids>(request, std::move(levels));
 }
 
@@ -317,10 +374,11 @@ std::string choice_text(const Scene& scene, const Plan& plan) {
   const std::string error = percent_text(asked.error) + " of " + joined(asked.of, " and ");
   if (scene.accuracy.chosen)
     return "cells and tolerance as the first press chose them for an error of " + error;
-  const std::vector<Grid> grids = grids_to_try(scene.lower.grid(), finest_grid(scene.lower.grid(), plan));
+  const std::vector<GridToTry> grids =
+      grids_to_try(scene.lower.grid(), finest_grid(scene.lower.grid(), plan), false);
   return "the first press chooses cells and tolerance for an error of " + error + ", from " +
-         cells_text(grids.front().nx, grids.front().ny) + " up to " +
-         cells_text(grids.back().nx, grids.back().ny) + "; what follows is of the cells given";
+         cells_text(grids.front().grid.nx, grids.front().grid.ny) + " up to " +
+         cells_text(grids.back().grid.nx, grids.back().grid.ny) + "; what follows is of the cells given";
 }
 
 Grid finest_grid(const Grid& given, const Plan& plan) {
@@ -342,8 +400,9 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
   laws_met().meet(Law::asked_error);
   const AskedError& asked = *scene.accuracy.asked;
   const Grid& given = geometry.grid();
-  const std::vector<Grid> grids =
-      grids_to_try(given, finest_grid(given, plan_with_estimate(scene, geometry)));
+  const Plan plan_given = plan_with_estimate(scene, geometry);
+  const bool by_outline = takes_half_ways(scene, plan_given);
+  const std::vector<GridToTry> grids = grids_to_try(given, finest_grid(given, plan_given), by_outline);
   const double rms_given = rms_of(geometry.combined());
   const auto begun = std::chrono::steady_clock::now();
 
@@ -360,14 +419,20 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
   const int fewest =
       std::all_of(asked.of.begin(), asked.of.end(), is_corrected_area) ? fewest_of_an_area : fewest_of_others;
   int endless = 0;
-  for (std::size_t k = 0; k < grids.size(); ++k) {
-    const Grid& grid = grids[k];
+  for (std::size_t k = 0; k < grids.size();) {
+    const Grid& grid = grids[k].grid;
     const auto shares = static_cast<double>(grids.size());
     PartMonitor part(monitor, "choice of cells", cells_text(grid.nx, grid.ny),
                      static_cast<double>(k) / shares, static_cast<double>(k + 1) / shares, begun);
     part.begin();
     const std::optional<State> before = trial ? trial->state : std::nullopt;
     const Placed placed = placed_on(scene, geometry.pose(), grid.nx, grid.ny, part);
+    // Fewer cells than were measured are nodes of theirs; between these heights would be smoothed.
+    if (grids[k].half_way && grid.nx < given.nx && placed.source == word(AtCells::How::interpolated)) {
+      ++k;
+      continue;
+    }
+    bool counts = true;  // this grid tells how many cells would do
     for (bool again = true; again;) {
       again = false;
       const CostScope here;
@@ -375,18 +440,23 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
       State state = trial->solver->press(request, part).costing_also(trial->solver->preparation());
       last = here.so_far();
       state =
-          state.beside(before ? coarser_than(request, *before)
+          state.beside(before ? coarser_than(grid.nx, request, *before)
                               : solve_coarser(trial->scene, *trial->geometry, trial->plan, request, part));
       state = outlined(std::move(state), trial->plan, asked);
       Judged found = judged(state, asked);
       std::string note;
       constexpr double alike = 0.1;
-      if (grid.nx < given.nx && std::abs(rms_of(trial->geometry->combined()) - rms_given) > alike * rms_given)
+      counts = true;
+      if (grid.nx < given.nx &&
+          std::abs(rms_of(trial->geometry->combined()) - rms_given) > alike * rms_given) {
         note = "the heights were not carried";
-      else if (!state.converged())
+        counts = false;
+      } else if (!state.converged()) {
         note = "the tolerance was missed";
-      else if (grid.nx < given.nx && std::max(grid.nx, grid.ny) < fewest)
+        counts = false;
+      } else if (grid.nx < given.nx && std::max(grid.nx, grid.ny) < fewest) {
         note = "no finer grid agreed yet";
+      }
       if (!note.empty()) found.error = std::max(found.error, 2 * asked.error);
       const Cost cost = here.so_far();
       chosen.tried.push_back({grid.nx, grid.ny, tolerance, found.error, found.of, note, cost});
@@ -407,6 +477,7 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
       endless = std::isinf(found.error) && std::max(grid.nx, grid.ny) >= fewest_of_others ? endless + 1 : 0;
     }
     if (chosen.met() || endless == 3) break;
+    k = next_to_try(grids, k, *trial->state, asked.error, fewest, by_outline && counts);
   }
   if (!chosen.met() && scene.accuracy.on_failure == Accuracy::OnFailure::error)
     refuse(chosen, "on " + cells_text(chosen.nx, chosen.ny) +

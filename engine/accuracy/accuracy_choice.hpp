@@ -2,18 +2,21 @@
 // Cells and tolerance chosen for an error that was asked for: the same press of the same surfaces on grids
 // from coarse to fine, each twice the cells of the one before, until the estimate of the discretisation error
 // (accuracy/discretisation_error.hpp), times the margin that covers 19 scenes in 20, and the algebraic bound
-// together are within what was asked for. The corrected area of half-spaces that do not attract each other is
-// that within an outline between the nodes (contact/outline_area.hpp), better than the same press gives
-// without; its estimate is the doubt of that outline and a share of how far it moved from the grid before. Of
-// others it goes by the edges of the outline and by how far successive grids agree. Of the bound on an area a
-// tenth counts, of that within an outline between the nodes a thirtieth. Grids begin at 16 cells;
-// none under 32, of anything but areas 64, is believed. The grids before a grid are the coarser ones its
-// estimate needs, so nothing is solved twice. How often errors are met and what that costs:
-// bench/asked_errors.lua. Surfaces that generators made are made again with all their waves and features;
-// others are sampled at every second node, and beyond the cells they came with interpolated, which adds no
-// roughness that was not measured. Two rough bodies lie on each other as they did on the cells given, exactly
-// on coarser cells and on a periodic boundary; on finer cells of a free one the upper body is turned over
-// about the middle of the new nodes, up to one given cell away.
+// together are within what was asked for. Where corrected areas alone are asked for of a body under a flat,
+// and an outline between the nodes is known, what its doubt says of the cells that would do is the next grid
+// tried, up to sixteen times the cells a side, with half-way grids (24, 48, 96 ... cells) between, unless the
+// heights there would be interpolated between nodes that were measured. The corrected area of half-spaces
+// that do not attract each other is that within an outline between the nodes (contact/outline_area.hpp),
+// better than the same press gives without; its estimate is the doubt of that outline and a share of how far
+// it moved from the grid before. Of others it goes by the edges of the outline and by how far successive
+// grids agree. Of the bound on an area a tenth counts, of that within an outline between the nodes a
+// thirtieth. Grids begin at 16 cells; none under 32, of anything but areas 64, is believed. The two grids
+// tried before a grid are the coarser ones its estimate needs, so nothing is solved twice. How often errors
+// are met and what that costs: bench/asked_errors.lua. Surfaces that generators made are made again with all
+// their waves and features; others are sampled at every second node, and beyond the cells they came with
+// interpolated, which adds no roughness that was not measured. Two rough bodies lie on each other as they did
+// on the cells given, exactly on coarser cells and on a periodic boundary; on finer cells of a free one the
+// upper body is turned over about the middle of the new nodes, up to one given cell away.
 //
 // The precision is that of the scene, double unless single is named: single takes as many transforms and, of
 // the time of double, 0.96 to 1.19 on periodic tiles of 64² to 1024² cells and 1.13 to 1.78 on free ones
