@@ -151,6 +151,52 @@ TEST(AccuracyChoice, CellsThatMissTheShortestWavesAreHeldToTheirWholeStep) {
   EXPECT_GE(counted, 2);
 }
 
+// Whether `cells` are `given` ones doubled or halved.
+bool of_doubling(int cells, int given) {
+  while (cells < given) cells *= 2;
+  while (cells > given && cells % 2 == 0) cells /= 2;
+  return cells == given;
+}
+
+TEST(AccuracyChoice, TheDoubtOfAnOutlineTellsWhichCellsToTryNext) {
+  const PressRequest request{PressBy::pressure, 1e7, {}};
+  int left_out = 0, half_way = 0;
+  for (const double error : {0.1, 0.05, 0.03, 0.02, 0.01}) {
+    const ChosenAccuracy chosen =
+        *SpecimenPair(asking(rough(256), rigid_material(), Boundary::periodic, error))
+             .press(request)
+             .chosen();
+    for (std::size_t k = 1; k < chosen.tried.size(); ++k) {
+      const int before = chosen.tried[k - 1].nx, now = chosen.tried[k].nx;
+      left_out += now > 2 * before ? 1 : 0;
+      half_way += of_doubling(now, 256) ? 0 : 1;
+      EXPECT_GE(now, before);
+      EXPECT_LE(now, 16 * before);
+    }
+  }
+  EXPECT_GT(left_out, 0);
+  EXPECT_GT(half_way, 0);
+}
+
+// Heights between nodes that were measured would be smoothed, a second rough body would lie elsewhere, and of
+// other quantities nothing is known but how far grids of twice the cells agree.
+TEST(AccuracyChoice, HalfWayCellsAreTriedOnlyWhereTheySayTheSame) {
+  const PressRequest request{PressBy::pressure, 1e7, {}};
+  for (const double error : {0.1, 0.05, 0.03, 0.02}) {
+    for (const Scene& scene :
+         {asking(measured(rough(512)).with_material(elastic()), rigid_material(), Boundary::periodic, error),
+          asking(rough(512), rough(512, 2), Boundary::periodic, error),
+          asking(rough(512), rigid_material(), Boundary::periodic, error,
+                 {"corrected_area_fraction", "energy"})}) {
+      const ChosenAccuracy chosen = *SpecimenPair(scene).press(request).chosen();
+      for (const TriedGrid& tried : chosen.tried)
+        if (tried.nx < 512) {
+          EXPECT_TRUE(of_doubling(tried.nx, 512)) << chosen.text();
+        }
+    }
+  }
+}
+
 // A step from an area by edges to one within an outline between the nodes tells nothing of either.
 TEST(AccuracyChoice, LaterPressesAreComparedWithOutlinesOfTheirKind) {
   const PressRequest request{PressBy::pressure, 1e7, {}};
