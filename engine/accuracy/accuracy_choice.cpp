@@ -495,6 +495,11 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
   others.seconds -= last.seconds;
   others.transforms -= last.transforms;
 
+  // What later presses are compared with.
+  if (const TriedGrid* before = chosen.before()) {
+    trial->scene.accuracy.compared_nx = before->nx;
+    trial->scene.accuracy.compared_ny = before->ny;
+  }
   trial->plan = plan_with_estimate(trial->scene, *trial->geometry);
   trial->plan.choice = choice_text(trial->scene, trial->plan);
   trial->solver = make_solver(trial->plan, trial->geometry);

@@ -13,6 +13,13 @@ std::string percent_text(double share) {
   return std::isfinite(share) ? format_short(100 * share, 2) + " %" : std::string("no limit");
 }
 
+const TriedGrid* ChosenAccuracy::before() const {
+  const TriedGrid* last = nullptr;
+  for (const TriedGrid& grid : tried)
+    if (grid.nx != nx || grid.ny != ny) last = &grid;
+  return last;
+}
+
 std::string ChosenAccuracy::reason() const {
   std::string result =
       percent_text(asked.error) + " of " + joined(asked.of, " and ") + " was asked for; on " +
@@ -20,13 +27,9 @@ std::string ChosenAccuracy::reason() const {
       (outline_between_nodes ? ", with the outline between the nodes, it comes to " : " it comes to ") +
       percent_text(error);
   if (asked.of.size() > 1) result += " of " + of;
-  // The last grid that was not enough.
-  const TriedGrid* before = nullptr;
-  for (const TriedGrid& grid : tried)
-    if (grid.nx != nx || grid.ny != ny) before = &grid;
-  if (before != nullptr)
-    result += ", on " + cells_text(before->nx, before->ny) +
-              (before->note.empty() ? " to " + percent_text(before->error) : " " + before->note);
+  if (const TriedGrid* const last = before())
+    result += ", on " + cells_text(last->nx, last->ny) +
+              (last->note.empty() ? " to " + percent_text(last->error) : " " + last->note);
   if (!met()) result += "; finer cells were not to be had";
   return result;
 }

@@ -40,6 +40,9 @@ struct ChosenAccuracy {
   std::vector<double> values;
 
   bool met() const { return error <= asked.error; }
+  // The last grid tried of other cells than those chosen, which these were compared with; null where none
+  // was.
+  const TriedGrid* before() const;
   std::string reason() const;  // one sentence
   std::string text() const;    // one line: cells, tolerance, precision and the reason
 };

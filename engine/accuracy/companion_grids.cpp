@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -87,6 +88,19 @@ Field combined_on_cells(const ContactGeometry& geometry, const Grid& grid, bool 
   return heights;
 }
 
+bool divides(const Grid& coarse, const Grid& fine) {
+  return fine.nx % coarse.nx == 0 && fine.ny % coarse.ny == 0;
+}
+
+// On cells that a choice compared with and that share few nodes with these, as the choice made them.
+Field compared_heights(const Scene& scene, const ContactGeometry& geometry, const Grid& grid,
+                       Monitor& monitor) {
+  if (scene.accuracy.compared_nx > 0 && geometry.upper_is_flat() && !divides(grid, geometry.grid()))
+    if (const std::optional<Surface> again = geometry.lower().remade(grid.nx, grid.ny, monitor))
+      return again->heights();
+  return combined_on_cells(geometry, grid, periodic_together(scene));
+}
+
 }  // namespace
 
 State press_on(const Grid& grid, Field heights, double tolerance, const Scene& scene,
@@ -137,11 +151,14 @@ double transform_work(const Grid& grid) {
   return n * elementary::log2(std::max(n, 2.0));
 }
 
-double estimate_work(const Grid& grid, Accuracy::Estimate estimate) {
-  if (estimate == Accuracy::Estimate::none) return 0;
-  if (estimate == Accuracy::Estimate::finer) return transform_work(finer_grid(grid)) / transform_work(grid);
+double estimate_work(const ContactGeometry& geometry, const Accuracy& accuracy) {
+  const Grid& grid = geometry.grid();
+  if (accuracy.estimate == Accuracy::Estimate::none) return 0;
+  if (accuracy.estimate == Accuracy::Estimate::finer)
+    return transform_work(finer_grid(grid)) / transform_work(grid);
   double work = 0;
-  for (const Grid& coarser : coarser_grids(grid)) work += transform_work(coarser) / transform_work(grid);
+  for (const Grid& coarser : compared_grids(geometry, accuracy))
+    work += transform_work(coarser) / transform_work(grid);
   return work;
 }
 
@@ -154,6 +171,18 @@ std::vector<Grid> coarser_grids(const Grid& grid) {
     grids.push_back(next);
     last = next;
   }
+  return grids;
+}
+
+std::vector<Grid> compared_grids(const ContactGeometry& geometry, const Accuracy& accuracy) {
+  const Grid& fine = geometry.grid();
+  const Grid compared{accuracy.compared_nx, accuracy.compared_ny, fine.size_x, fine.size_y};
+  if (compared.nx <= 0 || compared.nx >= fine.nx || !geometry.upper_is_flat() ||
+      (!divides(compared, fine) && geometry.lower().recipe() == nullptr))
+    return coarser_grids(fine);
+  std::vector<Grid> grids{compared};
+  if (const std::vector<Grid> coarser = coarser_grids(compared); !coarser.empty())
+    grids.push_back(coarser.front());
   return grids;
 }
 
@@ -170,11 +199,10 @@ std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const Co
                                                     const Plan& plan, const PressRequest& request,
                                                     Monitor& monitor) {
   check_estimate(geometry.grid());
-  const std::vector<Grid> grids = coarser_grids(geometry.grid());
   std::vector<CompanionGrids::Level> levels;
   Grid finer = geometry.grid();
-  for (const Grid& grid : grids) {
-    Field heights = combined_on_cells(geometry, grid, periodic_together(scene));
+  for (const Grid& grid : compared_grids(geometry, scene.accuracy)) {
+    Field heights = compared_heights(scene, geometry, grid, monitor);
     State state = press_on(grid, std::move(heights), loose_enough, scene, geometry, plan, request, monitor);
     const double across = static_cast<double>(finer.nx) / grid.nx,
                  up = static_cast<double>(finer.ny) / grid.ny;
@@ -205,7 +233,7 @@ std::int64_t bytes_held_with_other_grids(const State& state) {
 void plan_estimate(const ContactGeometry& geometry, Plan& plan) {
   if (plan.accuracy.estimate == Accuracy::Estimate::none) return;
   const Grid& fine = geometry.grid();
-  const double work = estimate_work(fine, plan.accuracy.estimate);
+  const double work = estimate_work(geometry, plan.accuracy);
   double kept = 0;
   if (plan.accuracy.estimate == Accuracy::Estimate::finer) {
     const Grid grid = finer_grid(fine);
@@ -223,7 +251,7 @@ void plan_estimate(const ContactGeometry& geometry, Plan& plan) {
     return;
   }
   std::vector<std::string> cells;
-  for (const Grid& grid : coarser_grids(fine)) {
+  for (const Grid& grid : compared_grids(geometry, plan.accuracy)) {
     kept += static_cast<double>(grid.nodes());
     cells.push_back(std::to_string(grid.nx) + " x " + std::to_string(grid.ny));
   }

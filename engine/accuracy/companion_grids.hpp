@@ -42,10 +42,17 @@ class CompanionGrids {
 // left along x or y; a side of fewer than 16 keeps its cells. Odd cells are halved upwards.
 std::vector<Grid> coarser_grids(const Grid& grid);
 
+// The coarser grids that a press of these bodies is compared with: those above, or, where cells were chosen
+// for an error, the grid that the choice compared with (Accuracy::compared_nx) and half its cells a side. Of
+// bodies that were measured, or changed since, these are halves where the heights on that grid are no nodes
+// of theirs.
+std::vector<Grid> compared_grids(const ContactGeometry& geometry, const Accuracy& accuracy);
+
 // Solves `request` on coarser grids for the bodies as they lie in `geometry`, with what they and `plan`,
 // which is theirs, remember of earlier events, to a tolerance of 1e-5 or that of the scene, whichever is
-// looser. Heights are those of every second node, or interpolated where the cells are odd. Costs 1/4 + 1/16
-// of the press, in time and in transforms of the finest grid. Throws what a press throws, and
+// looser. Heights are those of every second node, or interpolated where the cells are odd; on cells that a
+// choice compared with, generated again where they are no nodes. Costs 1/4 + 1/16 of the press, in time and
+// in transforms of the finest grid, after a choice from 1/200 to 0.8. Throws what a press throws, and
 // Error{bad_value} naming `estimate` where there are too few cells; a coarser grid that misses its tolerance
 // counts with the best it reached.
 std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
@@ -72,7 +79,7 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
 void check_estimate(const Grid& grid);
 
 // What the estimate adds to the work of a press, over that work.
-double estimate_work(const Grid& grid, Accuracy::Estimate estimate);
+double estimate_work(const ContactGeometry& geometry, const Accuracy& accuracy);
 // Of one transform of a grid, in any unit: n log n.
 double transform_work(const Grid& grid);
 

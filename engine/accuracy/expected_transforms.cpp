@@ -243,7 +243,7 @@ ExpectedTransforms tried(const Scene& scene, const ContactGeometry& geometry, co
   expected.ended = found.ended;
   expected.refused = found.refused;
   if (!found.refused.empty()) {
-    expected.transforms = plan.transforms / (1 + estimate_work(given, plan.accuracy.estimate));
+    expected.transforms = plan.transforms / (1 + estimate_work(geometry, plan.accuracy));
     return expected;
   }
   expected.transforms = found.transforms * (found.ended ? 1 : times_unended);
@@ -308,8 +308,7 @@ Plan plan_of_press(const Scene& scene, const ContactGeometry& geometry, const Pl
                     " cells " + expected.refused;
     return result;
   }
-  const double transforms =
-      expected.transforms * (1 + estimate_work(geometry.grid(), plan.accuracy.estimate));
+  const double transforms = expected.transforms * (1 + estimate_work(geometry, plan.accuracy));
   result.seconds *= plan.transforms > 0 ? transforms / plan.transforms : 1;
   result.transforms = transforms;
   if (grid.nodes() > 0)

@@ -40,6 +40,8 @@ struct Accuracy {
   // read it.
   std::optional<AskedError> asked{};
   bool chosen = false;  // cells and tolerance are those that were chosen for it
+  // Cells of the grid that the choice compared with those chosen; 0 where no choice was made.
+  int compared_nx = 0, compared_ny = 0;
 };
 
 struct Scene {

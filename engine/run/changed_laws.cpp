@@ -55,7 +55,7 @@ constexpr std::array<ChangedLaw, law_count> table_of_laws{{
      "`error` of `accuracy` was judged by two grids that agree, from 64 cells on, and a corrected area was "
      "that of the nodes less the same for every edge",
      "grids are tried from 16 cells on, and a corrected area of half-spaces lies within an outline between "
-     "the nodes",
+     "the nodes, whose doubt tells which cells are tried next, half-way ones among them",
      "cells, tolerance and costs of such presses, their corrected areas, and all that follows them"},
 }};
 

@@ -24,35 +24,14 @@
 #include "engine/surface/generators/sine.hpp"
 #include "engine/surface/generators/sphere.hpp"
 #include "engine/surface/operations/resampling.hpp"
+#include "tests/accuracy/asked_scenes.hpp"
 
 namespace asperity::accuracy_choice_test {
 namespace {
 
-Material elastic() {
-  Material material;
-  material.young = 1e9;
-  material.poisson = 0;
-  material.hardness = 5e7;
-  return material;
-}
-
-Surface rough(int n, std::uint64_t seed = 1, double waves = 16) {
-  SelfAffineOptions o;
-  o.grid = Grid{n, n, 1, 1};
-  o.hurst = 0.8;
-  o.rms_slope = 0.1;
-  o.roll_off = 0.5;
-  o.short_wave = 1 / waves;
-  o.seed = seed;
-  return self_affine_surface(o).with_material(elastic());
-}
-
-Scene asking(Surface lower, UpperBody upper, Boundary boundary, double error,
-             std::vector<std::string> of = {"corrected_area_fraction"}) {
-  Scene scene{std::move(lower), std::move(upper), boundary, HalfSpaceOptions{}, Accuracy{}};
-  scene.accuracy.asked = AskedError{error, std::move(of)};
-  return scene;
-}
+using test::asking;
+using test::measured;
+using test::rough;
 
 std::string error_of(const std::function<void()>& call) {
   try {
@@ -61,11 +40,6 @@ std::string error_of(const std::function<void()>& call) {
     return error.what();
   }
   return {};
-}
-
-// As `rough` under a rigid flat, without what a generator knows.
-Surface measured(const Surface& surface) {
-  return Surface(surface.grid(), surface.heights(), surface.traits());
 }
 
 TEST(AccuracyChoice, StopsAtTheFirstGridThatIsGoodEnough) {
@@ -151,75 +125,6 @@ TEST(AccuracyChoice, CellsThatMissTheShortestWavesAreHeldToTheirWholeStep) {
   EXPECT_GE(counted, 2);
 }
 
-// Whether `cells` are `given` ones doubled or halved.
-bool of_doubling(int cells, int given) {
-  while (cells < given) cells *= 2;
-  while (cells > given && cells % 2 == 0) cells /= 2;
-  return cells == given;
-}
-
-TEST(AccuracyChoice, TheDoubtOfAnOutlineTellsWhichCellsToTryNext) {
-  const PressRequest request{PressBy::pressure, 1e7, {}};
-  int left_out = 0, half_way = 0;
-  for (const double error : {0.1, 0.05, 0.03, 0.02, 0.01}) {
-    const ChosenAccuracy chosen =
-        *SpecimenPair(asking(rough(256), rigid_material(), Boundary::periodic, error))
-             .press(request)
-             .chosen();
-    for (std::size_t k = 1; k < chosen.tried.size(); ++k) {
-      const int before = chosen.tried[k - 1].nx, now = chosen.tried[k].nx;
-      left_out += now > 2 * before ? 1 : 0;
-      half_way += of_doubling(now, 256) ? 0 : 1;
-      EXPECT_GE(now, before);
-      EXPECT_LE(now, 16 * before);
-    }
-  }
-  EXPECT_GT(left_out, 0);
-  EXPECT_GT(half_way, 0);
-}
-
-// Heights between nodes that were measured would be smoothed, a second rough body would lie elsewhere, and of
-// other quantities nothing is known but how far grids of twice the cells agree.
-TEST(AccuracyChoice, HalfWayCellsAreTriedOnlyWhereTheySayTheSame) {
-  const PressRequest request{PressBy::pressure, 1e7, {}};
-  for (const double error : {0.1, 0.05, 0.03, 0.02}) {
-    for (const Scene& scene :
-         {asking(measured(rough(512)).with_material(elastic()), rigid_material(), Boundary::periodic, error),
-          asking(rough(512), rough(512, 2), Boundary::periodic, error),
-          asking(rough(512), rigid_material(), Boundary::periodic, error,
-                 {"corrected_area_fraction", "energy"})}) {
-      const ChosenAccuracy chosen = *SpecimenPair(scene).press(request).chosen();
-      for (const TriedGrid& tried : chosen.tried)
-        if (tried.nx < 512) {
-          EXPECT_TRUE(of_doubling(tried.nx, 512)) << chosen.text();
-        }
-    }
-  }
-}
-
-// A step from an area by edges to one within an outline between the nodes tells nothing of either.
-TEST(AccuracyChoice, LaterPressesAreComparedWithOutlinesOfTheirKind) {
-  const PressRequest request{PressBy::pressure, 1e7, {}};
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    const Surface surface = rough(256, seed);
-    SpecimenPair pair(asking(surface, rigid_material(), Boundary::periodic, 0.05));
-    pair.press(request);
-    pair.release();
-    const State again = pair.press(request);
-    const int half = again.grid().nx / 2;
-    const double coarser = SpecimenPair({at_cells(surface, half, half).surface, rigid_material(),
-                                         Boundary::periodic, HalfSpaceOptions{}, Accuracy{}})
-                               .press(request)
-                               .with_outline(1e9)
-                               .corrected_area_fraction();
-    const double area = again.corrected_area_fraction();
-    const double step = std::abs(area - coarser) / std::min(area, coarser), doubt = again.outline()->doubt;
-    const double error = again.chosen()->error;
-    const double in_part = std::max(doubt, 0.6 * step), in_full = std::max(doubt, step);
-    EXPECT_LT(std::min(std::abs(error - in_part), std::abs(error - in_full)), 0.02 * error) << seed;
-  }
-}
-
 TEST(AccuracyChoice, OtherAreasThanThoseOfHalfSpacesGoByEdges) {
   // Not asked for: the energy alone.
   const State energy = SpecimenPair(asking(rough(128), rigid_material(), Boundary::periodic, 0.3, {"energy"}))
@@ -250,8 +155,8 @@ TEST(AccuracyChoice, RefinesBeyondTheCellsGiven) {
   const State state = pair.press({PressBy::pressure, 1e7, {}});
   EXPECT_GT(state.chosen()->nx, 64);
   EXPECT_EQ(state.chosen()->source, "generated again");
-  SpecimenPair of_measured(
-      asking(measured(rough(64, 3)).with_material(elastic()), rigid_material(), Boundary::periodic, 0.005));
+  SpecimenPair of_measured(asking(measured(rough(64, 3)).with_material(test::elastic_to_yield()),
+                                  rigid_material(), Boundary::periodic, 0.005));
   const State interpolated = of_measured.press({PressBy::pressure, 1e7, {}});
   EXPECT_EQ(interpolated.chosen()->source, "interpolated");
   // All waves of this surface are on the cells given, so what is between them is known either way.
@@ -261,7 +166,8 @@ TEST(AccuracyChoice, RefinesBeyondTheCellsGiven) {
 
 TEST(AccuracyChoice, CoarseCellsThatMissTheWavesDoNotCount) {
   // 64 waves: every node of 64 cells stands on a crest, and all coarse grids see a flat.
-  const Surface waves = sine_surface({Grid{512, 512, 1, 1}, 1e-4, 1.0 / 64, 2}).with_material(elastic());
+  const Surface waves =
+      sine_surface({Grid{512, 512, 1, 1}, 1e-4, 1.0 / 64, 2}).with_material(test::elastic_to_yield());
   SpecimenPair pair(asking(waves, rigid_material(), Boundary::periodic, 0.1, {"area_fraction", "energy"}));
   const State state = pair.press({PressBy::pressure, 1e7, {}});
   EXPECT_GT(state.chosen()->nx, 128);
@@ -300,8 +206,8 @@ TEST(AccuracyChoice, CoarseCellsAreNotBelievedAlone) {
 }
 
 TEST(AccuracyChoice, HertzIsMet) {
-  const Surface cap =
-      sphere_surface({Grid{128, 128, 1, 1}, 10, SphereShape::paraboloid}).with_material(elastic());
+  const Surface cap = sphere_surface({Grid{128, 128, 1, 1}, 10, SphereShape::paraboloid})
+                          .with_material(test::elastic_to_yield());
   const double a = 0.23, load = 4.0 / 3 * 1e9 * a * a * a / 10;
   SpecimenPair pair(asking(cap, rigid_material(), Boundary::free, 0.02,
                            {"corrected_area_fraction", "approach", "peak_pressure"}));
@@ -377,7 +283,7 @@ TEST(AccuracyChoice, RefusedWhereMemoryEnds) {
 }
 
 TEST(AccuracyChoice, PeakWithoutALimitIsRefusedEarly) {
-  const Surface flat = flat_surface({Grid{64, 64, 1, 1}}).with_material(elastic());
+  const Surface flat = flat_surface({Grid{64, 64, 1, 1}}).with_material(test::elastic_to_yield());
   SpecimenPair pair(asking(flat, rigid_material(), Boundary::free, 0.01, {"peak_pressure"}));
   const std::string refused = error_of([&] { pair.press({PressBy::pressure, 1e6, {}}); });
   EXPECT_NE(refused.find("256 x 256 cells it comes to no limit; it grows from grid to grid without end"),

@@ -185,7 +185,7 @@ TEST(PlanOfAPress, CountsWhatAnEstimateAdds) {
   const double alone = Contact(scene).plan_of(PressBy::pressure, 1e7).transforms;
   scene.accuracy.estimate = Accuracy::Estimate::finer;
   const double finer = Contact(scene).plan_of(PressBy::pressure, 1e7).transforms;
-  EXPECT_NEAR(finer / alone, 1 + estimate_work(scene.lower.grid(), Accuracy::Estimate::finer), 1e-12);
+  EXPECT_NEAR(finer / alone, 1 + estimate_work(Contact(scene).geometry, scene.accuracy), 1e-12);
   EXPECT_GT(finer, 9 * alone);
 }
 
