@@ -209,7 +209,7 @@ class LoadSearch {
   }
   void set_unit();
   void doubt(BracketedSecant::Point found);
-  bool go_the_other_way(int most_applications);
+  bool go_the_other_way(int most);
   HalfSpaceAnswer ended(double error, bool converged);
 
   const HalfSpaceProblem& problem_;
@@ -358,9 +358,9 @@ HalfSpaceAnswer LoadSearch::ended(double error, bool converged) {
 }
 
 // Whether another way led to what is wanted: `answer_` is it then, and what is gone on from otherwise.
-bool LoadSearch::go_the_other_way(int most_applications) {
+bool LoadSearch::go_the_other_way(int most) {
   before_ = {};
-  answer_ = sought_.other_way(std::move(answer_), most_applications);
+  answer_ = sought_.other_way(std::move(answer_), most);
   applications_ += answer_.iterations;
   answer_.iterations = applications_;
   return answer_.converged;
