@@ -13,6 +13,10 @@ const require = createRequire(join(build, 'page-build', 'package.json'));
 const puppeteer = require('puppeteer-core');
 const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
 
+// ms after which a knob that a live script follows counts as at rest.
+const knobs = readFileSync(new URL('../../bindings/web/page/src/knobs.ts', import.meta.url), 'utf8');
+const restAlive = Number(/restAlive = (\d+)/.exec(knobs)[1]);
+
 export async function openBrowser() {
   return (puppeteer.default ?? puppeteer).launch({
     executablePath: process.env.CHROMIUM,
@@ -98,16 +102,16 @@ export async function until(page, test, what, ...args) {
  * counts as at rest, and its values are run and recorded, after ten times as long: no machine is too slow to answer before.
  */
 export const listen = (page) =>
-  page.evaluate(() => {
+  page.evaluate((rest) => {
     window.said = [];
     const wait = (window.plainTimeout ??= window.setTimeout);
-    window.setTimeout = (act, ms, ...args) => wait(act, ms === 900 ? 10 * ms : ms, ...args);
+    window.setTimeout = (act, ms, ...args) => wait(act, ms === rest ? 10 * ms : ms, ...args);
     const [status, relief] = ['#status', '.relief'].map((s) => document.querySelector(s));
     const note = () => window.said.push({ status: status.textContent, picture: relief.getAttribute('aria-label') ?? '' });
     const observer = new MutationObserver(note);
     observer.observe(status, { childList: true, characterData: true, subtree: true });
     observer.observe(relief, { attributes: true, attributeFilter: ['aria-label'] });
-  });
+  }, restAlive);
 
 /** Waits until the status has said this since `listen`, at a time when the picture's title began so. */
 export const untilSaid = (page, status, picture = '') =>

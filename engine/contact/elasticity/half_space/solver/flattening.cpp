@@ -367,8 +367,10 @@ HalfSpaceAnswer flatten_step_by_step(const HalfSpaceProblem& problem, double fra
     if (near_enough && now.tolerance <= problem.tolerance && !most_at_the_cap(problem, answer)) {
       const double missed = std::max(answer.certificate.load, std::abs(pressed / span / fraction - 1));
       answer.converged = std::max(answer.certificate.worst(), missed) <= problem.tolerance;
-      if (answer.converged) answer.certificate.load = missed;
-      if (answer.converged) break;
+      if (answer.converged) {
+        answer.certificate.load = missed;
+        break;
+      }
     }
     if (sure) {
       root.take({answer.approach, pressed}, true);
