@@ -1097,7 +1097,7 @@ function Contact:log(path) end
 ---@return asperity.Contact
 function Contact:copy() end
 
----What a press will compute, what is off, and the expected transforms, memory and time. Given the press, with the keys of contact:press, that press is tried on fewer cells and its transforms are told by that, mostly within a factor of two of what it takes; without, they are a rough guess for a press by pressure. Presses nothing.
+---What a press will compute, what is off, and the expected transforms, memory and time. Given the press, with the keys of contact:press, that press is tried, on fewer cells where it takes over some quarter of a second, and its transforms are told by that: those that it takes, or mostly within a factor of two; without, they are a rough guess for a press by pressure. Presses nothing.
 ---@param options? asperity.options.contact.explain
 ---@return asperity.Plan
 function Contact:explain(options) end

@@ -41,8 +41,8 @@ struct Contact {
       : scene(of),
         geometry(scene, LatticeIsometry(of.lower.grid().nx, of.lower.grid().ny)),
         plan(make_plan(scene, geometry)) {}
-  ExpectedTransforms expected(PressBy by, double value) const {
-    return expected_transforms(scene, geometry, plan, {by, value, {}});
+  ExpectedTransforms expected(PressBy by, double value, const TrialEffort& effort = {}) const {
+    return expected_transforms(scene, geometry, plan, {by, value, {}}, effort);
   }
   Plan plan_of(PressBy by, double value) const {
     return plan_of_press(scene, geometry, plan, {by, value, {}});
@@ -71,7 +71,7 @@ double value_of(const State& state, PressBy by) {
 
 TEST(TrialGrid, KeepsShapeAndTakesNoMoreThanSomeNodes) {
   const auto cells = [](int nx, int ny) {
-    const Grid grid = trial_grid(Grid{nx, ny, 3, 2});
+    const Grid grid = trial_grid(Grid{nx, ny, 3, 2}, 96 * 96);
     EXPECT_EQ(grid.size_x, 3);
     EXPECT_EQ(grid.size_y, 2);
     return std::pair{grid.nx, grid.ny};
@@ -79,41 +79,41 @@ TEST(TrialGrid, KeepsShapeAndTakesNoMoreThanSomeNodes) {
   EXPECT_EQ(cells(96, 96), std::pair(96, 96));
   EXPECT_EQ(cells(97, 96), std::pair(96, 92));
   EXPECT_EQ(cells(512, 512), std::pair(96, 96));
-  EXPECT_EQ(cells(4096, 4096), std::pair(724, 724));
+  EXPECT_EQ(cells(4096, 4096), std::pair(96, 96));
   EXPECT_EQ(cells(1024, 256), std::pair(192, 48));
   EXPECT_EQ(cells(9216, 1), std::pair(9216, 1));
   for (const auto& [nx, ny] : {std::pair{4096, 4}, {1 << 20, 1}, {3, 9999}, {20, 100000}, {997, 991}}) {
     const auto [fewer_x, fewer_y] = cells(nx, ny);
-    const double most = std::max(96.0 * 96, nx * (ny / 32.0));
-    EXPECT_LE(fewer_x * fewer_y, most) << nx << " x " << ny;
-    EXPECT_GE(fewer_x * fewer_y, most / 2) << nx << " x " << ny;
+    EXPECT_LE(fewer_x * fewer_y, 96 * 96) << nx << " x " << ny;
+    EXPECT_GE(fewer_x * fewer_y, 96 * 96 / 2) << nx << " x " << ny;
     EXPECT_GE(fewer_x, std::min(nx, 8));
     EXPECT_GE(fewer_y, std::min(ny, 8));
   }
 }
 
-TEST(ExpectedTransforms, OfASmallTileAreThoseOfThePressByEachControl) {
-  for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
-    const Contact contact(rough(48, 40, boundary));
-    const State state = test::press(contact.scene, PressBy::pressure, 2e7);
-    for (const PressBy by : controls) {
-      const double value = value_of(state, by);
-      const ExpectedTransforms expected = contact.expected(by, value);
-      const State again = test::press(contact.scene, by, value);
-      EXPECT_EQ(expected.transforms, again.cost().total.transforms) << name(by);
-      EXPECT_EQ(expected.tried_on, contact.scene.lower.grid());
-      EXPECT_TRUE(expected.ended && expected.refused.empty());
-      EXPECT_EQ(expected.halvings, 0);
+TEST(ExpectedTransforms, OfAPressThatIsTriedOnAllCellsAreThoseOfThePress) {
+  for (const auto& [nx, ny] : {std::pair{48, 40}, {256, 192}})
+    for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
+      const Contact contact(rough(nx, ny, boundary));
+      const State state = test::press(contact.scene, PressBy::pressure, 2e7);
+      for (const PressBy by : controls) {
+        const double value = value_of(state, by);
+        const ExpectedTransforms expected = contact.expected(by, value);
+        const State again = test::press(contact.scene, by, value);
+        EXPECT_EQ(expected.transforms, again.cost().total.transforms) << name(by);
+        EXPECT_EQ(expected.tried_on, contact.scene.lower.grid());
+        EXPECT_TRUE(expected.ended && expected.refused.empty());
+        EXPECT_EQ(expected.halvings, 0);
+      }
     }
-  }
 }
 
-TEST(ExpectedTransforms, OfALargerTileAreWithinAFactorOfTwoByEachControl) {
+TEST(ExpectedTransforms, OfFewerCellsAreWithinAFactorOfTwoByEachControl) {
   const Contact contact(rough(256, 192));
   const State state = test::press(contact.scene, PressBy::pressure, 1e7);
   for (const PressBy by : controls) {
     const double value = value_of(state, by);
-    const ExpectedTransforms expected = contact.expected(by, value);
+    const ExpectedTransforms expected = contact.expected(by, value, {.most_nodes = 96 * 96});
     const double taken = test::press(contact.scene, by, value).cost().total.transforms;
     EXPECT_LT(expected.transforms, 2 * taken) << name(by);
     EXPECT_GT(expected.transforms, 0.5 * taken) << name(by);
@@ -122,11 +122,31 @@ TEST(ExpectedTransforms, OfALargerTileAreWithinAFactorOfTwoByEachControl) {
   }
 }
 
-TEST(ExpectedTransforms, CostUnderATwentiethOfThePressOn512CellsASide) {
+// The second trial has the work that is given, and the first a part of it.
+TEST(ExpectedTransforms, TakeAboutTheWorkGiven) {
   const Contact contact(rough(512, 512));
-  const ExpectedTransforms expected = contact.expected(PressBy::pressure, 1e7);
-  EXPECT_GT(expected.work, 0);
-  EXPECT_LT(expected.work, 0.05 * expected.transforms);
+  const Grid& grid = contact.scene.lower.grid();
+  double before = 0;
+  for (const double work : {1e7, 3e7}) {
+    const ExpectedTransforms expected = contact.expected(PressBy::pressure, 1e7, {.work = work});
+    EXPECT_GT(expected.work * transform_work(grid), 0.25 * work);
+    EXPECT_LT(expected.work * transform_work(grid), 2 * work);
+    const auto nodes = static_cast<double>(expected.tried_on.nodes());
+    EXPECT_GT(nodes, 1.5 * before);
+    EXPECT_LT(nodes, static_cast<double>(grid.nodes()));
+    before = nodes;
+  }
+}
+
+TEST(ExpectedTransforms, OfATrialThatIsLeftAreMore) {
+  const Contact contact(rough(64, 64));
+  const double taken = contact.expected(PressBy::approach, 1).transforms;
+  const double left_after = 0.5 * taken;
+  const ExpectedTransforms expected = contact.expected(
+      PressBy::approach, 1, {.work = left_after * transform_work(contact.scene.lower.grid())});
+  EXPECT_FALSE(expected.ended);
+  EXPECT_NEAR(expected.tried, left_after, 1e-9 * taken);
+  EXPECT_NEAR(expected.transforms, 3 * left_after, 1e-9 * taken);
 }
 
 TEST(ExpectedTransforms, ThatAreTriedAreNotCountedAndMeetNoLaw) {
@@ -169,16 +189,26 @@ TEST(PlanOfAPress, NamesTheControl) {
       << contact.plan.text();
   for (const PressBy by : {PressBy::pressure, PressBy::approach, PressBy::flatten}) {
     const Plan plan = contact.plan_of(by, by == PressBy::pressure ? 1e7 : 0.2);
-    EXPECT_NE(
-        plan.text().find(" expected of the press by `" + std::string(name(by)) + "`, tried on 96 x 96 cells" +
-                         (by == PressBy::pressure ? "\n" : "; one such press in some sixty takes over ")),
-        std::string::npos)
+    EXPECT_NE(plan.text().find(" expected of the press by `" + std::string(name(by)) +
+                               "`, tried on all 128 x 128 cells\n"),
+              std::string::npos)
         << plan.text();
     EXPECT_NEAR(plan.seconds / plan.transforms, contact.plan.seconds / contact.plan.transforms, 1e-12);
     EXPECT_EQ(plan.bytes_peak() - contact.plan.bytes_peak(),
               by == PressBy::flatten ? contact.plan.bytes_to_flatten : 0);
   }
   EXPECT_GT(contact.plan.bytes_to_flatten, 0);
+}
+
+TEST(PlanOfAPress, SaysOnHowManyCellsItWasTried) {
+  const Contact contact(rough(2048, 1024));
+  const Grid grid = contact.expected(PressBy::approach, 1).tried_on;
+  ASSERT_LT(grid.nodes(), contact.scene.lower.grid().nodes());
+  const std::string text = contact.plan_of(PressBy::approach, 1).text();
+  EXPECT_NE(text.find("`, tried on " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +
+                      " cells; one such press in some fifty takes over "),
+            std::string::npos)
+      << text;
 }
 
 TEST(PlanOfAPress, CountsWhatAnEstimateAdds) {

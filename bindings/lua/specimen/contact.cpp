@@ -365,10 +365,12 @@ const Class& class_of<SpecimenPair>() {
          .example = "local before = c:copy()"},
         {.name = "explain",
          .body = explain,
-         .sentence = "What a press will compute, what is off, and the expected transforms, memory and time. "
-                     "Given the press, with the keys of contact:press, that press is tried on fewer cells "
-                     "and its transforms are told by that, mostly within a factor of two of what it takes; "
-                     "without, they are a rough guess for a press by pressure. Presses nothing.",
+         .sentence =
+             "What a press will compute, what is off, and the expected transforms, memory and time. "
+             "Given the press, with the keys of contact:press, that press is tried, on fewer cells "
+             "where it takes over some quarter of a second, and its transforms are told by that: those that "
+             "it takes, or mostly within a factor of two; without, they are a rough guess for a press by "
+             "pressure. Presses nothing.",
          .options = &press_block(),
          .options_optional = true,
          .returns = "Plan",
