@@ -2,18 +2,19 @@
 // The tolerance starts at three ten-thousandths of the error asked for. There the rigorous bound on what a
 // solve leaves undone is nearly always below the error of the cells, and what a solve costs more than at
 // three times as much is less than what a few solved twice do; where the bound is still too wide, the same
-// grid is solved again more tightly. Where areas alone are asked for it starts at a hundredth: their bound
-// counts every node that might change sides, of which a tenth or fewer do.
+// grid is solved again more tightly. Where areas alone are asked for it starts at a hundredth, of corrected
+// areas at three: their bound counts every node that might change sides, of which a tenth or fewer do, and an
+// outline between the nodes moves by a hundredth of it.
 //
 // A corrected area of half-spaces lies within an outline between the nodes (contact/outline_area.hpp), whose
 // doubt says how far that is from the area on ever finer cells, so that no finer grid has to confirm it. How
 // far it moved from the grid before counts as well, in full on cells that miss the shortest waves, where the
-// outline is sharp and wrong, six tenths of it on others, of a grid of half the cells; of grids closer
-// together or further apart, more or less of it. Doubt, these shares and that of the bound
-// are those that met 98 in 100 errors of 84 scenes at little cost (bench/asked_errors.lua, seeds 701 to 712).
-// The doubt, sqrt(edges)/nodes, falls as the cells a side to the power 3/2, so one grid tells which may be
-// fine enough: what lies between is left out, and half as many cells again as a grid of the doubling sequence
-// are enough where they do.
+// outline is sharp and wrong, half of it on others, of a grid of half the cells; of grids closer together or
+// further apart, more or less of it. These shares and that of the bound are those that, with the doubt, met
+// 97 in 100 errors of 84 scenes at little cost (bench/asked_errors.lua, seeds 901 to 906 and 1101 to 1106).
+// The doubt falls as the cells a side to the power 1.38, so one grid tells which may be fine enough: what
+// lies between is left out, and half as many cells again as a grid of the doubling sequence are enough where
+// they do.
 //
 // Where there is no such outline, what the cells leave wrong in a corrected area follows the one of edges. Of
 // the correction c = A - A_c, relative to A_c, a tenth is wrong on every grid and the rest by chance, the
@@ -54,8 +55,8 @@ constexpr int fewest_cells_to_begin = 16;
 // Fewer are not believed; what is not an area was looked into on no fewer than the second.
 constexpr int fewest_of_an_area = 32, fewest_of_others = 64;
 // Of the nodes that might change sides; an outline between the nodes moves less with them.
-constexpr double share_of_bound = 0.1, share_within_outline = 0.03;
-constexpr double tightest = 1e-10, loosest = 1e-3, tighter = 30;
+constexpr double share_of_bound = 0.1, share_within_outline = 0.01;
+constexpr double tightest = 1e-10, tighter = 30;
 
 double transform_work(int nx, int ny) {
   const double n = static_cast<double>(nx) * ny;
@@ -175,7 +176,7 @@ bool waves_are_missed(const State& state) {
 // How much of a step from a grid of `ratio` times wider cells counts. What chance leaves falls as the cells a
 // side to the power 3/2, and a step holds that of both grids.
 double share_of_step(double ratio, bool waves_missed) {
-  constexpr double of_half_the_cells = 0.6, steeper = 3.2;
+  constexpr double of_half_the_cells = 0.5, steeper = 3.2;
   if (waves_missed) return std::max(1.0, 1 + steeper * (2 - ratio));
   return of_half_the_cells * std::sqrt(9 / (1 + ratio * ratio * ratio));
 }
@@ -327,7 +328,7 @@ bool takes_half_ways(const Scene& scene, const Plan& plan) {
 // tells how many cells would do; else twice the cells. The last where none is fine enough.
 std::size_t next_to_try(const std::vector<GridToTry>& grids, std::size_t k, const State& state, double error,
                         int fewest, bool by_outline) {
-  constexpr double falls = 2.0 / 3, most_times = 16, rounding = 0.999;
+  constexpr double falls = 1 / 1.38, most_times = 16, rounding = 0.999;
   const int nx = grids[k].grid.nx;
   std::size_t next = k + 1;
   if (by_outline && state.outline()) {
@@ -364,8 +365,14 @@ std::shared_ptr<const CompanionGrids> coarser_than(int nx, const PressRequest& r
 }  // namespace
 
 double first_tolerance(const AskedError& asked) {
+  struct Share {
+    double of_error, loosest;
+  };
+  constexpr Share of_corrected_areas{3e-2, 3e-3}, of_areas{1e-2, 1e-3}, of_others{3e-4, 1e-3};
+  const bool corrected = std::all_of(asked.of.begin(), asked.of.end(), is_corrected_area);
   const bool areas = std::all_of(asked.of.begin(), asked.of.end(), is_area);
-  return std::clamp((areas ? 1e-2 : 3e-4) * asked.error, tightest, loosest);
+  const Share share = corrected ? of_corrected_areas : areas ? of_areas : of_others;
+  return std::clamp(share.of_error * asked.error, tightest, share.loosest);
 }
 
 std::string choice_text(const Scene& scene, const Plan& plan) {

@@ -10,7 +10,7 @@
 // better than the same press gives without; its estimate is the doubt of that outline and a share of how far
 // it moved from the grid before. Of others it goes by the edges of the outline and by how far successive
 // grids agree. Of the bound on an area a tenth counts, of that within an outline between the nodes a
-// thirtieth. Grids begin at 16 cells; none under 32, of anything but areas 64, is believed. The two grids
+// hundredth. Grids begin at 16 cells; none under 32, of anything but areas 64, is believed. The two grids
 // tried before a grid are the coarser ones its estimate needs, so nothing is solved twice. How often errors
 // are met and what that costs: bench/asked_errors.lua. Surfaces that generators made are made again with all
 // their waves and features; others are sampled at every second node, and beyond the cells they came with
