@@ -15,9 +15,11 @@
 #include "engine/accuracy/companion_grids.hpp"
 #include "engine/contact/elasticity/half_space/preconditioner/half_order_pyramid.hpp"
 #include "engine/core/arithmetic/elementary_functions.hpp"
+#include "engine/core/constants.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/laws_met.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/text.hpp"
 
@@ -250,6 +252,16 @@ Tried try_on(const Grid& grid, const Scene& scene, const ContactGeometry& geomet
   return found;
 }
 
+// So many nodes take half of the memory that is left: a press that a limit has no room for is told, too.
+double nodes_within_memory(const Plan& plan, PressBy by, double nodes) {
+  constexpr double share = 0.5;
+  const std::int64_t limit = memory::limit();
+  if (limit <= 0) return infinity;
+  const std::int64_t needed = plan.bytes_peak() + (by == PressBy::flatten ? plan.bytes_to_flatten : 0);
+  const auto left = static_cast<double>(std::max<std::int64_t>(limit - memory::held(), 0));
+  return std::max(1.0, nodes * share * left / static_cast<double>(std::max<std::int64_t>(needed, 1)));
+}
+
 ExpectedTransforms tried(const Scene& scene, const ContactGeometry& geometry, const Plan& plan,
                          const PressRequest& request, const TrialEffort& effort) {
   const Grid& given = geometry.grid();
@@ -269,7 +281,8 @@ ExpectedTransforms tried(const Scene& scene, const ContactGeometry& geometry, co
     expected.transforms =
         found.refused.empty() ? found.transforms * grown * (found.ended ? 1 : times) : by_pressure;
   };
-  const auto on_at_most = [&](double most) { return trial_grid(given, std::min(most, effort.most_nodes)); };
+  const double greatest = std::min(effort.most_nodes, nodes_within_memory(plan, request.by, nodes));
+  const auto on_at_most = [&](double most) { return trial_grid(given, std::min(most, greatest)); };
   const bool whole = effort.work >= surely_enough * transform_work(given);
   const Grid first = on_at_most(whole ? nodes : first_tried);
   take(first, effort.work / transform_work(first), times_left);

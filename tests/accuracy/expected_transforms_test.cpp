@@ -7,11 +7,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 
 #include "engine/accuracy/companion_grids.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/core/cost.hpp"
 #include "engine/core/laws_met.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/surface/generators/self_affine.hpp"
 #include "tests/contact/contacts.hpp"
 
@@ -147,6 +149,27 @@ TEST(ExpectedTransforms, OfATrialThatIsLeftAreMore) {
   EXPECT_FALSE(expected.ended);
   EXPECT_NEAR(expected.tried, left_after, 1e-9 * taken);
   EXPECT_NEAR(expected.transforms, 3 * left_after, 1e-9 * taken);
+}
+
+// A press that a limit has no room for is told all the same, with its memory.
+TEST(ExpectedTransforms, AreTriedWithinALimitOfMemory) {
+  struct Limit {
+    explicit Limit(std::int64_t bytes) { memory::set_limit(bytes); }
+    ~Limit() { memory::set_limit(0); }
+  };
+  const Contact contact(rough(256, 256));
+  for (const PressBy by : {PressBy::pressure, PressBy::flatten})
+    for (const double share : {0.9, 0.5, 0.2}) {
+      const double value = by == PressBy::pressure ? 1e7 : 0.2;
+      const double taken = contact.expected(by, value).transforms;
+      const Limit limit(memory::held() +
+                        static_cast<std::int64_t>(share * static_cast<double>(contact.plan.bytes_peak())));
+      const ExpectedTransforms expected = contact.expected(by, value);
+      EXPECT_LT(expected.tried_on.nodes(), contact.scene.lower.grid().nodes());
+      EXPECT_LT(expected.transforms, 2 * taken);
+      EXPECT_GT(expected.transforms, 0.5 * taken);
+      EXPECT_FALSE(memory::exceeded());
+    }
 }
 
 TEST(ExpectedTransforms, ThatAreTriedAreNotCountedAndMeetNoLaw) {
