@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
 #include <unordered_map>
 
 #include "bindings/lua/registry/guard.hpp"
@@ -101,6 +102,16 @@ Values placeholders_of(const Function& function) {
   return results;
 }
 
+// The path that a call was given; empty where it takes none or that is not known.
+std::string_view path_given(const Call& call, const Function& function) {
+  for (std::size_t k = 0; k < function.parameters.size(); ++k)
+    if (function.parameters[k].name == "path") {
+      const Argument path = call.argument(static_cast<int>(k) + 1);
+      return path.is_text() ? path.text() : std::string_view();
+    }
+  return {};
+}
+
 // A dry run reads the arguments and gives placeholders.
 Values dry_call(const Call& call, const Function& function) {
   if (const auto& told = call.session().on_call_left_out; told && function.heavy) told(call, function);
@@ -111,6 +122,8 @@ Values dry_call(const Call& call, const Function& function) {
       function.options->check(table, call.function_name());
   }
   if (function.look != nullptr) function.look(call);
+  if (const std::string_view path = path_given(call, function); !path.empty())
+    call.session().paths_left_out.emplace(path);
   call.session().gave_placeholders = true;
   Values results = placeholders_of(function);
   if (const Class* made = find_class(function.returns); made != nullptr && made->known != nullptr)
@@ -154,10 +167,12 @@ Values call_function(lua_State* L, const NamedFunction& entry) {
     placeholder_self = self->is_placeholder();
   }
   check_count(call, function);
-  // To explain a contact its bodies are needed; to check a script they are not.
+  // To explain a contact its bodies are needed, but for those in files that the script itself writes; to
+  // check a script they are not.
   const bool left_out =
       function.unknown_when_dry ||
-      (function.heavy && (call.session().explanation == nullptr || !makes_a_body(function)));
+      (function.heavy && (call.session().explanation == nullptr || !makes_a_body(function) ||
+                          call.session().paths_left_out.contains(path_given(call, function))));
   if (call.session().dry_run && (left_out || placeholder_self || any_argument_unknown(call)))
     return dry_call(call, function);
   LedgerScope scope = call.session().ledger_scope(call.function_name(), function.heavy);

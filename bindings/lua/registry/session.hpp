@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -66,6 +67,8 @@ class Session {
   // `asperity explain`, a dry run that makes surfaces and plans contacts, collects here what the script will
   // compute; null in every other run.
   std::shared_ptr<Explanation> explanation;
+  // The paths that the calls which it left out were given: files that the script may have written by then.
+  std::set<std::string, std::less<>> paths_left_out;
   // Called for each heavy call that a dry run leaves out; may be empty.
   std::function<void(const Call& call, const Function& function)> on_call_left_out;
   // The mistakes of a dry run that goes on past them; null in every other run.
