@@ -74,7 +74,7 @@ end
 
 local function work(cells, transforms) return transforms * cells ^ 2 * 2 * math.log(cells, 2) end
 
-local found = {} -- by error: met, all, ratios to the cheapest, ratios to the one that holds
+local found = {} -- by error: met, all, ratios to the cheapest, ratios to the one that holds, and of that to the cheapest
 for _, error in ipairs(asked) do found[error] = { met = 0, all = 0, cheapest = {}, held = {}, luck = {}, missed = {} } end
 for kind in options.kinds:gmatch "[^,]+" do
   for seed = options.first, options.last do
@@ -128,8 +128,9 @@ for _, error in ipairs(asked) do
 end
 local function show(what, f)
   print(("%s: met %d of %d (%.0f %%); over the cheapest: median %.1f, 90 %% %.1f, worst %.0f; over the one that holds: "
-    .. "median %.1f, 90 %% %.1f, worst %.0f; that over the cheapest: 90 %% %.1f%s"):format(what, f.met, f.all, 100 * f.met / f.all, at(f.cheapest, 0.5),
-    at(f.cheapest, 0.9), at(f.cheapest, 1), at(f.held, 0.5), at(f.held, 0.9), at(f.held, 1), at(f.luck, 0.9),
+    .. "median %.1f, 90 %% %.1f, worst %.0f; that over the cheapest: 90 %% %.1f%s"):format(what, f.met, f.all,
+    100 * f.met / f.all, at(f.cheapest, 0.5), at(f.cheapest, 0.9), at(f.cheapest, 1), at(f.held, 0.5), at(f.held, 0.9),
+    at(f.held, 1), at(f.luck, 0.9),
     #f.missed > 0 and "; missed: " .. table.concat(f.missed, ", ") or ""))
 end
 for _, error in ipairs(asked) do show(("asked %g"):format(error), found[error]) end

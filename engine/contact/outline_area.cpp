@@ -28,10 +28,10 @@ constexpr std::array<Value, 6> by_next_inside{
     {{0, -0.105}, {1, -0.062}, {1.4, -0.052}, {1.8, -0.060}, {2.5, -0.060}, {4, -0.136}}};
 constexpr double within = 0.239, beyond = -0.165;
 constexpr std::array<double, 3> turns{0, -0.004, 0.065};  // of one edge, two, three or more
-// Cells, for the edges to this power: the errors of 84 scenes left out of the fit (seeds 901 to 906 and 1101
-// to 1106), on 32 to 512 cells a side that do not miss their waves, against the outline of 2048 cells, grow
-// so on either boundary, from 50 edges to 20,000. 90 in 100 of those on tiles that wrap were within the
-// first, and of the others within the second.
+// Cells, for the edges to this power: the errors of 84 scenes left out of the fit (bench/asked_errors.lua,
+// seeds 901 to 906 and 1101 to 1106), on 32 to 512 cells a side that do not miss their waves, against the
+// outline of 2048 cells, grow so on either boundary, from 50 edges to 20,000. 90 in 100 of those on tiles
+// that wrap were within the first, and of the others within the second.
 constexpr double grows_with_edges = 0.62, in_nine_of_ten_wrapped = 0.13, in_nine_of_ten_open = 0.20;
 
 constexpr int fewest_cells = 8;

@@ -102,6 +102,12 @@ Values placeholders_of(const Function& function) {
   return results;
 }
 
+// Whether a dry run that plans contacts needs what the function makes: a body.
+bool makes_a_body(const Function& function) {
+  const Class* made = find_class(function.returns);
+  return made != nullptr && made->known != nullptr;
+}
+
 // The path that a call was given; empty where it takes none or that is not known.
 std::string_view path_given(const Call& call, const Function& function) {
   for (std::size_t k = 0; k < function.parameters.size(); ++k)
@@ -122,7 +128,7 @@ Values dry_call(const Call& call, const Function& function) {
       function.options->check(table, call.function_name());
   }
   if (function.look != nullptr) function.look(call);
-  if (const std::string_view path = path_given(call, function); !path.empty())
+  if (const std::string_view path = path_given(call, function); !path.empty() && !makes_a_body(function))
     call.session().paths_left_out.emplace(path);
   call.session().gave_placeholders = true;
   Values results = placeholders_of(function);
@@ -142,12 +148,6 @@ void check_results(const Function& function, const Values& results) {
   const std::vector<std::string> types = result_types(function);
   for (std::size_t k = 0; k < std::min(types.size(), results.size()); ++k)
     check_declared(qualified_name(function), types[k], results[k]);
-}
-
-// Whether a dry run that plans contacts needs what the function makes: a body.
-bool makes_a_body(const Function& function) {
-  const Class* made = find_class(function.returns);
-  return made != nullptr && made->known != nullptr;
 }
 
 Values call_function(lua_State* L, const NamedFunction& entry) {

@@ -5,6 +5,7 @@
 //   test_properties                              every family, as many scenes each as in CI
 //   test_properties family=events scenes=100000  one family for a night
 //   test_properties family=events seed=7 first=42 scenes=1   one scene again
+//   test_properties family=explain cells=1000 scenes=120     tiles of up to so many cells a side
 //
 // ASPERITY_SCENES and ASPERITY_SEED stand for scenes= and seed= where those are not given;
 // ASPERITY_SHARE=0.05 takes a twentieth of what each family takes in CI, =2.5 two and a half times as many.
@@ -35,11 +36,12 @@ struct Settings {
   std::string family;
   std::uint64_t seed = 1, first = 0;
   int scenes = 0;    // as the family says
+  int cells = 0;     // the same
   double share = 1;  // of those
 };
 
 [[noreturn]] void usage(const std::string& word) {
-  std::fprintf(stderr, "%s is none of family=, scenes=, seed=, first=\n", word.c_str());
+  std::fprintf(stderr, "%s is none of family=, scenes=, cells=, seed=, first=\n", word.c_str());
   std::exit(2);
 }
 
@@ -57,6 +59,8 @@ Settings read(int count, char** words) {
       settings.family = value;
     else if (key == "scenes")
       settings.scenes = std::atoi(value.c_str());
+    else if (key == "cells")
+      settings.cells = std::atoi(value.c_str());
     else if (key == "seed")
       settings.seed = std::strtoull(value.c_str(), nullptr, 10);
     else if (key == "first")
@@ -112,12 +116,14 @@ int run(const Family& family, const Settings& settings) {
   const double begin = seconds();
   const int of_family = std::max(1, static_cast<int>(settings.share * family.scenes));
   const int scenes = settings.scenes > 0 ? settings.scenes : of_family;
+  Wanted wanted = family.wanted;
+  if (settings.cells > 0) wanted.most_cells = settings.cells;
   std::map<std::string, int> broken;
   int count = 0, beyond = 0;
   for (int n = 0; n < scenes; ++n) {
     const std::uint64_t index = settings.first + static_cast<std::uint64_t>(n);
     const std::uint64_t salt = splitmix64(settings.seed, index);
-    const Trial trial = draw_trial(settings.seed, index, family.wanted);
+    const Trial trial = draw_trial(settings.seed, index, wanted);
     scene_in_turn = index;
     const Verdict verdict = judged(family, trial, salt, beyond);
     if (!verdict) continue;
