@@ -11,7 +11,7 @@
 // far it moved from the grid before counts as well, in full on cells that miss the shortest waves, where the
 // outline is sharp and wrong, half of it on others, of a grid of half the cells; of grids closer together or
 // further apart, more or less of it. These shares and that of the bound are those that, with the doubt, met
-// 97 in 100 errors of 84 scenes at little cost (bench/asked_errors.lua, seeds 901 to 906 and 1101 to 1106).
+// 96 in 100 errors of 84 scenes at little cost (bench/asked_errors.lua, seeds 901 to 906 and 1101 to 1106).
 // The doubt falls as the cells a side to the power 1.38, so one grid tells which may be fine enough: what
 // lies between is left out, and half as many cells again as a grid of the doubling sequence are enough where
 // they do.
