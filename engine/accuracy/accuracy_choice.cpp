@@ -433,6 +433,7 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
                      static_cast<double>(k) / shares, static_cast<double>(k + 1) / shares, begun);
     part.begin();
     const std::optional<State> before = trial ? trial->state : std::nullopt;
+    std::optional<State> guess = before;
     const Placed placed = placed_on(scene, geometry.pose(), grid.nx, grid.ny, part);
     // Fewer cells than were measured are nodes of theirs; between these heights would be smoothed.
     if (grids[k].half_way && grid.nx < given.nx && placed.source == word(AtCells::How::interpolated)) {
@@ -444,7 +445,8 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
       again = false;
       const CostScope here;
       trial = make_trial(placed, tolerance);
-      State state = trial->solver->press(request, part).costing_also(trial->solver->preparation());
+      State state = press_from_coarser(*trial->solver, guess ? &*guess : nullptr, request, part)
+                        .costing_also(trial->solver->preparation());
       last = here.so_far();
       state =
           state.beside(before ? coarser_than(grid.nx, request, *before)
@@ -479,6 +481,7 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
       if (!chosen.met() && note.empty() && found.error - found.algebraic <= asked.error &&
           tolerance > tightest) {
         tolerance = std::max(tolerance / tighter, tightest);
+        guess = trial->state;
         again = true;
       }
       endless = std::isinf(found.error) && std::max(grid.nx, grid.ny) >= fewest_of_others ? endless + 1 : 0;
@@ -503,10 +506,11 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
   others.transforms -= last.transforms;
 
   // What later presses are compared with.
-  if (const TriedGrid* before = chosen.before()) {
-    trial->scene.accuracy.compared_nx = before->nx;
-    trial->scene.accuracy.compared_ny = before->ny;
-  }
+  constexpr std::size_t most_compared = 2;
+  std::vector<Grid>& compared = trial->scene.accuracy.compared;
+  for (const TriedGrid* tried = chosen.before(); tried != nullptr && compared.size() < most_compared;
+       tried = chosen.before(tried->nx))
+    compared.push_back({tried->nx, tried->ny, given.size_x, given.size_y});
   trial->plan = plan_with_estimate(trial->scene, *trial->geometry);
   trial->plan.choice = choice_text(trial->scene, trial->plan);
   trial->solver = make_solver(trial->plan, trial->geometry);

@@ -13,10 +13,10 @@ std::string percent_text(double share) {
   return std::isfinite(share) ? format_short(100 * share, 2) + " %" : std::string("no limit");
 }
 
-const TriedGrid* ChosenAccuracy::before() const {
+const TriedGrid* ChosenAccuracy::before(int cells) const {
   const TriedGrid* last = nullptr;
   for (const TriedGrid& grid : tried)
-    if (grid.nx != nx || grid.ny != ny) last = &grid;
+    if (grid.nx < cells) last = &grid;
   return last;
 }
 

@@ -40,9 +40,10 @@ struct ChosenAccuracy {
   std::vector<double> values;
 
   bool met() const { return error <= asked.error; }
-  // The last grid tried of other cells than those chosen, which these were compared with; null where none
-  // was.
-  const TriedGrid* before() const;
+  // The last grid tried before one of `cells` along x, by default the one chosen, which was compared with it;
+  // null where none was.
+  const TriedGrid* before(int cells) const;
+  const TriedGrid* before() const { return before(nx); }
   std::string reason() const;  // one sentence
   std::string text() const;    // one line: cells, tolerance, precision and the reason
 };

@@ -92,20 +92,39 @@ bool divides(const Grid& coarse, const Grid& fine) {
   return fine.nx % coarse.nx == 0 && fine.ny % coarse.ny == 0;
 }
 
+// Generated again on `grid` or, where that cannot carry the shortest waves, the nodes of the same surface on
+// twice the cells, four times, … up to more than those of the surface; none without a generator.
+std::optional<Field> heights_made_again(const Surface& surface, const Grid& grid, Monitor& monitor) {
+  for (int times = 1; times == 1 || times / 2 * grid.nx < surface.grid().nx; times *= 2)
+    if (const std::optional<Surface> again = surface.remade(times * grid.nx, times * grid.ny, monitor))
+      return at_cells(*again, grid.nx, grid.ny, monitor).surface.heights();
+  return {};
+}
+
 // On cells that a choice compared with and that share few nodes with these, as the choice made them.
 Field compared_heights(const Scene& scene, const ContactGeometry& geometry, const Grid& grid,
                        Monitor& monitor) {
-  if (scene.accuracy.compared_nx > 0 && geometry.upper_is_flat() && !divides(grid, geometry.grid()))
-    if (const std::optional<Surface> again = geometry.lower().remade(grid.nx, grid.ny, monitor))
-      return again->heights();
+  if (!scene.accuracy.compared.empty() && geometry.upper_is_flat() && !divides(grid, geometry.grid()))
+    if (std::optional<Field> again = heights_made_again(geometry.lower(), grid, monitor))
+      return *std::move(again);
   return combined_on_cells(geometry, grid, periodic_together(scene));
 }
 
 }  // namespace
 
+State press_from_coarser(const Solver& solver, const State* coarser, const PressRequest& request,
+                         Monitor& monitor) {
+  // From further away nested grids cost less than a beginning saves.
+  constexpr double near_enough = 4;
+  const int nx = solver.geometry().grid().nx;
+  if (coarser == nullptr || !coarser->converged() || nx > near_enough * coarser->grid().nx)
+    return solver.press(request, monitor);
+  return solver.press_from(*coarser->solution(), request, monitor);
+}
+
 State press_on(const Grid& grid, Field heights, double tolerance, const Scene& scene,
                const ContactGeometry& geometry, const Plan& given_plan, const PressRequest& request,
-               Monitor& monitor) {
+               Monitor& monitor, const State* coarser) {
   const Grid& given = geometry.grid();
   const auto* upper = std::get_if<Surface>(&scene.upper);
   Scene there = scene;
@@ -140,7 +159,7 @@ State press_on(const Grid& grid, Field heights, double tolerance, const Scene& s
   if (plan.yield && given_plan.yield) plan.yield->carried = given_plan.yield->carried;
   // A solver counts against its own finest grid; here that is the one given.
   const double before = cost::transforms();
-  State state = make_solver(plan, std::move(geometry_there))->press(request, monitor);
+  State state = press_from_coarser(*make_solver(plan, std::move(geometry_there)), coarser, request, monitor);
   const double weight = transform_work(grid) / transform_work(given);
   cost::count_transforms((weight - 1) * (cost::transforms() - before));
   return state;
@@ -176,12 +195,15 @@ std::vector<Grid> coarser_grids(const Grid& grid) {
 
 std::vector<Grid> compared_grids(const ContactGeometry& geometry, const Accuracy& accuracy) {
   const Grid& fine = geometry.grid();
-  const Grid compared{accuracy.compared_nx, accuracy.compared_ny, fine.size_x, fine.size_y};
-  if (compared.nx <= 0 || compared.nx >= fine.nx || !geometry.upper_is_flat() ||
-      (!divides(compared, fine) && geometry.lower().recipe() == nullptr))
-    return coarser_grids(fine);
-  std::vector<Grid> grids{compared};
-  if (const std::vector<Grid> coarser = coarser_grids(compared); !coarser.empty())
+  const std::vector<Grid>& compared = accuracy.compared;
+  const auto known = [&](const Grid& grid) {
+    return grid.nx < fine.nx && geometry.upper_is_flat() &&
+           (divides(grid, fine) || geometry.lower().recipe() != nullptr);
+  };
+  if (compared.empty() || !known(compared.front())) return coarser_grids(fine);
+  if (compared.size() > 1 && known(compared[1])) return {compared[0], compared[1]};
+  std::vector<Grid> grids{compared.front()};
+  if (const std::vector<Grid> coarser = coarser_grids(compared.front()); !coarser.empty())
     grids.push_back(coarser.front());
   return grids;
 }
@@ -199,16 +221,19 @@ std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const Co
                                                     const Plan& plan, const PressRequest& request,
                                                     Monitor& monitor) {
   check_estimate(geometry.grid());
-  std::vector<CompanionGrids::Level> levels;
-  Grid finer = geometry.grid();
-  for (const Grid& grid : compared_grids(geometry, scene.accuracy)) {
-    Field heights = compared_heights(scene, geometry, grid, monitor);
-    State state = press_on(grid, std::move(heights), loose_enough, scene, geometry, plan, request, monitor);
+  const std::vector<Grid> grids = compared_grids(geometry, scene.accuracy);
+  const bool as_tried = grids == scene.accuracy.compared;
+  std::vector<CompanionGrids::Level> levels;  // coarse to fine
+  for (std::size_t k = grids.size(); k-- > 0;) {
+    const Grid &grid = grids[k], &finer = k > 0 ? grids[k - 1] : geometry.grid();
+    const State* const coarser = as_tried && !levels.empty() ? &levels.back().state : nullptr;
+    State state = press_on(grid, compared_heights(scene, geometry, grid, monitor), loose_enough, scene,
+                           geometry, plan, request, monitor, coarser);
     const double across = static_cast<double>(finer.nx) / grid.nx,
                  up = static_cast<double>(finer.ny) / grid.ny;
     levels.push_back({std::move(state), std::max(across, up)});
-    finer = grid;
   }
+  std::reverse(levels.begin(), levels.end());
   return std::make_shared<const CompanionGrids>(request, std::move(levels));
 }
 

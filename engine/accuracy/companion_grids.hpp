@@ -13,6 +13,7 @@
 #include "engine/contact/plan.hpp"
 #include "engine/contact/press_request.hpp"
 #include "engine/contact/scene.hpp"
+#include "engine/contact/solver.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/core/monitor.hpp"
 
@@ -43,15 +44,21 @@ class CompanionGrids {
 std::vector<Grid> coarser_grids(const Grid& grid);
 
 // The coarser grids that a press of these bodies is compared with: those above, or, where cells were chosen
-// for an error, the grid that the choice compared with (Accuracy::compared_nx) and half its cells a side. Of
-// bodies that were measured, or changed since, these are halves where the heights on that grid are no nodes
-// of theirs.
+// for an error, those that the choice tried before them (Accuracy::compared), where there was one alone with
+// half its cells a side. Of bodies that were measured, or changed since, these are halves where the heights
+// on that grid are no nodes of theirs.
 std::vector<Grid> compared_grids(const ContactGeometry& geometry, const Accuracy& accuracy);
+
+// `request` pressed from the pressures of the same press on coarser cells, if there is one and it is near
+// enough to save transforms; as without it otherwise. Within the tolerance the answer is the same.
+State press_from_coarser(const Solver& solver, const State* coarser, const PressRequest& request,
+                         Monitor& monitor);
 
 // Solves `request` on coarser grids for the bodies as they lie in `geometry`, with what they and `plan`,
 // which is theirs, remember of earlier events, to a tolerance of 1e-5 or that of the scene, whichever is
 // looser. Heights are those of every second node, or interpolated where the cells are odd; on cells that a
-// choice compared with, generated again where they are no nodes. Costs 1/4 + 1/16 of the press, in time and
+// choice compared with, generated again where they are no nodes, and pressed each from the coarser one before
+// it, as the choice did. Costs 1/4 + 1/16 of the press, in time and
 // in transforms of the finest grid, after a choice from 1/200 to 0.8. Throws what a press throws, and
 // Error{bad_value} naming `estimate` where there are too few cells; a coarser grid that misses its tolerance
 // counts with the best it reached.
@@ -69,11 +76,12 @@ std::shared_ptr<const CompanionGrids> solve_finer(const Scene& scene, const Cont
 std::int64_t bytes_held_with_other_grids(const State& state);
 
 // The same on `grid`, of these combined heights, missing (NaN) where nothing faces the lower body; to a
-// tolerance of `tolerance` or that of the scene, whichever is looser, or as well as can be. Transforms are
-// counted in those of the finest grid of `geometry`, by the state in those of `grid`.
+// tolerance of `tolerance` or that of the scene, whichever is looser, or as well as can be; begun from
+// `coarser`, if it is not null, as press_from_coarser does. Transforms are counted in those of the finest
+// grid of `geometry`, by the state in those of `grid`.
 State press_on(const Grid& grid, Field heights, double tolerance, const Scene& scene,
                const ContactGeometry& geometry, const Plan& plan, const PressRequest& request,
-               Monitor& monitor = Monitor::silent());
+               Monitor& monitor = Monitor::silent(), const State* coarser = nullptr);
 
 // Throws Error{bad_value} naming `estimate` where the tile has too few cells for it.
 void check_estimate(const Grid& grid);

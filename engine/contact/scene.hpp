@@ -40,8 +40,9 @@ struct Accuracy {
   // read it.
   std::optional<AskedError> asked{};
   bool chosen = false;  // cells and tolerance are those that were chosen for it
-  // Cells of the grid that the choice compared with those chosen; 0 where no choice was made.
-  int compared_nx = 0, compared_ny = 0;
+  // The grid that the choice compared with the one chosen, and the one tried before that, if there was one;
+  // empty where no choice was made.
+  std::vector<Grid> compared{};
 };
 
 struct Scene {

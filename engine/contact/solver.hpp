@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A contact made ready to be pressed: the bodies as they lie, the plan carried out as far as it does
 // not depend on the load. Which solver it is follows from the plan alone. Immutable, so many threads
-// may press at once, and each press depends on nothing but its request.
+// may press at once, and each press depends on nothing but its request and, where one is given, a guess.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include "engine/contact/bodies/geometry.hpp"
 #include "engine/contact/plan.hpp"
 #include "engine/contact/press_request.hpp"
+#include "engine/contact/solution.hpp"
 #include "engine/contact/state.hpp"
 #include "engine/core/monitor.hpp"
 
@@ -25,6 +26,12 @@ class Solver {
   // best there is.
   virtual State press(const PressRequest& request, Monitor& monitor) const = 0;
   State press(const PressRequest& request) const { return press(request, Monitor::silent()); }
+  // The same within the tolerance, begun from `guess`, a press like it on these or other cells of the tile,
+  // where that saves transforms. The last digits depend on the guess.
+  virtual State press_from(const Solution& guess, const PressRequest& request, Monitor& monitor) const {
+    static_cast<void>(guess);
+    return press(request, monitor);
+  }
   const ContactGeometry& geometry() const { return *geometry_; }
   // What making it ready cost, once for all presses.
   const StateCost& preparation() const { return preparation_; }

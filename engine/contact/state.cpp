@@ -170,6 +170,7 @@ void State::close(const Watch& watch) {
   shared->solution = std::make_shared<const ClosedSolution>(*shared->solution);
 }
 State::Watch State::watch() const { return shared_; }
+std::shared_ptr<const Solution> State::solution() const { return shared_->now(); }
 
 bool State::closed() const {
   const std::lock_guard lock(shared_->mutex);

@@ -120,6 +120,8 @@ class State {
   // Nodes in contact at or above a pressure, and the sum of the rest.
   PressureSplit split(double threshold) const;
   const ContactGeometry& geometry() const;
+  // What was solved, or of a closed state what is left of it.
+  std::shared_ptr<const Solution> solution() const;
   // Memory that this state's solution keeps, without the bodies and what was worked out since.
   std::int64_t bytes_held() const;
   // One line for a reader: values with their algebraic errors, residual, cost and solver, and before the

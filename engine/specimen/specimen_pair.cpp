@@ -35,17 +35,40 @@ Plan planned(const Scene& scene, const ContactGeometry& geometry) {
   return plan;
 }
 
-// Solves the companion grids of the estimate; what they cost is counted as `estimate`.
-State with_estimate(const Scene& scene, const ContactGeometry& geometry, const Plan& plan,
-                    const PressRequest& request, State state, const ChosenAccuracy* chosen,
-                    Monitor& monitor) {
+// A press and those on companion grids that its estimate compares it with; these cost what is counted as
+// `estimate`. On cells that were chosen for an error the coarser grids come first and the press begins from
+// them, as in the choice.
+State pressed_with_estimate(const Solver& solver, const Scene& scene, const ContactGeometry& geometry,
+                            const Plan& plan, const PressRequest& request, const ChosenAccuracy* chosen,
+                            Monitor& monitor) {
+  const bool finer = scene.accuracy.estimate == Accuracy::Estimate::finer;
+  const bool by_load = request.by == PressBy::pressure || request.by == PressBy::load;
+  const bool coarser_first = chosen != nullptr && !finer && by_load;
+  // A quarter of the cells and a sixteenth, or four times the cells, with all that goes with them.
+  const double share_of_press = finer ? 0.2 : 0.75;
+  const double from = coarser_first ? 1 - share_of_press : 0;
+  const auto begun = PartMonitor::Clock::now();
+  const auto part = [&](const char* name, double begin, double end) {
+    return PartMonitor(monitor, "press with an estimate", name, begin, end, begun);
+  };
+  PartMonitor pressing = part("press", from, from + share_of_press);
+  PartMonitor estimating = part(finer ? "finer grid" : "coarser grids", coarser_first ? 0 : share_of_press,
+                                coarser_first ? from : 1);
+  std::optional<State> state;
+  if (!coarser_first) state = solver.press(request, pressing);
   const CostScope scope;
-  state = state.beside(scene.accuracy.estimate == Accuracy::Estimate::finer
-                           ? solve_finer(scene, geometry, plan, request, monitor)
-                           : solve_coarser(scene, geometry, plan, request, monitor));
-  if (chosen != nullptr) state = held_to(state, *chosen, scene, plan);
-  const Cost cost = scope.so_far();
-  return state.costing_also({cost, {{"estimate", cost}}});
+  estimating.begin();
+  const std::shared_ptr<const CompanionGrids> companions =
+      finer ? solve_finer(scene, geometry, plan, request, estimating)
+            : solve_coarser(scene, geometry, plan, request, estimating);
+  Cost cost = scope.so_far();
+  if (coarser_first)
+    state = press_from_coarser(solver, &companions->levels().front().state, request, pressing);
+  const CostScope judging;
+  state = state->beside(companions);
+  if (chosen != nullptr) state = held_to(*state, *chosen, scene, plan);
+  cost += judging.so_far();
+  return state->costing_also({cost, {{"estimate", cost}}});
 }
 
 // An attraction of no work is part of no solve; the ledger shows it all the same.
@@ -146,22 +169,10 @@ State SpecimenPair::press(const PressRequest& request, Monitor& monitor) {
   if (scene_.accuracy.asked && !chosen_ && request.value > 0) return choose_and_press(request, monitor);
   const bool first = solver_ == nullptr;
   const std::shared_ptr<const Solver> ready = solver();
-  std::optional<State> solved;
-  if (scene_.accuracy.estimate != Accuracy::Estimate::none) {
-    // A quarter of the cells and a sixteenth, or four times the cells, with all that goes with them.
-    const bool finer = scene_.accuracy.estimate == Accuracy::Estimate::finer;
-    const double share_of_press = finer ? 0.2 : 0.75;
-    const auto begun = PartMonitor::Clock::now();
-    PartMonitor pressing(monitor, "press with an estimate", "press", 0, share_of_press, begun);
-    PartMonitor estimating(monitor, "press with an estimate", finer ? "finer grid" : "coarser grids",
-                           share_of_press, 1, begun);
-    solved = ready->press(request, pressing);
-    estimating.begin();
-    solved = with_estimate(scene_, *geometry_, plan_, request, *solved, chosen_.get(), estimating);
-  } else {
-    solved = ready->press(request, monitor);
-  }
-  State state = *std::move(solved);
+  State state =
+      scene_.accuracy.estimate == Accuracy::Estimate::none
+          ? ready->press(request, monitor)
+          : pressed_with_estimate(*ready, scene_, *geometry_, plan_, request, chosen_.get(), monitor);
   if (first) state = state.costing_also(ready->preparation());
   state = state.costing_also(leave_on_bodies(state, monitor));
   state = showing_what_costs_nothing(plan_, std::move(state));

@@ -117,7 +117,7 @@ TEST(AccuracyChoice, CellsThatMissTheShortestWavesAreHeldToTheirWholeStep) {
     const double area = SpecimenPair(scene).press(request).with_outline(1e9).corrected_area_fraction();
     const double step = std::abs(area - before) / std::min(area, before);
     if (before > 0 && tried.nx <= 128) {
-      EXPECT_GE(tried.error, 0.9999 * step) << tried.nx;
+      EXPECT_GE(tried.error, step - tried.tolerance) << tried.nx;  // begun from other pressures
       ++counted;
     }
     before = area;

@@ -34,9 +34,9 @@ TEST(RecalledSolve, GivesTheBitsAndTheCostOfTheSolve) {
     ++solves;
     return solve_at_pressure(problem, 0.004, nullptr, monitor);
   };
-  const Costed<HalfSpaceAnswer> first = recall_or_solve(problem, "pressure", 0.004, monitor, solve);
+  const Costed<HalfSpaceAnswer> first = recall_or_solve(problem, "pressure", 0.004, nullptr, monitor, solve);
   const CostScope scope;
-  const Costed<HalfSpaceAnswer> again = recall_or_solve(problem, "pressure", 0.004, monitor, solve);
+  const Costed<HalfSpaceAnswer> again = recall_or_solve(problem, "pressure", 0.004, nullptr, monitor, solve);
   EXPECT_EQ(solves, 1);
   EXPECT_EQ(scope.so_far().transforms, first.cost.transforms);
   EXPECT_GT(first.cost.transforms, 0);
@@ -68,7 +68,7 @@ TEST(RecalledSolve, EveryNumberOfTheProblemIsInItsKey) {
   const auto differs = [&](const char* what, const HalfSpaceProblem& other, std::string_view by = "pressure",
                            double value = 0.004) {
     const int before = solves;
-    recall_or_solve(other, by, value, monitor, solve);
+    recall_or_solve(other, by, value, nullptr, monitor, solve);
     EXPECT_EQ(solves, before + 1) << what;
   };
   differs("itself", problem);
@@ -97,7 +97,7 @@ TEST(RecalledSolve, EveryNumberOfTheProblemIsInItsKey) {
     p.heights = std::make_shared<const Field>(heights);
   });
   EXPECT_EQ(shelf.found, 0);
-  recall_or_solve(problem, "pressure", 0.004, monitor, solve);
+  recall_or_solve(problem, "pressure", 0.004, nullptr, monitor, solve);
   EXPECT_EQ(shelf.found, 1);
 }
 

@@ -119,11 +119,13 @@ void add(Digester& digester, const HalfSpaceProblem& problem) {
 }  // namespace
 
 Costed<HalfSpaceAnswer> recall_or_solve(const HalfSpaceProblem& problem, std::string_view by, double value,
-                                        Monitor& monitor, const std::function<HalfSpaceAnswer()>& solve) {
+                                        const HalfSpaceAnswer* start, Monitor& monitor,
+                                        const std::function<HalfSpaceAnswer()>& solve) {
   const auto key = [&] {
     Digester digester;
     digester.add(half_space_form.call);
     add(digester, problem);
+    if (start != nullptr) digester.add("from").add(start->pressure.values()).add(start->gap.values());
     return digester.add(by).add(value).hex();
   };
   return recall_or(monitor, half_space_form, key, solve);
@@ -287,7 +289,41 @@ HalfSpaceSolver::HalfSpaceSolver(const Plan& plan, const HalfSpaceOperator& half
   preparation_ = elasticity_alone(scope.so_far());
 }
 
+namespace {
+
+// From `start`, or as without it where that does not converge at once.
+HalfSpaceAnswer solve_from(const HalfSpaceAnswer* start, const HalfSpaceProblem& problem,
+                           double mean_pressure, Monitor& monitor) {
+  if (start == nullptr) return solve_at_pressure(problem, mean_pressure, nullptr, monitor);
+  HalfSpaceProblem brief = problem;
+  brief.brief = brief.best_effort = true;
+  HalfSpaceAnswer answer = solve_at_pressure(brief, mean_pressure, start, monitor);
+  if (answer.converged) return answer;
+  const int before = answer.iterations;
+  answer = solve_at_pressure(problem, mean_pressure, nullptr, monitor);
+  answer.iterations += before;
+  return answer;
+}
+
+}  // namespace
+
 State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) const {
+  return pressed(request, nullptr, monitor);
+}
+
+State HalfSpaceSolver::press_from(const Solution& guess, const PressRequest& request,
+                                  Monitor& monitor) const {
+  const bool by_load = request.by == PressBy::pressure || request.by == PressBy::load;
+  if (!by_load || geometry().overhangs()) return press(request, monitor);
+  HalfSpaceAnswer start;
+  start.pressure = guess.pressure_field();
+  start.gap = guess.gap_field();
+  start.mean_pressure = guess.pressure();
+  return pressed(request, &start, monitor);
+}
+
+State HalfSpaceSolver::pressed(const PressRequest& request, const HalfSpaceAnswer* start,
+                               Monitor& monitor) const {
   check(request);
   const double height = geometry().peak_to_valley();
   check_fraction(request, height);
@@ -318,10 +354,10 @@ State HalfSpaceSolver::press(const PressRequest& request, Monitor& monitor) cons
       break;
   }
   if (by != "pressure") laws_met().meet(Law::approach_control);
-  Costed<HalfSpaceAnswer> solved = recall_or_solve(problem, by, value, monitor, [&] {
+  Costed<HalfSpaceAnswer> solved = recall_or_solve(problem, by, value, start, monitor, [&] {
     return by == "approach"  ? solve_at_approach(problem, value, monitor)
            : by == "flatten" ? solve_at_flattening(problem, value, monitor)
-                             : solve_at_pressure(problem, value, nullptr, monitor);
+                             : solve_from(start, problem, value, monitor);
   });
   // The energy is a sum of products of pressures and lengths.
   const HalfSpaceAnswer& answer = solved.result;

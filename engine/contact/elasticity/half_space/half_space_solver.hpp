@@ -25,10 +25,15 @@ class HalfSpaceSolver final : public Solver {
   // Besides what check(PressRequest) refuses: what solve_at_pressure and solve_at_approach refuse, and
   // `indentation` or `flatten` of heights that are all equal.
   State press(const PressRequest& request, Monitor& monitor) const override;
+  // By pressure or load of bodies that cover each other; otherwise as press().
+  State press_from(const Solution& guess, const PressRequest& request, Monitor& monitor) const override;
 
  private:
   class UnderLoad;  // the Solution
   struct Ready;     // what all presses share
+
+  // Under a load from `start`, if not null.
+  State pressed(const PressRequest& request, const HalfSpaceAnswer* start, Monitor& monitor) const;
 
   std::shared_ptr<const Ready> ready_;
 };
@@ -36,9 +41,10 @@ class HalfSpaceSolver final : public Solver {
 // The solves of half_space_solve.hpp, displacement_control.hpp and adhesive_solve.hpp, taken up from the
 // store of the run where the same problem was solved before. A key is made of every number that a problem
 // holds, heights and hardness fields by their digests. `by` names the prescribed quantity ("pressure",
-// "approach", "flatten") and `value` is in its SI unit.
+// "approach", "flatten") and `value` is in its SI unit; `start` is what the solve begins from, or null.
 Costed<HalfSpaceAnswer> recall_or_solve(const HalfSpaceProblem& problem, std::string_view by, double value,
-                                        Monitor& monitor, const std::function<HalfSpaceAnswer()>& solve);
+                                        const HalfSpaceAnswer* start, Monitor& monitor,
+                                        const std::function<HalfSpaceAnswer()>& solve);
 
 // `start` as in adhere_at_pressure; null from apart.
 Costed<AdhesiveAnswer> recall_or_adhere(const AdhesiveProblem& problem, std::string_view by, double value,

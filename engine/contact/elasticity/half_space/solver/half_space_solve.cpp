@@ -394,11 +394,13 @@ CellProblem cells_under_load(const HalfSpaceProblem& problem, const CellUnits& u
 
 // A warm start in cell units.
 struct Start {
+  int nx = 0, ny = 0;
   Array<double> pressure, gap;
 };
 
 Start start_in_cells(const CellUnits& units, const HalfSpaceAnswer& from) {
-  Start start{Array<double>(from.pressure.size()), Array<double>(from.pressure.size())};
+  Start start{from.pressure.nx(), from.pressure.ny(), Array<double>(from.pressure.size()),
+              Array<double>(from.pressure.size())};
   for_nodes(start.pressure.size(), [&](std::size_t k) {
     start.pressure[k] = from.pressure[k] / units.pressure;
     start.gap[k] = from.gap[k] / units.height;
@@ -441,20 +443,21 @@ HalfSpaceAnswer solve_at_offset(const HalfSpaceProblem& problem, double approach
   const double longest = std::max(static_cast<double>(grid.nx), grid.ny * cell.shape.aspect);
   cell.mean_pressure = std::min(*cell.offset / longest, greatest_pressure(cell.limit));
   cell.effort = effort;
-  std::span<double> pressures, gaps;
+  CellStart begun{grid.nx, grid.ny, {}, {}};
   if (start && start->pressure.size() == grid.nodes()) {
-    pressures = start->pressure.values();
-    gaps = start->gap.values();
+    const std::span<double> pressures = start->pressure.values(), gaps = start->gap.values();
     for_nodes(pressures.size(), [=, p = pressures.data()](std::size_t k) { p[k] /= units.pressure; });
     for_nodes(gaps.size(), [=, before = start->approach, g = gaps.data()](std::size_t k) {
       g[k] = (g[k] + before) / units.height;
     });
+    begun.pressure = pressures;
+    begun.gap = gaps;
   }
-  CellAnswer found = nested_descent(cell, pressures, gaps, monitor);
+  CellAnswer found = nested_descent(cell, begun, monitor);
   if (found.single && !found.converged) {  // as it might in double precision, too
     const int before = found.applications;
     cell.shape.single = false;
-    found = nested_descent(cell, {}, {}, monitor);
+    found = nested_descent(cell, {}, monitor);
     found.applications += before;
   }
   const bool converged = found.converged;
@@ -553,14 +556,13 @@ HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_p
   int before = found.applications;
   if (!found.converged) {
     Start warm;
-    if (start && start->pressure.size() == grid.nodes() && start->mean_pressure > 0)
-      warm = start_in_cells(units, *start);
-    found = nested_descent(cell, warm.pressure, warm.gap, monitor);
+    if (start && !start->pressure.empty() && start->mean_pressure > 0) warm = start_in_cells(units, *start);
+    found = nested_descent(cell, {warm.nx, warm.ny, warm.pressure, warm.gap}, monitor);
     found.applications += before;
     if (found.single && !found.converged) {  // as it might in double precision, too
       before = found.applications;
       cell.shape.single = false;
-      found = nested_descent(cell, {}, {}, monitor);
+      found = nested_descent(cell, {}, monitor);
       found.applications += before;
     }
   }

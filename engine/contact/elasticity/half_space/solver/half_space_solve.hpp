@@ -76,11 +76,11 @@ ComplianceMultiplier multiplier_of(const HalfSpaceProblem& problem, bool with_me
 // Means of pressures are over all nodes of the tile. Ground that nothing faces is put deeper than a load of
 // all nodes on any one of them could reach, and never enters the contact.
 // Costs a fixed number of O(n log n) applications of K (some 20 to 40) and holds about ten fields besides
-// the answer. A null `start` begins from nested grids; otherwise from the pressures of `start`, an
-// answer on the same grid. Throws Error{infeasible} where p̄ >= cap, {bad_value} where p̄ is negative, not
-// finite or below 1e-280 of the modulus, {not_converged} unless best_effort, {interrupted} and the
-// like when asked to stop. p̄ = 0 is the first touch: no pressure, δ = −max h. Same bits for any number of
-// threads.
+// the answer. A null `start` begins from nested grids; otherwise from the pressures of `start`, a
+// nearby answer on these or other cells of the tile. Throws Error{infeasible} where p̄ >= cap, {bad_value}
+// where p̄ is negative, not finite or below 1e-280 of the modulus, {not_converged} unless best_effort,
+// {interrupted} and the like when asked to stop. p̄ = 0 is the first touch: no pressure, δ = −max h. Same bits
+// for any number of threads.
 HalfSpaceAnswer solve_at_pressure(const HalfSpaceProblem& problem, double mean_pressure,
                                   const HalfSpaceAnswer* start, Monitor& monitor);
 

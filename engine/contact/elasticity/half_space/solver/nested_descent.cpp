@@ -158,6 +158,17 @@ void to_level_set(double upper, double stiffness, double offset, std::span<const
   });
 }
 
+// The level-set field of `start`, from its nodes to those of `level`.
+void prolong_start(const CellStart& start, double upper, const ContactLevel& level, std::span<double> p) {
+  const LevelShape& shape = level.shape;
+  CoarserGrid from{shape, static_cast<double>(shape.nx) / start.nx, static_cast<double>(shape.ny) / start.ny};
+  from.shape.nx = start.nx;
+  from.shape.ny = start.ny;
+  UnsetArray<double> carried(start.pressure.begin(), start.pressure.end());
+  to_level_set(upper, level.short_wave_stiffness / from.pitch_x, 0, start.gap, carried);
+  prolong(from, carried, 1, shape, p);
+}
+
 std::vector<Step> nest(const CellProblem& problem, bool alone) {
   std::vector<Step> steps(1);
   steps[0].shape = problem.shape;
@@ -202,9 +213,11 @@ void snap_to_bounds(double upper, std::span<double> p) {
   });
 }
 
-CellAnswer descend_nest(const CellProblem& problem, std::span<const double> start_pressure,
-                        std::span<const double> start_gap, Monitor& monitor) {
-  std::vector<Step> steps = nest(problem, !start_pressure.empty());
+CellAnswer descend_nest(const CellProblem& problem, const CellStart& start, Monitor& monitor) {
+  const bool begun = !start.pressure.empty();
+  const bool elsewhere = begun && (start.nx != problem.shape.nx || start.ny != problem.shape.ny);
+  const bool gap_known = !start.gap.empty() && !elsewhere;
+  std::vector<Step> steps = nest(problem, begun);
   DescentProgress progress(monitor, "contact");
   CellAnswer answer;
   answer.levels = static_cast<int>(steps.size());
@@ -231,8 +244,10 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
     DescentFields fields(nodes);
     UnsetArray<double>& p = fields.pressure;
     const double lowest = problem.lowest;
-    if (!start_pressure.empty()) {
-      std::copy(start_pressure.begin(), start_pressure.end(), p.begin());
+    if (elsewhere) {
+      prolong_start(start, upper, level, p);
+    } else if (begun) {
+      std::copy(start.pressure.begin(), start.pressure.end(), p.begin());
     } else if (carried.empty()) {
       std::fill(p.begin(), p.end(), problem.offset ? 0.0 : step.mean_pressure);
     } else {
@@ -243,9 +258,8 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
     DescentEnd end;
     ContactQuality at;
     if (problem.offset) {
-      const bool gap_known = !start_gap.empty();
       if (gap_known)
-        std::copy(start_gap.begin(), start_gap.end(), fields.gap.begin());
+        std::copy(start.gap.begin(), start.gap.end(), fields.gap.begin());
       else
         for_nodes(nodes, [upper, lowest, h = raw.data(), p = p.data()](std::size_t k) {
           p[k] = h[k] < lowest ? 0.0 : std::clamp(p[k], 0.0, upper);
@@ -256,7 +270,7 @@ CellAnswer descend_nest(const CellProblem& problem, std::span<const double> star
       at.offset = at.interior_gap = *problem.offset;
       answer.from_peak = true;
     } else {
-      if (!start_gap.empty()) to_level_set(upper, level.short_wave_stiffness, 0, start_gap, p);
+      if (gap_known) to_level_set(upper, level.short_wave_stiffness, 0, start.gap, p);
       if (std::isfinite(lowest)) {
         // Less than any shift to the load can make up for.
         for (std::size_t k = 0; k < nodes; ++k)
@@ -326,14 +340,14 @@ UnsetArray<double> times_power_of_two(std::span<const double> values, int power)
 
 }  // namespace
 
-CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
-                          std::span<const double> start_gap, Monitor& monitor) {
+CellAnswer nested_descent(const CellProblem& problem, const CellStart& start, Monitor& monitor) {
   // A given offset is near 1, and so are the pressures.
   const int power = problem.offset ? 0 : power_within_range(problem);
-  if (power == 0) return descend_nest(problem, start_pressure, start_gap, monitor);
+  if (power == 0) return descend_nest(problem, start, monitor);
+  const UnsetArray<double> pressure = times_power_of_two(start.pressure, power),
+                           gap = times_power_of_two(start.gap, power);
   CellAnswer answer =
-      descend_nest(times_power_of_two(problem, power), times_power_of_two(start_pressure, power),
-                   times_power_of_two(start_gap, power), monitor);
+      descend_nest(times_power_of_two(problem, power), {start.nx, start.ny, pressure, gap}, monitor);
   answer.pressure = times_power_of_two(answer.pressure, -power);
   answer.gap = times_power_of_two(answer.gap, -power);
   answer.offset = std::ldexp(answer.offset, -power);

@@ -60,11 +60,16 @@ struct CellAnswer {
   std::string stage;
 };
 
-// `start`: pressures and gaps (the offset taken off) of a nearby state in cell units, or empty for nested
-// grids. At a given offset, where gaps are given, the pressures may be outside their bounds. Does not throw
-// for lack of convergence.
-CellAnswer nested_descent(const CellProblem& problem, std::span<const double> start_pressure,
-                          std::span<const double> start_gap, Monitor& monitor);
+// A nearby state to begin from, on nx x ny nodes of the same tile: pressures and gaps (the offset taken off)
+// in the cell units of the problem; empty for none. At a given offset, where gaps are given on the problem's
+// own nodes, the pressures may be outside their bounds.
+struct CellStart {
+  int nx = 0, ny = 0;
+  std::span<const double> pressure, gap;
+};
+
+// From `start`, or on nested grids without one. Does not throw for lack of convergence.
+CellAnswer nested_descent(const CellProblem& problem, const CellStart& start, Monitor& monitor);
 
 // The answer where all of a periodic tile touches and nothing is limited, p = p̄ + (|q|/2) h; converged is
 // false where that solution is not feasible. Two applications.
