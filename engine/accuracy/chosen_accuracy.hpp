@@ -15,9 +15,9 @@ namespace asperity {
 struct TriedGrid {
   int nx = 0, ny = 0;
   double tolerance = 0;
-  // Greatest relative error among the quantities asked for, with the margin of the estimate and the algebraic
-  // bound in it; infinite where the value grows from grid to grid, or its quantity is zero and its error is
-  // not.
+  // Greatest relative error among the quantities asked for, with the margin of the estimate and, but for the
+  // area within an outline between the nodes, the algebraic bound in it; infinite where the value grows from
+  // grid to grid, or its quantity is zero and its error is not.
   double error = 0;
   std::string of;    // the quantity that has it
   std::string note;  // why this grid does not count, or empty

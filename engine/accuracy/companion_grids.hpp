@@ -59,8 +59,8 @@ State press_from_coarser(const Solver& solver, const State* coarser, const Press
 // looser. Heights are those of every second node, or interpolated where the cells are odd; on cells that a
 // choice compared with, generated again where they are no nodes, and pressed each from the coarser one before
 // it, as the choice did. Costs 1/4 + 1/16 of the press, in time and in transforms of the finest grid, after a
-// choice from 1/200 to 0.8. Throws what a press throws, and Error{bad_value} naming `estimate` where there are
-// too few cells; a coarser grid that misses its tolerance counts with the best it reached.
+// choice from 1/200 to 0.8. Throws what a press throws, and Error{bad_value} naming `estimate` where there
+// are too few cells; a coarser grid that misses its tolerance counts with the best it reached.
 std::shared_ptr<const CompanionGrids> solve_coarser(const Scene& scene, const ContactGeometry& geometry,
                                                     const Plan& plan, const PressRequest& request,
                                                     Monitor& monitor = Monitor::silent());

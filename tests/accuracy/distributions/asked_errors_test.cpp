@@ -176,8 +176,8 @@ TEST(AskedErrors, N6AreMetByScenesOfAllKinds) {
       "middle, %.1f at 90 %%, worst %.0f\n",
       met, asked, ratios[ratios.size() / 2], ratios[ratios.size() * 9 / 10], ratios.back());
   EXPECT_GE(met, 0.95 * asked);
-  EXPECT_LE(ratios[ratios.size() / 2], 2.9);
-  EXPECT_LE(ratios[ratios.size() * 9 / 10], 7);
+  EXPECT_LE(ratios[ratios.size() / 2], 2.1);
+  EXPECT_LE(ratios[ratios.size() * 9 / 10], 5.8);
 }
 
 }  // namespace
