@@ -7,8 +7,8 @@
 -- and that of a choice has in it all that it tried. A refusal counts as not met. Of half-spaces a choice answers with the area
 -- within an outline between the nodes, the settings and the truth with that of nodes less the same for every edge, which
 -- from 2048 to 4096 cells a side moves by some 0.03 % and up to 0.17 %: truth=4096 is nearer, in four times the time. Choices
--- were developed on seeds 1 to 10, 701 to 712, 901 to 906 and 1101 to 1106; 18 others are 1201 to 1206, 1301 to 1306 and 1401
--- to 1406.
+-- were developed on seeds 1 to 10, 701 to 712, 901 to 906, 1101 to 1106, 1501 to 1504 and six each from 1201, 1301, 1401, 1601
+-- and 1701 on; 18 others are 1801 to 1806, 1901 to 1906 and 2001 to 2006.
 --
 --   asperity run bench/asked_errors.lua -- first=101 last=105            some minutes on one processor
 --   asperity run bench/asked_errors.lua -- first=101 last=102 kinds=ball,wm

@@ -7,16 +7,17 @@
 // tried, up to sixteen times the cells a side, with half-way grids (24, 48, 96 ... cells) between, unless the
 // heights there would be interpolated between nodes that were measured. The corrected area of half-spaces
 // that do not attract each other is that within an outline between the nodes (contact/outline_area.hpp),
-// better than the same press gives without; its estimate is the doubt of that outline and a share of how far
-// it moved from the grid before. Of others it goes by the edges of the outline and by how far successive
-// grids agree. Of the bound on an area a tenth counts, of that within an outline between the nodes a
-// hundredth. Grids begin at 16 cells; none under 32, of anything but areas 64, is believed. The two grids
-// tried before a grid are the coarser ones its estimate needs, so nothing is solved twice. How often errors
-// are met and what that costs: bench/asked_errors.lua. Surfaces that generators made are made again with all
-// their waves and features; others are sampled at every second node, and beyond the cells they came with
-// interpolated, which adds no roughness that was not measured. Two rough bodies lie on each other as they did
-// on the cells given, exactly on coarser cells and on a periodic boundary; on finer cells of a free one the
-// upper body is turned over about the middle of the new nodes, up to one given cell away.
+// better than the same press gives without; its estimate is the doubt of that outline, with a margin, and a
+// share of how far it moved from the grid before. Of others it goes by the edges of the outline and by how
+// far successive grids agree. Of the bound on an area a tenth counts; that of an area within an outline
+// between the nodes is not looked at. Grids begin at 16 cells; none under 32, of anything but areas 64, is
+// believed. The two grids tried before a grid are the coarser ones its estimate needs, so nothing is solved
+// twice, and each is pressed from the pressures of the one before. How often errors are met and what that
+// costs: bench/asked_errors.lua. Surfaces that generators made are made again with all their waves and
+// features; others are sampled at every second node, and beyond the cells they came with interpolated, which
+// adds no roughness that was not measured. Two rough bodies lie on each other as they did on the cells given,
+// exactly on coarser cells and on a periodic boundary; on finer cells of a free one the upper body is turned
+// over about the middle of the new nodes, up to one given cell away.
 //
 // The precision is that of the scene, double unless single is named: single takes as many transforms and, of
 // the time of double, 0.96 to 1.19 on periodic tiles of 64² to 1024² cells and 1.13 to 1.78 on free ones
@@ -43,7 +44,7 @@ struct AccuracyChoice {
   State state;  // under the request, with its estimate, the choice, and the cost of all that was tried
 };
 
-// For a contact that no event has changed yet, pressed by more than zero. Cost: about 1.4 times that of the
+// For a contact that no event has changed yet, pressed by more than zero. Cost: one to two times that of the
 // last press, counted as `choice` apart from it. Throws what a press throws, and Error{not_converged} with
 // what was reached where the finest grid does not meet the error, unless the scene takes the best there is.
 AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geometry,
