@@ -94,10 +94,10 @@ std::string_view word(AtCells::How how) {
   }
 }
 
-Placed placed_on(const Scene& scene, const Pose& pose, int nx, int ny, Monitor& monitor) {
+Placed placed_on(const Scene& scene, const Pose& pose, AtCells lower, Monitor& monitor) {
   const Grid& given = scene.lower.grid();
-  if (nx == given.nx && ny == given.ny) return {scene, pose, std::string(word(AtCells::How::unchanged))};
-  AtCells lower = at_cells(scene.lower, nx, ny, monitor);
+  const int nx = lower.surface.grid().nx, ny = lower.surface.grid().ny;
+  if (lower.how == AtCells::How::unchanged) return {scene, pose, std::string(word(lower.how))};
   Scene there = scene;
   there.lower = std::move(lower.surface);
   std::string source(word(lower.how));
@@ -434,12 +434,15 @@ AccuracyChoice choose_accuracy(const Scene& scene, const ContactGeometry& geomet
     part.begin();
     const std::optional<State> before = trial ? trial->state : std::nullopt;
     std::optional<State> guess = before;
-    const Placed placed = placed_on(scene, geometry.pose(), grid.nx, grid.ny, part);
     // Fewer cells than were measured are nodes of theirs; between these heights would be smoothed.
-    if (grids[k].half_way && grid.nx < given.nx && placed.source == word(AtCells::How::interpolated)) {
+    const bool known_only = grids[k].half_way && grid.nx < given.nx;
+    std::optional<AtCells> lower = known_only ? known_at_cells(scene.lower, grid.nx, grid.ny, part)
+                                              : at_cells(scene.lower, grid.nx, grid.ny, part);
+    if (!lower) {
       ++k;
       continue;
     }
+    const Placed placed = placed_on(scene, geometry.pose(), *std::move(lower), part);
     bool counts = true;  // this grid tells how many cells would do
     for (bool again = true; again;) {
       again = false;
