@@ -815,12 +815,9 @@ test('Run, AskedForWhileAnotherGoesOnSaysSo', () =>
 // S1
 test('Run, SaysHowManyAreBeforeIt', () =>
   visit({}, async (page) => {
+    await on.listen(page);
     await on.run(page, '-- mock.waits 3\nfor N = 1, 8 do end\n');
-    await on.until(
-      page,
-      () => /Waiting for its turn, 3 before you/.test(document.querySelector('#status').textContent),
-      'the number before it should be told',
-    );
+    await on.untilSaid(page, /Waiting for its turn, 3 before you/);
     await on.finished(page);
   }));
 
