@@ -134,10 +134,14 @@ TEST(Plan, N9MemoryOfAHalfSpaceIsNotExceeded) {
         scene.elasticity = HalfSpaceOptions{};
         if (hardens) scene.effects.set(PlasticityOptions{{}, 1e11});
         const Plan plan = plan_of(scene);
-        const State state = test::press(scene, PressBy::pressure, 1e8);
-        const std::int64_t taken = state.cost().total.bytes;
+        constexpr std::int64_t apart = 1 << 20;
+        const auto pressed = [&] { return test::press(scene, PressBy::pressure, 1e8).cost().total.bytes; };
+        std::int64_t taken = pressed();
+        // Where the machine is busy, one of the threads that are counted may do all the work.
+        for (int again = 0; again < 4 && plan.bytes_peak() > 2 * taken + apart; ++again)
+          taken = std::max(taken, pressed());
         EXPECT_LE(taken, plan.bytes_peak()) << nx << " x " << ny << (hardens ? ", hardening" : "");
-        EXPECT_LE(plan.bytes_peak(), 2 * taken + (std::int64_t{1} << 20)) << nx << " x " << ny;
+        EXPECT_LE(plan.bytes_peak(), 2 * taken + apart) << nx << " x " << ny;
       }
 }
 
