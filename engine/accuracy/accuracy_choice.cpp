@@ -10,8 +10,8 @@
 // counts with a margin, from the 90 in 100 that are within it to some 95. How far the area moved from the
 // grid before counts as well: in full on cells that miss the shortest waves, where the outline is sharp and
 // wrong, seven tenths of it on others, of a grid of half the cells; of grids closer together or further
-// apart, more or less of it. The bound of the solve is not looked at, which takes a quarter of the transforms
-// of a press: an outline moves by so little at this tolerance that as many errors are met without it. These
+// apart, more or less of it. The bound of the solve, three applications of the half-space, is not
+// looked at: an outline moves by so little at this tolerance that as many errors are met without it. These
 // shares met 97.1 to 100 in 100 of each of four errors of 210 scenes at little cost (bench/asked_errors.lua,
 // seeds 1201 to 1206, and six each from 1301, 1401, 1601 and 1701 on). The doubt falls as the cells a side to
 // the power 1.38, so one grid tells which may be fine enough: what lies between is left out, and half as many

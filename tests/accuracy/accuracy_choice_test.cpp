@@ -117,7 +117,8 @@ TEST(AccuracyChoice, CellsThatMissTheShortestWavesAreHeldToTheirWholeStep) {
     const double area = SpecimenPair(scene).press(request).with_outline(1e9).corrected_area_fraction();
     const double step = std::abs(area - before) / std::min(area, before);
     if (before > 0 && tried.nx <= 128) {
-      EXPECT_GE(tried.error, step - tried.tolerance) << tried.nx;  // begun from other pressures
+      // The choice began from other pressures, and either is right to the tolerance.
+      EXPECT_GE(tried.error, (1 - tried.tolerance) * step) << tried.nx;
       ++counted;
     }
     before = area;

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <optional>
 #include <string>
 
 #include "engine/contact/effects/plasticity.hpp"
 #include "engine/contact/elasticity/half_space/half_space_plan.hpp"
 #include "engine/contact/elasticity/half_space/half_space_solver.hpp"
 #include "engine/surface/generators/self_affine.hpp"
+#include "tests/accuracy/asked_scenes.hpp"
 #include "tests/contact/contacts.hpp"
 #include "tests/contact/half_space/half_space_problems.hpp"
 #include "tests/core/shelf.hpp"
@@ -18,18 +18,9 @@
 namespace asperity::press_from_test {
 namespace {
 
-const PressRequest pressed{PressBy::pressure, 5e6, {}};
+using test::rough;
 
-Surface rough(int n, std::uint64_t seed = 1) {
-  SelfAffineOptions o;
-  o.grid = Grid{n, n, 1, 1};
-  o.hurst = 0.8;
-  o.rms_slope = 0.1;
-  o.roll_off = 0.5;
-  o.short_wave = 1.0 / 16;
-  o.seed = seed;
-  return self_affine_surface(o).with_material(test::elastic(1e9));
-}
+const PressRequest pressed{PressBy::pressure, 5e6, {}};
 
 enum class Ground { elastic, capped, hardening };
 
